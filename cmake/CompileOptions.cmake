@@ -1,0 +1,16 @@
+# One interface target carries the flags of our own code; nothing of it reaches a user of the installed package.
+add_library(gatelight_compile_options INTERFACE)
+target_compile_options(gatelight_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
+  # The same source must give the same bits whatever instruction set it is compiled for.
+  -ffp-contract=off
+  # Nothing reads errno after a math call, and no floating-point exception is ever trapped.
+  -fno-math-errno -fno-trapping-math)
+if(GATELIGHT_WARNINGS_AS_ERRORS)
+  target_compile_options(gatelight_compile_options INTERFACE -Werror)
+endif()
+if(GATELIGHT_SANITIZE)
+  target_compile_options(gatelight_compile_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(gatelight_compile_options INTERFACE -fsanitize=address,undefined)
+endif()

@@ -1,0 +1,47 @@
+#include "scene/scene.h"
+
+namespace gatelight::scene {
+
+std::array<Vec3, 3> world_triangle(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
+  const Mesh& mesh = scene.mesh_of(instance);
+  const std::array<std::uint32_t, 3>& t = mesh.triangles[primitive];
+  if (instance.baked) return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+  return {instance.transform * mesh.positions[t[0]], instance.transform * mesh.positions[t[1]],
+          instance.transform * mesh.positions[t[2]]};
+}
+
+Vec3 world_normal(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
+  const std::array<Vec3, 3> p = world_triangle(scene, instance, primitive);
+  const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
+  return instance.mirrors ? Vec3(-n) : n;
+}
+
+std::size_t count_triangles(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Instance& instance : scene.instances) count += scene.mesh_of(instance).triangles.size();
+  return count;
+}
+
+namespace {
+template <typename T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+}  // namespace
+
+std::size_t geometry_bytes(const Scene& scene) {
+  std::size_t total = 0;
+  for (const Mesh& m : scene.meshes) {
+    total += bytes(m.positions) + bytes(m.normals) + bytes(m.tangents) + bytes(m.uv0) + bytes(m.uv1) +
+             bytes(m.colors) + bytes(m.triangles);
+  }
+  return total;
+}
+
+std::size_t image_bytes(const Scene& scene) {
+  std::size_t total = 0;
+  for (const Image& image : scene.images) total += bytes(image.pixels);
+  return total;
+}
+
+}  // namespace gatelight::scene
