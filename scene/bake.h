@@ -6,9 +6,9 @@
 namespace gatelight::scene {
 
 /// Transforms every mesh that one instance uses into world space and makes that instance the identity. Front
-/// faces stay front faces: the winding of a mirrored mesh is turned round. A small shared mesh is copied first,
-/// where the copies cost less than `copy_budget_triangles` triangles in all (an Embree instance costs a ray more
-/// than a few triangles do). Meshes that nobody uses are dropped. Updates Scene::bounds.
+/// faces stay front faces: the winding of a mirrored mesh is turned round. A small shared mesh is copied
+/// first, where the copies cost less than `copy_budget_triangles` triangles in all (an Embree instance costs
+/// a ray more than a few triangles do). Meshes that nobody uses are dropped. Updates Scene::bounds.
 void bake_transforms(Scene& scene, std::size_t copy_budget_triangles = 65536);
 
 }  // namespace gatelight::scene

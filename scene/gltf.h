@@ -9,20 +9,22 @@
 
 namespace gatelight::scene {
 
-/// A file that cannot be used. The message names the file, the offending value and what was expected, in one line.
+/// A file that cannot be used. The message names the file, the offending value and what was expected, in one
+/// line.
 struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 struct LoadOptions {
-  int scene = -1;              ///< index of the glTF scene; -1: the file's default, or its first
-  std::string variant;         ///< name of a KHR_materials_variants variant; empty: the default materials
-  bool missing_is_error = true;  ///< an unreadable texture stops the load; else it is replaced by white, with a warning
-  bool bake_transforms = true;   ///< see scene/bake.h; off keeps every instance an instance
+  int scene = -1;       ///< index of the glTF scene; -1: the file's default, or its first
+  std::string variant;  ///< name of a KHR_materials_variants variant; empty: the default materials
+  bool missing_is_error =
+      true;  ///< an unreadable texture stops the load; else it is replaced by white, with a warning
+  bool bake_transforms = true;  ///< see scene/bake.h; off keeps every instance an instance
 };
 
-/// Loads a .gltf or .glb file. Throws SceneError when the file cannot be read, breaks the specification in a way
-/// that matters for a picture, or requires an extension that is not supported.
+/// Loads a .gltf or .glb file. Throws SceneError when the file cannot be read, breaks the specification in a
+/// way that matters for a picture, or requires an extension that is not supported.
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace gatelight::scene

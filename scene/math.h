@@ -16,7 +16,8 @@ using Vec2 = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3f;
 using Vec4 = Eigen::Vector4f;
 
-/// Linear Rec. 709 RGB. An array: products are component-wise, so that it cannot be mixed up with a direction.
+/// Linear Rec. 709 RGB. An array: products are component-wise, so that it cannot be mixed up with a
+/// direction.
 using Color = Eigen::Array3f;
 
 /// 3x4, column-major, 48 bytes: the layout of Embree's RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR.
@@ -29,7 +30,9 @@ inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr float kInvPi = 1.0f / kPi;
 
 /// Luminance of linear Rec. 709.
-inline float luminance(const Color& c) { return 0.2126f * c.x() + 0.7152f * c.y() + 0.0722f * c.z(); }
+inline float luminance(const Color& c) {
+  return 0.2126f * c.x() + 0.7152f * c.y() + 0.0722f * c.z();
+}
 
 /// Normal matrix of an affine transform: the inverse transpose times |determinant|, so that it exists for
 /// singular transforms too. The result of the product is not normalised. A mirroring transform keeps the side

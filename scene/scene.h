@@ -62,26 +62,26 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;  ///< KHR_materials_unlit
 
-  float ior = 1.5f;                              ///< KHR_materials_ior; 0 means Fresnel is 1 everywhere
-  float specular = 1.0f;                         ///< KHR_materials_specular
-  TextureSlot specular_texture;                  ///< A
-  Color specular_color{1.0f, 1.0f, 1.0f};        ///< KHR_materials_specular
-  TextureSlot specular_color_texture;            ///< RGB sRGB
-  float transmission = 0.0f;                     ///< KHR_materials_transmission
-  TextureSlot transmission_texture;              ///< R
-  float thickness = 0.0f;                        ///< KHR_materials_volume; 0 is thin-walled
-  float attenuation_distance = kInfinity;        ///< KHR_materials_volume, metres
-  Color attenuation_color{1.0f, 1.0f, 1.0f};     ///< KHR_materials_volume
-  float clearcoat = 0.0f;                        ///< KHR_materials_clearcoat
-  TextureSlot clearcoat_texture;                 ///< R
+  float ior = 1.5f;                           ///< KHR_materials_ior; 0 means Fresnel is 1 everywhere
+  float specular = 1.0f;                      ///< KHR_materials_specular
+  TextureSlot specular_texture;               ///< A
+  Color specular_color{1.0f, 1.0f, 1.0f};     ///< KHR_materials_specular
+  TextureSlot specular_color_texture;         ///< RGB sRGB
+  float transmission = 0.0f;                  ///< KHR_materials_transmission
+  TextureSlot transmission_texture;           ///< R
+  float thickness = 0.0f;                     ///< KHR_materials_volume; 0 is thin-walled
+  float attenuation_distance = kInfinity;     ///< KHR_materials_volume, metres
+  Color attenuation_color{1.0f, 1.0f, 1.0f};  ///< KHR_materials_volume
+  float clearcoat = 0.0f;                     ///< KHR_materials_clearcoat
+  TextureSlot clearcoat_texture;              ///< R
   float clearcoat_roughness = 0.0f;
-  TextureSlot clearcoat_roughness_texture;       ///< G
+  TextureSlot clearcoat_roughness_texture;  ///< G
   TextureSlot clearcoat_normal_texture;
   float clearcoat_normal_scale = 1.0f;
-  Color sheen_color{0.0f, 0.0f, 0.0f};           ///< KHR_materials_sheen
-  TextureSlot sheen_color_texture;               ///< RGB sRGB
+  Color sheen_color{0.0f, 0.0f, 0.0f};  ///< KHR_materials_sheen
+  TextureSlot sheen_color_texture;      ///< RGB sRGB
   float sheen_roughness = 0.0f;
-  TextureSlot sheen_roughness_texture;           ///< A
+  TextureSlot sheen_roughness_texture;  ///< A
 
   bool emits() const { return (emission > 0.0f).any(); }
   bool transmits() const { return transmission > 0.0f; }
@@ -94,18 +94,19 @@ struct Material {
 /// Counter-clockwise is the front, in the space of the mesh.
 struct Mesh {
   std::string name;
-  int material = -1;  ///< index into Scene::materials, always valid after loading
+  int material = -1;            ///< index into Scene::materials, always valid after loading
   std::vector<Vec3> positions;  ///< capacity is at least one more than size: Embree reads 16 bytes a vertex
   std::vector<Vec3> normals;    ///< unit; empty means flat: the geometric normal of each triangle
-  std::vector<Vec4> tangents;   ///< xyz unit, w the handedness (+1 or -1); present when a normal map needs them
+  std::vector<Vec4>
+      tangents;  ///< xyz unit, w the handedness (+1 or -1); present when a normal map needs them
   std::vector<Vec2> uv0;
   std::vector<Vec2> uv1;
   std::vector<Vec4> colors;  ///< COLOR_0, linear RGBA, multiplies the base colour
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A mesh in the world. Instances that share a mesh are drawn by Embree as instances; a mesh that is used once
-/// holds world-space vertices and its instance is the identity (scene/bake.h).
+/// A mesh in the world. Instances that share a mesh are drawn by Embree as instances; a mesh that is used
+/// once holds world-space vertices and its instance is the identity (scene/bake.h).
 struct Instance {
   std::string name;
   int mesh = -1;
@@ -120,12 +121,13 @@ enum class LightType : std::uint8_t { directional, point, spot };
 struct PunctualLight {
   std::string name;
   LightType type = LightType::point;
-  Color intensity{1.0f, 1.0f, 1.0f};  ///< colour times intensity: W/sr (point, spot) or W/m2 facing it (directional)
+  Color intensity{1.0f, 1.0f,
+                  1.0f};  ///< colour times intensity: W/sr (point, spot) or W/m2 facing it (directional)
   Vec3 position = Vec3::Zero();       ///< world; not for directional
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< world, unit: the way the light travels; not for point
-  float range = kInfinity;            ///< metres; beyond it the light is zero, by the extension's window function
-  float cos_inner = 1.0f;             ///< spot: cosine of the inner cone angle
-  float cos_outer = 0.70710678f;      ///< spot: cosine of the outer cone angle
+  float range = kInfinity;        ///< metres; beyond it the light is zero, by the extension's window function
+  float cos_inner = 1.0f;         ///< spot: cosine of the inner cone angle
+  float cos_outer = 0.70710678f;  ///< spot: cosine of the outer cone angle
 };
 
 /// Looks along -z of its transform, y up.
@@ -133,10 +135,10 @@ struct Camera {
   std::string name;
   Affine transform = Affine::Identity();  ///< camera to world, without scale
   bool orthographic = false;
-  float vertical_fov = 0.8f;   ///< radians; perspective
-  float aspect = 0.0f;         ///< width over height; 0 means that of the picture
-  float half_height = 1.0f;    ///< metres (ymag); orthographic
-  float half_width = 0.0f;     ///< metres (xmag); orthographic; 0 means half_height times the picture's aspect
+  float vertical_fov = 0.8f;  ///< radians; perspective
+  float aspect = 0.0f;        ///< width over height; 0 means that of the picture
+  float half_height = 1.0f;   ///< metres (ymag); orthographic
+  float half_width = 0.0f;    ///< metres (xmag); orthographic; 0 means half_height times the picture's aspect
 };
 
 struct Scene {
@@ -152,7 +154,9 @@ struct Scene {
   std::vector<std::string> warnings;  ///< one line each, said once
   Box bounds;                         ///< world; empty when there is no triangle
 
-  const Mesh& mesh_of(const Instance& instance) const { return meshes[static_cast<std::size_t>(instance.mesh)]; }
+  const Mesh& mesh_of(const Instance& instance) const {
+    return meshes[static_cast<std::size_t>(instance.mesh)];
+  }
   const Material& material_of(const Instance& instance) const {
     return materials[static_cast<std::size_t>(mesh_of(instance).material)];
   }

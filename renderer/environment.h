@@ -1,0 +1,50 @@
+#pragma once
+// Light from infinitely far away: a constant, or a latitude-longitude picture that is sampled by importance.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+using scene::Color;
+using scene::Vec2;
+using scene::Vec3;
+
+struct EnvironmentOptions {
+  std::string file;                  ///< EXR or HDR picture, latitude-longitude; empty: constant
+  Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
+  float rotation_degrees = 0.0f;     ///< about +y, counter-clockwise seen from above
+  float scale = 1.0f;
+
+  bool none() const { return file.empty() && (constant == 0.0f).all(); }
+};
+
+struct EnvironmentSample {
+  Vec3 wi = Vec3::Zero();
+  Color radiance{0.0f, 0.0f, 0.0f};
+  float pdf = 0.0f;  ///< per solid angle; 0: no sample
+};
+
+/// The centre of the picture is seen along -z, +x to its right, +y up (the convention of most viewers).
+/// Non-finite and negative texels count as zero.
+class Environment {
+ public:
+  /// Throws std::runtime_error naming the file when it cannot be read.
+  explicit Environment(const EnvironmentOptions& options);
+
+  Color radiance(const Vec3& direction) const;
+  /// The same, filtered for a ray whose cone has this full angle (radians).
+  Color radiance(const Vec3& direction, float cone_angle) const;
+  EnvironmentSample sample(const Vec2& u) const;
+  float pdf(const Vec3& direction) const;
+  /// Mean radiance over the sphere.
+  Color mean() const;
+  bool black() const;
+  std::size_t bytes() const;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,49 @@
+#pragma once
+// All that emits, as one thing to sample: emissive triangles and point or spot lights in a light tree,
+// directional lights and the environment beside it.
+
+#include <cstdint>
+
+#include "renderer/environment.h"
+#include "renderer/texture.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+enum class LightSelection : std::uint8_t {
+  tree,   ///< light tree: distance, orientation and power (Conty Estevez and Kulla 2018)
+  power,  ///< alias table over power alone
+};
+
+struct LightSample {
+  Vec3 wi = Vec3::Zero();            ///< unit, from the point to the light
+  float distance = 0.0f;             ///< metres; infinity for directional lights and the environment
+  Color radiance{0.0f, 0.0f, 0.0f};  ///< unoccluded; for a delta light the irradiance on a plane facing it
+  float pdf = 0.0f;  ///< choice and direction, per solid angle; for a delta light the choice alone; 0: none
+  bool delta = false;
+};
+
+/// Thread-safe after construction; holds references to its arguments.
+class Lights {
+ public:
+  Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
+         LightSelection selection);
+
+  bool empty() const;
+
+  /// A direction towards some light. n is the shading normal on the side of the viewer, or zero where light
+  /// may arrive from all sides (transmission).
+  LightSample sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
+
+  /// Density with which sample(p, n) makes the direction wi that met this triangle at `distance`; 0 if it
+  /// does not emit to that side. For multiple importance sampling.
+  float pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
+                     const Vec3& wi, float distance) const;
+  /// The same for a ray that left the scene.
+  float pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const;
+
+  std::size_t emissive_triangles() const;
+  std::size_t bytes() const;
+};
+
+}  // namespace gatelight::renderer
