@@ -5,7 +5,7 @@ find_package(TinyGLTF CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(draco CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
-find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+find_package(OpenImageIO 2.4 REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(embree 3.13 CONFIG REQUIRED)
 find_package(TBB 2021 CONFIG REQUIRED)
@@ -17,9 +17,3 @@ endif()
 if(GATELIGHT_BENCHMARKS)
   find_package(benchmark CONFIG REQUIRED)
 endif()
-
-# Debian's OpenImageIO target names an opencv4 include folder that only exists with OpenCV's headers installed.
-# CMake refuses to generate with it, and nothing here includes OpenCV.
-get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-list(FILTER oiio_includes EXCLUDE REGEX "opencv")
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
