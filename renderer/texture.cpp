@@ -81,6 +81,15 @@ FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) 
   return result;
 }
 
+/// The finest level keeps the file's bytes.
+std::uint32_t pack_source(const scene::Image& image, std::size_t texel) {
+  const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
+  const bool grey = image.channels < 3;
+  const std::uint32_t alpha = image.channels == 2 ? p[1] : image.channels == 4 ? p[3] : 255u;
+  return p[0] | std::uint32_t{grey ? p[0] : p[1]} << 8 | std::uint32_t{grey ? p[0] : p[2]} << 16 |
+         alpha << 24;
+}
+
 std::uint32_t pack(const Vec4& c, Encoding encoding) {
   const auto byte = [](float x) {
     return static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -170,10 +179,10 @@ Textures::Textures(const scene::Scene& scene) {
       pyramid.levels.push_back({width, height, offset});
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
+          const std::size_t texel =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
           pyramid.texels[offset + block_index(width, x, y)] =
-              pack(level[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(x)],
-                   jobs[j].encoding);
+              offset == 0 ? pack_source(image, texel) : pack(level[texel], jobs[j].encoding);
         }
       }
       offset += stored_texels(width, height);
