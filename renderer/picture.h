@@ -15,8 +15,12 @@ struct Layer {
 };
 
 struct Picture {
-  int width = 0;
+  int width = 0;  ///< of the pixels stored here
   int height = 0;
+  int x0 = 0;  ///< where they lie in the full picture: a region keeps its place (the EXR's data window)
+  int y0 = 0;
+  int full_width = 0;  ///< of the full picture (the EXR's display window); 0: the same as width and height
+  int full_height = 0;
   std::vector<Layer> layers;  ///< the first is the beauty layer
   std::map<std::string, std::string>
       metadata;  ///< the recipe, written into the EXR header under "gatelight:KEY"
