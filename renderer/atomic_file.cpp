@@ -1,0 +1,113 @@
+#include "renderer/atomic_file.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+
+namespace gatelight::renderer {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw OutputError(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+std::string describe(int error) {
+  return std::generic_category().message(error);
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+fs::path resolve_link(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  fs::path resolved = fs::weakly_canonical(path, error);
+  return error ? path : resolved;
+}
+
+/// The rename has reached the disk only when its folder has. Best effort: some file systems refuse.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void check_writable(const fs::path& path) {
+  if (path.empty()) refuse(path, "the name is empty");
+  const fs::path target = resolve_link(path);
+  const fs::path folder = folder_of(target);
+  std::error_code error;
+  const fs::file_status folder_status = fs::status(folder, error);
+  if (!fs::exists(folder_status)) {
+    refuse(path, fmt::format("the folder '{}' does not exist", folder.string()));
+  }
+  if (!fs::is_directory(folder_status)) {
+    refuse(path, fmt::format("'{}' is not a folder", folder.string()));
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse(path, fmt::format("the folder '{}' cannot be written: {}", folder.string(), describe(errno)));
+  }
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) refuse(path, "it is a folder");
+  // Renaming over a device or a pipe would replace it.
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is not a regular file");
+}
+
+AtomicFile::AtomicFile(const fs::path& path) : target_(resolve_link(path)) {
+  check_writable(path);
+  static std::atomic<unsigned> counter{0};
+  temporary_ = folder_of(target_) /
+               fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), counter.fetch_add(1));
+  // 0666 leaves the permissions to the umask, as for any other file.
+  const int descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(errno);
+  stream_ = ::fdopen(descriptor, "w+b");
+  if (stream_ == nullptr) {
+    const int error = errno;
+    ::close(descriptor);
+    ::unlink(temporary_.c_str());
+    fail(error);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (stream_ != nullptr) {
+    std::fclose(stream_);
+    ::unlink(temporary_.c_str());
+  }
+}
+
+void AtomicFile::write(const void* data, std::size_t bytes) {
+  if (std::fwrite(data, 1, bytes, stream_) != bytes) fail(errno);
+}
+
+void AtomicFile::commit() {
+  if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail(errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  std::fclose(stream_);  // nothing is left to be flushed
+  stream_ = nullptr;
+  sync_folder(folder_of(target_));
+}
+
+void AtomicFile::fail(int error) const {
+  refuse(target_, describe(error));
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content.data(), content.size());
+  file.commit();
+}
+
+}  // namespace gatelight::renderer

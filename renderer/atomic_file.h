@@ -1,0 +1,48 @@
+#pragma once
+// Files that are whole or not there: written under a temporary name in the same folder, then renamed.
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace gatelight::renderer {
+
+/// A file that could not be written. The message names the file and the reason.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws OutputError unless a file can be made at `path`: its folder exists and can be written, and the path
+/// is free or holds a regular file. Meant for the time before the long work.
+void check_writable(const std::filesystem::path& path);
+
+/// A file in the making. An old file of the same name stays whole until commit(); without commit() nothing
+/// changes. A symbolic link is followed, so that the link itself stays.
+class AtomicFile {
+ public:
+  /// Throws OutputError.
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Seekable, for binary data. Do not close it.
+  std::FILE* stream() const { return stream_; }
+  void write(const void* data, std::size_t bytes);
+
+  /// Flushes to the disk, renames. Throws OutputError.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+/// The whole of a small file at once.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace gatelight::renderer

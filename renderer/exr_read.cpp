@@ -1,0 +1,113 @@
+#include "renderer/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+namespace gatelight::renderer {
+namespace {
+
+/// A header can claim any size: 2^31 values is more than any picture of ours and still can be allocated.
+constexpr std::size_t kMaxValues = std::size_t{1} << 31;
+
+/// Colour and vector channels in their usual order, others after them.
+int channel_rank(std::string_view channel) {
+  constexpr std::string_view kOrder = "RGBAXYZ";
+  const std::size_t at = channel.size() == 1 ? kOrder.find(channel) : std::string_view::npos;
+  return at == std::string_view::npos ? static_cast<int>(kOrder.size()) : static_cast<int>(at);
+}
+
+bool has_rgb(const Layer& layer) {
+  const auto has = [&](const char* name) {
+    return std::find(layer.channels.begin(), layer.channels.end(), name) != layer.channels.end();
+  };
+  return has("R") && has("G") && has("B");
+}
+
+std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
+  std::vector<Layer> layers;
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+      throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", it.name()));
+    }
+    const std::string full = it.name();
+    const std::size_t dot = full.rfind('.');
+    const std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
+    auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
+    if (layer == layers.end()) layer = layers.insert(layers.end(), Layer{.name = name});
+    layer->channels.push_back(dot == std::string::npos ? full : full.substr(dot + 1));
+    layer->full_precision |= it.channel().type != Imf::HALF;
+  }
+  for (Layer& layer : layers) {
+    std::stable_sort(
+        layer.channels.begin(), layer.channels.end(),
+        [](const std::string& a, const std::string& b) { return channel_rank(a) < channel_rank(b); });
+  }
+  auto beauty = std::find_if(layers.begin(), layers.end(), [](const Layer& l) { return l.name.empty(); });
+  if (beauty == layers.end()) beauty = std::find_if(layers.begin(), layers.end(), has_rgb);
+  if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
+  return layers;
+}
+
+}  // namespace
+
+Picture read_exr(const std::filesystem::path& path) {
+  Imf::InputFile file(path.c_str(), 0);
+  const Imf::Header& header = file.header();
+  const Imath::Box2i data = header.dataWindow();
+  const Imath::Box2i display = header.displayWindow();
+
+  Picture picture;
+  picture.width = data.max.x - data.min.x + 1;
+  picture.height = data.max.y - data.min.y + 1;
+  picture.x0 = data.min.x - display.min.x;
+  picture.y0 = data.min.y - display.min.y;
+  picture.full_width = display.max.x - display.min.x + 1;
+  picture.full_height = display.max.y - display.min.y + 1;
+  picture.layers = find_layers(header.channels());
+
+  const std::size_t width = static_cast<std::size_t>(picture.width);
+  const std::size_t pixels = width * static_cast<std::size_t>(picture.height);
+  std::size_t channels = 0;
+  for (const Layer& layer : picture.layers) channels += layer.channels.size();
+  if (channels == 0) throw std::runtime_error("it has no channels");
+  if (pixels > kMaxValues / channels) {
+    throw std::runtime_error(fmt::format("its {} x {} pixels of {} channels are too many", picture.width,
+                                         picture.height, channels));
+  }
+
+  Imf::FrameBuffer frame;
+  for (Layer& layer : picture.layers) {
+    const std::size_t count = layer.channels.size();
+    layer.values.resize(pixels * count);
+    const std::size_t pixel_bytes = count * sizeof(float);
+    char* first = reinterpret_cast<char*>(layer.values.data()) -
+                  data.min.x * static_cast<std::ptrdiff_t>(pixel_bytes) -
+                  data.min.y * static_cast<std::ptrdiff_t>(pixel_bytes * width);
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
+      frame.insert(name, Imf::Slice(Imf::FLOAT, first + c * sizeof(float), pixel_bytes, pixel_bytes * width));
+    }
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(data.min.y, data.max.y);
+
+  constexpr std::string_view kPrefix = "gatelight:";
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+    const std::string_view name = it.name();
+    if (text != nullptr && name.substr(0, kPrefix.size()) == kPrefix) {
+      picture.metadata.emplace(name.substr(kPrefix.size()), text->value());
+    }
+  }
+  return picture;
+}
+
+}  // namespace gatelight::renderer
