@@ -1,6 +1,11 @@
 #pragma once
 // Random numbers keyed by (seed, pixel, sample, dimension): a number never depends on what was drawn before
 // it, on the thread or on the tile.
+//
+// Sobol points are scrambled and shuffled by hashing (Burley 2020, "Practical Hash-based Owen Scrambling"):
+// every dimension takes the first two Sobol dimensions, visits them in an order of its own (which keeps each
+// aligned block of 2^k indices together) and scrambles each coordinate with its own nested uniform
+// permutation. So the first 2^k samples of every pair are a (0,k,2)-net, and dimensions are independent.
 
 #include <cstdint>
 
@@ -15,6 +20,52 @@ enum class SamplerKind : std::uint8_t {
   independent,  ///< a hash of the key
 };
 
+namespace sampling {
+
+inline std::uint32_t reverse_bits(std::uint32_t x) {
+  x = __builtin_bswap32(x);
+  x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+  x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+  return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+/// Finaliser of MurmurHash3 with Stafford's thirteenth set of constants: a bijection in which every input bit
+/// reaches every output bit.
+inline std::uint64_t mix_bits(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// A permutation in which a bit depends on itself and the lower ones only (Laine and Karras 2011, with
+/// Vegdahl's 2021 constants). Between two bit reversals it is a nested uniform scramble, Owen's.
+inline std::uint32_t permute_upward(std::uint32_t x, std::uint32_t seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
+/// The second Sobol dimension of an index, its bits reversed. Its generator is Pascal's triangle modulo two,
+/// whose entry (j, k) is one where the bits of k are a subset of those of j (Lucas): a sum over supersets,
+/// done for the five bits of a bit's position in turn.
+inline std::uint32_t sobol_second_reversed(std::uint32_t index) {
+  index ^= (index >> 1) & 0x55555555u;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  return index ^ (index >> 16);
+}
+
+/// The upper 24 bits: exact in a float, never 1.
+inline float to_unit_float(std::uint32_t x) {
+  return static_cast<float>(x >> 8) * 0x1p-24f;
+}
+
+}  // namespace sampling
+
 /// The samples of one camera path. Trivially copyable, 12 bytes; two samplers with the same key give the same
 /// numbers.
 class Sampler {
@@ -27,9 +78,48 @@ class Sampler {
   Vec2 get_2d(std::uint32_t dimension) const;
 
  private:
+  std::uint64_t dimension_hash(std::uint32_t dimension) const {
+    return sampling::mix_bits((std::uint64_t{key_} << 32) | dimension);
+  }
+  std::uint64_t independent_bits(std::uint32_t dimension) const {
+    return sampling::mix_bits(dimension_hash(dimension) + std::uint64_t{index_} * 0x9e3779b97f4a7c15u);
+  }
+
   std::uint32_t key_ = 0;
-  std::uint32_t index_ = 0;
+  std::uint32_t index_ = 0;  ///< of the sample; its bits reversed for Sobol points
   SamplerKind kind_ = SamplerKind::sobol;
 };
+
+inline Sampler::Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y,
+                        std::uint32_t sample)
+    : index_(kind == SamplerKind::sobol ? sampling::reverse_bits(sample) : sample), kind_(kind) {
+  const std::uint64_t pixel = sampling::mix_bits((std::uint64_t{y} << 32) | x);
+  key_ = static_cast<std::uint32_t>(sampling::mix_bits(pixel + seed) >> 32);
+}
+
+inline float Sampler::get_1d(std::uint32_t dimension) const {
+  using namespace sampling;
+  if (kind_ == SamplerKind::independent) {
+    return to_unit_float(static_cast<std::uint32_t>(independent_bits(dimension) >> 32));
+  }
+  const std::uint64_t hash = dimension_hash(dimension);
+  const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
+  return to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32))));
+}
+
+inline Vec2 Sampler::get_2d(std::uint32_t dimension) const {
+  using namespace sampling;
+  if (kind_ == SamplerKind::independent) {
+    const std::uint64_t bits = independent_bits(dimension);
+    return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)),
+            to_unit_float(static_cast<std::uint32_t>(bits))};
+  }
+  const std::uint64_t hash = dimension_hash(dimension);
+  const auto second_hash = static_cast<std::uint32_t>((hash * 0xd1342543de82ef95u) >> 32);
+  const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
+  // The first Sobol dimension is the index itself, its bits reversed.
+  return {to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32)))),
+          to_unit_float(reverse_bits(permute_upward(sobol_second_reversed(index), second_hash)))};
+}
 
 }  // namespace gatelight::renderer
