@@ -1,0 +1,65 @@
+#include "renderer/ao_integrator.h"
+
+#include "renderer/warp.h"
+
+namespace gatelight::renderer {
+
+void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
+                         std::span<FirstHit> first_hits, RayCounts& counts, Scratch& scratch) const {
+  scratch.rays.resize(samples.size());
+  scratch.hits.resize(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    scratch.rays[i] = samples[i].camera_ray.ray;
+    scratch.rays[i].seed = samples[i].seed;
+  }
+  counts.camera += samples.size();
+  world_.accel.intersect(scratch.rays, scratch.hits, true);
+
+  scratch.shadow_rays.clear();
+  scratch.index.clear();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    results[i].radiance = Color::Ones();
+    if (!first_hits.empty()) first_hits[i] = {};
+    const Hit& hit = scratch.hits[i];
+    if (!hit) continue;
+    const Ray& camera_ray = scratch.rays[i];
+    const RayCone& cone = samples[i].camera_ray.cone;
+    const Surface surface =
+        world_.surfaces.at(hit, camera_ray.direction, cone.width + cone.spread * hit.t, 0.5f);
+    if (!first_hits.empty()) {
+      first_hits[i] = {true,
+                       surface.material.base_color,
+                       surface.shading_normal,
+                       surface.position,
+                       hit.t,
+                       hit.instance,
+                       hit.primitive};
+    }
+    Ray ray;
+    ray.direction =
+        to_world(surface.smooth_normal, sample_cosine_hemisphere(samples[i].sampler.get_2d(
+                                            dimension::kFirstVertex + dimension::kBsdfDirection)));
+    if (!(ray.direction.dot(surface.geometric_normal) > 0.0f)) {
+      results[i].radiance = Color::Zero();
+      continue;
+    }
+    ray.origin = surface.spawn(ray.direction);
+    ray.t_max = distance_;
+    ray.seed = hash(samples[i].seed + 1u);
+    scratch.shadow_rays.push_back(ray);
+    scratch.index.push_back(static_cast<std::uint32_t>(i));
+  }
+  counts.shadow += scratch.shadow_rays.size();
+  scratch.transmittance.resize(scratch.shadow_rays.size());
+  world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+  for (std::size_t i = 0; i < scratch.index.size(); ++i) {
+    results[scratch.index[i]].radiance = scratch.transmittance[i];
+  }
+}
+
+float resolve_ao_distance(float option, const scene::Box& bounds) {
+  if (option >= 0.0f) return option;
+  return bounds.isEmpty() ? scene::kInfinity : 0.1f * bounds.diagonal().norm();
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,72 @@
+#pragma once
+// Unbiased path tracing: next-event estimation and BSDF sampling joined by multiple importance sampling
+// (Veach 1997), Russian roulette. Knows nothing of any cache.
+
+#include <span>
+#include <vector>
+
+#include "renderer/camera_sample.h"
+#include "renderer/options.h"
+#include "renderer/statistics.h"
+#include "renderer/world.h"
+
+namespace gatelight::renderer {
+
+/// Traces batches of camera paths breadth first: all rays of a depth together, in packets. Thread-safe; the
+/// scratch memory belongs to the caller's thread.
+class PathIntegrator {
+ public:
+  struct Scratch;
+
+  PathIntegrator(const World& world, const RenderOptions& options);
+
+  /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`.
+  void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
+             std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
+
+ private:
+  struct Path;
+  bool scatter(Path& path, const Hit& hit, std::span<SampleResult> results, std::span<FirstHit> first_hits,
+               Scratch& scratch) const;
+  void add_direct_light(const Path& path, const Surface& surface, const Bsdf& bsdf, const Vec3& normal,
+                        Scratch& scratch) const;
+  float light_weight(float light_pdf, float bsdf_pdf) const;
+  float bsdf_weight(const Path& path, float light_pdf) const;
+
+  const World& world_;
+  const RenderOptions& options_;
+};
+
+struct PathIntegrator::Path {
+  Ray ray;
+  RayCone cone;
+  Color throughput{1.0f, 1.0f, 1.0f};
+  Color absorption{0.0f, 0.0f, 0.0f};   ///< per metre, of the medium the ray travels in
+  Vec3 previous = Vec3::Zero();         ///< the vertex that chose the direction, panes not counted
+  Vec3 previous_normal = Vec3::Zero();  ///< as next-event estimation saw it there
+  float travelled = 0.0f;               ///< metres between `previous` and the ray's origin: through panes
+  float pdf = 0.0f;                     ///< of the direction, per solid angle
+  bool delta = true;                    ///< the direction came from the camera or a delta lobe
+  std::uint16_t depth = 0;              ///< scattering events so far
+  std::uint16_t vertex = 0;             ///< surfaces met so far: the block of sampler dimensions
+  std::uint32_t index = 0;              ///< into samples and results
+  std::uint32_t seed = 0;
+  Sampler sampler;
+};
+
+/// A light sample on its way through the scene.
+struct PendingLight {
+  Color contribution{0.0f, 0.0f, 0.0f};
+  std::uint32_t index = 0;
+};
+
+struct PathIntegrator::Scratch {
+  std::vector<Path> paths;
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<Ray> shadow_rays;
+  std::vector<PendingLight> pending;
+  std::vector<Color> transmittance;
+};
+
+}  // namespace gatelight::renderer

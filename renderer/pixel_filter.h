@@ -1,0 +1,31 @@
+#pragma once
+// The reconstruction filter by importance sampling: every sample has weight one, and no sample leaves its
+// pixel's sum.
+
+#include <array>
+
+#include "renderer/options.h"
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+class FilterSampler {
+ public:
+  /// width: full width in pixels; 0 chooses the filter's usual one (box 1, tent 2, Gaussian 3,
+  /// Blackman-Harris 3).
+  FilterSampler(PixelFilter filter, float width);
+
+  /// Offset from the pixel's centre, pixels; distributed as the filter (which is not negative) when u is
+  /// uniform.
+  scene::Vec2 sample(const scene::Vec2& u) const { return {sample_1d(u.x()), sample_1d(u.y())}; }
+  float width() const { return width_; }
+
+ private:
+  static constexpr int kSteps = 256;
+  float sample_1d(float u) const;
+
+  float width_;
+  std::array<float, kSteps + 1> inverse_{};  ///< inverse of the cumulative distribution at equal steps
+};
+
+}  // namespace gatelight::renderer
