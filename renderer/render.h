@@ -48,7 +48,4 @@ class Renderer {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Bytes that vertices, BVH, textures and film of this scene are expected to need, before anything is built.
-std::size_t estimate_memory(const scene::Scene& scene, const RenderOptions& options);
-
 }  // namespace gatelight::renderer

@@ -1,0 +1,151 @@
+#include "renderer/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gatelight::renderer {
+
+namespace {
+
+bool from_first_hit(Aov aov) {
+  return aov != Aov::sample_count && aov != Aov::variance;
+}
+
+void accumulate(std::array<double, 3>& sum, const Eigen::Vector3f& v) {
+  for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(v[i]);
+}
+
+}  // namespace
+
+const char* aov_name(Aov aov) {
+  switch (aov) {
+    case Aov::albedo:
+      return "albedo";
+    case Aov::normal:
+      return "normal";
+    case Aov::depth:
+      return "depth";
+    case Aov::position:
+      return "position";
+    case Aov::primitive_id:
+      return "primitive";
+    case Aov::instance_id:
+      return "instance";
+    case Aov::sample_count:
+      return "samples";
+    case Aov::variance:
+      return "variance";
+  }
+  return "";
+}
+
+Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
+    : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
+  needs_first_hits_ = std::any_of(aovs_.begin(), aovs_.end(), from_first_hit);
+  const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+  radiance_.resize(pixels);
+  if (needs_first_hits_) first_.resize(pixels);
+}
+
+std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
+  const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
+  return sizeof(Radiance) + (first ? sizeof(First) : 0);
+}
+
+void Film::add(int x, int y, const Color& radiance) {
+  Radiance& p = radiance_[pixel(x, y)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
+    p.sum[i] += v;
+    p.square[i] += v * v;
+  }
+  ++p.count;
+}
+
+void Film::add(int x, int y, const FirstHit& first) {
+  First& p = first_[pixel(x, y)];
+  if (p.count++ == 0 && first.hit) {
+    p.instance = static_cast<float>(first.instance);
+    p.primitive = static_cast<float>(first.primitive);
+  }
+  if (!first.hit) return;
+  accumulate(p.albedo, first.albedo.matrix());
+  accumulate(p.normal, first.normal);
+  accumulate(p.position, first.position);
+  p.depth += static_cast<double>(first.depth);
+  ++p.hits;
+}
+
+Layer Film::layer(Aov aov) const {
+  Layer layer;
+  layer.name = aov_name(aov);
+  layer.full_precision = aov != Aov::albedo && aov != Aov::normal;
+  const auto fill = [&](std::vector<std::string> channels, const auto& values, auto&& value) {
+    const std::size_t n = channels.size();
+    layer.channels = std::move(channels);
+    layer.values.reserve(values.size() * n);
+    for (const auto& p : values) {
+      for (std::size_t i = 0; i < n; ++i) layer.values.push_back(static_cast<float>(value(p, i)));
+    }
+  };
+  const auto over_hits = [](double sum, const First& p) { return p.hits > 0 ? sum / p.hits : 0.0; };
+  switch (aov) {
+    case Aov::albedo:
+      // Background weighs in as black, as in the beauty layer: edges stay soft.
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.albedo[i] / p.count : 0.0; });
+      break;
+    case Aov::normal:
+      fill({"X", "Y", "Z"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.normal[i] / p.count : 0.0; });
+      break;
+    case Aov::depth:
+      fill({"Z"}, first_, [&](const First& p, std::size_t) { return over_hits(p.depth, p); });
+      break;
+    case Aov::position:
+      fill({"X", "Y", "Z"}, first_,
+           [&](const First& p, std::size_t i) { return over_hits(p.position[i], p); });
+      break;
+    case Aov::primitive_id:
+      fill({"id"}, first_, [](const First& p, std::size_t) { return p.primitive; });
+      break;
+    case Aov::instance_id:
+      fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
+      break;
+    case Aov::sample_count:
+      fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
+      break;
+    case Aov::variance:
+      // Of the pixel's mean, unbiased, as if samples were independent: an upper bound for low-discrepancy
+      // samples.
+      fill({"R", "G", "B"}, radiance_, [](const Radiance& p, std::size_t i) {
+        if (p.count < 2) return 0.0;
+        const double n = p.count;
+        return std::max(0.0, (p.square[i] - p.sum[i] * p.sum[i] / n) / (n * (n - 1.0)));
+      });
+      break;
+  }
+  return layer;
+}
+
+Picture Film::resolve() const {
+  Picture picture;
+  picture.width = rect_.width();
+  picture.height = rect_.height();
+  picture.x0 = rect_.x0;
+  picture.y0 = rect_.y0;
+  picture.full_width = full_width_;
+  picture.full_height = full_height_;
+  Layer beauty;
+  beauty.channels = {"R", "G", "B"};
+  beauty.values.reserve(radiance_.size() * 3);
+  for (const Radiance& p : radiance_) {
+    for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? static_cast<float>(sum / p.count) : 0.0f);
+  }
+  picture.layers.push_back(std::move(beauty));
+  for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
+  return picture;
+}
+
+}  // namespace gatelight::renderer
