@@ -48,6 +48,9 @@ struct BsdfSample {
 
 class Bsdf {
  public:
+  /// Below this perceptual roughness a specular lobe is a delta.
+  static constexpr float kDeltaRoughness = 0.01f;
+
   /// ng: geometric normal on the side of wo. ns: shading normal, dot(ns, ng) > 0 (it is bent towards ng where
   /// wo would be below its horizon). nc: shading normal of the clearcoat. front: wo is on the front of the
   /// triangle (light enters the medium when it is transmitted from there).
@@ -63,6 +66,9 @@ class Bsdf {
   Color albedo() const;
   /// Whether light can come from behind the surface.
   bool transmits() const;
+  /// Fraction of light that goes straight through, from -wo to wo, without being bent or blurred: the delta
+  /// transmission of a smooth thin-walled surface. Zero for all others. Agrees with sample() in the mean.
+  Color straight_transmittance() const;
   /// All lobes are deltas: next-event estimation is of no use.
   bool is_delta() const;
 };

@@ -1,7 +1,5 @@
 #include "renderer/coverage.h"
 
-#include <cmath>
-
 #include "renderer/bsdf.h"
 
 namespace gatelight::renderer {
@@ -26,7 +24,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_
     const scene::Material& m = scene.material_of(scene.instances[i]);
     if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
     const bool smooth =
-        m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
+        m.roughness == 0.0f || (m.roughness < Bsdf::kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
   }
@@ -62,6 +60,7 @@ Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const 
   const scene::Mesh& mesh = scene_.mesh_of(instance);
   const scene::Material& m = scene_.material_of(instance);
   SurfaceMaterial s;
+  s.roughness = m.roughness;
   s.base_color = m.base_color;
   s.ior = m.ior;
   s.specular = m.specular;
@@ -91,7 +90,9 @@ Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const 
                           .x();
   }
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive).normalized();
-  return pane_transmission(s, std::abs(n.dot(direction)));
+  const bool front = n.dot(direction) < 0.0f;
+  const Vec3 facing = front ? n : Vec3(-n);
+  return Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();
 }
 
 }  // namespace gatelight::renderer
