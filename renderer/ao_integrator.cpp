@@ -36,9 +36,9 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
                        hit.primitive};
     }
     Ray ray;
-    ray.direction =
-        to_world(surface.smooth_normal, sample_cosine_hemisphere(samples[i].sampler.get_2d(
-                                            dimension::kFirstVertex + dimension::kBsdfDirection)));
+    ray.direction = Basis(surface.smooth_normal)
+                        .to_world(sample_cosine_hemisphere(
+                            samples[i].sampler.get_2d(dimension::kFirstVertex + dimension::kBsdfDirection)));
     if (!(ray.direction.dot(surface.geometric_normal) > 0.0f)) {
       results[i].radiance = Color::Zero();
       continue;

@@ -43,9 +43,4 @@ inline constexpr std::uint32_t kLightChoice = 2;
 inline constexpr std::uint32_t kLightPoint = 3;
 }  // namespace dimension
 
-/// Uniform in [0, 1) from a hash.
-inline float to_unit_float(std::uint32_t hashed) {
-  return static_cast<float>(hashed >> 8) * 0x1p-24f;
-}
-
 }  // namespace gatelight::renderer

@@ -94,7 +94,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
 
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
   const Surface surface =
-      world_.surfaces.at(hit, direction, cone_width, to_unit_float(hash(path.seed ^ 0x2545f491u)));
+      world_.surfaces.at(hit, direction, cone_width, sampling::to_unit_float(hash(path.seed ^ 0x2545f491u)));
   const bool record = path.vertex == 0 && !first_hits.empty();
   if (record) {
     FirstHit& first = first_hits[path.index];
@@ -148,7 +148,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
 
   if (path.depth >= options_.min_depth) {
     const float survival = std::min(0.95f, path.throughput.maxCoeff());
-    if (to_unit_float(hash(path.seed ^ 0x68bc21ebu)) >= survival) return false;
+    if (sampling::to_unit_float(hash(path.seed ^ 0x68bc21ebu)) >= survival) return false;
     path.throughput /= survival;
   }
   path.ray.origin = surface.spawn(sample.wi);
