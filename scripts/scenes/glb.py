@@ -195,6 +195,8 @@ class Glb:
         used = set(self.doc.get("extensionsRequired", [])) | set(self.doc.get("extensions", {}))
         for item in self.doc.get("materials", []):
             used |= set(item.get("extensions", {}))
+            if "KHR_texture_transform" in json.dumps(item):
+                used.add("KHR_texture_transform")
         if used:
             self.doc["extensionsUsed"] = sorted(used)
         while len(self.binary) % 4:
@@ -209,11 +211,13 @@ class Glb:
 
 
 def slot(texture):
-    """A texture's index, or (index, repeats) to tile it by KHR_texture_transform."""
-    if isinstance(texture, tuple):
-        index, repeats = texture
-        return {"index": index, "extensions": {"KHR_texture_transform": {"scale": [repeats, repeats]}}}
-    return {"index": texture}
+    """A texture's index, or (index, repeats) or (index, repeats, degrees) to tile and turn it."""
+    if not isinstance(texture, tuple):
+        return {"index": texture}
+    transform = {"scale": [texture[1], texture[1]]}
+    if len(texture) > 2:
+        transform["rotation"] = round_float(math.radians(texture[2]))
+    return {"index": texture[0], "extensions": {"KHR_texture_transform": transform}}
 
 
 def pack(code, values):
