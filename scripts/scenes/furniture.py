@@ -26,7 +26,7 @@ def tub_chair_shell(channels=15):
         r = radius + thick / 2 + out + 0.05 * (up / (high - low)) * back
         return r * math.sin(angle), (low + high) / 2 + up, -r * math.cos(angle) * 0.97
 
-    return surface(8 * channels, 22, at)
+    return surface(8 * channels, 22, at).flipped()
 
 
 def seat_cushion():
