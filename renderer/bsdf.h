@@ -6,7 +6,17 @@
 // wi)|, and a sample's weight is f * |cos| / pdf. Densities are per solid angle. Delta lobes are zero in
 // evaluate(). Light is reflected only where wi is on the side of ng, and transmitted only where it is not,
 // whatever the shading normal says: normal maps never leak light.
+//
+// Values are of radiance, as camera paths carry it: light that is refracted from a medium of index n_i into
+// wo's of index n_o is scaled by (n_o / n_i)^2, on top of the power that is transmitted. A path that enters
+// and leaves has the scales 1 / eta^2 and eta^2. The equations and their sources are in BSDF.md.
 
+#include <cstdint>
+
+#include "renderer/bsdf_ggx.h"
+#include "renderer/bsdf_glass_tables.h"
+#include "renderer/bsdf_sheen.h"
+#include "renderer/bsdf_tables.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {
@@ -43,13 +53,16 @@ struct BsdfSample {
   float pdf = 0.0f;    ///< per solid angle; for a delta lobe the probability of the lobe
   bool delta = false;
   bool transmitted = false;
+  /// (n_o / n_i)^2 where the sample refracts, else 1. It is in the weight; Russian roulette should take it
+  /// out, as it comes back when the path leaves the medium.
+  float radiance_scale = 1.0f;
   float spread = 1.0f;  ///< angular width of the lobe that was chosen: 0 mirror, 1 diffuse; widens ray cones
 };
 
 class Bsdf {
  public:
   /// Below this perceptual roughness a specular lobe is a delta.
-  static constexpr float kDeltaRoughness = 0.01f;
+  static constexpr float kDeltaRoughness = renderer::kDeltaRoughness;
 
   /// ng: geometric normal on the side of wo. ns: shading normal, dot(ns, ng) > 0 (it is bent towards ng where
   /// wo would be below its horizon). nc: shading normal of the clearcoat. front: wo is on the front of the
@@ -61,16 +74,87 @@ class Bsdf {
   /// u_lobe chooses the lobe, u the direction; all in [0, 1).
   BsdfSample sample(float u_lobe, const Vec2& u) const;
 
-  /// Directional albedo for wo: what a white furnace would show, within the accuracy of the tables.
-  /// Reflection and transmission together; in [0, 1].
-  Color albedo() const;
+  /// Directional albedo for wo: the power a white furnace would send back, within the accuracy of the tables.
+  /// Reflection and transmission together, without the radiance scale of refraction; in [0, 1].
+  const Color& albedo() const { return albedo_; }
   /// Whether light can come from behind the surface.
-  bool transmits() const;
+  bool transmits() const { return glass_ != Glass::none; }
   /// Fraction of light that goes straight through, from -wo to wo, without being bent or blurred: the delta
   /// transmission of a smooth thin-walled surface. Zero for all others. Agrees with sample() in the mean.
   Color straight_transmittance() const;
   /// All lobes are deltas: next-event estimation is of no use.
-  bool is_delta() const;
+  bool is_delta() const { return is_delta_; }
+
+ private:
+  enum class Glass : std::uint8_t {
+    none,
+    thin,        ///< a sheet: reflection mirrored to the other side
+    refracting,  ///< the boundary of a medium
+    clear,       ///< the boundary of a medium like the outside: nothing but a straight passage
+  };
+  /// What a microfacet reflects and transmits, its base colours and weights applied.
+  struct Facet {
+    Color reflected, transmitted;
+    float cos_t = 0.0f;                ///< of the refracted ray
+    float probability_reflect = 1.0f;  ///< of choosing the reflection
+  };
+
+  void set_up_base(const SurfaceMaterial& material, bool front);
+  void set_up_refraction(float roughness, float ior_f0);
+  void set_up_layers(const SurfaceMaterial& material);
+
+  Facet facet(float cos_h) const;
+  void add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const;
+  void add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const;
+  void add_layers(const Vec3& wi, BsdfValue& result) const;
+
+  BsdfSample sample_microfacet(float u_lobe, const Vec2& u) const;
+  BsdfSample sample_delta(bool transmitted, const Facet& facet) const;
+  /// Completes a sample of a lobe around `normal` with the value and density of all lobes.
+  BsdfSample finish(const Vec3& wi, const Vec3& normal, float spread) const;
+
+  Vec3 wo_, ng_, ns_;
+
+  // Microfacets of metal, opaque dielectric and thin glass: Schlick's f0 and f90, weighted and added up.
+  GgxLobe ggx_;
+  GgxTables::Row row_;
+  Color f0_;
+  float f90_ = 0.0f;
+
+  // Reflection that is cosine-distributed, but for factors of wi's cosine: the diffuse base under the
+  // dielectric (times 1 - its albedo) and what microfacets scatter more than once (times their loss).
+  Color diffuse_, multiple_;
+  float coupling_[3];  ///< 1 - the dielectric's albedo is [0] + [1] loss + [2] b
+
+  Glass glass_ = Glass::none;
+  bool is_delta_ = false;
+  bool has_layers_ = false;
+
+  // Set only with glass.
+  Color glass_f0_, glass_tint_;
+  float glass_f90_, glass_weight_, eta_, fresnel_base_;
+  // Set only with rough glass: scattered more than once, to either side.
+  float glass_multiple_reflect_;
+  Color glass_multiple_transmit_;
+  bool has_glass_multiple_ = false;
+  GlassTables::Rows glass_here_, glass_there_;
+
+  // Set only with layers.
+  float base_scale_ = 1.0f;  ///< what clearcoat and sheen let through to everything above
+  Vec3 nc_;
+  GgxLobe coat_;
+  float coat_weight_;
+  Color sheen_color_;
+  SheenLobe sheen_;
+
+  Color albedo_;
+  // Of choosing a lobe; they add up to one, or are all zero for a black surface.
+  float p_microfacet_ = 0.0f;
+  float p_cosine_ = 0.0f;
+  float p_cosine_transmit_ = 0.0f;
+  float p_clear_ = 0.0f;
+  float p_coat_ = 0.0f;
+  float p_sheen_ = 0.0f;
 };
 
 }  // namespace gatelight::renderer

@@ -1,0 +1,235 @@
+#include "renderer/bsdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bsdf_fresnel.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Half vectors and Smith's terms need a wo that is not in the plane itself.
+constexpr float kMinCosine = 1e-5f;
+/// Media whose indices differ by less do not refract: the half vector of a refraction would be all
+/// cancellation.
+constexpr float kMinIorStep = 1e-3f;
+/// Clearcoat has ior 1.5.
+constexpr float kCoatF0 = 0.04f;
+
+/// Turns n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
+/// and the lifted mirror direction, so that wo is above its horizon too.
+Vec3 bend_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
+  const float on = wo.dot(n);
+  const float og = std::max(wo.dot(ng), 0.0f);
+  const float mirrored = 2.0f * on * n.dot(ng) - og;
+  const float lifted = std::min(0.9f * og, 0.01f);
+  if (mirrored >= lifted && on > 0.0f) return n;
+  const float tangent2 = 1.0f - mirrored * mirrored;
+  if (!(tangent2 > 1e-6f)) return ng;
+  const float stretch = std::sqrt((1.0f - lifted * lifted) / tangent2);
+  const Vec3 tangent = 2.0f * on * n - wo - mirrored * ng;
+  const Vec3 half = wo + stretch * tangent + lifted * ng;
+  const float length2 = half.squaredNorm();
+  return length2 > 1e-8f ? Vec3(half / std::sqrt(length2)) : ng;
+}
+
+/// Reflectance of everything that meets more than one microfacet, for the mean reflectance of one and the
+/// mean loss of single scattering: at least two, then a geometric series (Hill 2018).
+template <class T>
+T multiple_reflectance(const T& mean_fresnel, float mean_loss) {
+  return mean_fresnel * mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
+}
+
+float schlick_mean(float f0, float f90) {
+  return f0 + (f90 - f0) * kSchlickMean;
+}
+
+Color schlick_mean(const Color& f0, float f90) {
+  return f0 + (f90 - f0) * kSchlickMean;
+}
+
+}  // namespace
+
+Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, const Vec3& nc, const Vec3& wo,
+           bool front)
+    : wo_(wo), ng_(ng), ns_(bend_normal(ns, ng, wo)) {
+  set_up_base(material, front);
+  const bool inside = glass_ == Glass::refracting && !front;
+  if (!inside && (material.clearcoat > 0.0f || (material.sheen_color > 0.0f).any())) {
+    nc_ = bend_normal(nc, ng, wo);
+    set_up_layers(material);
+  }
+  const float total = p_microfacet_ + p_cosine_ + p_cosine_transmit_ + p_clear_ + p_coat_ + p_sheen_;
+  const float scale = total > 0.0f ? 1.0f / total : 0.0f;
+  p_microfacet_ *= scale;
+  p_cosine_ *= scale;
+  p_cosine_transmit_ *= scale;
+  p_clear_ *= scale;
+  p_coat_ *= scale;
+  p_sheen_ *= scale;
+  is_delta_ = p_cosine_ == 0.0f && p_cosine_transmit_ == 0.0f && p_sheen_ == 0.0f &&
+              (ggx_.delta || p_microfacet_ == 0.0f) && (p_coat_ == 0.0f || coat_.delta);
+}
+
+void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
+  const Color base = material.base_color.max(0.0f).min(1.0f);
+  const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
+  const float transmission = std::clamp(material.transmission, 0.0f, 1.0f);
+  const float roughness = std::clamp(material.roughness, 0.0f, 1.0f);
+  const float specular = std::clamp(material.specular, 0.0f, 1.0f);
+  const float ior = std::max(material.ior, 0.0f);
+
+  const float glass = (1.0f - metallic) * transmission;
+  const float opaque = (1.0f - metallic) * (1.0f - transmission);
+  if (glass > 0.0f) {
+    if (material.thin_walled || ior == 0.0f) {
+      glass_ = Glass::thin;
+    } else {
+      glass_ = std::abs(ior - 1.0f) < kMinIorStep ? Glass::clear : Glass::refracting;
+    }
+  }
+
+  ggx_ = GgxLobe(roughness * roughness, std::max(wo_.dot(ns_), kMinCosine));
+  if (!ggx_.delta) row_ = GgxTables::get().row(roughness);
+  const GgxAlbedo out = row_.at(ggx_.cos_o);
+  const GgxAlbedo& mean = row_.mean();
+
+  // KHR_materials_specular: the colour scales the normal reflectance, the factor all of it.
+  const float ior_f0 = dielectric_f0(ior);
+  const Color f0 = (ior_f0 * material.specular_color).max(0.0f).min(1.0f) * specular;
+  const float schlick = glass_ == Glass::thin ? opaque + glass : opaque;
+  f0_ = metallic * base + schlick * f0;
+  f90_ = metallic + schlick * specular;
+  albedo_ = f0_ * out.a() + f90_ * out.b;
+
+  // The diffuse base gets what the specular layer lets in, and out again: the largest channel counts, so that
+  // a tinted layer does not give the base its complementary colour.
+  const float largest_f0 = f0.maxCoeff();
+  const float multiple = multiple_reflectance(schlick_mean(largest_f0, specular), mean.loss);
+  coupling_[0] = 1.0f - largest_f0;
+  coupling_[1] = largest_f0 - multiple;
+  coupling_[2] = largest_f0 - specular;
+  const auto passed = [&](const GgxAlbedo& albedo) {
+    return std::max(0.0f, coupling_[0] + coupling_[1] * albedo.loss + coupling_[2] * albedo.b);
+  };
+  const float passed_out = passed(out);
+  const float passed_mean = std::max(passed(mean), 1e-6f);
+  const Color diffuse_albedo = base * (opaque * passed_out);
+  diffuse_ = diffuse_albedo * (kInvPi / passed_mean);
+  Color cosine_albedo = diffuse_albedo;
+
+  multiple_.setZero();
+  const bool loses = mean.loss > 0.0f && out.loss > 0.0f;
+  Color multiple_dielectric(multiple, multiple, multiple);
+  if (loses) {
+    if ((f0 != largest_f0).any()) {
+      multiple_dielectric = multiple_reflectance(schlick_mean(f0, specular), mean.loss);
+    }
+    Color reflected = schlick * multiple_dielectric;
+    if (metallic > 0.0f) reflected += metallic * multiple_reflectance(schlick_mean(base, 1.0f), mean.loss);
+    multiple_ = reflected * (out.loss * kInvPi / mean.loss);
+    cosine_albedo += reflected * out.loss;
+  }
+
+  p_microfacet_ = scene::luminance(albedo_);
+  p_cosine_ = scene::luminance(cosine_albedo);
+  albedo_ += cosine_albedo;
+  if (glass_ == Glass::none) return;
+
+  glass_weight_ = glass;
+  glass_tint_ = glass * base;
+  glass_f0_ = f0;
+  glass_f90_ = specular;
+  eta_ = front ? ior : 1.0f / ior;
+  if (glass_ == Glass::clear) {
+    albedo_ += glass_tint_;
+    p_clear_ = scene::luminance(glass_tint_);
+  } else if (glass_ == Glass::thin) {
+    eta_ = 1.0f;
+    const Color transmitted = glass_tint_ * (1.0f - out.loss - f0 * out.a() - specular * out.b);
+    albedo_ += transmitted;
+    p_microfacet_ += scene::luminance(transmitted);
+    glass_multiple_transmit_.setZero();
+    if (loses) {
+      const Color multiple_transmitted = glass_tint_ * (1.0f - multiple_dielectric);
+      glass_multiple_transmit_ = multiple_transmitted * (out.loss * kInvPi / mean.loss);
+      albedo_ += multiple_transmitted * out.loss;
+      p_cosine_transmit_ = scene::luminance(multiple_transmitted) * out.loss;
+    }
+  } else {
+    set_up_refraction(roughness, ior_f0);
+  }
+}
+
+void Bsdf::set_up_refraction(float roughness, float ior_f0) {
+  fresnel_base_ = ior_f0;
+  if (ggx_.delta) {
+    const Facet straight = facet(ggx_.cos_o);
+    // The facet holds the Schlick part too, which is counted already.
+    const Color schlick = f0_ + (f90_ - f0_) * schlick_weight(ggx_.cos_o);
+    const Color added = straight.reflected - schlick + straight.transmitted;
+    albedo_ += added;
+    p_microfacet_ += scene::luminance(added);
+    return;
+  }
+  const GlassTables& tables = GlassTables::get();
+  glass_here_ = tables.rows(roughness, eta_);
+  glass_there_ = tables.rows(roughness, 1.0f / eta_);
+  const float k = glass_f90_;
+  const GlassAlbedo out = glass_here_.at(ggx_.cos_o);
+  const Color single = glass_weight_ * out.reflect(k) + glass_tint_ * out.transmit(k);
+  albedo_ += single;
+  p_microfacet_ += scene::luminance(single);
+
+  const float mean_here = glass_here_.mean_loss(k);
+  const float mean_there = glass_there_.mean_loss(k);
+  const float loss = out.loss(k);
+  has_glass_multiple_ = loss > 0.0f && mean_here > 1e-6f && mean_there > 1e-6f;
+  if (!has_glass_multiple_) return;
+  // The part that leaves on the other side. Light scattered towards both sides is reciprocal if part * loss
+  // here is eta^2 part * loss there; the mean Fresnel transmittances have that ratio already.
+  const float smooth =
+      eta_ > 1.0f ? 1.0f - glass_here_.mean_fresnel(k) : eta_ * eta_ * (1.0f - glass_there_.mean_fresnel(k));
+  const float part = std::clamp(smooth * mean_there / std::max(mean_here, mean_there), 0.0f, 1.0f);
+  const float reflected = glass_weight_ * (1.0f - part) * loss;
+  const Color transmitted = glass_tint_ * (part * loss);
+  glass_multiple_reflect_ = reflected * kInvPi / mean_here;
+  glass_multiple_transmit_ = transmitted * (kInvPi / (mean_there * eta_ * eta_));
+  albedo_ += reflected + transmitted;
+  p_cosine_ += reflected;
+  p_cosine_transmit_ = scene::luminance(transmitted);
+}
+
+void Bsdf::set_up_layers(const SurfaceMaterial& material) {
+  has_layers_ = true;
+  const Color sheen = material.sheen_color.max(0.0f).min(1.0f);
+  sheen_color_ = sheen;
+  if ((sheen > 0.0f).any()) {
+    const float roughness = std::clamp(material.sheen_roughness, kMinSheenRoughness, 1.0f);
+    sheen_ = SheenLobe(roughness, SheenTables::get().row(roughness));
+    const float reflected = sheen_.row.albedo(ggx_.cos_o);
+    p_sheen_ = scene::luminance(sheen) * reflected;
+    base_scale_ = 1.0f - sheen.maxCoeff() * reflected;
+    albedo_ = albedo_ * base_scale_ + sheen * reflected;
+  }
+  const float base_scale = base_scale_;
+  float coat_scale = 1.0f;
+  coat_weight_ = std::clamp(material.clearcoat, 0.0f, 1.0f);
+  if (coat_weight_ > 0.0f) {
+    const float roughness = std::clamp(material.clearcoat_roughness, 0.0f, 1.0f);
+    coat_ = GgxLobe(roughness * roughness, std::max(wo_.dot(nc_), kMinCosine));
+    const GgxTables::Row row = coat_.delta ? GgxTables::Row() : GgxTables::get().row(roughness);
+    p_coat_ = coat_weight_ * row.at(coat_.cos_o).reflect(kCoatF0, 1.0f);
+    coat_scale = 1.0f - p_coat_;
+    albedo_ = albedo_ * coat_scale + p_coat_;
+    base_scale_ *= coat_scale;
+    sheen_color_ *= coat_scale;
+    p_sheen_ *= coat_scale;
+  }
+  p_microfacet_ *= base_scale * coat_scale;
+  p_cosine_ *= base_scale * coat_scale;
+  p_cosine_transmit_ *= base_scale * coat_scale;
+  p_clear_ *= base_scale * coat_scale;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,40 @@
+#pragma once
+// Reflectance of a plane interface.
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+/// (1 - c)^5, the weight of Schlick's approximation.
+inline float schlick_weight(float cos_theta) {
+  const float x = std::clamp(1.0f - cos_theta, 0.0f, 1.0f);
+  const float x2 = x * x;
+  return x2 * x2 * x;
+}
+
+/// Cosine-weighted mean of Schlick's weight over the hemisphere.
+inline constexpr float kSchlickMean = 1.0f / 21.0f;
+
+/// Unpolarised Fresnel reflectance. eta: index behind the interface over the index on the side of the ray.
+/// Sets the cosine of the refracted ray; it is zero, and the reflectance one, at total internal reflection.
+inline float fresnel_dielectric(float cos_i, float eta, float& cos_t) {
+  const float cos_t2 = 1.0f - (1.0f - cos_i * cos_i) / (eta * eta);
+  if (!(cos_t2 > 0.0f)) {
+    cos_t = 0.0f;
+    return 1.0f;
+  }
+  cos_t = std::sqrt(cos_t2);
+  const float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+inline float dielectric_f0(float ior) {
+  const float root = (ior - 1.0f) / (ior + 1.0f);
+  return root * root;
+}
+
+}  // namespace gatelight::renderer

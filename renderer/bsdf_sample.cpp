@@ -1,0 +1,130 @@
+// Choice of a lobe and of a direction in it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bsdf.h"
+#include "renderer/bsdf_fresnel.h"
+
+namespace gatelight::renderer {
+namespace {
+
+Vec3 mirror(const Vec3& wo, const Vec3& n) {
+  return 2.0f * wo.dot(n) * n - wo;
+}
+
+/// A visible normal of a lobe, in the world.
+Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const Vec2& u) {
+  const Basis basis(normal);
+  const Vec3 local(wo.dot(basis.tangent), wo.dot(basis.bitangent), lobe.cos_o);
+  return basis.to_world(sample_visible_normal(std::sqrt(lobe.alpha2), local, u));
+}
+
+}  // namespace
+
+BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
+  float rest = u_lobe;
+  if (rest < p_microfacet_) return sample_microfacet(rest / p_microfacet_, u);
+  rest -= p_microfacet_;
+  // A lobe that is the last with a chance also takes what rounding leaves over.
+  const float p_later = p_cosine_transmit_ + p_clear_ + p_coat_ + p_sheen_;
+  if (p_cosine_ > 0.0f && (rest < p_cosine_ || p_later == 0.0f)) {
+    return finish(Basis(ns_).to_world(sample_cosine_hemisphere(u)), ns_, 1.0f);
+  }
+  rest -= p_cosine_;
+  if (p_cosine_transmit_ > 0.0f && (rest < p_cosine_transmit_ || p_clear_ + p_coat_ + p_sheen_ == 0.0f)) {
+    return finish(-Basis(ns_).to_world(sample_cosine_hemisphere(u)), -ns_, 1.0f);
+  }
+  rest -= p_cosine_transmit_;
+  if (p_clear_ > 0.0f && (rest < p_clear_ || p_coat_ + p_sheen_ == 0.0f)) {
+    BsdfSample sample;
+    sample.wi = -wo_;
+    sample.pdf = p_clear_;
+    sample.weight = glass_tint_ * (base_scale_ / p_clear_);
+    sample.delta = true;
+    sample.transmitted = true;
+    sample.spread = 0.0f;
+    return sample;
+  }
+  rest -= p_clear_;
+  if (p_sheen_ > 0.0f && (rest < p_sheen_ || p_coat_ == 0.0f)) {
+    return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
+  }
+  if (p_coat_ > 0.0f) {
+    if (!coat_.delta) {
+      return finish(mirror(wo_, sample_half(coat_, nc_, wo_, u)), nc_, std::sqrt(coat_.alpha2));
+    }
+    BsdfSample sample;
+    sample.wi = mirror(wo_, nc_);
+    if (!(sample.wi.dot(ng_) > 0.0f)) return BsdfSample{};
+    const float fresnel = 0.04f + 0.96f * schlick_weight(coat_.cos_o);
+    sample.weight.setConstant(coat_weight_ * fresnel / p_coat_);
+    sample.pdf = p_coat_;
+    sample.delta = true;
+    sample.spread = 0.0f;
+    return sample;
+  }
+  if (p_microfacet_ > 0.0f) return sample_microfacet(1.0f - 0x1p-24f, u);
+  return {};
+}
+
+BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
+  if (ggx_.delta) {
+    const Facet half = facet(ggx_.cos_o);
+    return sample_delta(u_lobe >= half.probability_reflect, half);
+  }
+  const Vec3 h = sample_half(ggx_, ns_, wo_, u);
+  const float spread = std::sqrt(ggx_.alpha2);
+  if (glass_ == Glass::none || glass_ == Glass::clear) return finish(mirror(wo_, h), ns_, spread);
+  const float oh = wo_.dot(h);
+  if (!(oh > 0.0f)) return {};
+  const Facet half = facet(oh);
+  if (u_lobe < half.probability_reflect) return finish(mirror(wo_, h), ns_, spread);
+  if (glass_ == Glass::thin) {
+    const Vec3 reflected = mirror(wo_, h);
+    return finish(reflected - 2.0f * reflected.dot(ns_) * ns_, -ns_, spread);
+  }
+  return finish((oh / eta_ - half.cos_t) * h - wo_ / eta_, -ns_, spread);
+}
+
+BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
+  BsdfSample sample;
+  sample.delta = true;
+  sample.spread = 0.0f;
+  sample.transmitted = transmitted;
+  if (!transmitted) {
+    sample.wi = mirror(wo_, ns_);
+    if (!(sample.wi.dot(ng_) > 0.0f)) return {};
+    sample.pdf = p_microfacet_ * half.probability_reflect;
+    sample.weight = half.reflected * (base_scale_ / sample.pdf);
+    return sample;
+  }
+  sample.pdf = p_microfacet_ * (1.0f - half.probability_reflect);
+  if (glass_ == Glass::thin) {
+    sample.wi = -wo_;
+  } else {
+    sample.wi = (ggx_.cos_o / eta_ - half.cos_t) * ns_ - wo_ / eta_;
+    sample.radiance_scale = 1.0f / (eta_ * eta_);
+  }
+  if (!(sample.wi.dot(ng_) < 0.0f) || !(sample.pdf > 0.0f)) return {};
+  sample.weight = half.transmitted * (base_scale_ * sample.radiance_scale / sample.pdf);
+  return sample;
+}
+
+BsdfSample Bsdf::finish(const Vec3& wi, const Vec3& normal, float spread) const {
+  BsdfSample sample;
+  sample.wi = wi;
+  // A direction on the wrong side is lost to this lobe; it must not be taken for another lobe's.
+  sample.transmitted = wi.dot(ng_) < 0.0f;
+  const bool behind = normal.dot(ng_) < 0.0f;
+  if (!(wi.dot(normal) > 0.0f) || sample.transmitted != behind) return sample;
+  const BsdfValue value = evaluate(wi);
+  if (!(value.pdf > 0.0f)) return sample;
+  sample.weight = value.value / value.pdf;
+  sample.pdf = value.pdf;
+  if (sample.transmitted && glass_ == Glass::refracting) sample.radiance_scale = 1.0f / (eta_ * eta_);
+  sample.spread = spread;
+  return sample;
+}
+
+}  // namespace gatelight::renderer

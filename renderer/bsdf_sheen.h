@@ -1,0 +1,76 @@
+#pragma once
+// Cloth-like retroreflection at grazing angles: the distribution of Estevez and Kulla 2017, "Production
+// Friendly Microfacet Sheen BRDF", with the visibility of Neubelt and Pettineo, as in KHR_materials_sheen.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+/// Narrower distributions would put all sheen into the last degrees above the horizon.
+inline constexpr float kMinSheenRoughness = 0.15f;
+
+/// Over roughness and the root of the cosine; built when the first surface with sheen is met. The model
+/// itself reflects up to 2.6 times what arrives (small roughness, grazing angles), so it is divided by the
+/// larger of its directional albedos for wo and wi wherever that exceeds one: reciprocal, and never more than
+/// all.
+class SheenTables {
+ public:
+  static constexpr int kRoughness = 24;
+  static constexpr int kCosine = 32;
+
+  struct Row {
+    /// The divisor for one of the two directions: the larger counts.
+    float divisor(float cosine) const { return std::max(1.0f, lookup(0, cosine)); }
+    /// Directional albedo of white sheen after the division.
+    float albedo(float cosine) const { return lookup(1, cosine); }
+
+   private:
+    friend class SheenTables;
+    float lookup(int part, float cosine) const {
+      const float x = std::sqrt(cosine) * (kCosine - 1);
+      const int i = std::min(static_cast<int>(x), kCosine - 2);
+      const float s = x - static_cast<float>(i);
+      const float a = low[i][part] + s * (low[i + 1][part] - low[i][part]);
+      const float b = high[i][part] + s * (high[i + 1][part] - high[i][part]);
+      return a + mix * (b - a);
+    }
+    const std::array<float, 2>* low = nullptr;
+    const std::array<float, 2>* high = nullptr;
+    float mix = 0.0f;
+  };
+
+  static const SheenTables& get();
+  Row row(float roughness) const;
+
+ private:
+  SheenTables();
+  std::array<std::array<std::array<float, 2>, kCosine>, kRoughness> values_;
+};
+
+/// White sheen.
+struct SheenLobe {
+  float exponent = 1.0f;  ///< 1 / alpha
+  float scale = 1.0f;     ///< (2 + exponent) / (8 pi): the distribution's norm and the visibility's quarter
+  SheenTables::Row row;
+
+  SheenLobe() = default;
+  /// roughness at least kMinSheenRoughness
+  SheenLobe(float roughness, const SheenTables::Row& table_row) : row(table_row) {
+    exponent = 1.0f / (roughness * roughness);
+    scale = (2.0f + exponent) * (0.125f * scene::kInvPi);
+  }
+  /// Without the division. sin2_h is the squared sine of the half vector.
+  float undivided(float sin2_h, float cos_o, float cos_i) const {
+    const float distribution = std::exp2(0.5f * exponent * std::log2(std::clamp(sin2_h, 1e-30f, 1.0f)));
+    return scale * distribution / (cos_o + cos_i - cos_o * cos_i);
+  }
+  float value(float sin2_h, float cos_o, float cos_i) const {
+    return undivided(sin2_h, cos_o, cos_i) / std::max(row.divisor(cos_o), row.divisor(cos_i));
+  }
+};
+
+}  // namespace gatelight::renderer
