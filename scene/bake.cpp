@@ -1,0 +1,111 @@
+#include "scene/bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/bounds.h"
+#include "scene/parallel.h"
+
+namespace gatelight::scene {
+namespace {
+
+/// A copy with the spare capacity that Embree asks of positions.
+Mesh copy_mesh(const Mesh& source) {
+  Mesh copy;
+  copy.name = source.name;
+  copy.material = source.material;
+  copy.positions.reserve(source.positions.size() + 1);
+  copy.positions.assign(source.positions.begin(), source.positions.end());
+  copy.normals = source.normals;
+  copy.tangents = source.tangents;
+  copy.uv0 = source.uv0;
+  copy.uv1 = source.uv1;
+  copy.colors = source.colors;
+  copy.triangles = source.triangles;
+  return copy;
+}
+
+/// No ray can be carried into the mesh's own space: scaled flat, or nearly so.
+bool is_singular(const Affine& transform) {
+  const Eigen::Matrix3f m = transform.linear();
+  const float product = m.col(0).norm() * m.col(1).norm() * m.col(2).norm();
+  return !(std::abs(m.determinant()) > 1e-6f * product) || !std::isnormal(product);
+}
+
+void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
+  mesh.positions.reserve(mesh.positions.size() + 1);
+  for (Vec3& p : mesh.positions) p = transform * p;
+  const Eigen::Matrix3f linear = transform.linear();
+  // Scaled first: the entries of a cofactor matrix are squares, which tiny or huge scales would lose.
+  const float scale = linear.cwiseAbs().maxCoeff();
+  Affine unit = Affine::Identity();
+  unit.linear() = linear / scale;
+  const Eigen::Matrix3f to_normal = normal_matrix(unit);
+  for (Vec3& n : mesh.normals) {
+    const Vec3 world = (to_normal * n).stableNormalized();
+    if (world.allFinite() && world.squaredNorm() > 0.5f) n = world;
+  }
+  for (Vec4& t : mesh.tangents) {
+    const Vec3 world = (unit.linear() * t.head<3>()).stableNormalized();
+    if (world.allFinite() && world.squaredNorm() > 0.5f) t.head<3>() = world;
+    if (mirrors) t.w() = -t.w();
+  }
+  if (mirrors) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+}
+
+/// Gives an instance a mesh of its own.
+void unshare(Scene& scene, Instance& instance, std::vector<std::size_t>& uses) {
+  --uses[static_cast<std::size_t>(instance.mesh)];
+  Mesh copy = copy_mesh(scene.mesh_of(instance));
+  instance.mesh = static_cast<int>(scene.meshes.size());
+  scene.meshes.push_back(std::move(copy));
+  uses.push_back(1);
+}
+
+}  // namespace
+
+void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
+  std::vector<std::size_t> uses(scene.meshes.size(), 0);
+  for (const Instance& instance : scene.instances) ++uses[static_cast<std::size_t>(instance.mesh)];
+
+  // The cheapest shared meshes first, as many as the budget pays for.
+  std::vector<std::size_t> order(scene.meshes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto cost = [&](std::size_t m) {
+    return uses[m] < 2 ? std::size_t{0} : (uses[m] - 1) * scene.meshes[m].triangles.size();
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+  std::vector<char> copied(scene.meshes.size(), 0);
+  std::size_t spent = 0;
+  for (const std::size_t m : order) {
+    if (spent + cost(m) > copy_budget_triangles) break;
+    spent += cost(m);
+    copied[m] = 1;
+  }
+  for (Instance& instance : scene.instances) {
+    const std::size_t m = static_cast<std::size_t>(instance.mesh);
+    if (!instance.baked && uses[m] > 1 && (copied[m] || is_singular(instance.transform))) {
+      unshare(scene, instance, uses);
+    }
+  }
+  drop_unused_meshes(scene);
+
+  std::vector<std::size_t> last_uses(scene.meshes.size(), 0);
+  for (const Instance& instance : scene.instances) ++last_uses[static_cast<std::size_t>(instance.mesh)];
+  parallel_for(scene.instances.size(), [&](std::size_t i) {
+    Instance& instance = scene.instances[i];
+    const std::size_t m = static_cast<std::size_t>(instance.mesh);
+    if (instance.baked || last_uses[m] != 1) return;
+    transform_mesh(scene.meshes[m], instance.transform, instance.mirrors);
+    instance.transform = Affine::Identity();
+    instance.mirrors = false;
+    instance.baked = true;
+  });
+  scene.bounds = compute_bounds(scene);
+}
+
+}  // namespace gatelight::scene

@@ -1,0 +1,28 @@
+#pragma once
+// The node hierarchy, flattened: what stands where in the world.
+
+#include <string>
+#include <vector>
+
+#include "scene/gltf_document.h"
+
+namespace gatelight::scene::gltf {
+
+/// A glTF mesh (all its primitives) in the world.
+struct Placement {
+  int mesh = -1;  ///< of the file
+  std::string name;
+  Affine transform = Affine::Identity();
+};
+
+struct Graph {
+  std::vector<Placement> placements;
+  std::vector<PunctualLight> lights;
+  std::vector<Camera> cameras;
+};
+
+/// Walks scene `scene` (-1: the file's default, or its first). Checks the whole hierarchy: cycles, several
+/// parents, numbers that are not finite. Throws SceneError.
+Graph flatten_nodes(const Document& document, int scene, Warnings& warnings);
+
+}  // namespace gatelight::scene::gltf

@@ -1,0 +1,50 @@
+#pragma once
+// The loader's only use of threads: independent items of uneven cost (images, meshes).
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace gatelight::scene {
+
+/// Calls body(i) for every i below count, on all cores. Of several exceptions the one with the lowest index
+/// is thrown, so that a message does not depend on the schedule: items are handed out in order, so every item
+/// before a failing one has been started.
+template <typename Body>
+void parallel_for(std::size_t count, const Body& body) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> failed{false};
+  std::mutex mutex;
+  std::exception_ptr error;
+  std::size_t error_index = count;
+
+  const auto work = [&] {
+    while (!failed.load(std::memory_order_relaxed)) {
+      const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+      if (i >= count) return;
+      try {
+        body(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failed = true;
+        if (i < error_index) {
+          error_index = i;
+          error = std::current_exception();
+        }
+      }
+    }
+  };
+
+  const std::size_t wanted = std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), count);
+  std::vector<std::jthread> helpers;
+  for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(work);
+  work();
+  helpers.clear();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace gatelight::scene

@@ -1,0 +1,59 @@
+#include "scene/requirements.h"
+
+#include <algorithm>
+
+namespace gatelight::scene {
+namespace {
+
+/// Any lobe but Lambert's. An index of 1 reflects nothing at a dielectric's surface.
+bool is_view_dependent(const Material& m) {
+  if (m.unlit) return false;
+  const bool reflects = m.specular > 0.0f && m.ior != 1.0f;
+  return m.metallic > 0.0f || reflects || m.transmits() || m.clearcoat > 0.0f || (m.sheen_color > 0.0f).any();
+}
+
+void add_material(const Material& m, SceneRequirements& r) {
+  r.two_sided |= m.double_sided && !m.transmits();
+  r.view_dependent |= is_view_dependent(m);
+  r.alpha_mask |= m.alpha_mode == AlphaMode::mask;
+  r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
+  r.transmission |= m.transmits();
+  r.volumes |= m.has_volume();
+  r.clearcoat |= m.clearcoat > 0.0f;
+  r.sheen |= (m.sheen_color > 0.0f).any();
+  r.unlit |= m.unlit;
+  r.normal_maps |= m.normal_texture || (m.clearcoat > 0.0f && m.clearcoat_normal_texture);
+  r.base_color_textures |= static_cast<bool>(m.base_color_texture);
+  r.metallic_roughness_textures |= static_cast<bool>(m.metallic_roughness_texture);
+  r.emission_textures |= m.emits() && m.emission_texture;
+  r.other_textures |= m.specular_texture || m.specular_color_texture || m.transmission_texture ||
+                      m.clearcoat_texture || m.clearcoat_roughness_texture || m.clearcoat_normal_texture ||
+                      m.sheen_color_texture || m.sheen_roughness_texture;
+  if (m.emits()) ++r.emissive_materials;
+}
+
+}  // namespace
+
+SceneRequirements compute_requirements(const Scene& scene) {
+  SceneRequirements r;
+  std::vector<char> used(scene.materials.size(), 0);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.mesh_of(instance);
+    if (mesh.triangles.empty()) continue;
+    r.triangles = true;
+    r.instances |= !instance.baked;
+    r.vertex_colors |= !mesh.colors.empty();
+    used[static_cast<std::size_t>(mesh.material)] = 1;
+    if (scene.material_of(instance).emits()) r.emissive_triangles += mesh.triangles.size();
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) add_material(scene.materials[i], r);
+  }
+  r.delta_lights = !scene.lights.empty();
+  r.directional_lights =
+      std::any_of(scene.lights.begin(), scene.lights.end(),
+                  [](const PunctualLight& light) { return light.type == LightType::directional; });
+  return r;
+}
+
+}  // namespace gatelight::scene

@@ -1,0 +1,151 @@
+#include "scene/tangents.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::scene {
+namespace {
+
+struct Frame {
+  Vec3 tangent = Vec3::Zero();  ///< direction of growing u; zero where u and v do not span the triangle
+  bool mirrored = false;        ///< u and v turn clockwise on the front
+};
+
+/// Appends copies of vertices, with all their attributes.
+template <typename T>
+void append(std::vector<T>& v, const std::vector<std::uint32_t>& copies, std::size_t extra_capacity = 0) {
+  if (v.empty()) return;
+  std::vector<T> grown;
+  grown.reserve(v.size() + copies.size() + extra_capacity);
+  grown.insert(grown.end(), v.begin(), v.end());
+  for (const std::uint32_t i : copies) grown.push_back(v[i]);
+  v = std::move(grown);
+}
+
+void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& copies) {
+  append(mesh.positions, copies, 1);
+  append(mesh.normals, copies);
+  append(mesh.uv0, copies);
+  append(mesh.uv1, copies);
+  append(mesh.colors, copies);
+}
+
+template <typename T>
+void gather(std::vector<T>& v, const Mesh& mesh, std::size_t extra_capacity = 0) {
+  if (v.empty()) return;
+  std::vector<T> out;
+  out.reserve(mesh.triangles.size() * 3 + extra_capacity);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t i : t) out.push_back(v[i]);
+  }
+  v = std::move(out);
+}
+
+void unshare_vertices(Mesh& mesh) {
+  gather(mesh.positions, mesh, 1);
+  gather(mesh.uv0, mesh);
+  gather(mesh.uv1, mesh);
+  gather(mesh.colors, mesh);
+  std::uint32_t next = 0;
+  for (auto& t : mesh.triangles) {
+    for (std::uint32_t& i : t) i = next++;
+  }
+}
+
+Frame triangle_frame(const Mesh& mesh, const std::vector<Vec2>& uv, const TextureSlot& slot,
+                     const std::array<std::uint32_t, 3>& t) {
+  const Eigen::Matrix2f linear = slot.transform.leftCols<2>();
+  const Vec2 d1 = linear * (uv[t[1]] - uv[t[0]]);
+  const Vec2 d2 = linear * (uv[t[2]] - uv[t[0]]);
+  const Vec3 e1 = mesh.positions[t[1]] - mesh.positions[t[0]];
+  const Vec3 e2 = mesh.positions[t[2]] - mesh.positions[t[0]];
+  const float determinant = d1.x() * d2.y() - d1.y() * d2.x();
+  Frame frame;
+  // glTF's v points down in the picture and the map's green channel up: an unmirrored picture has a negative
+  // determinant on a counter-clockwise triangle.
+  frame.mirrored = determinant > 0.0f;
+  if (determinant != 0.0f) {
+    const Vec3 along = e1 * d2.y() - e2 * d1.y();
+    frame.tangent = (determinant < 0.0f ? Vec3(-along) : along).stableNormalized();
+    if (!frame.tangent.allFinite()) frame.tangent.setZero();
+  }
+  return frame;
+}
+
+float corner_angle(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, std::size_t corner) {
+  const Vec3& p = mesh.positions[t[corner]];
+  const Vec3 a = mesh.positions[t[(corner + 1) % 3]] - p;
+  const Vec3 b = mesh.positions[t[(corner + 2) % 3]] - p;
+  const float angle = std::atan2(a.cross(b).norm(), a.dot(b));
+  return std::isfinite(angle) ? angle : 0.0f;
+}
+
+/// After this no vertex has triangles of both orientations. `side` tells for each vertex which it has.
+std::vector<char> split_mirrored(Mesh& mesh, const std::vector<Frame>& frames) {
+  constexpr char kPlain = 1;
+  constexpr char kMirrored = 2;
+  std::vector<char> side(mesh.positions.size(), 0);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (frames[f].tangent.isZero()) continue;
+    for (const std::uint32_t i : mesh.triangles[f]) side[i] |= frames[f].mirrored ? kMirrored : kPlain;
+  }
+  std::vector<std::uint32_t> copies;
+  std::vector<std::uint32_t> copy_of(mesh.positions.size(), 0);
+  for (std::uint32_t i = 0; i < side.size(); ++i) {
+    if (side[i] != (kPlain | kMirrored)) continue;
+    copy_of[i] = static_cast<std::uint32_t>(mesh.positions.size() + copies.size());
+    copies.push_back(i);
+  }
+  if (copies.empty()) return side;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (!frames[f].mirrored || frames[f].tangent.isZero()) continue;
+    for (std::uint32_t& i : mesh.triangles[f]) {
+      if (copy_of[i] != 0) i = copy_of[i];
+    }
+  }
+  append_vertices(mesh, copies);
+  for (const std::uint32_t i : copies) side[i] = kPlain;
+  side.resize(mesh.positions.size(), kMirrored);
+  return side;
+}
+
+Vec3 any_perpendicular(const Vec3& n) {
+  const Vec3 axis = std::abs(n.x()) < 0.5f ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
+  return (axis - n * n.dot(axis)).normalized();
+}
+
+}  // namespace
+
+void generate_tangents(Mesh& mesh, const TextureSlot& slot) {
+  if (mesh.normals.empty()) unshare_vertices(mesh);
+  const std::vector<Vec2>& uv = slot.texcoord == 0 ? mesh.uv0 : mesh.uv1;
+  std::vector<Frame> frames(mesh.triangles.size());
+  if (!uv.empty()) {
+    for (std::size_t f = 0; f < frames.size(); ++f)
+      frames[f] = triangle_frame(mesh, uv, slot, mesh.triangles[f]);
+  }
+  const std::vector<char> side = split_mirrored(mesh, frames);
+
+  std::vector<Vec3> sums(mesh.positions.size(), Vec3::Zero());
+  std::vector<Vec3> flat(mesh.normals.empty() ? mesh.positions.size() : 0, Vec3::UnitZ());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      sums[t[corner]] += corner_angle(mesh, t, corner) * frames[f].tangent;
+    if (flat.empty()) continue;
+    const Vec3 n = (mesh.positions[t[1]] - mesh.positions[t[0]])
+                       .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
+                       .stableNormalized();
+    if (n.allFinite() && !n.isZero()) std::fill_n(flat.begin() + t[0], 3, n);
+  }
+
+  mesh.tangents.resize(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    const Vec3& n = flat.empty() ? mesh.normals[i] : flat[i];
+    Vec3 tangent = (sums[i] - n * n.dot(sums[i])).stableNormalized();
+    if (!tangent.allFinite() || tangent.squaredNorm() < 0.5f) tangent = any_perpendicular(n);
+    mesh.tangents[i] << tangent, side[i] == 2 ? -1.0f : 1.0f;
+  }
+}
+
+}  // namespace gatelight::scene
