@@ -31,7 +31,8 @@ def build_shell(glb, paint):
     z0, z1, y0, y1 = WINDOW
     glb.place("sill", rounded_box((0.30, 0.035, z1 - z0 + 0.12), 0.012, 3)
               .moved(LEFT - 0.04, y0 - 0.017, (z0 + z1) / 2).without("uvs"), paint["white wood"])
-    glb.place("sky", quad((LEFT - 0.75, y0 - 0.45, z1 + 0.75), (0, 0, z0 - z1 - 1.5), (0, y1 - y0 + 1.30, 0)), paint["sky"])
+    glb.place("sky", quad((LEFT - 0.75, y0 - 0.45, z1 + 0.75), (0, 0, z0 - z1 - 1.5), (0, y1 - y0 + 1.30, 0)),
+              paint["sky"])
     curtains(glb, paint)
     mouldings(glb, paint)
     rug = rounded_box((2.75, 0.012, 1.83), 0.005, 1)

@@ -195,7 +195,8 @@ def mountains(width=320, height=224):
     grain = fractal(101, width, height, 40, 28, 3, 0.7)
     ridges = []
     for layer in range(6):
-        base, rough = noise(110 + layer, width, 1, 3 + layer, 1)[0], fractal(120 + layer, width, 1, 9 + 4 * layer, 1, 4)[0]
+        base = noise(110 + layer, width, 1, 3 + layer, 1)[0]
+        rough = fractal(120 + layer, width, 1, 9 + 4 * layer, 1, 4)[0]
         ridges.append([height * (0.42 + 0.095 * layer - 0.20 * (b - 0.35) - 0.07 * (r - 0.5))
                        for b, r in zip(base, rough)])
     far, near = (0.80, 0.66, 0.55), (0.07, 0.15, 0.19)
@@ -205,7 +206,8 @@ def mountains(width=320, height=224):
         for x in range(width):
             sky = mix((0.93, 0.75, 0.52), (0.38, 0.50, 0.56), step(0.55, -0.05, y / height))
             sun = math.hypot(x - 0.66 * width, y - 0.30 * height) / height
-            colour = mix(mix((0.98, 0.88, 0.66), sky, step(0.0, 0.42, sun)), (0.96, 0.52, 0.27), step(0.092, 0.080, sun))
+            colour = mix((0.98, 0.88, 0.66), sky, step(0.0, 0.42, sun))
+            colour = mix(colour, (0.96, 0.52, 0.27), step(0.092, 0.080, sun))
             for layer, ridge in enumerate(ridges):
                 depth = y - ridge[x]
                 if depth > 0:
@@ -234,7 +236,8 @@ def leaf(width=128, height=160):
             hole = math.hypot((phase - 0.48) / 2.4, side - 0.20) < 0.055 and 0.08 < rib < 0.6
             vein = max(step(0.035, 0.012, side), 0.7 * step(0.10, 0.03, abs(phase - 0.98)) * (rib > -0.1))
             green = mix((0.10, 0.27, 0.10), (0.20, 0.42, 0.15), spots[y][x])
-            line.append((*mix(green, (0.52, 0.66, 0.36), 0.55 * vein), 1.0 if inside and not slit and not hole else 0.0))
+            cover = 1.0 if inside and not slit and not hole else 0.0
+            line.append((*mix(green, (0.52, 0.66, 0.36), 0.55 * vein), cover))
         rows.append(line)
     return rows
 

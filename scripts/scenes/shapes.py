@@ -190,9 +190,11 @@ def tube(path, radius, segments=10):
         along = sum(a * s for a, s in zip(ahead, side))
         frame = unit([s - along * a for a, s in zip(ahead, side)])
         other = cross(ahead, frame)
-        rings.append([tuple(p + r_cos * f + r_sin * o for p, f, o in zip(point, frame, other)) for r_cos, r_sin in
-                      ((radii[k] * math.cos(2 * math.pi * i / segments), radii[k] * math.sin(2 * math.pi * i / segments))
-                       for i in range(segments))])
+        ring = []
+        for i in range(segments):
+            c, s = (radii[k] * f(2 * math.pi * i / segments) for f in (math.cos, math.sin))
+            ring.append(tuple(p + c * f + s * o for p, f, o in zip(point, frame, other)))
+        rings.append(ring)
     last = len(path) - 1
     side = surface(segments, last, lambda u, v: rings[round(v * last)][round(u * segments) % segments], wrap=True)
     ends = [polygon(*reversed(rings[0])), polygon(*rings[-1])]

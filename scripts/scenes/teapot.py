@@ -67,5 +67,6 @@ def tessellate(pieces, height):
         parts.append(mesh)
     whole = merge(*parts)
     # At the poles one side of a patch is a point, and a triangle there has no area.
-    whole.triangles = [t for t in whole.triangles if len({tuple(round(c, 7) for c in whole.positions[k]) for k in t}) == 3]
+    places = [tuple(round(c, 7) for c in p) for p in whole.positions]
+    whole.triangles = [t for t in whole.triangles if len({places[k] for k in t}) == 3]
     return whole.smooth().scaled(height / 3.15)

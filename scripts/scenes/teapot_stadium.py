@@ -1,4 +1,4 @@
-"""The teapot in a stadium: an object of centimetres, finely tessellated, in a hall of 200 m made of few huge triangles."""
+"""The teapot in a stadium: an object of centimetres, finely tessellated, in a hall of 200 m of few huge triangles."""
 
 import math
 
@@ -81,8 +81,8 @@ def hall(glb, paint):
 
 def stands(glb, paint):
     """Terraces of eight steps along both sides, with a bench on each: slivers 180 m long."""
-    step = glb.mesh("step", (box((1.5, 0.62, 180.0)), paint["terrace"]), (box((0.42, 0.06, 178.0), (0, 0.72, 0)), paint["seats"]),
-                    (box((0.05, 0.40, 178.0), (0.23, 0.92, 0)), paint["seats"]))
+    bench = merge(box((0.42, 0.06, 178.0), (0, 0.72, 0)), box((0.05, 0.40, 178.0), (0.23, 0.92, 0)))
+    step = glb.mesh("step", (box((1.5, 0.62, 180.0)), paint["terrace"]), (bench, paint["seats"]))
     for row in range(8):
         for side in (-1, 1):
             glb.node("step", step, at=(side * (29.0 + 1.5 * row), 0.62 * row, 0.0), turn=0 if side > 0 else 180)
@@ -92,7 +92,7 @@ def box(size, at=(0, 0, 0)):
     """A plain box of 12 triangles whose underside is at `at`."""
     half_x, height, half_z = size[0] / 2, size[1], size[2] / 2
     x, y, z = at
-    low = [(x - half_x, y, z + half_z), (x + half_x, y, z + half_z), (x + half_x, y, z - half_z), (x - half_x, y, z - half_z)]
+    low = [(x + sx * half_x, y, z + sz * half_z) for sx, sz in ((-1, 1), (1, 1), (1, -1), (-1, -1))]
     high = [(px, y + height, pz) for px, _, pz in low]
     return merge(polygon(*high), polygon(*low[::-1]),
                  *(polygon(low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k]) for k in range(4)))
