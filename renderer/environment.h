@@ -29,22 +29,42 @@ struct EnvironmentSample {
   float pdf = 0.0f;  ///< per solid angle; 0: no sample
 };
 
+class EnvironmentPicture;
+
 /// The centre of the picture is seen along -z, +x to its right, +y up (the convention of most viewers).
-/// Non-finite and negative texels count as zero.
+/// Non-finite and negative texels count as zero. Thread-safe after construction.
 class Environment {
  public:
   /// Throws std::runtime_error naming the file when it cannot be read.
   explicit Environment(const EnvironmentOptions& options);
+  ~Environment();
+  Environment(Environment&&) noexcept;
 
   Color radiance(const Vec3& direction) const;
   /// The same, filtered for a ray whose cone has this full angle (radians).
   Color radiance(const Vec3& direction, float cone_angle) const;
+  /// A constant environment is sampled uniformly over the sphere, a picture by its luminance.
   EnvironmentSample sample(const Vec2& u) const;
   float pdf(const Vec3& direction) const;
   /// Mean radiance over the sphere.
-  Color mean() const;
-  bool black() const;
+  Color mean() const { return mean_; }
+  bool black() const { return (mean_ == 0.0f).all(); }
+  /// The same radiance from everywhere: worth sampling by the receiver's cosine instead.
+  bool constant() const { return picture_ == nullptr; }
   std::size_t bytes() const;
+
+ private:
+  Vec3 to_picture(const Vec3& world) const {
+    return {cos_ * world.x() - sin_ * world.z(), world.y(), sin_ * world.x() + cos_ * world.z()};
+  }
+  Vec3 to_world(const Vec3& picture) const {
+    return {cos_ * picture.x() + sin_ * picture.z(), picture.y(), cos_ * picture.z() - sin_ * picture.x()};
+  }
+
+  std::unique_ptr<const EnvironmentPicture> picture_;
+  Color mean_{0.0f, 0.0f, 0.0f};
+  float cos_ = 1.0f;  ///< of the rotation
+  float sin_ = 0.0f;
 };
 
 }  // namespace gatelight::renderer

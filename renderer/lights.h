@@ -2,9 +2,14 @@
 // All that emits, as one thing to sample: emissive triangles and point or spot lights in a light tree,
 // directional lights and the environment beside it.
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include "renderer/alias_table.h"
+#include "renderer/emissive_triangles.h"
 #include "renderer/environment.h"
+#include "renderer/light_tree.h"
 #include "renderer/texture.h"
 #include "scene/scene.h"
 
@@ -29,7 +34,7 @@ class Lights {
   Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
          LightSelection selection);
 
-  bool empty() const;
+  bool empty() const { return !has_local() && distant_.empty() && environment_.black(); }
 
   /// A direction towards some light. n is the shading normal on the side of the viewer, or zero where light
   /// may arrive from all sides (transmission).
@@ -42,8 +47,29 @@ class Lights {
   /// The same for a ray that left the scene.
   float pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const;
 
-  std::size_t emissive_triangles() const;
+  /// Those that can be chosen: not degenerate, not black.
+  std::size_t emissive_triangles() const { return emissive_count_; }
   std::size_t bytes() const;
+
+ private:
+  /// A light of the tree or table is a triangle below triangles_.size(), else one of placed_.
+  float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
+  LightSample sample_local(const Vec3& p, const Vec3& n, const LightTree::Weights* root, float share,
+                           double u_choice, const Vec2& u) const;
+  LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const;
+  LightSample sample_placed(const Vec3& p, const scene::PunctualLight& light, float choice) const;
+  LightSample sample_environment(const Vec3& n, float choice, const Vec2& u) const;
+
+  bool has_local() const { return !tree_.empty() || !table_.empty(); }
+  int count_distant(const Vec3& n) const;
+
+  const Environment& environment_;
+  EmissiveTriangles triangles_;
+  std::vector<scene::PunctualLight> placed_;   ///< point and spot lights
+  std::vector<scene::PunctualLight> distant_;  ///< directional lights
+  LightTree tree_;
+  AliasTable table_;
+  std::size_t emissive_count_ = 0;
 };
 
 }  // namespace gatelight::renderer

@@ -1,0 +1,102 @@
+#include "renderer/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::renderer {
+
+// Equation 3 of the paper for four children at once. With the angles theta between the axis and the direction
+// to the receiver, theta_o of the normals' cone, theta_b that the bounding sphere fills, theta_i at the
+// receiver:
+//   theta'  = max(0, theta - theta_o - theta_b)   the smallest angle of emission in the group
+//   theta_i' = max(0, theta_i - theta_b)          the smallest angle of incidence
+//   importance = intensity * cos(theta') * cos(theta_i') / distance^2,  0 where theta' >= theta_e.
+// Differences of angles are taken through sines and cosines; no branch depends on the data.
+LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3& n) {
+  Weights weights;
+  const float px = p.x(), py = p.y(), pz = p.z();
+  const float nx = n.x(), ny = n.y(), nz = n.z();
+  // A receiver without a normal takes light from everywhere.
+  const float free = nx == 0.0f && ny == 0.0f && nz == 0.0f ? 1.0f : 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const float dx = node.centre_x[k] - px;
+    const float dy = node.centre_y[k] - py;
+    const float dz = node.centre_z[k] - pz;
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float safe2 = std::max(distance2, 1e-36f);
+    const float inverse = 1.0f / std::sqrt(safe2);
+
+    const float ratio = node.radius2[k] * inverse * inverse;
+    const bool inside = ratio >= 1.0f;
+    const float sin_b = inside ? 0.0f : std::sqrt(ratio);
+    const float cos_b = inside ? -1.0f : std::sqrt(std::max(0.0f, 1.0f - ratio));
+
+    const float along = -(dx * node.axis_x[k] + dy * node.axis_y[k] + dz * node.axis_z[k]) * inverse;
+    const float cos_w = std::max(along, node.side[k] * along);
+    const float sin_w = std::sqrt(std::max(0.0f, 1.0f - cos_w * cos_w));
+    const float cos_o = node.cos_normals[k];
+    const float sin_o = node.sin_normals[k];
+    const bool in_normals = cos_w > cos_o;
+    const float cos_x = in_normals ? 1.0f : cos_w * cos_o + sin_w * sin_o;
+    const float sin_x = in_normals ? 0.0f : sin_w * cos_o - cos_w * sin_o;
+    const float cos_emitted = cos_x > cos_b ? 1.0f : cos_x * cos_b + sin_x * sin_b;
+    const float emitted = cos_emitted > node.cos_emission[k] ? cos_emitted : 0.0f;
+
+    const float cos_i = (dx * nx + dy * ny + dz * nz) * inverse;
+    const float sin_i = std::sqrt(std::max(0.0f, 1.0f - cos_i * cos_i));
+    const float cos_received = cos_i > cos_b ? 1.0f : cos_i * cos_b + sin_i * sin_b;
+    const float received = std::max(free, std::max(0.0f, cos_received));
+
+    weights.value[k] = node.intensity[k] * emitted * received / std::max(distance2, node.nearest2[k]);
+  }
+  weights.sum = (weights.value[0] + weights.value[1]) + (weights.value[2] + weights.value[3]);
+  return weights;
+}
+
+LightTree::Choice LightTree::sample(const Weights& root, const Vec3& p, const Vec3& n, double u) const {
+  Choice choice{0, 1.0f};
+  Weights weights = root;
+  std::uint32_t index = 0;
+  while (weights.sum > 0.0f) {
+    double target = u * static_cast<double>(weights.sum);
+    int slot = -1;
+    for (int k = 0; k < 4; ++k) {
+      if (!(weights.value[k] > 0.0f)) continue;
+      slot = k;
+      if (target < static_cast<double>(weights.value[k])) break;
+      target -= static_cast<double>(weights.value[k]);
+    }
+    // Rounding may leave the target at the end of the last child.
+    u = std::clamp(target / static_cast<double>(weights.value[slot]), 0.0, 0x1.fffffffffffffp-1);
+    choice.probability *= weights.value[slot] / weights.sum;
+    const std::uint32_t child = nodes_[index].child[slot];
+    if (child & kLeaf) {
+      choice.light = child & ~kLeaf;
+      return choice;
+    }
+    index = child;
+    weights = weigh(nodes_[index], p, n);
+  }
+  return {};
+}
+
+float LightTree::probability(const Vec3& p, const Vec3& n, std::uint32_t light) const {
+  std::uint32_t place = place_[light];
+  if (place == kNone) return 0.0f;
+  float probability = 1.0f;
+  while (place != kNone) {
+    const Node& node = nodes_[place / 4];
+    const Weights weights = weigh(node, p, n);
+    const float value = weights.value[place % 4];
+    if (!(value > 0.0f)) return 0.0f;
+    probability *= value / weights.sum;
+    place = node.parent;
+  }
+  return probability;
+}
+
+std::size_t LightTree::bytes() const {
+  return nodes_.size() * sizeof(Node) + place_.size() * sizeof(std::uint32_t);
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,220 @@
+#include "renderer/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/punctual.h"
+#include "renderer/triangle_sampling.h"
+#include "renderer/warp.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using scene::LightType;
+using scene::PunctualLight;
+
+TriangleCorners seen_from(const Vec3& p, const EmissiveTriangle& triangle) {
+  TriangleCorners t = triangle.corners;
+  t.corner -= p;
+  return t;
+}
+
+/// Cosine between the front's normal and the direction from the triangle to the point; positive on a side
+/// that emits.
+float cos_emitted(const EmissiveTriangle& triangle, const Vec3& wi) {
+  const Vec3 normal = triangle.corners.edge1.cross(triangle.corners.edge2);
+  const float cosine = -wi.dot(normal) / normal.norm();
+  return triangle.two_sided ? std::abs(cosine) : cosine;
+}
+
+LightBounds bounds_of(const EmissiveTriangle& triangle, double intensity) {
+  const TriangleCorners& t = triangle.corners;
+  LightBounds bounds;
+  bounds.intensity = intensity;
+  if (!(intensity > 0.0)) return bounds;
+  scene::Box box(t.corner);
+  box.extend(Vec3(t.corner + t.edge1));
+  box.extend(Vec3(t.corner + t.edge2));
+  bounds.centre = box.center();
+  for (const Vec3& edge : {Vec3(Vec3::Zero()), t.edge1, t.edge2}) {
+    bounds.radius = std::max(bounds.radius, (t.corner + edge - bounds.centre).norm());
+  }
+  bounds.axis = t.edge1.cross(t.edge2).normalized();
+  bounds.two_sided = triangle.two_sided;
+  return bounds;
+}
+
+LightBounds bounds_of(const PunctualLight& light) {
+  LightBounds bounds;
+  bounds.centre = light.position;
+  bounds.intensity = static_cast<double>(scene::luminance(light.intensity));
+  if (light.type == LightType::spot) {
+    bounds.axis = light.direction;
+    bounds.cos_emission = std::clamp(light.cos_outer, 0.0f, 1.0f);
+  } else {
+    bounds.cos_normals = -1.0f;
+  }
+  return bounds;
+}
+
+bool shines(const PunctualLight& light) {
+  return light.intensity.isFinite().all() && scene::luminance(light.intensity) > 0.0f;
+}
+
+}  // namespace
+
+Lights::Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
+               LightSelection selection)
+    : environment_(environment), triangles_(scene, textures) {
+  for (const PunctualLight& light : scene.lights) {
+    if (shines(light)) (light.type == LightType::directional ? distant_ : placed_).push_back(light);
+  }
+  std::vector<LightBounds> bounds;
+  bounds.reserve(triangles_.size() + placed_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    bounds.push_back(bounds_of(triangles_[i], triangles_.intensity(i)));
+    if (bounds.back().intensity > 0.0) ++emissive_count_;
+  }
+  for (const PunctualLight& light : placed_) bounds.push_back(bounds_of(light));
+  if (selection == LightSelection::tree) {
+    tree_ = LightTree(bounds);
+  } else {
+    std::vector<double> weights;
+    for (const LightBounds& b : bounds) weights.push_back(b.intensity);
+    table_ = AliasTable(weights);
+  }
+}
+
+int Lights::count_distant(const Vec3& n) const {
+  int count = 0;
+  for (const PunctualLight& light : distant_) {
+    if (!(n.dot(light.direction) > 0.0f)) ++count;
+  }
+  return count;
+}
+
+LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
+  LightTree::Weights root{};
+  bool local = has_local();
+  if (local && !tree_.empty()) {
+    root = tree_.weigh_root(p, n);
+    local = root.sum > 0.0f;
+  }
+  const int distant = count_distant(n);
+  const bool sky = !environment_.black();
+  const int parts = (local ? 1 : 0) + distant + (sky ? 1 : 0);
+  if (parts == 0) return {};
+
+  // Far down a tree the 24 bits of one number are used up. The lowest bits come from another, where they do
+  // no harm.
+  const double scaled =
+      (static_cast<double>(u_select) + static_cast<double>(u.x()) * 0x1p-24) * static_cast<double>(parts);
+  int part = std::min(static_cast<int>(scaled), parts - 1);
+  const double rest = std::clamp(scaled - part, 0.0, 0x1.fffffffffffffp-1);
+  const float share = 1.0f / static_cast<float>(parts);
+  if (local && part-- == 0) return sample_local(p, n, tree_.empty() ? nullptr : &root, share, rest, u);
+  if (sky && part == distant) return sample_environment(n, share, u);
+  for (const PunctualLight& light : distant_) {
+    if (n.dot(light.direction) > 0.0f || part-- > 0) continue;
+    return {-light.direction, scene::kInfinity, light.intensity, share, true};
+  }
+  return {};
+}
+
+LightSample Lights::sample_local(const Vec3& p, const Vec3& n, const LightTree::Weights* root, float share,
+                                 double u_choice, const Vec2& u) const {
+  LightTree::Choice choice;
+  if (root) {
+    choice = tree_.sample(*root, p, n, u_choice);
+  } else {
+    choice.light = table_.sample(u_choice);
+    choice.probability = table_.probability(choice.light);
+  }
+  choice.probability *= share;
+  if (!(choice.probability > 0.0f)) return {};
+  if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, choice.probability, u);
+  return sample_placed(p, placed_[choice.light - triangles_.size()], choice.probability);
+}
+
+LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const {
+  const EmissiveTriangle& triangle = triangles_[light];
+  const TriangleCorners t = seen_from(p, triangle);
+  const TrianglePoint point = sample_triangle_point(t, triangle.area, u);
+  const Vec3 to_light = t.corner + point.barycentrics.x() * t.edge1 + point.barycentrics.y() * t.edge2;
+  LightSample sample;
+  sample.distance = to_light.norm();
+  if (!(point.pdf > 0.0f) || !(sample.distance > 0.0f)) return {};
+  sample.wi = to_light / sample.distance;
+  const float cosine = cos_emitted(triangle, sample.wi);
+  if (!(cosine > 0.0f)) return {};
+  sample.pdf = choice * point.pdf;
+  if (!point.per_solid_angle) sample.pdf *= sample.distance * sample.distance / cosine;
+  if (!(sample.pdf > 0.0f) || !std::isfinite(sample.pdf)) return {};
+  sample.radiance = triangles_.radiance(triangle, point.barycentrics);
+  return sample;
+}
+
+LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, float choice) const {
+  const Vec3 to_light = light.position - p;
+  LightSample sample;
+  sample.distance = to_light.norm();
+  if (!(sample.distance > 0.0f)) return {};
+  sample.wi = to_light / sample.distance;
+  sample.radiance = punctual_irradiance(light, sample.wi, sample.distance);
+  sample.pdf = choice;
+  sample.delta = true;
+  if (!sample.radiance.isFinite().all()) return {};
+  return sample;
+}
+
+LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& u) const {
+  LightSample sample;
+  sample.distance = scene::kInfinity;
+  if (environment_.constant() && !n.isZero(0.0f)) {
+    const Vec3 local = sample_cosine_hemisphere(u);
+    sample.wi = Basis(n).to_world(local);
+    sample.radiance = environment_.mean();
+    sample.pdf = choice * pdf_cosine_hemisphere(local.z());
+    return sample;
+  }
+  const EnvironmentSample sky = environment_.sample(u);
+  sample.wi = sky.wi;
+  sample.radiance = sky.radiance;
+  sample.pdf = choice * sky.pdf;
+  return sample;
+}
+
+float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const {
+  const float probability = tree_.empty() ? table_.probability(light) : tree_.probability(p, n, light);
+  const int others = count_distant(n) + (environment_.black() ? 0 : 1);
+  return probability / static_cast<float>(1 + others);
+}
+
+float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
+                           const Vec3& wi, float distance) const {
+  const std::uint32_t light = triangles_.find(instance, primitive);
+  if (light == EmissiveTriangles::kNone || !has_local()) return 0.0f;
+  const EmissiveTriangle& triangle = triangles_[light];
+  if (!(triangle.area > 0.0f)) return 0.0f;
+  const float cosine = cos_emitted(triangle, wi);
+  if (!(cosine > 0.0f)) return 0.0f;
+  const float choice = pdf_local(p, n, light);
+  if (!(choice > 0.0f)) return 0.0f;
+  const float pdf = choice * pdf_triangle_point(seen_from(p, triangle), triangle.area, cosine, distance);
+  return std::isfinite(pdf) ? pdf : 0.0f;
+}
+
+float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const {
+  if (environment_.black()) return 0.0f;
+  const float density =
+      environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi);
+  const bool local = has_local() && (tree_.empty() || tree_.weigh_root(p, n).sum > 0.0f);
+  return density / static_cast<float>((local ? 1 : 0) + count_distant(n) + 1);
+}
+
+std::size_t Lights::bytes() const {
+  return triangles_.bytes() + tree_.bytes() + table_.bytes() +
+         (placed_.size() + distant_.size()) * sizeof(PunctualLight);
+}
+
+}  // namespace gatelight::renderer
