@@ -1,0 +1,88 @@
+"""Renders a glTF file with Blender's Cycles, as plainly as it can be told to: run by scripts/compare-cycles.
+
+blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
+
+For each of "spp" one picture is rendered, its seconds (scene sync included) are measured, and one line of JSON, with the
+prefix "cycles: ", tells them. "out" may hold a path for the last picture (EXR, 32-bit float)."""
+
+import json
+import sys
+import time
+
+import numpy
+
+# The importer of Blender 3.4 uses a name that numpy has dropped.
+numpy.bool = bool
+
+import bpy  # noqa: E402
+
+
+def main():
+    job = json.loads(sys.argv[sys.argv.index("--") + 1])
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # COMPAT: a sun of the file is as bright as its number says, without a division by 683.
+    bpy.ops.import_scene.gltf(filepath=job["scene"], convert_lighting_mode="COMPAT")
+    scene = bpy.context.scene
+    set_camera(scene, job.get("camera"))
+    set_sky(scene, job.get("environment"))
+    set_sampling(scene, job)
+    seconds = {}
+    for spp in job["spp"]:
+        scene.cycles.samples = spp
+        begin = time.perf_counter()
+        bpy.ops.render.render()
+        seconds[spp] = time.perf_counter() - begin
+    if job.get("out"):
+        save(job["out"])
+    print("cycles: " + json.dumps({"version": bpy.app.version_string, "seconds": seconds}), flush=True)
+
+
+def set_camera(scene, name):
+    cameras = {item.name: item for item in bpy.data.objects if item.type == "CAMERA"}
+    if not cameras:
+        sys.exit("the file has no camera")
+    if name and name not in cameras:
+        sys.exit(f"no camera is called '{name}'; there are: {', '.join(cameras)}")
+    scene.camera = cameras[name] if name else next(iter(cameras.values()))
+
+
+def set_sky(scene, radiance):
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    background = world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (*(radiance or (0.0, 0.0, 0.0)), 1.0)
+    background.inputs["Strength"].default_value = 1.0
+    scene.world = world
+
+
+def set_sampling(scene, job):
+    render, cycles = scene.render, scene.cycles
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y = job["size"]
+    render.resolution_percentage = 100
+    render.threads_mode, render.threads = "FIXED", job["threads"]
+    render.use_persistent_data = False
+    render.film_transparent = False
+    cycles.device = "CPU"
+    cycles.use_denoising = False
+    cycles.use_adaptive_sampling = False
+    cycles.seed = job.get("seed", 0)
+    cycles.time_limit = 0.0
+    # 0 bounces is direct light; every kind may use all of them, and nothing is cut off.
+    for kind in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces"):
+        setattr(cycles, kind, job["bounces"])
+    cycles.transparent_max_bounces = 64
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    cycles.blur_glossy = 0.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.use_fast_gi = False
+
+
+def save(path):
+    settings = bpy.context.scene.render.image_settings
+    settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
+    bpy.data.images["Render Result"].save_render(path)
+
+
+main()
