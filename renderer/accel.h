@@ -40,7 +40,6 @@ class Accel {
 
   std::size_t bytes() const;
   const std::string& isa() const { return isa_; }
-  RTCScene embree_scene() const { return top_; }
 
  private:
   struct State;

@@ -1,5 +1,6 @@
 #include "renderer/ao_integrator.h"
 
+#include "renderer/trace_timer.h"
 #include "renderer/warp.h"
 
 namespace gatelight::renderer {
@@ -13,7 +14,10 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     scratch.rays[i].seed = samples[i].seed;
   }
   counts.camera += samples.size();
-  world_.accel.intersect(scratch.rays, scratch.hits, true);
+  {
+    const TraceTimer timer(counts);
+    world_.accel.intersect(scratch.rays, scratch.hits, true);
+  }
 
   scratch.shadow_rays.clear();
   scratch.index.clear();
@@ -51,7 +55,10 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
   }
   counts.shadow += scratch.shadow_rays.size();
   scratch.transmittance.resize(scratch.shadow_rays.size());
-  world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+  {
+    const TraceTimer timer(counts);
+    world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+  }
   for (std::size_t i = 0; i < scratch.index.size(); ++i) {
     results[scratch.index[i]].radiance = scratch.transmittance[i];
   }

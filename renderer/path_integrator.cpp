@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/trace_timer.h"
+
 namespace gatelight::renderer {
 
 namespace {
@@ -22,6 +24,10 @@ Color absorption_of(const scene::Material& m) {
   // Colour c after distance d: c = exp(-absorption d). A black channel absorbs within a thousandth of the
   // distance.
   return -m.attenuation_color.max(1e-30f).log() / m.attenuation_distance;
+}
+
+void append(std::vector<Ray>& log, const std::vector<Ray>& rays) {
+  log.insert(log.end(), rays.begin(), rays.end());
 }
 
 }  // namespace
@@ -184,7 +190,11 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
     scratch.rays.resize(paths.size());
     scratch.hits.resize(paths.size());
     for (std::size_t i = 0; i < paths.size(); ++i) scratch.rays[i] = paths[i].ray;
-    world_.accel.intersect(scratch.rays, scratch.hits, camera);
+    {
+      const TraceTimer timer(counts);
+      world_.accel.intersect(scratch.rays, scratch.hits, camera);
+    }
+    if (scratch.log) append(camera ? scratch.log->camera : scratch.log->bounce, scratch.rays);
 
     scratch.shadow_rays.clear();
     scratch.pending.clear();
@@ -198,7 +208,11 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
 
     counts.shadow += scratch.shadow_rays.size();
     scratch.transmittance.resize(scratch.shadow_rays.size());
-    world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+    {
+      const TraceTimer timer(counts);
+      world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+    }
+    if (scratch.log) append(scratch.log->shadow, scratch.shadow_rays);
     for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
       results[scratch.pending[i].index].radiance +=
           scratch.pending[i].contribution * scratch.transmittance[i];

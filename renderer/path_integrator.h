@@ -60,7 +60,15 @@ struct PendingLight {
   std::uint32_t index = 0;
 };
 
+/// Every ray that an integrator traced, in order: benchmarks replay them.
+struct RayLog {
+  std::vector<Ray> camera;
+  std::vector<Ray> bounce;
+  std::vector<Ray> shadow;
+};
+
 struct PathIntegrator::Scratch {
+  RayLog* log = nullptr;  ///< none is kept where there is no log
   std::vector<Path> paths;
   std::vector<Ray> rays;
   std::vector<Hit> hits;

@@ -315,6 +315,7 @@ Picture Renderer::render(const Callbacks& callbacks) {
     statistics.rays.camera += w.rays.camera;
     statistics.rays.bounce += w.rays.bounce;
     statistics.rays.shadow += w.rays.shadow;
+    statistics.rays.seconds += w.rays.seconds;
     statistics.nonfinite += w.nonfinite;
     statistics.clamped += w.clamped;
     statistics.nonfinite_samples.insert(statistics.nonfinite_samples.end(), w.located.begin(),

@@ -19,6 +19,7 @@ struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
+  double seconds = 0.0;  ///< spent tracing them, summed over threads
 };
 
 struct RenderStatistics {

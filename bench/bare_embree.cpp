@@ -1,0 +1,93 @@
+#include "bench/bare_embree.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+namespace gatelight::bench {
+
+BareEmbree::BareEmbree(const scene::Scene& scene)
+    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  for (const scene::Instance& instance : scene.instances) {
+    const scene::Mesh& mesh = scene.mesh_of(instance);
+    if (mesh.triangles.empty()) continue;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<scene::Vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(scene::Vec3), mesh.positions.size()));
+    for (const scene::Vec3& p : mesh.positions)
+      *positions++ = instance.baked ? p : scene::Vec3(instance.transform * p);
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                sizeof(mesh.triangles[0]), mesh.triangles.size()));
+    for (const auto& t : mesh.triangles) indices = std::copy(t.begin(), t.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene_);
+}
+
+BareEmbree::~BareEmbree() {
+  rtcReleaseScene(scene_);
+  rtcReleaseDevice(device_);
+}
+
+void BareEmbree::trace_single(std::span<const renderer::Ray> rays, bool shadow) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (const renderer::Ray& r : rays) {
+    alignas(16) RTCRayHit ray{};
+    ray.ray = {r.origin.x(),
+               r.origin.y(),
+               r.origin.z(),
+               0.0f,
+               r.direction.x(),
+               r.direction.y(),
+               r.direction.z(),
+               0.0f,
+               r.t_max,
+               ~0u,
+               0,
+               0};
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    if (shadow) {
+      rtcOccluded1(scene_, &context, &ray.ray);
+    } else {
+      rtcIntersect1(scene_, &context, &ray);
+    }
+    benchmark::DoNotOptimize(ray);
+  }
+}
+
+void BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  alignas(64) RTCRayHit16 packet{};
+  alignas(64) int valid[16];
+  for (std::size_t first = 0; first < rays.size(); first += 16) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      valid[i] = first + i < rays.size() ? -1 : 0;
+      const renderer::Ray& r = rays[std::min(first + i, rays.size() - 1)];
+      packet.ray.org_x[i] = r.origin.x();
+      packet.ray.org_y[i] = r.origin.y();
+      packet.ray.org_z[i] = r.origin.z();
+      packet.ray.dir_x[i] = r.direction.x();
+      packet.ray.dir_y[i] = r.direction.y();
+      packet.ray.dir_z[i] = r.direction.z();
+      packet.ray.tfar[i] = r.t_max;
+      packet.ray.mask[i] = ~0u;
+      packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (shadow) {
+      rtcOccluded16(valid, scene_, &context, reinterpret_cast<RTCRay16*>(&packet.ray));
+    } else {
+      rtcIntersect16(valid, scene_, &context, &packet);
+    }
+    benchmark::DoNotOptimize(packet);
+  }
+}
+
+}  // namespace gatelight::bench

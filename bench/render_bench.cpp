@@ -1,0 +1,173 @@
+// The whole path tracer beside its limits, on real scenes: render/path, render/tracing_only, and the rays
+// that path traced, replayed: replay/{camera,bounce,shadow}/{single,packet16}. Counters are per second on the
+// threads of the run.
+
+#include <benchmark/benchmark.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <map>
+#include <string>
+
+#include "bench/tracing_only.h"
+#include "bench/world_fixture.h"
+
+namespace gatelight::bench {
+namespace {
+
+using Tiles = std::vector<std::vector<renderer::CameraSample>>;
+
+constexpr std::uint64_t kSamples = std::uint64_t{kWidth} * kHeight;
+
+template <typename Body>
+void for_each_tile(const Tiles& tiles, int threads, Body&& body) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) body(tiles[i]);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+struct Worker {
+  std::vector<renderer::SampleResult> results;
+  renderer::PathIntegrator::Scratch scratch;
+  renderer::RayCounts rays;
+};
+
+void set_rates(benchmark::State& state, std::uint64_t samples, std::uint64_t rays) {
+  using benchmark::Counter;
+  if (samples > 0) state.counters["samples/s"] = Counter(static_cast<double>(samples), Counter::kIsRate);
+  state.counters["rays/s"] = Counter(static_cast<double>(rays), Counter::kIsRate);
+}
+
+void render_path(benchmark::State& state, const SceneCase& which) {
+  const WorldFixture* w = world(which);
+  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  const renderer::PathIntegrator integrator(*w->world, w->options);
+  const int threads = static_cast<int>(state.range(0));
+  tbb::enumerable_thread_specific<Worker> workers;
+  std::uint64_t samples = 0;
+  std::uint32_t pass = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const Tiles tiles = w->tiles(pass++);
+    state.ResumeTiming();
+    for_each_tile(tiles, threads, [&](const std::vector<renderer::CameraSample>& tile) {
+      Worker& worker = workers.local();
+      worker.results.resize(tile.size());
+      integrator.trace(tile, worker.results, {}, worker.rays, worker.scratch);
+    });
+    samples += kSamples;
+  }
+  std::uint64_t rays = 0;
+  double embree = 0.0;
+  for (const Worker& worker : workers) {
+    rays += worker.rays.camera + worker.rays.bounce + worker.rays.shadow;
+    embree += worker.rays.seconds;
+  }
+  set_rates(state, samples, rays);
+  state.counters["rays/sample"] = static_cast<double>(rays) / static_cast<double>(samples);
+  state.counters["Mray/s_in_embree"] = static_cast<double>(rays) / embree * threads * 1e-6;
+}
+
+void render_tracing_only(benchmark::State& state, const SceneCase& which) {
+  const WorldFixture* w = world(which);
+  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  const TracingOnly tracer(*w);
+  std::atomic<std::uint64_t> rays{0};
+  std::uint64_t samples = 0;
+  std::uint32_t pass = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const Tiles tiles = w->tiles(pass++);
+    state.ResumeTiming();
+    for_each_tile(tiles, static_cast<int>(state.range(0)),
+                  [&](const std::vector<renderer::CameraSample>& tile) { rays += tracer.trace(tile); });
+    samples += kSamples;
+  }
+  set_rates(state, samples, rays);
+  state.counters["rays/sample"] = static_cast<double>(rays) / static_cast<double>(samples);
+}
+
+const renderer::RayLog& recorded(const WorldFixture& w, const std::string& name) {
+  static std::map<std::string, renderer::RayLog> cache;
+  auto [found, inserted] = cache.try_emplace(name);
+  if (inserted) {
+    const renderer::PathIntegrator integrator(*w.world, w.options);
+    Worker worker;
+    worker.scratch.log = &found->second;
+    for (const std::vector<renderer::CameraSample>& tile : w.tiles(0)) {
+      worker.results.resize(tile.size());
+      integrator.trace(tile, worker.results, {}, worker.rays, worker.scratch);
+    }
+  }
+  return found->second;
+}
+
+void replay(benchmark::State& state, const SceneCase& which,
+            std::vector<renderer::Ray> renderer::RayLog::*kind, bool packets) {
+  const WorldFixture* w = world(which);
+  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  const std::vector<renderer::Ray>& rays = recorded(*w, which.name).*kind;
+  const bool shadow = kind == &renderer::RayLog::shadow;
+  const bool camera = kind == &renderer::RayLog::camera;
+  const int threads = static_cast<int>(state.range(0));
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  std::uint64_t traced = 0;
+  for (auto _ : state) {
+    arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 4096),
+                        [&](const tbb::blocked_range<std::size_t>& range) {
+                          const std::span part(rays.data() + range.begin(), range.size());
+                          if (packets) {
+                            w->bare->trace_packets(part, shadow, camera);
+                          } else {
+                            w->bare->trace_single(part, shadow);
+                          }
+                        });
+    });
+    traced += rays.size();
+  }
+  set_rates(state, 0, traced);
+}
+
+const int registered = [] {
+  using Log = renderer::RayLog;
+  for (const SceneCase* which : {&kSponza, &kKitchen}) {
+    const std::string scene = which->name;
+    const auto add = [&](const std::string& name, auto&& function) {
+      benchmark::RegisterBenchmark((name + "/" + scene).c_str(), function)
+          ->ArgName("threads")
+          ->Arg(1)
+          ->Arg(2)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+    };
+    add("render/path", [which](benchmark::State& s) { render_path(s, *which); });
+    add("render/tracing_only", [which](benchmark::State& s) { render_tracing_only(s, *which); });
+    const std::pair<const char*, std::vector<renderer::Ray> Log::*> kinds[] = {
+        {"camera", &Log::camera}, {"bounce", &Log::bounce}, {"shadow", &Log::shadow}};
+    for (const auto& [kind, member] : kinds) {
+      for (const bool packets : {false, true}) {
+        add(std::string("replay/") + kind + (packets ? "/packet16" : "/single"),
+            [which, member = member, packets](benchmark::State& s) { replay(s, *which, member, packets); });
+      }
+    }
+  }
+  return 0;
+}();
+
+}  // namespace
+}  // namespace gatelight::bench

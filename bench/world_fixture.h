@@ -1,0 +1,51 @@
+#pragma once
+// Real scenes made ready for tracing, loaded once per program.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/bare_embree.h"
+#include "renderer/path_integrator.h"
+
+namespace gatelight::bench {
+
+/// A scene of $GATELIGHT_SCENES with the light and camera that the tables use.
+struct SceneCase {
+  const char* name;
+  const char* file;
+  const char* camera;
+  scene::Color sky;
+};
+
+inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {0.65f, 0.8f, 1.0f}};
+inline const SceneCase kKitchen{"kitchen", "country-kitchen/country-kitchen.glb", "", {0.0f, 0.0f, 0.0f}};
+
+inline constexpr int kWidth = 640;
+inline constexpr int kHeight = 360;
+/// Four bounces after the first hit: five scattering events.
+inline constexpr int kMaxDepth = 5;
+
+/// Scene and world of one case, and everything they refer to.
+struct WorldFixture {
+  scene::Scene scene;
+  renderer::RenderOptions options;
+  scene::SceneRequirements requirements;
+  std::unique_ptr<renderer::Textures> textures;
+  std::unique_ptr<renderer::Environment> environment;
+  std::unique_ptr<renderer::Coverage> coverage;
+  std::unique_ptr<renderer::Surfaces> surfaces;
+  std::unique_ptr<renderer::Accel> accel;
+  std::unique_ptr<renderer::Lights> lights;
+  std::unique_ptr<renderer::World> world;
+  std::unique_ptr<renderer::Camera> camera;
+  std::unique_ptr<BareEmbree> bare;
+
+  /// Camera samples of one pass over the picture, in tiles of 16x16.
+  std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
+};
+
+/// Nullptr where GATELIGHT_SCENES is not set or does not hold the file.
+const WorldFixture* world(const SceneCase& which);
+
+}  // namespace gatelight::bench
