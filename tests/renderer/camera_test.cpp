@@ -1,0 +1,107 @@
+#include "renderer/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/errors.h"
+
+namespace gatelight::renderer {
+namespace {
+
+scene::Scene scene_with_cameras() {
+  scene::Scene s;
+  s.path = "test.glb";
+  scene::Camera a;
+  a.name = "front";
+  scene::Camera b;
+  b.name = "top";
+  b.vertical_fov = 1.2f;
+  s.cameras = {a, b};
+  return s;
+}
+
+TEST(Camera, CentreLooksForwardAndCornersSpanTheFieldOfView) {
+  scene::Camera c;
+  c.vertical_fov = 1.0f;
+  const Camera camera(c, 200, 100);
+  EXPECT_TRUE(camera.ray(100, 50).ray.direction.isApprox(Vec3(0, 0, -1), 1e-6f));
+  const Vec3 top = camera.ray(100, 0).ray.direction;
+  EXPECT_NEAR(std::acos(top.dot(Vec3(0, 0, -1))), 0.5f, 1e-5f);
+  EXPECT_GT(top.y(), 0.0f);
+  const Vec3 right = camera.ray(200, 50).ray.direction;
+  EXPECT_NEAR(right.x() / -right.z(), 2.0f * std::tan(0.5f), 1e-5f);
+}
+
+TEST(Camera, OrthographicRaysAreParallel) {
+  scene::Camera c;
+  c.orthographic = true;
+  c.half_height = 3.0f;
+  const Camera camera(c, 100, 100);
+  EXPECT_TRUE(camera.ray(0, 0).ray.origin.isApprox(Vec3(-3, 3, 0), 1e-6f));
+  EXPECT_EQ(camera.ray(0, 0).ray.direction, camera.ray(70, 20).ray.direction);
+  EXPECT_FLOAT_EQ(camera.ray(0, 0).cone.width, 0.06f);
+}
+
+TEST(Camera, ConeIsOnePixelWide) {
+  scene::Camera c;
+  const Camera camera(c, 100, 80);
+  const CameraRay a = camera.ray(50, 40);
+  const CameraRay b = camera.ray(50, 41);
+  EXPECT_NEAR((a.ray.direction - b.ray.direction).norm(), a.cone.spread, 0.01f * a.cone.spread);
+}
+
+TEST(Camera, IsChosenByNameThenByIndex) {
+  const scene::Scene s = scene_with_cameras();
+  EXPECT_EQ(choose_camera(s, {}, 1.0f).name, "front");
+  EXPECT_EQ(choose_camera(s, {.name = "top", .look_at = {}, .fov_degrees = {}}, 1.0f).name, "top");
+  EXPECT_EQ(choose_camera(s, {.name = "1", .look_at = {}, .fov_degrees = {}}, 1.0f).name, "top");
+}
+
+TEST(Camera, UnknownNameNamesTheChoices) {
+  const scene::Scene s = scene_with_cameras();
+  try {
+    choose_camera(s, {.name = "side", .look_at = {}, .fov_degrees = {}}, 1.0f);
+    FAIL();
+  } catch (const BadOption& e) {
+    for (const char* part : {"side", "test.glb", "front", "top"}) {
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(Camera, LookAtPutsTheTargetInTheCentreAndUpAbove) {
+  CameraOptions options;
+  options.look_at = LookAt{{1, 2, 3}, {4, 0, -5}, {0, 1, 0}};
+  const Camera camera(choose_camera({}, options, 1.0f), 64, 64);
+  EXPECT_TRUE(
+      camera.ray(32, 32).ray.direction.isApprox((Vec3(4, 0, -5) - Vec3(1, 2, 3)).normalized(), 1e-5f));
+  EXPECT_GT(camera.ray(32, 0).ray.direction.y(), camera.ray(32, 64).ray.direction.y());
+  options.look_at = LookAt{{0, 5, 0}, {0, 0, 0}, {0, 1, 0}};  // straight down
+  EXPECT_TRUE(Camera(choose_camera({}, options, 1.0f), 8, 8).ray(4, 4).ray.direction.allFinite());
+  options.look_at = LookAt{{1, 1, 1}, {1, 1, 1}, {0, 1, 0}};
+  EXPECT_THROW(choose_camera({}, options, 1.0f), BadOption);
+}
+
+TEST(Camera, AutoFramingHoldsTheWholeSceneAtAnyScaleAndAspect) {
+  for (float scale : {1e-3f, 1.0f, 1e6f}) {
+    for (float aspect : {0.4f, 1.0f, 2.5f}) {
+      scene::Scene s;
+      s.bounds = scene::Box(Vec3(-1, 0, 2) * scale, Vec3(3, 1, 4) * scale);
+      const int width = static_cast<int>(1000 * aspect);
+      const scene::Camera c = choose_camera(s, {}, aspect);
+      const scene::Affine to_camera(c.transform.inverse());
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 corner = s.bounds.corner(static_cast<scene::Box::CornerType>(i));
+        const Vec3 p = to_camera * corner;
+        ASSERT_LT(p.z(), 0.0f);
+        EXPECT_LE(std::abs(p.y() / p.z()), std::tan(0.5f * c.vertical_fov));
+        EXPECT_LE(std::abs(p.x() / p.z()),
+                  std::tan(0.5f * c.vertical_fov) * static_cast<float>(width) / 1000.0f);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
