@@ -133,6 +133,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
                                         path.sampler.get_2d(base + dimension::kBsdfDirection));
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
   path.throughput *= sample.weight;
+  path.radiance_scale *= sample.radiance_scale;
   const bool through_pane = sample.delta && sample.transmitted && surface.material.thin_walled;
   if (through_pane) {
     path.travelled += hit.t;
@@ -153,7 +154,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   path.seed = hash(path.seed + 0x9e3779b9u);
 
   if (path.depth >= options_.min_depth) {
-    const float survival = std::min(0.95f, path.throughput.maxCoeff());
+    const float survival = std::min(0.95f, path.throughput.maxCoeff() / path.radiance_scale);
     if (sampling::to_unit_float(hash(path.seed ^ 0x68bc21ebu)) >= survival) return false;
     path.throughput /= survival;
   }

@@ -45,6 +45,7 @@ struct PathIntegrator::Path {
   Vec3 previous = Vec3::Zero();         ///< the vertex that chose the direction, panes not counted
   Vec3 previous_normal = Vec3::Zero();  ///< as next-event estimation saw it there
   float travelled = 0.0f;               ///< metres between `previous` and the ray's origin: through panes
+  float radiance_scale = 1.0f;          ///< product of BsdfSample::radiance_scale: not a loss of power
   float pdf = 0.0f;                     ///< of the direction, per solid angle
   bool delta = true;                    ///< the direction came from the camera or a delta lobe
   std::uint16_t depth = 0;              ///< scattering events so far
