@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace gatelight::renderer {
 
@@ -43,30 +42,20 @@ float default_width(PixelFilter filter) {
 
 FilterSampler::FilterSampler(PixelFilter filter, float width)
     : width_(width > 0.0f ? width : default_width(filter)) {
-  constexpr int kFine = 16384;
-  std::vector<double> cumulative(kFine + 1, 0.0);
-  for (int i = 0; i < kFine; ++i) {
-    cumulative[static_cast<std::size_t>(i) + 1] =
-        cumulative[static_cast<std::size_t>(i)] +
-        std::max(0.0, profile(filter, (2.0 * i + 1.0) / kFine - 1.0));
+  std::array<double, kBins + 1> sum{};
+  for (std::size_t i = 0; i < kBins; ++i) {
+    sum[i + 1] = sum[i] + std::max(0.0, profile(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));
   }
-  const double total = cumulative.back();
-  std::size_t j = 0;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double target = total * i / kSteps;
-    while (j + 1 < kFine && cumulative[j + 1] < target) ++j;
-    const double step = cumulative[j + 1] - cumulative[j];
-    const double fraction = step > 0.0 ? std::clamp((target - cumulative[j]) / step, 0.0, 1.0) : 0.0;
-    inverse_[static_cast<std::size_t>(i)] =
-        static_cast<float>((static_cast<double>(j) + fraction) / kFine - 0.5) * width_;
-  }
+  for (std::size_t i = 0; i <= kBins; ++i) cumulative_[i] = static_cast<float>(sum[i] / sum[kBins]);
 }
 
 float FilterSampler::sample_1d(float u) const {
-  const float x = u * kSteps;
-  const int i = std::min(static_cast<int>(x), kSteps - 1);
-  const float w = x - static_cast<float>(i);
-  return inverse_[static_cast<std::size_t>(i)] * (1.0f - w) + inverse_[static_cast<std::size_t>(i) + 1] * w;
+  // A table of the inverse would be faster and wrong at the tails, where the inverse is steep.
+  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
+  const auto bin = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
+  const float mass = cumulative_[bin + 1] - cumulative_[bin];
+  const float within = mass > 0.0f ? std::clamp((u - cumulative_[bin]) / mass, 0.0f, 1.0f) : 0.5f;
+  return ((static_cast<float>(bin) + within) / kBins - 0.5f) * width_;
 }
 
 }  // namespace gatelight::renderer

@@ -21,11 +21,12 @@ class FilterSampler {
   float width() const { return width_; }
 
  private:
-  static constexpr int kSteps = 256;
+  static constexpr int kBins = 1000;
   float sample_1d(float u) const;
 
   float width_;
-  std::array<float, kSteps + 1> inverse_{};  ///< inverse of the cumulative distribution at equal steps
+  std::array<float, kBins + 1>
+      cumulative_{};  ///< distribution function at the edges of equal bins of the width
 };
 
 }  // namespace gatelight::renderer
