@@ -33,11 +33,11 @@ Vec3 bend_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
   return length2 > 1e-8f ? Vec3(half / std::sqrt(length2)) : ng;
 }
 
-/// Reflectance of everything that meets more than one microfacet, for the mean reflectance of one and the
-/// mean loss of single scattering: at least two, then a geometric series (Hill 2018).
+/// Of the light that single scattering loses, the part that comes out in the end, over the mean reflectance:
+/// one more reflection, then a geometric series (Hill 2018).
 template <class T>
-T multiple_reflectance(const T& mean_fresnel, float mean_loss) {
-  return mean_fresnel * mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
+T multiple_part(const T& mean_fresnel, float mean_loss) {
+  return mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
 }
 
 float schlick_mean(float f0, float f90) {
@@ -59,16 +59,14 @@ Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, cons
     nc_ = bend_normal(nc, ng, wo);
     set_up_layers(material);
   }
-  const float total = p_microfacet_ + p_cosine_ + p_cosine_transmit_ + p_clear_ + p_coat_ + p_sheen_;
+  float* const probabilities[] = {&p_microfacet_,    &p_diffuse_, &p_clear_, &p_loss_reflect_,
+                                  &p_loss_transmit_, &p_coat_,    &p_sheen_};
+  float total = 0.0f;
+  for (const float* p : probabilities) total += *p;
   const float scale = total > 0.0f ? 1.0f / total : 0.0f;
-  p_microfacet_ *= scale;
-  p_cosine_ *= scale;
-  p_cosine_transmit_ *= scale;
-  p_clear_ *= scale;
-  p_coat_ *= scale;
-  p_sheen_ *= scale;
-  is_delta_ = p_cosine_ == 0.0f && p_cosine_transmit_ == 0.0f && p_sheen_ == 0.0f &&
-              (ggx_.delta || p_microfacet_ == 0.0f) && (p_coat_ == 0.0f || coat_.delta);
+  for (float* p : probabilities) *p *= scale;
+  is_delta_ = p_diffuse_ == 0.0f && p_sheen_ == 0.0f && (ggx_.delta || p_microfacet_ == 0.0f) &&
+              (p_coat_ == 0.0f || coat_.delta);
 }
 
 void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
@@ -93,47 +91,42 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
   if (!ggx_.delta) row_ = GgxTables::get().row(roughness);
   const GgxAlbedo out = row_.at(ggx_.cos_o);
   const GgxAlbedo& mean = row_.mean();
+  scale_o_ = out.scale;
 
   // KHR_materials_specular: the colour scales the normal reflectance, the factor all of it.
   const float ior_f0 = dielectric_f0(ior);
   const Color f0 = (ior_f0 * material.specular_color).max(0.0f).min(1.0f) * specular;
-  const float schlick = glass_ == Glass::thin ? opaque + glass : opaque;
-  f0_ = metallic * base + schlick * f0;
-  f90_ = metallic + schlick * specular;
-  albedo_ = f0_ * out.a() + f90_ * out.b;
+  const float thin = glass_ == Glass::thin ? glass : 0.0f;
+  f0_ = metallic * base + (opaque + thin) * f0;
+  f90_ = metallic + (opaque + thin) * specular;
 
-  // The diffuse base gets what the specular layer lets in, and out again: the largest channel counts, so that
-  // a tinted layer does not give the base its complementary colour.
+  // The largest channel counts, so that a tinted layer does not give the base its complementary colour.
   const float largest_f0 = f0.maxCoeff();
-  const float multiple = multiple_reflectance(schlick_mean(largest_f0, specular), mean.loss);
-  coupling_[0] = 1.0f - largest_f0;
-  coupling_[1] = largest_f0 - multiple;
-  coupling_[2] = largest_f0 - specular;
-  const auto passed = [&](const GgxAlbedo& albedo) {
-    return std::max(0.0f, coupling_[0] + coupling_[1] * albedo.loss + coupling_[2] * albedo.b);
-  };
-  const float passed_out = passed(out);
-  const float passed_mean = std::max(passed(mean), 1e-6f);
-  const Color diffuse_albedo = base * (opaque * passed_out);
-  diffuse_ = diffuse_albedo * (kInvPi / passed_mean);
-  Color cosine_albedo = diffuse_albedo;
-
-  multiple_.setZero();
-  const bool loses = mean.loss > 0.0f && out.loss > 0.0f;
-  Color multiple_dielectric(multiple, multiple, multiple);
-  if (loses) {
-    if ((f0 != largest_f0).any()) {
-      multiple_dielectric = multiple_reflectance(schlick_mean(f0, specular), mean.loss);
-    }
-    Color reflected = schlick * multiple_dielectric;
-    if (metallic > 0.0f) reflected += metallic * multiple_reflectance(schlick_mean(base, 1.0f), mean.loss);
-    multiple_ = reflected * (out.loss * kInvPi / mean.loss);
-    cosine_albedo += reflected * out.loss;
+  const float part = multiple_part(schlick_mean(largest_f0, specular), mean.loss);
+  // What a sheet does not reflect in the end it transmits: nothing is lost.
+  multiple_f0_ = (opaque * part + thin) * f0;
+  multiple_f90_.setConstant((opaque * part + thin) * specular);
+  if (metallic > 0.0f) {
+    const Color metal_part = metallic * multiple_part(schlick_mean(base, 1.0f), mean.loss);
+    multiple_f0_ += metal_part * base;
+    multiple_f90_ += metal_part;
   }
-
+  const float a = 1.0f - out.loss - out.b;
+  albedo_ = f0_ * a + f90_ * out.b + multiple_f0_ * (1.0f - out.b_scaled - a) +
+            multiple_f90_ * (out.b_scaled - out.b);
   p_microfacet_ = scene::luminance(albedo_);
-  p_cosine_ = scene::luminance(cosine_albedo);
-  albedo_ += cosine_albedo;
+
+  // The diffuse base gets what the dielectric lets in, and out again.
+  if (opaque > 0.0f) {
+    coupling_[0] = 1.0f - largest_f0;
+    coupling_[1] = (1.0f - part) * largest_f0;
+    coupling_[2] = (1.0f - part) * (largest_f0 - specular);
+    coupling_[3] = part * (largest_f0 - specular);
+    const Color diffuse_albedo = base * (opaque * passed(out));
+    diffuse_ = diffuse_albedo * (kInvPi / std::max(passed(mean), 1e-6f));
+    p_diffuse_ = scene::luminance(diffuse_albedo);
+    albedo_ += diffuse_albedo;
+  }
   if (glass_ == Glass::none) return;
 
   glass_weight_ = glass;
@@ -146,16 +139,9 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     p_clear_ = scene::luminance(glass_tint_);
   } else if (glass_ == Glass::thin) {
     eta_ = 1.0f;
-    const Color transmitted = glass_tint_ * (1.0f - out.loss - f0 * out.a() - specular * out.b);
+    const Color transmitted = glass_tint_ * (1.0f - f0 * (1.0f - out.b_scaled) - specular * out.b_scaled);
     albedo_ += transmitted;
     p_microfacet_ += scene::luminance(transmitted);
-    glass_multiple_transmit_.setZero();
-    if (loses) {
-      const Color multiple_transmitted = glass_tint_ * (1.0f - multiple_dielectric);
-      glass_multiple_transmit_ = multiple_transmitted * (out.loss * kInvPi / mean.loss);
-      albedo_ += multiple_transmitted * out.loss;
-      p_cosine_transmit_ = scene::luminance(multiple_transmitted) * out.loss;
-    }
   } else {
     set_up_refraction(roughness, ior_f0);
   }
@@ -165,9 +151,7 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   fresnel_base_ = ior_f0;
   if (ggx_.delta) {
     const Facet straight = facet(ggx_.cos_o);
-    // The facet holds the Schlick part too, which is counted already.
-    const Color schlick = f0_ + (f90_ - f0_) * schlick_weight(ggx_.cos_o);
-    const Color added = straight.reflected - schlick + straight.transmitted;
+    const Color added = straight.reflected + straight.transmitted;
     albedo_ += added;
     p_microfacet_ += scene::luminance(added);
     return;
@@ -184,10 +168,9 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   const float mean_here = glass_here_.mean_loss(k);
   const float mean_there = glass_there_.mean_loss(k);
   const float loss = out.loss(k);
-  has_glass_multiple_ = loss > 0.0f && mean_here > 1e-6f && mean_there > 1e-6f;
-  if (!has_glass_multiple_) return;
-  // The part that leaves on the other side. Light scattered towards both sides is reciprocal if part * loss
-  // here is eta^2 part * loss there; the mean Fresnel transmittances have that ratio already.
+  if (!(loss > 0.0f && mean_here > 0.0f && mean_there > 0.0f)) return;
+  // The part that leaves on the other side. Scattering to the other side is reciprocal if part * mean loss
+  // here is eta^2 times part * mean loss there; the mean Fresnel transmittances have the ratio eta^2 already.
   const float smooth =
       eta_ > 1.0f ? 1.0f - glass_here_.mean_fresnel(k) : eta_ * eta_ * (1.0f - glass_there_.mean_fresnel(k));
   const float part = std::clamp(smooth * mean_there / std::max(mean_here, mean_there), 0.0f, 1.0f);
@@ -196,8 +179,9 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   glass_multiple_reflect_ = reflected * kInvPi / mean_here;
   glass_multiple_transmit_ = transmitted * (kInvPi / (mean_there * eta_ * eta_));
   albedo_ += reflected + transmitted;
-  p_cosine_ += reflected;
-  p_cosine_transmit_ = scene::luminance(transmitted);
+  p_loss_reflect_ = reflected;
+  p_loss_transmit_ = scene::luminance(transmitted);
+  loss_lobe_ = LossLobe(roughness * roughness);
 }
 
 void Bsdf::set_up_layers(const SurfaceMaterial& material) {
@@ -227,9 +211,10 @@ void Bsdf::set_up_layers(const SurfaceMaterial& material) {
     p_sheen_ *= coat_scale;
   }
   p_microfacet_ *= base_scale * coat_scale;
-  p_cosine_ *= base_scale * coat_scale;
-  p_cosine_transmit_ *= base_scale * coat_scale;
+  p_diffuse_ *= base_scale * coat_scale;
   p_clear_ *= base_scale * coat_scale;
+  p_loss_reflect_ *= base_scale * coat_scale;
+  p_loss_transmit_ *= base_scale * coat_scale;
 }
 
 }  // namespace gatelight::renderer

@@ -92,9 +92,12 @@ class Bsdf {
     refracting,  ///< the boundary of a medium
     clear,       ///< the boundary of a medium like the outside: nothing but a straight passage
   };
-  /// What a microfacet reflects and transmits, its base colours and weights applied.
+  /// What a microfacet of glass reflects and transmits, tint and weight applied. Thin glass is reflected with
+  /// the opaque rest.
   struct Facet {
-    Color reflected, transmitted;
+    float schlick = 0.0f;  ///< weight between f0 and f90
+    Color reflected = Color::Zero();
+    Color transmitted = Color::Zero();
     float cos_t = 0.0f;                ///< of the refracted ray
     float probability_reflect = 1.0f;  ///< of choosing the reflection
   };
@@ -103,6 +106,11 @@ class Bsdf {
   void set_up_refraction(float roughness, float ior_f0);
   void set_up_layers(const SurfaceMaterial& material);
 
+  /// Power that the dielectric layer lets through.
+  float passed(const GgxAlbedo& albedo) const {
+    return std::max(0.0f, coupling_[0] + coupling_[1] * albedo.loss + coupling_[2] * albedo.b +
+                              coupling_[3] * albedo.b_scaled);
+  }
   Facet facet(float cos_h) const;
   void add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const;
   void add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const;
@@ -115,16 +123,19 @@ class Bsdf {
 
   Vec3 wo_, ng_, ns_;
 
-  // Microfacets of metal, opaque dielectric and thin glass: Schlick's f0 and f90, weighted and added up.
+  // Microfacets of metal, opaque dielectric and thin glass: Schlick's f0 and f90, weighted and added up, for
+  // the light that meets one microfacet, and for what meets more, which is scattered like the first (times
+  // the excess of the scales over one).
   GgxLobe ggx_;
   GgxTables::Row row_;
-  Color f0_;
+  float scale_o_ = 1.0f;
+  Color f0_, multiple_f0_, multiple_f90_;
   float f90_ = 0.0f;
 
-  // Reflection that is cosine-distributed, but for factors of wi's cosine: the diffuse base under the
-  // dielectric (times 1 - its albedo) and what microfacets scatter more than once (times their loss).
-  Color diffuse_, multiple_;
-  float coupling_[3];  ///< 1 - the dielectric's albedo is [0] + [1] loss + [2] b
+  // Diffuse base under the dielectric, times 1 - its albedo for wi, which is [0] + [1] loss + [2] b + [3]
+  // b_scaled.
+  Color diffuse_;
+  float coupling_[4];
 
   Glass glass_ = Glass::none;
   bool is_delta_ = false;
@@ -133,11 +144,12 @@ class Bsdf {
   // Set only with glass.
   Color glass_f0_, glass_tint_;
   float glass_f90_, glass_weight_, eta_, fresnel_base_;
-  // Set only with rough glass: scattered more than once, to either side.
+  // Set only with rough refracting glass: what it scatters more than once, to either side, times the loss
+  // there.
   float glass_multiple_reflect_;
   Color glass_multiple_transmit_;
-  bool has_glass_multiple_ = false;
   GlassTables::Rows glass_here_, glass_there_;
+  LossLobe loss_lobe_;
 
   // Set only with layers.
   float base_scale_ = 1.0f;  ///< what clearcoat and sheen let through to everything above
@@ -150,9 +162,10 @@ class Bsdf {
   Color albedo_;
   // Of choosing a lobe; they add up to one, or are all zero for a black surface.
   float p_microfacet_ = 0.0f;
-  float p_cosine_ = 0.0f;
-  float p_cosine_transmit_ = 0.0f;
+  float p_diffuse_ = 0.0f;
   float p_clear_ = 0.0f;
+  float p_loss_reflect_ = 0.0f;
+  float p_loss_transmit_ = 0.0f;
   float p_coat_ = 0.0f;
   float p_sheen_ = 0.0f;
 };

@@ -21,10 +21,9 @@ float coat_fresnel(float cos_h) {
 
 Bsdf::Facet Bsdf::facet(float cos_h) const {
   Facet result;
-  const float weight = schlick_weight(cos_h);
-  result.reflected = f0_ + (f90_ - f0_) * weight;
+  result.schlick = schlick_weight(cos_h);
   if (glass_ == Glass::thin) {
-    result.transmitted = glass_tint_ * (1.0f - glass_f0_ - (glass_f90_ - glass_f0_) * weight);
+    result.transmitted = glass_tint_ * (1.0f - glass_f0_ - (glass_f90_ - glass_f0_) * result.schlick);
   } else if (glass_ == Glass::refracting) {
     // The exact curve from f0 to f90, where Schlick has (1 - c)^5. At total internal reflection nothing can
     // be transmitted, whatever the specular factor.
@@ -32,17 +31,15 @@ Bsdf::Facet Bsdf::facet(float cos_h) const {
     if (result.cos_t > 0.0f) {
       const float curve = std::max(0.0f, (exact - fresnel_base_) / (1.0f - fresnel_base_));
       const Color reflected = glass_f0_ + (glass_f90_ - glass_f0_) * curve;
-      result.reflected += glass_weight_ * reflected;
+      result.reflected = glass_weight_ * reflected;
       result.transmitted = glass_tint_ * (1.0f - reflected);
     } else {
-      result.reflected += glass_weight_;
-      result.transmitted.setZero();
+      result.reflected.setConstant(glass_weight_);
     }
   } else {
-    result.transmitted.setZero();
     return result;
   }
-  const float r = scene::luminance(result.reflected);
+  const float r = scene::luminance(f0_ + (f90_ - f0_) * result.schlick + result.reflected);
   const float t = scene::luminance(result.transmitted);
   result.probability_reflect = t > 0.0f ? r / (r + t) : 1.0f;
   return result;
@@ -71,73 +68,72 @@ BsdfValue Bsdf::evaluate(const Vec3& wi) const {
 }
 
 void Bsdf::add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const {
+  const GgxAlbedo in = row_.at(cos_i);
   if (!ggx_.delta && p_microfacet_ > 0.0f) {
     const Vec3 h = wo_ + wi;
     const float h2 = h.squaredNorm();
     if (h2 > kMinHalf2) {
       const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
-      const float scale = terms.d * terms.visibility * cos_i;
-      const float pdf = p_microfacet_ * terms.d * ggx_.pdf_scale;
       const float cos_h = 0.5f * std::sqrt(h2);
-      if (glass_ == Glass::none) {
-        result.value += (f0_ + (f90_ - f0_) * schlick_weight(cos_h)) * scale;
-        result.pdf += pdf;
-      } else {
+      const float excess = scale_o_ * in.scale - 1.0f;
+      const float schlick = schlick_weight(cos_h);
+      Color reflected =
+          f0_ + (f90_ - f0_) * schlick + excess * (multiple_f0_ + (multiple_f90_ - multiple_f0_) * schlick);
+      float pdf = p_microfacet_ * terms.d * ggx_.pdf_scale;
+      if (glass_ == Glass::thin || glass_ == Glass::refracting) {
         const Facet half = facet(cos_h);
-        result.value += half.reflected * scale;
-        result.pdf += pdf * half.probability_reflect;
+        reflected += half.reflected;
+        pdf *= half.probability_reflect;
       }
+      result.value += reflected * (terms.d * terms.visibility * cos_i);
+      result.pdf += pdf;
     }
   }
-  if (p_cosine_ > 0.0f) {
-    const GgxAlbedo in = row_.at(cos_i);
-    const float passed = std::max(0.0f, coupling_[0] + coupling_[1] * in.loss + coupling_[2] * in.b);
-    Color value = diffuse_ * passed + multiple_ * in.loss;
-    if (has_glass_multiple_) value += glass_multiple_reflect_ * glass_here_.at(cos_i).loss(glass_f90_);
-    result.value += value * cos_i;
-    result.pdf += p_cosine_ * cos_i * kInvPi;
+  if (p_loss_reflect_ > 0.0f) {
+    result.value += glass_multiple_reflect_ * glass_here_.at(cos_i).loss(glass_f90_) * cos_i;
+    result.pdf += p_loss_reflect_ * loss_lobe_.pdf(cos_i);
+  }
+  if (p_diffuse_ > 0.0f) {
+    result.value += diffuse_ * (passed(in) * cos_i);
+    result.pdf += p_diffuse_ * cos_i * kInvPi;
   }
 }
 
 void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const {
-  if (glass_ == Glass::clear) return;
-  if (!ggx_.delta && p_microfacet_ > 0.0f) {
-    if (glass_ == Glass::thin) {
-      // The reflection lobe, mirrored to the other side of the sheet.
-      const Vec3 h = wo_ + wi + 2.0f * cos_i * ns_;
-      const float h2 = h.squaredNorm();
-      if (h2 > kMinHalf2) {
-        const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
-        const Facet half = facet(0.5f * std::sqrt(h2));
-        result.value += half.transmitted * (terms.d * terms.visibility * cos_i);
-        result.pdf += p_microfacet_ * terms.d * ggx_.pdf_scale * (1.0f - half.probability_reflect);
-      }
-    } else {
-      // Walter et al. 2007, equations 16 and 17. The half vector wo + eta wi points into the denser side's
-      // opposite; turned to the side of wo, it must see wo from above and wi from below.
-      Vec3 h = wo_ + eta_ * wi;
-      if (h.dot(ns_) < 0.0f) h = -h;
-      const float h2 = h.squaredNorm();
-      const float oh = wo_.dot(h);
-      const float ih = wi.dot(h);
-      if (h2 > kMinHalf2 && oh > 0.0f && ih < 0.0f) {
-        const float length = std::sqrt(h2);
-        const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
-        const Facet half = facet(std::min(1.0f, oh / length));
-        // |dh / dwi| without the factor eta^2, which the radiance loses again.
-        const float jacobian = -ih / (length * h2);
-        const float visible = 4.0f * oh / length * jacobian;
-        result.value += half.transmitted * (terms.d * terms.visibility * cos_i * visible);
-        result.pdf += p_microfacet_ * (1.0f - half.probability_reflect) * terms.d * ggx_.pdf_scale * visible *
-                      (eta_ * eta_);
-      }
-    }
+  if (glass_ == Glass::clear || ggx_.delta || !(p_microfacet_ > 0.0f)) return;
+  if (glass_ == Glass::thin) {
+    // The reflection lobe, mirrored to the other side of the sheet.
+    const Vec3 h = wo_ + wi + 2.0f * cos_i * ns_;
+    const float h2 = h.squaredNorm();
+    if (!(h2 > kMinHalf2)) return;
+    const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
+    const Facet half = facet(0.5f * std::sqrt(h2));
+    const float scale = scale_o_ * row_.at(cos_i).scale;
+    result.value += half.transmitted * (terms.d * terms.visibility * cos_i * scale);
+    result.pdf += p_microfacet_ * terms.d * ggx_.pdf_scale * (1.0f - half.probability_reflect);
+    return;
   }
-  if (p_cosine_transmit_ > 0.0f) {
-    const float loss = glass_ == Glass::thin ? row_.at(cos_i).loss : glass_there_.at(cos_i).loss(glass_f90_);
-    result.value += glass_multiple_transmit_ * (loss * cos_i);
-    result.pdf += p_cosine_transmit_ * cos_i * kInvPi;
+  if (p_loss_transmit_ > 0.0f) {
+    result.value += glass_multiple_transmit_ * (glass_there_.at(cos_i).loss(glass_f90_) * cos_i);
+    result.pdf += p_loss_transmit_ * loss_lobe_.pdf(cos_i);
   }
+  // Walter et al. 2007, equations 16, 17 and 21. The half vector -(wo + eta wi) points to the rarer side;
+  // turned to the side of wo, it must see wo from above and wi from below.
+  Vec3 h = wo_ + eta_ * wi;
+  if (h.dot(ns_) < 0.0f) h = -h;
+  const float h2 = h.squaredNorm();
+  const float oh = wo_.dot(h);
+  const float ih = wi.dot(h);
+  if (!(h2 > kMinHalf2 && oh > 0.0f && ih < 0.0f)) return;
+  const float length = std::sqrt(h2);
+  const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
+  const Facet half = facet(std::min(1.0f, oh / length));
+  // |dh / dwi| without its factor eta^2, which the radiance loses again.
+  const float jacobian = -ih / (length * h2);
+  const float visible = 4.0f * (oh / length) * jacobian;
+  result.value += half.transmitted * (terms.d * terms.visibility * cos_i * visible);
+  result.pdf +=
+      p_microfacet_ * (1.0f - half.probability_reflect) * terms.d * ggx_.pdf_scale * visible * (eta_ * eta_);
 }
 
 void Bsdf::add_layers(const Vec3& wi, BsdfValue& result) const {

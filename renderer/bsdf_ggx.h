@@ -43,6 +43,23 @@ inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
   return Vec3(alpha * half.x(), alpha * half.y(), std::max(half.z(), 1e-7f)).normalized();
 }
 
+/// Directions as the light goes that a rough lobe loses: cos / (cos^2 + a^2), from cosine-distributed at a
+/// large alpha to near the horizon at a small one.
+struct LossLobe {
+  float a2 = 1.0f;
+  float log_norm = 1.0f;
+
+  LossLobe() = default;
+  explicit LossLobe(float alpha) : a2(2.0f * alpha * alpha), log_norm(std::log1p(1.0f / a2)) {}
+  float pdf(float cosine) const { return cosine * kInvPi / ((cosine * cosine + a2) * log_norm); }
+  Vec3 sample(const Vec2& u) const {
+    const float cos2 = std::min(a2 * std::expm1(u.x() * log_norm), 1.0f);
+    const Vec2 phi = cos_sin_turn(u.y());
+    const float sine = std::sqrt(1.0f - cos2);
+    return {sine * phi.x(), sine * phi.y(), std::sqrt(cos2)};
+  }
+};
+
 /// One distribution seen from one wo.
 struct GgxLobe {
   float alpha2 = 1.0f;

@@ -8,10 +8,13 @@ namespace {
 
 constexpr float kMaxRoot = 0.5f;
 
+/// The root of the normal reflectance goes with the square of the coordinate in [-1, 1]: interfaces change
+/// fast where the media are almost alike.
 float eta_of_node(int node) {
-  float root = kMaxRoot * (2.0f * static_cast<float>(node) / (GlassTables::kEta - 1) - 1.0f);
+  const float x = 2.0f * static_cast<float>(node) / (GlassTables::kEta - 1) - 1.0f;
+  float root = kMaxRoot * x * std::abs(x);
   // An interface between equal media does not scatter; its rough limit does.
-  if (root == 0.0f) root = 0.002f;
+  if (root == 0.0f) root = 5e-4f;
   return (1.0f + root) / (1.0f - root);
 }
 
@@ -19,7 +22,7 @@ GlassAlbedo integrate(float alpha, float cosine, float eta) {
   const float alpha2 = alpha * alpha;
   const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
   GlassAlbedo sum;
-  for_visible_normals<30>(alpha, wo, [&](const Vec3& h, float weight) {
+  for_visible_normals<36>(alpha, wo, [&](const Vec3& h, float weight) {
     const float oh = std::max(wo.dot(h), 0.0f);
     float cos_t;
     const float fresnel = fresnel_dielectric(oh, eta, cos_t);
@@ -64,7 +67,8 @@ GlassTables::Rows GlassTables::rows(float roughness, float eta) const {
   rows.tables_ = this;
   rows.alpha_ = roughness * roughness;
   const float root = std::clamp((eta - 1.0f) / (eta + 1.0f), -kMaxRoot, kMaxRoot);
-  const float x = (root / kMaxRoot + 1.0f) * (0.5f * (kEta - 1));
+  const float coordinate = std::copysign(std::sqrt(std::abs(root) / kMaxRoot), root);
+  const float x = (coordinate + 1.0f) * (0.5f * (kEta - 1));
   rows.eta_ = std::min(static_cast<int>(x), kEta - 2);
   rows.eta_mix_ = x - static_cast<float>(rows.eta_);
   const float y = roughness * (kRoughness - 1);

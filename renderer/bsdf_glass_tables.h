@@ -23,12 +23,12 @@ struct GlassAlbedo {
 };
 
 /// Over roughness, cosine (with the coordinate of GgxTables) and the signed root of the normal reflectance,
-/// (eta - 1) / (eta + 1), for eta in [1/3, 3]. 32 KiB, built when the first rough refracting surface is met.
+/// (eta - 1) / (eta + 1), for eta in [1/3, 3]. 64 KiB, built when the first rough refracting surface is met.
 class GlassTables {
  public:
-  static constexpr int kEta = 17;
+  static constexpr int kEta = 17;  // odd: the middle one is eta = 1
   static constexpr int kRoughness = 10;
-  static constexpr int kCosine = 12;
+  static constexpr int kCosine = 24;
 
   static constexpr int kMeans = 32;
 

@@ -46,6 +46,30 @@ inline float table_cosine(float u, float alpha) {
   return std::clamp(u * alpha / (1.0f + alpha - u), 1e-3f * alpha, 1.0f);
 }
 
+/// How much of the light of one node of the cosine goes to each other one, linearly interpolated.
+template <int count>
+class CosineMatrix {
+ public:
+  void add(int row, float cosine, float alpha, float amount) {
+    const float x = std::min(cosine, 1.0f) * (1.0f + alpha) / (std::min(cosine, 1.0f) + alpha) * (count - 1);
+    const int i = std::min(static_cast<int>(x), count - 2);
+    const float s = x - static_cast<float>(i);
+    cells_[row][i] += amount * (1.0f - s);
+    cells_[row][i + 1] += amount * s;
+  }
+  float row_sum(int row, const std::array<float, count>& factors) const {
+    float sum = 0.0f;
+    for (int i = 0; i < count; ++i) sum += cells_[row][i] * factors[i];
+    return sum;
+  }
+
+ private:
+  std::array<std::array<float, count>, count> cells_{};
+};
+
+/// Iterations of Sinkhorn's balance; the change is below 1e-6 after half as many.
+inline constexpr int kBalanceSteps = 24;
+
 /// Calls f(cosine, weight) for the cosine-weighted mean over the hemisphere, with steps that get finer
 /// towards the horizon. The weights add up to one.
 template <class F>

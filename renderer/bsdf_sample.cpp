@@ -24,19 +24,22 @@ Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const 
 
 BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
   float rest = u_lobe;
+  // A lobe is taken if the number falls into its share, or if rounding leaves a bit and no later lobe has a
+  // share.
+  float later = 1.0f - p_microfacet_;
+  const auto takes = [&](float p) {
+    later -= p;
+    if (p > 0.0f && (rest < p || later < 1e-6f)) return true;
+    rest -= p;
+    return false;
+  };
   if (rest < p_microfacet_) return sample_microfacet(rest / p_microfacet_, u);
   rest -= p_microfacet_;
-  // A lobe that is the last with a chance also takes what rounding leaves over.
-  const float p_later = p_cosine_transmit_ + p_clear_ + p_coat_ + p_sheen_;
-  if (p_cosine_ > 0.0f && (rest < p_cosine_ || p_later == 0.0f)) {
-    return finish(Basis(ns_).to_world(sample_cosine_hemisphere(u)), ns_, 1.0f);
-  }
-  rest -= p_cosine_;
-  if (p_cosine_transmit_ > 0.0f && (rest < p_cosine_transmit_ || p_clear_ + p_coat_ + p_sheen_ == 0.0f)) {
-    return finish(-Basis(ns_).to_world(sample_cosine_hemisphere(u)), -ns_, 1.0f);
-  }
-  rest -= p_cosine_transmit_;
-  if (p_clear_ > 0.0f && (rest < p_clear_ || p_coat_ + p_sheen_ == 0.0f)) {
+  if (takes(p_diffuse_)) return finish(Basis(ns_).to_world(sample_cosine_hemisphere(u)), ns_, 1.0f);
+  if (takes(p_loss_reflect_)) return finish(Basis(ns_).to_world(loss_lobe_.sample(u)), ns_, 1.0f);
+  if (takes(p_loss_transmit_)) return finish(-Basis(ns_).to_world(loss_lobe_.sample(u)), -ns_, 1.0f);
+  if (takes(p_sheen_)) return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
+  if (takes(p_clear_)) {
     BsdfSample sample;
     sample.wi = -wo_;
     sample.pdf = p_clear_;
@@ -45,10 +48,6 @@ BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
     sample.transmitted = true;
     sample.spread = 0.0f;
     return sample;
-  }
-  rest -= p_clear_;
-  if (p_sheen_ > 0.0f && (rest < p_sheen_ || p_coat_ == 0.0f)) {
-    return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
   }
   if (p_coat_ > 0.0f) {
     if (!coat_.delta) {
@@ -96,7 +95,8 @@ BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
     sample.wi = mirror(wo_, ns_);
     if (!(sample.wi.dot(ng_) > 0.0f)) return {};
     sample.pdf = p_microfacet_ * half.probability_reflect;
-    sample.weight = half.reflected * (base_scale_ / sample.pdf);
+    const Color reflected = f0_ + (f90_ - f0_) * half.schlick + half.reflected;
+    sample.weight = reflected * (base_scale_ / sample.pdf);
     return sample;
   }
   sample.pdf = p_microfacet_ * (1.0f - half.probability_reflect);

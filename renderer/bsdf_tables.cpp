@@ -3,50 +3,56 @@
 #include "renderer/bsdf_quadrature.h"
 
 namespace gatelight::renderer {
-namespace {
-
-GgxAlbedo integrate(float alpha, float cosine) {
-  const float alpha2 = alpha * alpha;
-  const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-  double loss = 0.0;
-  double b = 0.0;
-  for_visible_normals<42>(alpha, wo, [&](const Vec3& h, float weight) {
-    const float oh = wo.dot(h);
-    const float cos_i = 2.0f * oh * h.z() - cosine;
-    const float kept = cos_i > 0.0f ? smith_ratio(alpha2, cosine, cos_i) : 0.0f;
-    loss += static_cast<double>(weight * (1.0f - kept));
-    b += static_cast<double>(weight * kept * schlick_weight(oh));
-  });
-  return {static_cast<float>(loss), static_cast<float>(b)};
-}
-
-}  // namespace
 
 GgxTables::GgxTables() {
   for (int k = 0; k < kRoughness; ++k) {
     const float roughness = static_cast<float>(k) / (kRoughness - 1);
     const float alpha = std::max(roughness * roughness, kDeltaAlpha);
+    const float alpha2 = alpha * alpha;
+
+    // What goes from each cosine to each other one, for the reflectance 1 and for Schlick's weight.
+    CosineMatrix<kCosine> all;
+    CosineMatrix<kCosine> grazing;
     for (int i = 0; i < kCosine; ++i) {
       const float cosine = table_cosine(static_cast<float>(i) / (kCosine - 1), alpha);
-      const GgxAlbedo albedo = integrate(alpha, cosine);
-      values_[k][2 * i] = albedo.loss;
-      values_[k][2 * i + 1] = albedo.b - (1.0f - albedo.loss) * schlick_weight(cosine);
+      const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+      for_visible_normals<36>(alpha, wo, [&](const Vec3& h, float weight) {
+        const float oh = wo.dot(h);
+        const float cos_i = 2.0f * oh * h.z() - cosine;
+        if (!(cos_i > 0.0f)) return;
+        const float kept = weight * smith_ratio(alpha2, cosine, cos_i);
+        all.add(i, cos_i, alpha, kept);
+        grazing.add(i, cos_i, alpha, kept * schlick_weight(oh));
+      });
+    }
+
+    // The scale s with s_i sum_j all_ij s_j = 1: Sinkhorn's balance of a symmetric kernel.
+    std::array<float, kCosine> ones, scale;
+    ones.fill(1.0f);
+    scale = ones;
+    for (int iteration = 0; iteration < kBalanceSteps; ++iteration) {
+      std::array<float, kCosine> next;
+      for (int i = 0; i < kCosine; ++i) next[i] = std::sqrt(scale[i] / all.row_sum(i, scale));
+      scale = next;
+    }
+    for (int i = 0; i < kCosine; ++i) {
+      const float schlick = schlick_weight(table_cosine(static_cast<float>(i) / (kCosine - 1), alpha));
+      const float kept = all.row_sum(i, ones);
+      values_[k][i] = {1.0f - kept, grazing.row_sum(i, ones) - kept * schlick,
+                       scale[i] * grazing.row_sum(i, scale) - schlick, scale[i]};
     }
   }
-  // The means of the interpolated table itself, so that what is given back adds up to what was lost.
+  // The means of the interpolated table itself, so that the coupled diffuse lobe adds up to what is let
+  // through.
   means_ = {};
-  for (int k = 0; k < kMeans; ++k) {
-    const float roughness = std::max(static_cast<float>(k) / (kMeans - 1), kDeltaRoughness);
-    const float alpha = roughness * roughness;
-    const Row interpolated = row(roughness);
-    double loss = 0.0;
-    double b = 0.0;
+  for (int k = 0; k < kRoughness; ++k) {
+    const Row own = row(std::max(static_cast<float>(k) / (kRoughness - 1), kDeltaRoughness));
     for_mean_cosines([&](float cosine, float weight) {
-      const GgxAlbedo albedo = interpolated.at(cosine);
-      loss += static_cast<double>(weight * albedo.loss);
-      b += static_cast<double>(weight * albedo.b);
+      const GgxAlbedo albedo = own.at(cosine);
+      means_[k].loss += weight * albedo.loss;
+      means_[k].b += weight * albedo.b;
+      means_[k].b_scaled += weight * albedo.b_scaled;
     });
-    means_[k] = {static_cast<float>(loss) / (alpha * alpha), static_cast<float>(b)};
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Directional albedos of the GGX reflection lobe for Schlick's Fresnel: what single scattering loses between
-// the microfacets, and how much the grazing reflectance weighs.
+// Directional albedos of the GGX reflection lobe with Schlick's Fresnel, and the scale that gives back what
+// single scattering loses between the microfacets.
 
 #include <algorithm>
 #include <array>
@@ -9,22 +9,23 @@
 
 namespace gatelight::renderer {
 
-/// The albedo of a lobe with reflectances f0 and f90 is f0 * a + f90 * b; loss is 1 - a - b.
+/// For one cosine. The albedo of a lobe with reflectances f0 and f90 is f0 (1 - loss - b) + f90 b. Multiplied
+/// by scale(cos_o) scale(cos_i) it loses nothing: its albedo is f0 (1 - b_scaled) + f90 b_scaled.
 struct GgxAlbedo {
   float loss = 0.0f;
   float b = 0.0f;
-  float a() const { return 1.0f - loss - b; }
-  float reflect(float f0, float f90) const { return f0 * a() + f90 * b; }
+  float b_scaled = 0.0f;
+  float scale = 1.0f;
+  float reflect(float f0, float f90) const { return f0 * (1.0f - loss - b) + f90 * b; }
 };
 
 /// A table over roughness and cosine. Near the horizon the loss is a function of cosine / alpha alone, so the
 /// cosine's coordinate is u = cosine (1 + alpha) / (cosine + alpha): the same few nodes resolve a dip that is
-/// alpha wide. 8 KiB.
+/// alpha wide. 16 KiB.
 class GgxTables {
  public:
   static constexpr int kRoughness = 32;
   static constexpr int kCosine = 32;
-  static constexpr int kMeans = 64;
 
   /// The interpolated rows for one roughness. A delta lobe loses nothing.
   class Row {
@@ -32,30 +33,29 @@ class GgxTables {
     Row() = default;
     GgxAlbedo at(float cosine) const {
       const float schlick = schlick_weight(cosine);
-      if (low_ == nullptr) return {0.0f, schlick};
-      const float x = cosine * scale_ / (cosine + alpha_);
+      if (low_ == nullptr) return {0.0f, schlick, schlick, 1.0f};
+      const float x = cosine * u_scale_ / (cosine + alpha_);
       const int i = std::min(static_cast<int>(x), kCosine - 2);
       const float s = x - static_cast<float>(i);
-      const float* l = low_ + 2 * i;
-      const float* h = high_ + 2 * i;
-      const float l0 = l[0] + s * (l[2] - l[0]);
-      const float l1 = l[1] + s * (l[3] - l[1]);
-      const float h0 = h[0] + s * (h[2] - h[0]);
-      const float h1 = h[1] + s * (h[3] - h[1]);
-      const float loss = l0 + mix_ * (h0 - l0);
-      return {loss, l1 + mix_ * (h1 - l1) + (1.0f - loss) * schlick};
+      const auto part = [&](int k) {
+        const float l = low_[i][k] + s * (low_[i + 1][k] - low_[i][k]);
+        const float h = high_[i][k] + s * (high_[i + 1][k] - high_[i][k]);
+        return l + mix_ * (h - l);
+      };
+      const float loss = part(0);
+      return {loss, part(1) + (1.0f - loss) * schlick, part(2) + schlick, part(3)};
     }
-    /// Cosine-weighted mean over the hemisphere.
+    /// Cosine-weighted mean over the hemisphere; its scale has no meaning.
     const GgxAlbedo& mean() const { return mean_; }
 
    private:
     friend class GgxTables;
-    const float* low_ = nullptr;
-    const float* high_ = nullptr;
+    const std::array<float, 4>* low_ = nullptr;
+    const std::array<float, 4>* high_ = nullptr;
     float mix_ = 0.0f;
     float alpha_ = 0.0f;
-    float scale_ = 0.0f;
-    GgxAlbedo mean_{0.0f, kSchlickMean};
+    float u_scale_ = 0.0f;
+    GgxAlbedo mean_{0.0f, kSchlickMean, kSchlickMean, 1.0f};
   };
 
   /// Built at first use (some milliseconds), the same on every machine; safe from any thread.
@@ -70,23 +70,20 @@ class GgxTables {
     row.high_ = values_[i + 1].data();
     row.mix_ = x - static_cast<float>(i);
     row.alpha_ = alpha;
-    row.scale_ = (1.0f + alpha) * (kCosine - 1);
-    const float y = roughness * (kMeans - 1);
-    const int j = std::min(static_cast<int>(y), kMeans - 2);
-    const float s = y - static_cast<float>(j);
-    const auto& l = means_[j];
-    const auto& h = means_[j + 1];
-    row.mean_.loss = (l[0] + s * (h[0] - l[0])) * alpha * alpha;
-    row.mean_.b = l[1] + s * (h[1] - l[1]);
+    row.u_scale_ = (1.0f + alpha) * (kCosine - 1);
+    const GgxAlbedo& l = means_[i];
+    const GgxAlbedo& h = means_[i + 1];
+    row.mean_.loss = l.loss + row.mix_ * (h.loss - l.loss);
+    row.mean_.b = l.b + row.mix_ * (h.b - l.b);
+    row.mean_.b_scaled = l.b_scaled + row.mix_ * (h.b_scaled - l.b_scaled);
     return row;
   }
 
  private:
   GgxTables();
-  // Pairs: loss, and b less the Schlick weight of the cosine times 1 - loss.
-  std::array<std::array<float, 2 * kCosine>, kRoughness> values_;
-  // Pairs: mean loss over alpha^2, mean b.
-  std::array<std::array<float, 2>, kMeans> means_;
+  // Loss; b less the cosine's own Schlick weight times 1 - loss; b_scaled less that weight; scale.
+  std::array<std::array<std::array<float, 4>, kCosine>, kRoughness> values_;
+  std::array<GgxAlbedo, kRoughness> means_;
 };
 
 }  // namespace gatelight::renderer
