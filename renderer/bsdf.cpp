@@ -10,9 +10,10 @@ namespace {
 
 /// Half vectors and Smith's terms need a wo that is not in the plane itself.
 constexpr float kMinCosine = 1e-5f;
-/// Media whose indices differ by less do not refract: the half vector of a refraction would be all
-/// cancellation.
-constexpr float kMinIorStep = 1e-3f;
+/// Rough boundaries of media whose indices differ by less do not refract but let everything pass straight:
+/// the half vector of a refraction would be all cancellation, and the microfacet model loses most of the
+/// light there.
+constexpr float kMinRoughIorStep = 0.02f;
 /// Clearcoat has ior 1.5.
 constexpr float kCoatF0 = 0.04f;
 
@@ -83,7 +84,8 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     if (material.thin_walled || ior == 0.0f) {
       glass_ = Glass::thin;
     } else {
-      glass_ = std::abs(ior - 1.0f) < kMinIorStep ? Glass::clear : Glass::refracting;
+      const bool clear = roughness >= kDeltaRoughness && std::abs(ior - 1.0f) < kMinRoughIorStep;
+      glass_ = clear ? Glass::clear : Glass::refracting;
     }
   }
 

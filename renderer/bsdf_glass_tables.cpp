@@ -22,7 +22,7 @@ GlassAlbedo integrate(float alpha, float cosine, float eta) {
   const float alpha2 = alpha * alpha;
   const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
   GlassAlbedo sum;
-  for_visible_normals<36>(alpha, wo, [&](const Vec3& h, float weight) {
+  for_visible_normals<377, 233>(alpha, wo, [&](const Vec3& h, float weight) {
     const float oh = std::max(wo.dot(h), 0.0f);
     float cos_t;
     const float fresnel = fresnel_dielectric(oh, eta, cos_t);

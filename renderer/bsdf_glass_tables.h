@@ -28,7 +28,7 @@ class GlassTables {
  public:
   static constexpr int kEta = 17;  // odd: the middle one is eta = 1
   static constexpr int kRoughness = 10;
-  static constexpr int kCosine = 24;
+  static constexpr int kCosine = 28;
 
   static constexpr int kMeans = 32;
 

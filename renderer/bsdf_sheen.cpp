@@ -9,7 +9,7 @@ using scene::Vec3;
 /// Mean over the hemisphere of f(sin2_h, cos_i) cos_i, times its solid angle, for wo = (sin, 0, cosine).
 template <class F>
 float integrate(float cosine, F&& f) {
-  constexpr int kSteps = 24;
+  constexpr int kSteps = 32;
   const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {

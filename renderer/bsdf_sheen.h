@@ -11,15 +11,15 @@
 namespace gatelight::renderer {
 
 /// Narrower distributions would put all sheen into the last degrees above the horizon.
-inline constexpr float kMinSheenRoughness = 0.15f;
+inline constexpr float kMinSheenRoughness = 0.2f;
 
 /// Over roughness and the root of the cosine; built when the first surface with sheen is met. The model
-/// itself reflects up to 2.6 times what arrives (small roughness, grazing angles), so it is divided by the
+/// itself reflects up to twice what arrives (small roughness, grazing angles), so it is divided by the
 /// larger of its directional albedos for wo and wi wherever that exceeds one: reciprocal, and never more than
 /// all.
 class SheenTables {
  public:
-  static constexpr int kRoughness = 24;
+  static constexpr int kRoughness = 16;
   static constexpr int kCosine = 32;
 
   struct Row {

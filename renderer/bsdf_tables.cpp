@@ -16,7 +16,7 @@ GgxTables::GgxTables() {
     for (int i = 0; i < kCosine; ++i) {
       const float cosine = table_cosine(static_cast<float>(i) / (kCosine - 1), alpha);
       const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-      for_visible_normals<36>(alpha, wo, [&](const Vec3& h, float weight) {
+      for_visible_normals<377, 233>(alpha, wo, [&](const Vec3& h, float weight) {
         const float oh = wo.dot(h);
         const float cos_i = 2.0f * oh * h.z() - cosine;
         if (!(cos_i > 0.0f)) return;
