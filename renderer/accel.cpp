@@ -94,11 +94,11 @@ bool has_isa(const std::string& isa) {
   return true;
 }
 
+}  // namespace
+
 std::string best_isa() {
   return has_isa("avx512") ? "avx512" : has_isa("avx2") ? "avx2" : "scalar";
 }
-
-}  // namespace
 
 struct Accel::State {
   std::atomic<long long> bytes{0};

@@ -16,6 +16,9 @@
 
 namespace gatelight::renderer {
 
+/// The widest instruction set of this machine: avx512, avx2 or scalar.
+std::string best_isa();
+
 struct AccelOptions {
   int threads = 0;                     ///< of the build; 0: all of the current arena
   std::string isa = "auto";            ///< auto, scalar (SSE2), avx2, avx512

@@ -290,6 +290,8 @@ Picture Renderer::render(const Callbacks& callbacks) {
     }
     if (callbacks.snapshot_wanted && callbacks.snapshot && done < options.spp &&
         callbacks.snapshot_wanted()) {
+      statistics.spp = done;
+      statistics.render_seconds = now;
       callbacks.snapshot(film.resolve());
     }
     if (done < options.spp &&

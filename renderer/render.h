@@ -24,7 +24,8 @@ struct Callbacks {
   std::function<void(const Progress&)> progress;
   /// Asked between tiles. When it answers true the current pass is finished and rendering stops.
   std::function<bool()> stop;
-  /// Asked after every pass; when it answers true, `snapshot` receives the picture so far.
+  /// Asked after every pass; when it answers true, `snapshot` receives the picture so far. Of the statistics,
+  /// spp and render_seconds are up to date then.
   std::function<bool()> snapshot_wanted;
   std::function<void(const Picture&)> snapshot;
 };

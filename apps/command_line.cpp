@@ -1,0 +1,109 @@
+#include "apps/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/config_file.h"
+#include "apps/errors.h"
+#include "apps/help_format.h"
+#include "apps/results.h"
+#include "apps/subcommand.h"
+#include "apps/version.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
+over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 130 and 143 stopped by a
+signal after writing the picture so far. The last line on stderr says what failed, on which file, and what to do.
+
+Examples:
+  gatelight render room.glb -o room.exr -o room.png --spp 256
+  gatelight info room.glb
+  gatelight compare reference.exr room.exr
+  gatelight render --help)";
+
+const CLI::App* called_subcommand(const CLI::App& root) {
+  const std::vector<const CLI::App*> called =
+      root.get_subcommands([](const CLI::App* app) { return app->parsed(); });
+  return called.empty() ? nullptr : called.front();
+}
+
+/// What was wrong, in words of ours where the library's are too vague.
+std::string describe(const CLI::App& root, const CLI::ParseError& error) {
+  const CLI::App* called = called_subcommand(root);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && called == nullptr) {
+    const std::vector<std::string> rest = root.remaining();
+    const std::string got =
+        rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
+    return got + ", expected render, compare or info";
+  }
+  if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
+    return fmt::format("--config: {}, expected flags of '{}' and their values", error.what(),
+                       called->get_name());
+  }
+  return error.what();
+}
+
+/// CLI11 throws for --help and --version too.
+int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
+  const CLI::App* called = called_subcommand(root);
+  if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
+    write_text("-", called == nullptr ? root.help() : called->help(root.get_name()));
+    return kDone;
+  }
+  if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
+    write_text("-", fmt::format("gatelight {}\n", version()));
+    return kDone;
+  }
+  if (dynamic_cast<const CLI::FileError*>(&error) != nullptr) {
+    print_failure({kInput, fmt::format("--config: {}", error.what()), "check the file's name"});
+    return kInput;
+  }
+  print_failure({kUsage, describe(root, error),
+                 fmt::format("see 'gatelight {}--help'", called == nullptr ? "" : called->get_name() + " ")});
+  return kUsage;
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
+  root.footer(kFooter);
+  root.set_version_flag("--version", version());
+  root.require_subcommand(1);
+  // --config belongs to the root but may follow the subcommand's name.
+  root.fallthrough();
+  root.formatter(make_help_formatter());
+  accept_config_file(root);
+  const std::vector<Subcommand> subcommands = {
+      add_render_command(root, std::vector<std::string>(argv, argv + argc)),
+      add_compare_command(root),
+      add_info_command(root),
+  };
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return finish_parsing(root, error);
+  }
+  for (const Subcommand& subcommand : subcommands) {
+    if (subcommand.app->parsed()) return subcommand.run();
+  }
+  return kUsage;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (...) {
+    const Failure failure = describe_current_exception();
+    print_failure(failure);
+    return failure.code;
+  }
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,53 @@
+#include "apps/errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "renderer/atomic_file.h"
+#include "renderer/image_write.h"
+#include "renderer/render.h"
+
+namespace gatelight::apps {
+
+Failure describe_current_exception() {
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return {kUsage, error.what(), "see --help"};
+  } catch (const renderer::BadOption& error) {
+    return {kUsage, error.what(), "see --help"};
+  } catch (const renderer::UnknownFormat& error) {
+    return {kUsage, error.what(), "choose another file name"};
+  } catch (const renderer::OutputError& error) {
+    return {kOutput, error.what(), "choose another place or make room"};
+  } catch (const renderer::OutOfMemory& error) {
+    return {kMemory, error.what(), "raise --memory-limit, or use a smaller picture or scene"};
+  } catch (const std::bad_alloc&) {
+    return {kMemory, "out of memory", "use a smaller picture or scene, or a machine with more memory"};
+  } catch (const renderer::Unavailable& error) {
+    return {kUnavailable, error.what(), "use --isa auto"};
+  } catch (const renderer::NumericalError& error) {
+    return {kNumerical, error.what(), "use --nan drop to leave such samples out"};
+  } catch (const std::runtime_error& error) {
+    // What libraries throw for files: scene::SceneError, renderer::ImageError and the environment's.
+    return {kInput, error.what(), "check the input file"};
+  } catch (const std::exception& error) {
+    return {kUsage, fmt::format("internal error: {}", error.what()), "please report it"};
+  }
+}
+
+void print_failure(const Failure& failure) {
+  std::string line = failure.message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  if (!failure.advice.empty()) line += "; " + failure.advice;
+  fmt::print(stderr, "gatelight: error: {}\n", line);
+}
+
+void print_notice(const std::string& text) {
+  fmt::print(stderr, "gatelight: {}\n", text);
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,33 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/render_flags.h"
+#include "apps/render_run.h"
+#include "apps/render_settings.h"
+#include "apps/subcommand.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr const char* kFooter =
+    R"(SIGINT and SIGTERM finish the current pass and write the picture so far (exit code 130 or 143); a second one ends the
+program at once. SIGUSR1 writes a snapshot of all outputs.
+Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
+
+Examples:
+  gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
+  gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
+  gatelight render car.gltf -o car.exr --eye 4,1.5,4 --target 0,0.5,0 --fov 30 --aov albedo,normal,depth
+  gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json)";
+
+}  // namespace
+
+Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command) {
+  CLI::App* app = root.add_subcommand("render", "Render a scene to EXR and PNG");
+  app->footer(kFooter);
+  const auto settings = std::make_shared<RenderSettings>();
+  add_render_flags(*app, *settings);
+  return {app, [settings, command] { return run_render(*settings, command); }};
+}
+
+}  // namespace gatelight::apps

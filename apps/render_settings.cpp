@@ -1,0 +1,164 @@
+#include "apps/render_settings.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "apps/errors.h"
+#include "renderer/threads.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace renderer;
+
+/// 16384 x 16384: beyond it the film alone needs more than 4 GiB.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+constexpr Choice<Integrator> kIntegrators[] = {{"path", Integrator::path}, {"ao", Integrator::ao}};
+constexpr Choice<SamplerKind> kSamplers[] = {{"sobol", SamplerKind::sobol},
+                                             {"independent", SamplerKind::independent}};
+constexpr Choice<PixelFilter> kFilters[] = {{"box", PixelFilter::box},
+                                            {"tent", PixelFilter::tent},
+                                            {"gaussian", PixelFilter::gaussian},
+                                            {"blackman-harris", PixelFilter::blackman_harris}};
+constexpr Choice<MisHeuristic> kMis[] = {{"balance", MisHeuristic::balance}, {"power", MisHeuristic::power}};
+constexpr Choice<DirectLight> kDirect[] = {
+    {"mis", DirectLight::mis}, {"nee", DirectLight::nee}, {"bsdf", DirectLight::bsdf}};
+constexpr Choice<LightSelection> kLightSelections[] = {{"tree", LightSelection::tree},
+                                                       {"power", LightSelection::power}};
+constexpr Choice<NanPolicy> kNan[] = {{"drop", NanPolicy::drop}, {"error", NanPolicy::error}};
+constexpr Choice<Aov> kAovs[] = {
+    {"albedo", Aov::albedo},        {"normal", Aov::normal},          {"depth", Aov::depth},
+    {"position", Aov::position},    {"primitive", Aov::primitive_id}, {"instance", Aov::instance_id},
+    {"samples", Aov::sample_count}, {"variance", Aov::variance}};
+constexpr Choice<Tonemap> kTonemaps[] = {{"none", Tonemap::none}, {"filmic", Tonemap::filmic}};
+constexpr Choice<ProgressMode> kProgress[] = {{"auto", ProgressMode::automatic},
+                                              {"bar", ProgressMode::bar},
+                                              {"json", ProgressMode::json},
+                                              {"none", ProgressMode::none}};
+
+scene::Vec3 vector(const std::array<float, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+std::string text(const std::array<float, 3>& v) {
+  return fmt::format("{},{},{}", v[0], v[1], v[2]);
+}
+
+void complete_view(RenderSettings& settings) {
+  if (!settings.eye && !settings.target && !settings.up) return;
+  if (!settings.eye || !settings.target) {
+    throw UsageError(fmt::format("{} is missing: a view by hand needs --eye and --target",
+                                 settings.eye ? "--target" : "--eye"));
+  }
+  LookAt look_at{.eye = vector(*settings.eye), .target = vector(*settings.target)};
+  if (settings.up) look_at.up = vector(*settings.up);
+  // In double: the difference of two floats may overflow or vanish in their square.
+  const Eigen::Vector3d direction = look_at.target.cast<double>() - look_at.eye.cast<double>();
+  const Eigen::Vector3d up = look_at.up.cast<double>();
+  if (direction.norm() == 0.0) {
+    throw UsageError(
+        fmt::format("--target: '{}' is the place of --eye, expected another", text(*settings.target)));
+  }
+  if (up.norm() == 0.0) throw UsageError("--up: '0,0,0' is no direction, expected a vector that is not zero");
+  if (direction.normalized().cross(up.normalized()).norm() < 1e-6) {
+    throw UsageError(fmt::format("--up: '{},{},{}' is parallel to the view, expected another direction",
+                                 up.x(), up.y(), up.z()));
+  }
+  if (!settings.render.camera.name.empty()) {
+    throw UsageError(fmt::format("--camera: '{}' and --eye exclude each other, expected one of them",
+                                 settings.render.camera.name));
+  }
+  settings.render.camera.look_at = look_at;
+}
+
+void check_picture(const RenderOptions& options) {
+  const std::int64_t pixels = static_cast<std::int64_t>(options.width) * options.height;
+  if (pixels > kMaxPixels) {
+    throw UsageError(fmt::format("--size: '{}x{}' has {} pixels, expected at most {}", options.width,
+                                 options.height, pixels, kMaxPixels));
+  }
+  if (!options.region) return;
+  const auto [x0, y0, x1, y1] = *options.region;
+  if (x1 > options.width || y1 > options.height) {
+    throw UsageError(
+        fmt::format("--region: '{},{},{},{}' reaches beyond the picture, expected x1 <= {} and y1 <= {}", x0,
+                    y0, x1, y1, options.width, options.height));
+  }
+}
+
+void check_output_names(const RenderSettings& settings) {
+  std::set<fs::path> seen;
+  std::vector<std::string> names = settings.outputs;
+  if (!settings.stats.empty() && settings.stats != "-") names.push_back(settings.stats);
+  for (const std::string& name : names) {
+    if (!seen.insert(fs::absolute(name).lexically_normal()).second) {
+      throw UsageError(fmt::format("--output: '{}' is named twice, expected different files", name));
+    }
+  }
+}
+
+void require_file(const std::string& what, const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+    throw InputError(fmt::format("cannot read {} '{}': there is no such file", what, path));
+  if (fs::is_directory(status))
+    throw InputError(fmt::format("cannot read {} '{}': it is a folder", what, path));
+}
+
+}  // namespace
+
+Choices<Integrator> integrator_choices() {
+  return kIntegrators;
+}
+Choices<SamplerKind> sampler_choices() {
+  return kSamplers;
+}
+Choices<PixelFilter> filter_choices() {
+  return kFilters;
+}
+Choices<MisHeuristic> mis_choices() {
+  return kMis;
+}
+Choices<DirectLight> direct_choices() {
+  return kDirect;
+}
+Choices<LightSelection> light_selection_choices() {
+  return kLightSelections;
+}
+Choices<NanPolicy> nan_choices() {
+  return kNan;
+}
+Choices<Aov> aov_choices() {
+  return kAovs;
+}
+Choices<Tonemap> tonemap_choices() {
+  return kTonemaps;
+}
+Choices<ProgressMode> progress_choices() {
+  return kProgress;
+}
+
+void complete_settings(RenderSettings& settings) {
+  if (settings.quiet && settings.verbose)
+    throw UsageError("--quiet and --verbose exclude each other, expected one");
+  complete_view(settings);
+  check_picture(settings.render);
+  check_output_names(settings);
+  if (settings.render.threads == 0) settings.render.threads = available_threads();
+}
+
+void check_files(const RenderSettings& settings) {
+  require_file("the scene", settings.scene);
+  if (!settings.render.environment.file.empty()) {
+    require_file("the environment", settings.render.environment.file);
+  }
+  for (const std::string& output : settings.outputs) check_image_output(output);
+  if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
+}
+
+}  // namespace gatelight::apps

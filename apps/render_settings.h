@@ -1,0 +1,53 @@
+#pragma once
+// All that `gatelight render` can be told.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/progress.h"
+#include "apps/values.h"
+#include "renderer/image_write.h"
+#include "renderer/options.h"
+#include "scene/gltf.h"
+
+namespace gatelight::apps {
+
+struct RenderSettings {
+  std::string scene;
+  std::vector<std::string> outputs;
+  renderer::RenderOptions render;
+  scene::LoadOptions load;
+  renderer::ImageWriteOptions image;
+  std::optional<std::array<float, 3>> eye;  ///< become render.camera.look_at in complete_settings()
+  std::optional<std::array<float, 3>> target;
+  std::optional<std::array<float, 3>> up;
+  std::string stats;  ///< file, "-" for stdout, empty for none
+  ProgressMode progress = ProgressMode::automatic;
+  bool reproducible = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// The words that stand for the enumerations, in help, parsing and recipes.
+Choices<renderer::Integrator> integrator_choices();
+Choices<renderer::SamplerKind> sampler_choices();
+Choices<renderer::PixelFilter> filter_choices();
+Choices<renderer::MisHeuristic> mis_choices();
+Choices<renderer::DirectLight> direct_choices();
+Choices<renderer::LightSelection> light_selection_choices();
+Choices<renderer::NanPolicy> nan_choices();
+Choices<renderer::Aov> aov_choices();
+Choices<renderer::Tonemap> tonemap_choices();
+Choices<ProgressMode> progress_choices();
+
+/// Checks what single flags cannot know (does the region lie in the picture?) and fills in what follows from
+/// the flags: the view by hand, the number of threads. Throws UsageError.
+void complete_settings(RenderSettings& settings);
+
+/// Before the long work: the inputs exist, the outputs can be written. Throws InputError,
+/// renderer::OutputError or renderer::UnknownFormat.
+void check_files(const RenderSettings& settings);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,15 @@
+#pragma once
+// SIGINT and SIGTERM ask for the end, SIGUSR1 for a snapshot. The handlers only set flags.
+
+namespace gatelight::apps {
+
+/// A second SIGINT or SIGTERM of the same kind finds the system's handler again and ends the program at once.
+void install_signal_handlers();
+
+/// The first signal that asked for the end; 0: none.
+int stop_signal();
+
+/// Whether a snapshot was asked for since the last call.
+bool take_snapshot_request();
+
+}  // namespace gatelight::apps

@@ -1,0 +1,68 @@
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/recipe.h"
+#include "apps/run_report.h"
+#include "apps/version.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Rises when a key changes its meaning or goes away.
+constexpr int kSchema = 1;
+
+ordered_json nonfinite(const renderer::RenderStatistics& statistics) {
+  ordered_json samples = ordered_json::array();
+  for (const renderer::NonFiniteSample& s : statistics.nonfinite_samples) {
+    samples.push_back({{"x", s.x}, {"y", s.y}, {"sample", s.sample}, {"seed", s.seed}});
+  }
+  return {{"count", statistics.nonfinite}, {"samples", samples}};
+}
+
+}  // namespace
+
+std::size_t peak_resident_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+std::string stats_json(const RenderSettings& settings, const RunReport& report) {
+  const renderer::RenderStatistics& s = report.statistics;
+  ordered_json json;
+  json["schema"] = kSchema;
+  json["version"] = version();
+  json["command"] = report.command;
+  json["scene"] = settings.scene;
+  json["options"] = resolved_options(settings);
+  json["outputs"] = settings.outputs;
+  json["isa"] = s.isa;
+  json["threads"] = s.threads;
+  json["device"] = "cpu";
+  json["width"] = s.width;
+  json["height"] = s.height;
+  json["spp"] = s.spp;
+  json["samples"] = s.samples;
+  json["interrupted"] = s.interrupted;
+  if (report.signal != 0) json["signal"] = report.signal;
+  json["seconds"] = {
+      {"load", report.load_seconds},   {"build", s.build_seconds},
+      {"render", s.render_seconds},    {"render_trace", s.threads > 0 ? s.rays.seconds / s.threads : 0.0},
+      {"write", report.write_seconds}, {"total", report.total_seconds}};
+  json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};
+  json["memory_bytes"] = {{"geometry", s.geometry_bytes},
+                          {"bvh", s.bvh_bytes},
+                          {"textures", s.texture_bytes},
+                          {"lights", s.light_bytes},
+                          {"peak_rss", peak_resident_bytes()}};
+  json["nonfinite"] = nonfinite(s);
+  json["clamped"] = s.clamped;
+  json["warnings"] = report.warnings;
+  // A file name need not be UTF-8; the statistics must be.
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include "apps/run_report.h"
+#include "apps/text.h"
+
+namespace gatelight::apps {
+namespace {
+
+double per_second(double count, double seconds) {
+  return seconds > 0.0 ? count / seconds : 0.0;
+}
+
+}  // namespace
+
+std::string summary(const RenderSettings& settings, const RunReport& report) {
+  const renderer::RenderStatistics& s = report.statistics;
+  const double samples = static_cast<double>(s.samples);
+  const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
+  std::string text = fmt::format("written   {}\n", fmt::join(settings.outputs, ", "));
+  text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}, write {:.2f}, total {:.2f}\n",
+                      report.load_seconds, s.build_seconds, s.render_seconds, report.write_seconds,
+                      report.total_seconds);
+  text +=
+      fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}\n", format_integer(s.samples),
+                  s.spp, per_second(samples, s.render_seconds) * 1e-6, s.threads, s.threads == 1 ? "" : "s");
+  text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
+                      per_second(rays, s.render_seconds) * 1e-6);
+  text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",
+                      format_bytes(peak_resident_bytes()), format_bytes(s.geometry_bytes),
+                      format_bytes(s.bvh_bytes), format_bytes(s.texture_bytes));
+  return text;
+}
+
+}  // namespace gatelight::apps

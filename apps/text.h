@@ -1,0 +1,19 @@
+#pragma once
+// Numbers for people.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gatelight::apps {
+
+std::string format_bytes(std::size_t bytes);  ///< "812 B", "1.50 MiB"
+std::string format_count(double count);       ///< "950", "1.24 M"
+std::string format_integer(std::uint64_t n);  ///< "1 240 273"
+std::string format_duration(double seconds);  ///< "0:07", "1:02:07"
+
+/// As a shell would have to be given it.
+std::string quote_command(const std::vector<std::string>& command);
+
+}  // namespace gatelight::apps

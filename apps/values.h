@@ -1,0 +1,82 @@
+#pragma once
+// Words of the command line into numbers. Each function throws UsageError, whose message names the flag, the
+// value and what was expected.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gatelight::apps {
+
+struct IntegerRange {
+  std::int64_t min = 0;
+  std::int64_t max = std::numeric_limits<std::int64_t>::max();
+};
+
+/// NaN is in no range, infinity only where `infinity` says so.
+struct RealRange {
+  double min = 0.0;
+  double max = std::numeric_limits<double>::max();
+  bool excludes_min = false;
+  bool excludes_max = false;
+  bool infinity = false;
+};
+
+/// Any number that a float can hold.
+inline constexpr RealRange kAnyFloat{-3.4e38, 3.4e38};
+
+std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range);
+double parse_real(const std::string& flag, const std::string& text, const RealRange& range);
+std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range);
+/// "WxH", each from 1 to 65536.
+std::array<int, 2> parse_size(const std::string& flag, const std::string& text);
+/// "x0,y0,x1,y1", with x0 < x1 and y0 < y1.
+std::array<int, 4> parse_region(const std::string& flag, const std::string& text);
+
+/// "a,b,c". Empty words are refused.
+std::vector<std::string> split_list(const std::string& flag, const std::string& text);
+
+/// Whether the text is three numbers, rather than the name of a file.
+bool looks_like_triple(const std::string& text);
+
+/// A word and what it stands for.
+template <typename Value>
+struct Choice {
+  std::string_view name;
+  Value value;
+};
+
+template <typename Value>
+using Choices = std::span<const Choice<Value>>;
+
+std::string join_names(std::span<const std::string_view> names);
+[[noreturn]] void refuse_choice(const std::string& flag, const std::string& text, const std::string& names);
+
+template <typename Value>
+std::string choice_names(Choices<Value> choices) {
+  std::vector<std::string_view> names;
+  for (const Choice<Value>& choice : choices) names.push_back(choice.name);
+  return join_names(names);
+}
+
+template <typename Value>
+Value parse_choice(const std::string& flag, const std::string& text, Choices<Value> choices) {
+  for (const Choice<Value>& choice : choices) {
+    if (choice.name == text) return choice.value;
+  }
+  refuse_choice(flag, text, choice_names(choices));
+}
+
+template <typename Value>
+std::string name_of(Choices<Value> choices, const Value& value) {
+  for (const Choice<Value>& choice : choices) {
+    if (choice.value == value) return std::string(choice.name);
+  }
+  return "";
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,54 @@
+#include "apps/errors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <new>
+
+#include "renderer/image_read.h"
+#include "renderer/image_write.h"
+#include "renderer/render.h"
+#include "scene/gltf.h"
+
+namespace gatelight::apps {
+namespace {
+
+template <typename Exception>
+Failure failure_of(const Exception& exception) {
+  try {
+    throw exception;
+  } catch (...) {
+    return describe_current_exception();
+  }
+}
+
+TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
+  EXPECT_EQ(failure_of(UsageError("m")).code, 1);
+  EXPECT_EQ(failure_of(renderer::BadOption("m")).code, 1);
+  EXPECT_EQ(failure_of(renderer::UnknownFormat("m")).code, 1);
+  EXPECT_EQ(failure_of(InputError("m")).code, 2);
+  EXPECT_EQ(failure_of(scene::SceneError("m")).code, 2);
+  EXPECT_EQ(failure_of(renderer::ImageError("m")).code, 2);
+  EXPECT_EQ(failure_of(std::runtime_error("m")).code, 2);
+  EXPECT_EQ(failure_of(renderer::OutputError("m")).code, 3);
+  EXPECT_EQ(failure_of(renderer::OutOfMemory("m")).code, 4);
+  EXPECT_EQ(failure_of(std::bad_alloc()).code, 4);
+  EXPECT_EQ(failure_of(std::bad_array_new_length()).code, 4);
+  EXPECT_EQ(failure_of(renderer::Unavailable("m")).code, 5);
+  EXPECT_EQ(failure_of(renderer::NumericalError("m")).code, 6);
+}
+
+TEST(ExitCodes, TheMessageIsKeptAndAdviceGiven) {
+  const Failure failure = failure_of(renderer::OutOfMemory("needs 3 GiB"));
+  EXPECT_EQ(failure.message, "needs 3 GiB");
+  EXPECT_THAT(failure.advice, ::testing::HasSubstr("--memory-limit"));
+}
+
+TEST(ExitCodes, TheLastLineIsOneLine) {
+  ::testing::internal::CaptureStderr();
+  print_failure({kInput, "first\nsecond", "do this"});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "gatelight: error: first second; do this\n");
+}
+
+}  // namespace
+}  // namespace gatelight::apps

@@ -1,0 +1,48 @@
+#pragma once
+// Runs the real program.
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace gatelight::tests {
+
+struct Output {
+  int exit_code = -1;   ///< 128 + signal where a signal ended it, as a shell says it
+  bool killed = false;  ///< by a signal
+  std::string out;
+  std::string err;
+
+  std::string last_error_line() const;
+};
+
+/// A run of gatelight that is under way.
+class Process {
+ public:
+  explicit Process(const std::vector<std::string>& arguments);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const;
+  /// Reads stderr until the text is in it. False where the program ends before.
+  bool wait_for_error_text(const std::string& text);
+  /// Reads the rest and waits for the end; kills the program after a minute.
+  Output finish();
+
+ private:
+  bool read_some(int timeout_ms);
+
+  pid_t pid_ = -1;
+  int out_ = -1;
+  int err_ = -1;
+  Output output_;
+};
+
+/// The same without a process of its own: for runs that fail early.
+Output run_gatelight_inside(const std::vector<std::string>& arguments);
+
+Output run_gatelight(const std::vector<std::string>& arguments);
+
+}  // namespace gatelight::tests

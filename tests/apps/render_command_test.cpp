@@ -1,0 +1,313 @@
+// Real renders through the real program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "renderer/image_read.h"
+#include "tests/apps/process.h"
+#include "tests/apps/tiny_scene.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using nlohmann::json;
+using renderer::Picture;
+using renderer::read_image;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::UnorderedElementsAre;
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  Output render(const std::vector<std::string>& flags) const {
+    std::vector<std::string> arguments = {"render", scene, "--environment", "1,1,1", "--size", "24x16"};
+    if (std::find(flags.begin(), flags.end(), "--spp") == flags.end()) {
+      arguments.insert(arguments.end(), {"--spp", "4"});
+    }
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return run_gatelight(arguments);
+  }
+
+  TemporaryFolder folder;
+  std::string scene = folder.write("scene.gltf", tiny_scene());
+};
+
+std::set<std::string> keys(const json& object) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
+  const Output output = render({"-o", path("a.exr"), "-o", path("b.png")});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(output.out, "");
+  for (const char* word :
+       {"a.exr", "b.png", "load", "build", "render", "write", "1 536", "million/s", "rays", "memory"}) {
+    EXPECT_THAT(output.err, HasSubstr(word));
+  }
+  for (const char* name : {"a.exr", "b.png"}) {
+    const Picture picture = read_image(path(name));
+    EXPECT_EQ(picture.width, 24);
+    EXPECT_EQ(picture.height, 16);
+  }
+}
+
+TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--exr", "float", "--spp", "256", "--quiet"}).exit_code, 0);
+  const Picture picture = read_image(path("a.exr"));
+  const std::vector<float>& values = picture.layers[0].values;
+  // The corner sees the sky, the middle a rough dielectric: half of the light, and what its surface reflects.
+  EXPECT_NEAR(values[0], 1.0f, 1e-5f);
+  const float middle = values[3 * (8 * 24 + 12)];
+  EXPECT_GT(middle, 0.45f);
+  EXPECT_LT(middle, 0.60f);
+}
+
+TEST_F(RenderCommand, QuietSaysNothing) {
+  const Output output = render({"-o", path("a.png"), "--quiet", "--progress", "json"});
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_EQ(output.out, "");
+  EXPECT_EQ(output.err, "");
+}
+
+TEST_F(RenderCommand, StatisticsHoldEveryKeyOfTheSchema) {
+  const Output output = render({"-o", path("a.exr"), "--stats", path("s.json"), "--seed", "5"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const json stats = json::parse(read_file(path("s.json")));
+  EXPECT_THAT(keys(stats), IsSupersetOf({"schema", "version", "command", "options", "isa", "threads",
+                                         "device", "width", "height", "spp", "samples", "seconds", "rays",
+                                         "memory_bytes", "nonfinite", "clamped", "warnings"}));
+  EXPECT_EQ(stats["schema"], 1);
+  EXPECT_EQ(stats["device"], "cpu");
+  EXPECT_EQ(stats["command"][1], "render");
+  EXPECT_EQ(stats["width"], 24);
+  EXPECT_EQ(stats["height"], 16);
+  EXPECT_EQ(stats["spp"], 4);
+  EXPECT_EQ(stats["samples"], 24 * 16 * 4);
+  EXPECT_EQ(stats["interrupted"], false);
+  EXPECT_GE(stats["threads"], 1);
+  EXPECT_THAT(stats["isa"].get<std::string>(),
+              ::testing::AnyOf("scalar", "sse2", "sse4.2", "avx", "avx2", "avx512"));
+  EXPECT_THAT(keys(stats["seconds"]), IsSupersetOf({"load", "build", "render", "write", "total"}));
+  double parts = 0.0;
+  for (const char* part : {"load", "build", "render", "write"}) {
+    EXPECT_GE(stats["seconds"][part], 0.0) << part;
+    parts += stats["seconds"][part].get<double>();
+  }
+  EXPECT_GE(stats["seconds"]["total"].get<double>() + 1e-3, parts);
+  EXPECT_THAT(keys(stats["rays"]), UnorderedElementsAre("camera", "bounce", "shadow"));
+  EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 4);
+  EXPECT_GT(stats["rays"]["shadow"], 0);
+  EXPECT_THAT(keys(stats["memory_bytes"]), IsSupersetOf({"geometry", "bvh", "textures", "peak_rss"}));
+  EXPECT_GT(stats["memory_bytes"]["peak_rss"], 1 << 20);
+  EXPECT_GT(stats["memory_bytes"]["bvh"], 0);
+  EXPECT_EQ(stats["nonfinite"]["count"], 0);
+  EXPECT_TRUE(stats["nonfinite"]["samples"].is_array());
+  EXPECT_EQ(stats["clamped"], 0);
+  EXPECT_TRUE(stats["warnings"].is_array());
+  EXPECT_THAT(keys(stats["options"]), IsSupersetOf({"integrator",
+                                                    "size",
+                                                    "spp",
+                                                    "time-limit",
+                                                    "max-depth",
+                                                    "min-depth",
+                                                    "seed",
+                                                    "sampler",
+                                                    "filter",
+                                                    "direct",
+                                                    "mis",
+                                                    "light-selection",
+                                                    "clamp",
+                                                    "aov",
+                                                    "nan",
+                                                    "isa",
+                                                    "environment",
+                                                    "environment-rotation",
+                                                    "environment-scale",
+                                                    "missing",
+                                                    "exposure",
+                                                    "tonemap",
+                                                    "exr",
+                                                    "threads",
+                                                    "memory-limit",
+                                                    "output"}));
+  EXPECT_EQ(stats["options"]["seed"], 5);
+  EXPECT_EQ(stats["options"]["environment"], json({1.0, 1.0, 1.0}));
+}
+
+TEST_F(RenderCommand, StatisticsOnStdoutStandAlone) {
+  const Output output = render({"-o", path("a.png"), "--stats", "-"});
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_EQ(json::parse(output.out)["spp"], 4);
+}
+
+TEST_F(RenderCommand, TheRecipeIsInTheHeader) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--seed", "9", "--quiet"}).exit_code, 0);
+  const std::map<std::string, std::string> recipe = read_image(path("a.exr")).metadata;
+  for (const char* key :
+       {"version", "command", "seed", "spp", "integrator", "isa", "options", "threads", "seconds"}) {
+    EXPECT_EQ(recipe.count(key), 1u) << key;
+  }
+  EXPECT_EQ(recipe.at("seed"), "9");
+  EXPECT_EQ(recipe.at("spp"), "4");
+  EXPECT_EQ(recipe.at("integrator"), "path");
+  EXPECT_THAT(recipe.at("command"), HasSubstr("--seed 9"));
+  EXPECT_EQ(json::parse(recipe.at("options"))["max-depth"], 8);
+}
+
+TEST_F(RenderCommand, ReproducibleFilesAreEqualForAnyNumberOfThreads) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--reproducible", "--quiet", "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", path("b.exr"), "--reproducible", "--quiet", "--threads", "2"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", path("c.exr"), "--reproducible", "--quiet", "--seed", "1"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("a.exr")), read_file(path("b.exr")));
+  EXPECT_NE(read_image(path("a.exr")).layers[0].values, read_image(path("c.exr")).layers[0].values);
+}
+
+TEST_F(RenderCommand, ARegionIsThePartOfTheFullPicture) {
+  ASSERT_EQ(render({"-o", path("full.exr"), "--exr", "float", "--quiet"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", path("part.exr"), "--exr", "float", "--quiet", "--region", "9,4,14,7"}).exit_code,
+            0);
+  const Picture full = read_image(path("full.exr"));
+  const Picture part = read_image(path("part.exr"));
+  EXPECT_EQ(part.width, 5);
+  EXPECT_EQ(part.height, 3);
+  EXPECT_EQ(part.x0, 9);
+  EXPECT_EQ(part.y0, 4);
+  EXPECT_EQ(part.full_width, 24);
+  EXPECT_EQ(part.full_height, 16);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 15; ++x) {
+      EXPECT_EQ(part.layers[0].values[static_cast<std::size_t>(y * 15 + x)],
+                full.layers[0].values[static_cast<std::size_t>((y + 4) * 72 + 27 + x)]);
+    }
+  }
+}
+
+TEST_F(RenderCommand, AllLayersAreInTheExr) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--aov", "all", "--quiet"}).exit_code, 0);
+  const Picture picture = read_image(path("a.exr"));
+  for (const char* name :
+       {"albedo", "normal", "depth", "position", "primitive", "instance", "samples", "variance"}) {
+    EXPECT_NE(picture.find(name), nullptr) << name;
+  }
+}
+
+TEST_F(RenderCommand, AmbientOcclusionOfAnOpenSquareIsOne) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--integrator", "ao", "--ao-distance", "inf", "--quiet"}).exit_code,
+            0);
+  const Picture picture = read_image(path("a.exr"));
+  EXPECT_FLOAT_EQ(picture.layers[0].values[3 * (8 * 24 + 12)], 1.0f);
+}
+
+TEST_F(RenderCommand, ATimeLimitEndsTheRunWithCode0) {
+  const Output output =
+      render({"-o", path("a.png"), "--spp", "16777216", "--time-limit", "0.3", "--stats", "-"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const json stats = json::parse(output.out);
+  EXPECT_EQ(stats["interrupted"], true);
+  EXPECT_GE(stats["spp"], 1);
+}
+
+TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
+  // The square and its twin light each other, and the sum of what they emit and reflect overflows.
+  nlohmann::json hot = json::parse(tiny_scene());
+  hot["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+  hot["materials"][0]["emissiveFactor"] = {1, 1, 1};
+  hot["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 3.4e38;
+  hot["nodes"].push_back(
+      {{"mesh", 0}, {"rotation", {0, -0.70710678, 0, 0.70710678}}, {"translation", {1, 0, 1}}});
+  hot["scenes"][0]["nodes"].push_back(2);
+  scene = folder.write("hot.gltf", hot.dump());
+  const std::vector<std::string> flags = {"-o", path("a.exr"), "--size", "24x16", "--spp", "4"};
+  std::vector<std::string> dropping = {"render", scene, "--stats", "-"};
+  dropping.insert(dropping.end(), flags.begin(), flags.end());
+  const Output dropped = run_gatelight(dropping);
+  EXPECT_EQ(dropped.exit_code, 0) << dropped.err;
+  const json stats = json::parse(dropped.out);
+  EXPECT_GT(stats["nonfinite"]["count"], 0);
+  EXPECT_THAT(keys(stats["nonfinite"]["samples"][0]), UnorderedElementsAre("x", "y", "sample", "seed"));
+  EXPECT_THAT(dropped.err, HasSubstr("not finite"));
+  for (const float value : read_image(path("a.exr")).layers[0].values) EXPECT_TRUE(std::isfinite(value));
+
+  std::filesystem::remove(path("a.exr"));
+  std::vector<std::string> stopping = {"render", scene, "--nan", "error"};
+  stopping.insert(stopping.end(), flags.begin(), flags.end());
+  const Output stopped = run_gatelight(stopping);
+  EXPECT_EQ(stopped.exit_code, 6) << stopped.err;
+  EXPECT_THAT(stopped.last_error_line(),
+              AllOf(HasSubstr("hot.gltf"), HasSubstr("pixel"), HasSubstr("--nan drop")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+}
+
+TEST_F(RenderCommand, AnInstructionSetThatIsMissingIsCode5) {
+  const std::string best = json::parse(run_gatelight({"info", "--json", "-"}).out)["isa"];
+  if (best == "avx512") GTEST_SKIP() << "this machine has them all";
+  const Output output = render({"-o", path("a.exr"), "--isa", "avx512"});
+  EXPECT_EQ(output.exit_code, 5);
+  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("avx512"), HasSubstr("--isa auto")));
+}
+
+TEST_F(RenderCommand, ProgressLinesAreJson) {
+  const Output output = render({"-o", path("a.png"), "--progress", "json"});
+  EXPECT_EQ(output.exit_code, 0);
+  std::istringstream lines(output.err);
+  std::set<std::string> events;
+  double last_fraction = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    const json object = json::parse(line);
+    events.insert(object["event"]);
+    if (object["event"] != "progress") continue;
+    for (const char* key : {"fraction", "spp_done", "spp", "seconds", "samples_per_second"}) {
+      EXPECT_TRUE(object[key].is_number()) << key;
+    }
+    EXPECT_GE(object["fraction"], last_fraction);
+    last_fraction = object["fraction"];
+  }
+  EXPECT_THAT(events, UnorderedElementsAre("phase", "progress", "done"));
+}
+
+TEST_F(RenderCommand, TheBarIsOnlyThereWhereItIsAskedFor) {
+  EXPECT_THAT(render({"-o", path("a.png"), "--progress", "bar"}).err,
+              AllOf(HasSubstr("spp"), HasSubstr("ETA")));
+  EXPECT_THAT(render({"-o", path("a.png")}).err, ::testing::Not(HasSubstr("ETA")));
+}
+
+TEST_F(RenderCommand, WarningsGoToStderrAndIntoTheStatistics) {
+  std::string text = tiny_scene();
+  text.insert(1, R"("extensionsUsed": ["EXT_of_another_{}_world"],)");
+  scene = folder.write("warn.gltf", text);
+  const Output output = render({"-o", path("a.png"), "--stats", "-"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_THAT(output.err, HasSubstr("warning"));
+  EXPECT_THAT(output.err, HasSubstr("EXT_of_another_{}_world"));
+  EXPECT_THAT(json::parse(output.out)["warnings"].dump(), HasSubstr("EXT_of_another_{}_world"));
+}
+
+TEST_F(RenderCommand, InfoTellsWhatTheSceneHolds) {
+  const Output text = run_gatelight({"info", scene});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  for (const char* word : {"triangles", "2 stored", "front", "bounds", "requires", "memory"}) {
+    EXPECT_THAT(text.out, HasSubstr(word));
+  }
+  const json info = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
+  EXPECT_EQ(info["triangles"], 2);
+  EXPECT_EQ(info["cameras"][0]["name"], "front");
+  EXPECT_EQ(info["requirements"]["transmission"], false);
+  EXPECT_EQ(info["bounds"]["max"], json({1.0, 1.0, 0.0}));
+  const json program = json::parse(run_gatelight({"info", "--json", "-"}).out);
+  EXPECT_THAT(keys(program), IsSupersetOf({"version", "isa", "threads", "embree"}));
+}
+
+}  // namespace
+}  // namespace gatelight::tests

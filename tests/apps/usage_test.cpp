@@ -1,0 +1,235 @@
+// The command line as a user meets it: help, refusals, exit codes and the last line on stderr.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/process.h"
+#include "tests/apps/tiny_scene.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class Usage : public ::testing::Test {
+ protected:
+  std::string scene() const { return folder.write("scene.gltf", tiny_scene()); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  /// Runs a render of the tiny scene that is to be refused. Within this process: there are many of them, and
+  /// the program takes its time to start.
+  Output refused(const std::vector<std::string>& flags) const {
+    std::vector<std::string> arguments = {"render", scene(), "-o", path("a.png")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    Output output = run_gatelight_inside(arguments);
+    EXPECT_EQ(output.out, "");
+    EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+    EXPECT_THAT(output.last_error_line(), StartsWith("gatelight: error: "));
+    return output;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
+  const Output root = run_gatelight({"--help"});
+  EXPECT_EQ(root.exit_code, 0);
+  EXPECT_EQ(root.err, "");
+  for (const char* word : {"render", "compare", "info", "--config", "Exit codes", "Examples"}) {
+    EXPECT_THAT(root.out, HasSubstr(word));
+  }
+  const Output render = run_gatelight({"render", "--help"});
+  EXPECT_EQ(render.exit_code, 0);
+  EXPECT_THAT(render.out, StartsWith("Render a scene"));
+  for (const char* word : {"Usage: gatelight render",
+                           "--integrator path|ao",
+                           "--spp N",
+                           "[64]",
+                           "--time-limit SECONDS",
+                           "[960x540]",
+                           "--region x0,y0,x1,y1",
+                           "--max-depth",
+                           "--min-depth",
+                           "--seed",
+                           "--threads",
+                           "--camera NAME|INDEX",
+                           "--eye",
+                           "--target",
+                           "--up",
+                           "--fov DEGREES",
+                           "--environment FILE|r,g,b|none",
+                           "--environment-rotation DEGREES",
+                           "--environment-scale",
+                           "--exposure EV",
+                           "--aov LIST",
+                           "--clamp",
+                           "--missing error|warn",
+                           "--nan drop|error",
+                           "--stats FILE|-",
+                           "--progress auto|bar|json|none",
+                           "--quiet",
+                           "--verbose",
+                           "--isa auto|scalar|avx2|avx512",
+                           "--memory-limit MIB",
+                           "--tonemap none|filmic",
+                           "--exr half|float",
+                           "--ao-distance METRES",
+                           "Examples:"}) {
+    EXPECT_THAT(render.out, HasSubstr(word));
+  }
+  EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
+  EXPECT_THAT(run_gatelight({"info", "--help"}).out, HasSubstr("Examples:"));
+}
+
+TEST_F(Usage, VersionIsOneLineOnStdout) {
+  const Output output = run_gatelight({"--version"});
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_THAT(output.out, StartsWith("gatelight 0."));
+  EXPECT_EQ(output.out.find('\n'), output.out.size() - 1);
+}
+
+TEST_F(Usage, AMissingOrUnknownSubcommandIsCode1) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, std::vector<std::string>{"frobnicate"},
+        std::vector<std::string>{"--frob"}}) {
+    const Output output = run_gatelight_inside(arguments);
+    EXPECT_EQ(output.exit_code, 1);
+    EXPECT_EQ(output.out, "");
+    EXPECT_THAT(output.last_error_line(), HasSubstr("--help"));
+  }
+  EXPECT_THAT(run_gatelight({"frobnicate"}).last_error_line(), HasSubstr("'frobnicate'"));
+}
+
+TEST_F(Usage, UnknownFlagsAreRefusedByName) {
+  for (const char* flag : {"--frob", "--checkpoint", "--ssp=4", "-z"}) {
+    const Output output = refused({flag});
+    EXPECT_EQ(output.exit_code, 1) << flag;
+    EXPECT_THAT(output.last_error_line(), HasSubstr(flag));
+  }
+}
+
+struct BadValue {
+  std::vector<std::string> flags;
+  std::string flag;
+  std::string value;
+  std::string expected;
+};
+
+TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
+  const std::vector<BadValue> cases = {
+      {{"--spp", "0"}, "--spp", "'0'", "from 1 to"},
+      {{"--spp", "4.5"}, "--spp", "'4.5'", "integer"},
+      {{"--spp", "99999999999"}, "--spp", "'99999999999'", "from 1 to"},
+      {{"--size", "0x10"}, "--size", "'0x10'", "from 1 to 65536"},
+      {{"--size", "65536x65536"}, "--size", "'65536x65536'", "at most"},
+      {{"--fov", "180"}, "--fov", "'180'", "above 0 and below 180"},
+      {{"--fov", "0"}, "--fov", "'0'", "above 0"},
+      {{"--time-limit", "-1"}, "--time-limit", "'-1'", "at least 0"},
+      {{"--time-limit", "nan"}, "--time-limit", "'nan'", "at least 0"},
+      {{"--region", "0,0,961,1"}, "--region", "'0,0,961,1'", "x1 <= 960"},
+      {{"--region", "5,5,5,6"}, "--region", "'5,5,5,6'", "x0 < x1"},
+      {{"--seed", "4294967296"}, "--seed", "'4294967296'", "4294967295"},
+      {{"--max-depth", "-1"}, "--max-depth", "'-1'", "from 0"},
+      {{"--threads", "-2"}, "--threads", "'-2'", "from 0"},
+      {{"--exposure", "inf"}, "--exposure", "'inf'", "at least -100 and at most 100"},
+      {{"--clamp", "-0.5"}, "--clamp", "'-0.5'", "at least 0"},
+      {{"--ao-distance", "0"}, "--ao-distance", "'0'", "above 0, or inf"},
+      {{"--integrator", "nrc2"}, "--integrator", "'nrc2'", "path|ao"},
+      {{"--isa", "sse9"}, "--isa", "'sse9'", "auto|scalar|avx2|avx512"},
+      {{"--aov", "albedo,beauty"}, "--aov", "'beauty'", "albedo|normal"},
+      {{"--environment", "1,-2,3"}, "--environment", "'1,-2,3'", "at least 0"},
+      {{"--eye", "1,2", "--target", "0,0,0"}, "--eye", "'1,2'", "three numbers"},
+      {{"--eye", "1,2,3"}, "--target", "--eye", "missing"},
+      {{"--eye", "1,2,3", "--target", "1,2,3"}, "--target", "'1,2,3'", "another"},
+      {{"--eye", "0,1,0", "--target", "0,5,0"}, "--up", "'0,1,0'", "parallel"},
+      {{"--camera", "none such"}, "camera", "none such", "front"},
+      {{"--progress", "loud"}, "--progress", "'loud'", "auto|bar|json|none"},
+      {{"--quiet", "--verbose"}, "--quiet", "--verbose", "exclude"},
+      {{"--spp"}, "--spp", "", "required"},
+      {{"--spp", "1", "--spp", "2"}, "--spp", "2", ""},
+  };
+  for (const BadValue& bad : cases) {
+    const Output output = refused(bad.flags);
+    EXPECT_EQ(output.exit_code, 1) << output.err;
+    EXPECT_THAT(output.last_error_line(),
+                AllOf(HasSubstr(bad.flag), HasSubstr(bad.value), HasSubstr(bad.expected)));
+  }
+}
+
+TEST_F(Usage, AnOutputIsRequiredAndItsExtensionKnown) {
+  EXPECT_EQ(run_gatelight({"render", scene()}).exit_code, 1);
+  const Output output = run_gatelight({"render", scene(), "-o", path("a.jpg")});
+  EXPECT_EQ(output.exit_code, 1);
+  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("a.jpg"), HasSubstr(".exr and .png")));
+  EXPECT_EQ(refused({"-o", path("a.png")}).exit_code, 1);
+}
+
+TEST_F(Usage, UnusableInputsAreCode2AndNamed) {
+  folder.write("empty.gltf", "");
+  folder.write("text.glb", "this is no scene");
+  folder.write("version.gltf", R"({"asset": {"version": "1.0"}})");
+  for (const char* name : {"missing.gltf", "empty.gltf", "text.glb", "version.gltf", "."}) {
+    const Output output = run_gatelight({"render", path(name), "-o", path("a.png")});
+    EXPECT_EQ(output.exit_code, 2) << output.err;
+    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+    EXPECT_EQ(run_gatelight({"info", path(name)}).exit_code, 2);
+  }
+  folder.write("broken.exr", "this is no picture");
+  for (const char* name : {"missing.exr", "broken.exr", "missing.hdr"}) {
+    const Output output = refused({"--environment", path(name)});
+    EXPECT_EQ(output.exit_code, 2) << output.err;
+    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+  }
+}
+
+TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
+  folder.write("file", "x");
+  std::filesystem::create_directory(path("folder.exr"));
+  for (const char* name : {"missing/a.png", "file/a.png", "folder.exr"}) {
+    const Output output =
+        run_gatelight({"render", scene(), "-o", path(name), "--spp", "16777216", "--verbose"});
+    EXPECT_EQ(output.exit_code, 3) << output.err;
+    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+  }
+  EXPECT_EQ(refused({"--stats", path("missing/s.json")}).exit_code, 3);
+  EXPECT_EQ(read_file(path("file")), "x");
+}
+
+TEST_F(Usage, MemoryOverTheLimitIsCode4) {
+  const Output output = refused({"--memory-limit", "1", "--size", "4096x4096"});
+  EXPECT_EQ(output.exit_code, 4) << output.err;
+  EXPECT_THAT(output.last_error_line(), HasSubstr("--memory-limit"));
+}
+
+TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {
+  const std::string config =
+      folder.write("c.toml",
+                   "# a comment\nspp = 2\nsize = \"16x8\"\neye = [0.5, 1, 3]\ntarget = \"0,0,0\"\n"
+                   "output = [\"" +
+                       path("one.exr") + "\", \"" + path("two.png") + "\"]\nquiet = true\n");
+  const Output output = run_gatelight({"render", scene(), "--config", config, "--spp", "1", "--stats", "-"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(output.err, "") << "quiet";
+  EXPECT_THAT(output.out, HasSubstr("\"width\": 16"));
+  EXPECT_THAT(output.out, HasSubstr("\"spp\": 1"));
+  EXPECT_TRUE(std::filesystem::exists(path("one.exr")));
+  EXPECT_TRUE(std::filesystem::exists(path("two.png")));
+}
+
+TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {
+  const Output unknown = refused({"--config", folder.write("u.toml", "sppp = 3\n")});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.last_error_line(), HasSubstr("sppp"));
+  const Output value = refused({"--config", folder.write("v.toml", "spp = -3\n")});
+  EXPECT_EQ(value.exit_code, 1);
+  EXPECT_THAT(value.last_error_line(), AllOf(HasSubstr("--spp"), HasSubstr("'-3'")));
+  const Output missing = refused({"--config", path("missing.toml")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.toml"));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
