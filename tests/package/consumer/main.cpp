@@ -1,15 +1,21 @@
-// A stranger's program: it finds the package and uses both libraries through their installed headers.
+// A stranger's program: it finds the package, loads a scene and renders it through the installed headers.
+#include <algorithm>
 #include <cstdio>
 
-#include "scene/scene.h"
+#include "renderer/render.h"
+#include "scene/gltf.h"
 
-int main() {
-  gatelight::scene::Scene scene;
-  gatelight::scene::Mesh& mesh = scene.meshes.emplace_back();
-  mesh.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
-  mesh.triangles = {{0, 1, 2}};
-  scene.instances.emplace_back().mesh = 0;
-  const std::size_t triangles = gatelight::scene::count_triangles(scene);
-  std::printf("%zu triangle\n", triangles);
-  return triangles == 1 ? 0 : 1;
+int main(int argc, char** argv) {
+  if (argc != 2) return 1;
+  const gatelight::scene::Scene scene = gatelight::scene::load_gltf(argv[1]);
+  gatelight::renderer::RenderOptions options;
+  options.width = options.height = 16;
+  options.spp = 4;
+  gatelight::renderer::Renderer renderer(scene, options);
+  const gatelight::renderer::Picture picture = renderer.render();
+  const std::vector<float>& values = picture.layers.front().values;
+  const bool lit = std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
+  std::printf("%zu triangles, %d x %d pixels, %s\n", gatelight::scene::count_triangles(scene), picture.width,
+              picture.height, lit ? "lit" : "black");
+  return lit ? 0 : 1;
 }
