@@ -18,8 +18,8 @@ def build(path):
     coffee_table(glb, paint, (0.50, 0.0, 0.50))
     lantern(glb, paint, (1.36, 0.0, -2.15))
     plant(glb, paint, (-2.30, 0.0, -1.98))
-    glb.light("sun", "directional", (1.0, 0.76, 0.50), 13.0, (0.0, 0.0, 0.0), SUN_DIRECTION)
-    glb.camera("camera", (2.05, 1.24, 2.85), (-0.36, 0.95, -1.0), 37.0)
+    glb.light("sun", "directional", (1.0, 0.76, 0.50), 9.0, (0.0, 0.0, 0.0), SUN_DIRECTION)
+    glb.camera("camera", (2.05, 1.22, 2.85), (-0.36, 0.97, -1.0), 37.0)
     glb.write(path)
 
 

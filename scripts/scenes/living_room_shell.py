@@ -33,6 +33,8 @@ def build_shell(glb, paint):
               .moved(LEFT - 0.04, y0 - 0.017, (z0 + z1) / 2).without("uvs"), paint["white wood"])
     glb.place("sky", quad((LEFT - 0.75, y0 - 0.45, z1 + 0.75), (0, 0, z0 - z1 - 1.5), (0, y1 - y0 + 1.30, 0)),
               paint["sky"])
+    # A window behind the viewer: the photographer's fill light.
+    glb.place("fill", quad((1.5, 0.85, FRONT - 0.01), (-2.8, 0, 0), (0, 1.55, 0)).without("uvs"), paint["fill"])
     curtains(glb, paint)
     mouldings(glb, paint)
     rug = rounded_box((2.75, 0.012, 1.83), 0.005, 1)

@@ -268,11 +268,11 @@ def sky(width=192, height=128):
         v = y / height
         line = []
         for x in range(width):
-            colour = mix((0.42, 0.60, 0.88), (0.86, 0.84, 0.86), step(0.0, 0.72, v))
+            colour = mix((0.30, 0.49, 0.82), (0.86, 0.82, 0.80), step(0.05, 0.72, v))
             colour = mix(colour, (0.97, 0.95, 0.94), 0.65 * step(0.48, 0.72, clouds[y][x]))
             for layer, crown in enumerate(crowns):
                 top = 0.60 + 0.10 * layer - 0.22 * (crown[x] - 0.4)
-                tone = mix((0.62, 0.69, 0.74), (0.26, 0.36, 0.35), layer / 2)
+                tone = mix((0.56, 0.64, 0.70), (0.17, 0.27, 0.26), layer / 2)
                 colour = mix(colour, tone, 0.9 * step(top - 0.012, top + 0.012, v))
             line.append(colour)
         rows.append(line)
@@ -286,5 +286,5 @@ def lantern(width=4, height=128, ribs=20):
         v = (y + 0.5) / height
         glow = 0.45 + 0.55 * math.sin(math.pi * v) ** 0.8
         glow *= 1 - 0.28 * step(0.38, 0.5, abs((v * ribs) % 1 - 0.5))
-        rows.append([(glow, glow * 0.78, glow * 0.53)] * width)
+        rows.append([(glow, glow * 0.76, glow * 0.49)] * width)
     return rows
