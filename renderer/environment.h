@@ -46,7 +46,7 @@ class Environment {
   /// A constant environment is sampled uniformly over the sphere, a picture by its luminance.
   EnvironmentSample sample(const Vec2& u) const;
   float pdf(const Vec3& direction) const;
-  /// Mean radiance over the sphere.
+  /// Mean radiance over the sphere (texels by their solid angle).
   Color mean() const { return mean_; }
   bool black() const { return (mean_ == 0.0f).all(); }
   /// The same radiance from everywhere: worth sampling by the receiver's cosine instead.
