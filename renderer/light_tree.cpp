@@ -12,7 +12,7 @@ namespace gatelight::renderer {
 //   theta_i' = max(0, theta_i - theta_b)          the smallest angle of incidence
 //   importance = intensity * cos(theta') * cos(theta_i') / distance^2,  0 where theta' >= theta_e.
 // Differences of angles are taken through sines and cosines; no branch depends on the data.
-LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3& n) {
+LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3& n) const {
   Weights weights;
   const float px = p.x(), py = p.y(), pz = p.z();
   const float nx = n.x(), ny = n.y(), nz = n.z();
@@ -26,16 +26,16 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
     const float safe2 = std::max(distance2, 1e-36f);
     const float inverse = 1.0f / std::sqrt(safe2);
 
-    const float ratio = node.radius2[k] * inverse * inverse;
+    const float ratio = node.radius[k] * inverse;
     const bool inside = ratio >= 1.0f;
-    const float sin_b = inside ? 0.0f : std::sqrt(ratio);
-    const float cos_b = inside ? -1.0f : std::sqrt(std::max(0.0f, 1.0f - ratio));
+    const float sin_b = inside ? 0.0f : ratio;
+    const float cos_b = inside ? -1.0f : std::sqrt(std::max(0.0f, 1.0f - ratio * ratio));
 
     const float along = -(dx * node.axis_x[k] + dy * node.axis_y[k] + dz * node.axis_z[k]) * inverse;
     const float cos_w = std::max(along, node.side[k] * along);
     const float sin_w = std::sqrt(std::max(0.0f, 1.0f - cos_w * cos_w));
     const float cos_o = node.cos_normals[k];
-    const float sin_o = node.sin_normals[k];
+    const float sin_o = std::sqrt(std::max(0.0f, 1.0f - cos_o * cos_o));
     const bool in_normals = cos_w > cos_o;
     const float cos_x = in_normals ? 1.0f : cos_w * cos_o + sin_w * sin_o;
     const float sin_x = in_normals ? 0.0f : sin_w * cos_o - cos_w * sin_o;
@@ -47,7 +47,9 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
     const float cos_received = cos_i > cos_b ? 1.0f : cos_i * cos_b + sin_i * sin_b;
     const float received = std::max(free, std::max(0.0f, cos_received));
 
-    weights.value[k] = node.intensity[k] * emitted * received / std::max(distance2, node.nearest2[k]);
+    // A receiver within a group's sphere is as near as its rim.
+    const float reach2 = std::max(std::max(distance2, node.radius[k] * node.radius[k]), nearest2_);
+    weights.value[k] = node.intensity[k] * emitted * received / reach2;
   }
   weights.sum = (weights.value[0] + weights.value[1]) + (weights.value[2] + weights.value[3]);
   return weights;
@@ -58,16 +60,17 @@ LightTree::Choice LightTree::sample(const Weights& root, const Vec3& p, const Ve
   Weights weights = root;
   std::uint32_t index = 0;
   while (weights.sum > 0.0f) {
-    double target = u * static_cast<double>(weights.sum);
-    int slot = -1;
-    for (int k = 0; k < 4; ++k) {
-      if (!(weights.value[k] > 0.0f)) continue;
-      slot = k;
-      if (target < static_cast<double>(weights.value[k])) break;
-      target -= static_cast<double>(weights.value[k]);
-    }
-    // Rounding may leave the target at the end of the last child.
-    u = std::clamp(target / static_cast<double>(weights.value[slot]), 0.0, 0x1.fffffffffffffp-1);
+    // The first child whose running sum exceeds the target; a child of no weight does not move the sum, so it
+    // cannot be the first.
+    const double w0 = static_cast<double>(weights.value[0]);
+    const double w1 = w0 + static_cast<double>(weights.value[1]);
+    const double w2 = w1 + static_cast<double>(weights.value[2]);
+    const double w3 = w2 + static_cast<double>(weights.value[3]);
+    const double target = u * w3;
+    const int slot = (target >= w0 ? 1 : 0) + (target >= w1 ? 1 : 0) + (target >= w2 ? 1 : 0);
+    const double low[4] = {0.0, w0, w1, w2};
+    const double value = static_cast<double>(weights.value[slot]);
+    u = std::min((target - low[slot]) / value, 0x1.fffffffffffffp-1);
     choice.probability *= weights.value[slot] / weights.sum;
     const std::uint32_t child = nodes_[index].child[slot];
     if (child & kLeaf) {
@@ -81,7 +84,7 @@ LightTree::Choice LightTree::sample(const Weights& root, const Vec3& p, const Ve
 }
 
 float LightTree::probability(const Vec3& p, const Vec3& n, std::uint32_t light) const {
-  std::uint32_t place = place_[light];
+  std::uint32_t place = places_[light];
   if (place == kNone) return 0.0f;
   float probability = 1.0f;
   while (place != kNone) {
@@ -90,13 +93,13 @@ float LightTree::probability(const Vec3& p, const Vec3& n, std::uint32_t light) 
     const float value = weights.value[place % 4];
     if (!(value > 0.0f)) return 0.0f;
     probability *= value / weights.sum;
-    place = node.parent;
+    place = parents_[place / 4];
   }
   return probability;
 }
 
 std::size_t LightTree::bytes() const {
-  return nodes_.size() * sizeof(Node) + place_.size() * sizeof(std::uint32_t);
+  return nodes_.size() * sizeof(Node) + (parents_.size() + places_.size()) * sizeof(std::uint32_t);
 }
 
 }  // namespace gatelight::renderer

@@ -40,7 +40,7 @@ class LightTree {
   /// The importance of a node's four children for a point.
   struct Weights {
     alignas(16) float value[4];
-    float sum;  ///< 0: none of them can shine there
+    float sum = 0.0f;  ///< 0: none of them can shine there
   };
 
   /// The first step of sample(). n is unit, or zero where light may arrive from all sides. Not for an empty
@@ -59,26 +59,27 @@ class LightTree {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
 
-  /// Four children in structure-of-arrays order, 240 bytes. An unused child has no intensity.
-  struct alignas(16) Node {
+  /// Four children in structure-of-arrays order: three cache lines. An unused child has no intensity.
+  struct alignas(64) Node {
     float centre_x[4], centre_y[4], centre_z[4];
-    float radius2[4];
+    float radius[4];
     float axis_x[4], axis_y[4], axis_z[4];
-    float cos_normals[4], sin_normals[4];
+    float cos_normals[4];
     float cos_emission[4];
     float side[4];           ///< -1: two-sided, +1: one-sided
     float intensity[4];      ///< share of the whole tree's
-    float nearest2[4];       ///< squared distance that the receiver is kept away from the light
     std::uint32_t child[4];  ///< a node, or a light with the bit kLeaf
-    std::uint32_t parent;    ///< 4 * node + slot of the parent, kNone for the root
   };
+  static_assert(sizeof(Node) == 192);
 
-  static Weights weigh(const Node& node, const Vec3& p, const Vec3& n);
+  Weights weigh(const Node& node, const Vec3& p, const Vec3& n) const;
 
   struct Builder;
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> place_;  ///< for each light 4 * node + slot, or kNone
+  std::vector<std::uint32_t> parents_;  ///< for each node the place of its parent's slot; kNone for the root
+  std::vector<std::uint32_t> places_;   ///< for each light its place, 4 * node + slot; kNone: not in the tree
+  float nearest2_ = 0.0f;               ///< squared distance that receivers are kept away from a light
 };
 
 }  // namespace gatelight::renderer

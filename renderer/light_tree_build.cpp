@@ -71,7 +71,6 @@ struct LightTree::Builder {
   std::span<const LightBounds> lights;
   std::vector<std::uint32_t> order;
   double total = 0.0;
-  float nearest2 = 0.0f;
   LightTree& tree;
 
   const LightBounds& at(std::size_t i) const { return lights[order[i]]; }
@@ -194,7 +193,7 @@ struct LightTree::Builder {
 
     const auto index = static_cast<std::uint32_t>(tree.nodes_.size());
     tree.nodes_.emplace_back();
-    tree.nodes_[index].parent = parent;
+    tree.parents_.push_back(parent);
     for (std::size_t k = 0; k < 4; ++k) {
       const bool used = k < count;
       write(tree.nodes_[index], k, used ? bound(groups[k]) : LightBounds{});
@@ -204,7 +203,7 @@ struct LightTree::Builder {
       if (groups[k].size() == 1) {
         const std::uint32_t light = order[groups[k].begin];
         tree.nodes_[index].child[k] = light | kLeaf;
-        tree.place_[light] = place;
+        tree.places_[light] = place;
       } else {
         const std::uint32_t child = build(groups[k], place);
         tree.nodes_[index].child[k] = child;
@@ -217,21 +216,19 @@ struct LightTree::Builder {
     node.centre_x[k] = b.centre.x();
     node.centre_y[k] = b.centre.y();
     node.centre_z[k] = b.centre.z();
-    node.radius2[k] = b.radius * b.radius;
+    node.radius[k] = b.radius;
     node.axis_x[k] = b.axis.x();
     node.axis_y[k] = b.axis.y();
     node.axis_z[k] = b.axis.z();
     node.cos_normals[k] = b.cos_normals;
-    node.sin_normals[k] = std::sqrt(std::max(0.0f, 1.0f - b.cos_normals * b.cos_normals));
     node.cos_emission[k] = b.cos_emission;
     node.side[k] = b.two_sided ? -1.0f : 1.0f;
     // A share that a float cannot hold still has a chance.
     node.intensity[k] = b.intensity > 0.0 ? std::max(static_cast<float>(b.intensity / total), 1e-30f) : 0.0f;
-    node.nearest2[k] = std::max(node.radius2[k], nearest2);
   }
 };
 
-LightTree::LightTree(std::span<const LightBounds> lights) : place_(lights.size(), kNone) {
+LightTree::LightTree(std::span<const LightBounds> lights) : places_(lights.size(), kNone) {
   Builder builder{.lights = lights, .order = {}, .tree = *this};
   Box box;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
@@ -242,10 +239,11 @@ LightTree::LightTree(std::span<const LightBounds> lights) : place_(lights.size()
   }
   if (builder.order.empty()) return;
   // A receiver that touches a point light: a millionth of the lights' extent is near enough.
-  builder.nearest2 = std::max(1e-12f * box.sizes().squaredNorm(), 1e-30f);
+  nearest2_ = std::max(1e-12f * box.sizes().squaredNorm(), 1e-30f);
   nodes_.reserve(builder.order.size() / 2 + 1);
   builder.build({0, builder.order.size()}, kNone);
   nodes_.shrink_to_fit();
+  parents_.shrink_to_fit();
 }
 
 }  // namespace gatelight::renderer
