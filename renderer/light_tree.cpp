@@ -23,17 +23,22 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
     const float dy = node.centre_y[k] - py;
     const float dz = node.centre_z[k] - pz;
     const float distance2 = dx * dx + dy * dy + dz * dz;
+    // A receiver within a group's sphere is as near as its rim.
+    const float radius2 = node.radius[k] * node.radius[k];
+    const float strength = node.intensity[k] / std::max(std::max(distance2, radius2), nearest2_);
+
+    // One descent is a chain of steps that wait for each other: roots and quotients are taken of lengths that
+    // are not yet normalised, so that they do not wait for the inverse.
     const float safe2 = std::max(distance2, 1e-36f);
     const float inverse = 1.0f / std::sqrt(safe2);
+    const float ratio2 = radius2 / safe2;
+    const bool inside = ratio2 >= 1.0f;
+    const float sin_b = inside ? 0.0f : node.radius[k] * inverse;
+    const float cos_b = inside ? -1.0f : std::sqrt(std::max(0.0f, 1.0f - ratio2));
 
-    const float ratio = node.radius[k] * inverse;
-    const bool inside = ratio >= 1.0f;
-    const float sin_b = inside ? 0.0f : ratio;
-    const float cos_b = inside ? -1.0f : std::sqrt(std::max(0.0f, 1.0f - ratio * ratio));
-
-    const float along = -(dx * node.axis_x[k] + dy * node.axis_y[k] + dz * node.axis_z[k]) * inverse;
-    const float cos_w = std::max(along, node.side[k] * along);
-    const float sin_w = std::sqrt(std::max(0.0f, 1.0f - cos_w * cos_w));
+    const float along = -(dx * node.axis_x[k] + dy * node.axis_y[k] + dz * node.axis_z[k]);
+    const float cos_w = std::max(along, node.side[k] * along) * inverse;
+    const float sin_w = std::sqrt(std::max(0.0f, distance2 - along * along)) * inverse;
     const float cos_o = node.cos_normals[k];
     const float sin_o = std::sqrt(std::max(0.0f, 1.0f - cos_o * cos_o));
     const bool in_normals = cos_w > cos_o;
@@ -42,14 +47,13 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
     const float cos_emitted = cos_x > cos_b ? 1.0f : cos_x * cos_b + sin_x * sin_b;
     const float emitted = cos_emitted > node.cos_emission[k] ? cos_emitted : 0.0f;
 
-    const float cos_i = (dx * nx + dy * ny + dz * nz) * inverse;
-    const float sin_i = std::sqrt(std::max(0.0f, 1.0f - cos_i * cos_i));
+    const float up = dx * nx + dy * ny + dz * nz;
+    const float cos_i = up * inverse;
+    const float sin_i = std::sqrt(std::max(0.0f, distance2 - up * up)) * inverse;
     const float cos_received = cos_i > cos_b ? 1.0f : cos_i * cos_b + sin_i * sin_b;
-    const float received = std::max(free, std::max(0.0f, cos_received));
+    const float received = std::max(free, cos_received);  // free is 0 or 1: the clamp from below, too
 
-    // A receiver within a group's sphere is as near as its rim.
-    const float reach2 = std::max(std::max(distance2, node.radius[k] * node.radius[k]), nearest2_);
-    weights.value[k] = node.intensity[k] * emitted * received / reach2;
+    weights.value[k] = strength * (emitted * received);
   }
   weights.sum = (weights.value[0] + weights.value[1]) + (weights.value[2] + weights.value[3]);
   return weights;
