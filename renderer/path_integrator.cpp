@@ -19,6 +19,10 @@ constexpr int kMaxPassed = 32;
 /// Distances below this fraction of the way to the light are its own surface.
 constexpr float kShadowEpsilon = 1e-4f;
 
+/// How many hits ahead of shading their data is asked for.
+constexpr std::size_t kTriangleAhead = 8;
+constexpr std::size_t kVerticesAhead = 4;
+
 Color absorption_of(const scene::Material& m) {
   if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
   // Colour c after distance d: c = exp(-absorption d). A black channel absorbs within a thousandth of the
@@ -201,6 +205,10 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
     scratch.pending.clear();
     std::size_t alive = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (i + kTriangleAhead < paths.size())
+        world_.surfaces.prefetch_triangle(scratch.hits[i + kTriangleAhead]);
+      if (i + kVerticesAhead < paths.size())
+        world_.surfaces.prefetch_vertices(scratch.hits[i + kVerticesAhead]);
       if (!scatter(paths[i], scratch.hits[i], results, first_hits, scratch)) continue;
       if (alive != i) paths[alive] = paths[i];
       ++alive;

@@ -97,6 +97,17 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
   }
 }
 
+void Surfaces::prefetch_vertices(const Hit& hit) const {
+  if (!hit) return;
+  const scene::Mesh& mesh = *views_[hit.instance].mesh;
+  for (const std::uint32_t corner : mesh.triangles[hit.primitive]) {
+    __builtin_prefetch(&mesh.positions[corner]);
+    if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[corner]);
+    if (!mesh.uv0.empty()) __builtin_prefetch(&mesh.uv0[corner]);
+    if (!mesh.tangents.empty()) __builtin_prefetch(&mesh.tangents[corner]);
+  }
+}
+
 Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const {
   const View& view = views_[hit.instance];
   const scene::Mesh& mesh = *view.mesh;

@@ -46,6 +46,14 @@ class Surfaces {
   /// levels.
   Surface at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
 
+  /// Hints for a batch of hits, to be given some hits ahead of at(): first the indices of the triangle, then,
+  /// when these have arrived, what they point to. Vertex fetches are scattered and would stall one after the
+  /// other.
+  void prefetch_triangle(const Hit& hit) const {
+    if (hit) __builtin_prefetch(&views_[hit.instance].mesh->triangles[hit.primitive]);
+  }
+  void prefetch_vertices(const Hit& hit) const;
+
   const scene::Material& material(std::uint32_t instance) const { return *views_[instance].material; }
 
  private:
