@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
 /// A triangle light with its node of the tree.
-constexpr std::size_t kLightBytes = 160;
+constexpr std::size_t kLightBytes = 192;
 
 }  // namespace
 

@@ -67,7 +67,9 @@ TEST(Accel, BatchesOfAnySizeAgreeWithSingleRays) {
     for (std::size_t i = 0; i < n; ++i) {
       const Hit one = tracer.hit(rays[i].origin, rays[i].direction);
       ASSERT_EQ(one.instance, hits[i].instance);
-      if (one) EXPECT_NEAR(one.t, hits[i].t, 1e-5f * one.t);
+      if (one) {
+        EXPECT_NEAR(one.t, hits[i].t, 1e-5f * one.t);
+      }
     }
   }
 }
