@@ -60,7 +60,7 @@ def table_lamp(glb, paint, at):
     rims = glb.mesh("lampshade rim", (furniture.ring(1.0, 0.02).without("uvs"), paint["satin brass"]))
     glb.node("lower rim", rims, at=(x, y + 0.36, z), scale=0.165)
     glb.node("upper rim", rims, at=(x, y + 0.57, z), scale=0.105)
-    glb.place("bulb", sphere(0.033, 20, 12).without("uvs"), paint["bulb"], at=(x, y + 0.455, z))
+    glb.place("bulb", sphere(0.045, 20, 12).without("uvs"), paint["bulb"], at=(x, y + 0.455, z))
 
 
 def book_shapes(glb, paint, width, height, depth):

@@ -96,7 +96,7 @@ def materials(glb):
         "cloth green": paint("green cloth", (0.07, 0.15, 0.09), 0.7),
         "cloth cream": paint("cream cloth", (0.66, 0.58, 0.44), 0.7),
         "shade": new("lampshade", (0.75, 0.66, 0.52), roughness=0.9, double_sided=True, emission=WARM, strength=2.6),
-        "bulb": new("bulb", (0.8, 0.8, 0.8), emission=WARM, strength=60.0),
+        "bulb": new("bulb", (0.8, 0.8, 0.8), emission=WARM, strength=14.0),
         "lantern": new("paper lantern", (0.75, 0.70, 0.60), roughness=0.9, emission=(1.0, 1.0, 1.0), strength=2.0,
                        emission_texture=image["lantern"]),
         "fill": new("evening light", (0.0, 0.0, 0.0), emission=(0.86, 0.93, 1.0), strength=2.4),
