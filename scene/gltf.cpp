@@ -166,7 +166,8 @@ class Loader {
         instance.name = placement.name;
         instance.mesh = static_cast<int>(i);
         instance.transform = placement.transform;
-        instance.mirrors = placement.transform.linear().determinant() < 0.0f;
+        // In double: the product of three small scales leaves single precision.
+        instance.mirrors = placement.transform.linear().cast<double>().determinant() < 0.0;
         scene_.instances.push_back(std::move(instance));
       }
     }

@@ -46,15 +46,23 @@ json parse_json(std::string_view text, std::string_view file) {
     if (!root.is_object()) throw make_error(file, "JSON", "not an object, expected a glTF object");
     return root;
   } catch (const json::exception& e) {
-    throw make_error(file, "JSON", fmt::format("{}, expected a glTF object", e.what()));
+    std::string_view what = e.what();
+    if (const std::size_t end = what.find("] "); end != std::string_view::npos) what.remove_prefix(end + 2);
+    throw make_error(file, "JSON", fmt::format("{}, expected a glTF object", what));
   }
+}
+
+/// "2." and digits: minor versions stay readable, by the specification.
+bool is_version_2(std::string_view version) {
+  return version.size() > 2 && version.starts_with("2.") &&
+         version.find_first_not_of("0123456789", 2) == std::string_view::npos;
 }
 
 void check_version(const json& asset, std::string_view file) {
   for (const char* key : {"version", "minVersion"}) {
     if (!asset.contains(key)) continue;
     const std::string& version = asset[key].get_ref<const std::string&>();
-    const bool fits = std::string_view(key) == "version" ? version.starts_with("2.") : version == "2.0";
+    const bool fits = std::string_view(key) == "version" ? is_version_2(version) : version == "2.0";
     if (!fits)
       throw make_error(file, fmt::format("asset.{}", key), fmt::format("'{}', expected 2.0", version));
   }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "scene/gltf_uri.h"
+#include "scene/png_chunks.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -34,6 +35,13 @@ SceneError image_error(const Document& document, std::string_view where, std::st
 Image decode(const Document& document, Bytes bytes, std::string_view where) {
   const char* format = format_of(bytes);
   if (!format) throw image_error(document, where, "neither PNG nor JPEG data");
+  std::vector<std::uint8_t> png;
+  if (std::string_view(format) == "png") {
+    std::string problem;
+    png = essential_png(bytes, problem);
+    if (png.empty()) throw image_error(document, where, problem);
+    bytes = png;
+  }
 
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "scene/gltf_extensions.h"
 
@@ -43,6 +44,7 @@ class Converter {
     m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
     m.double_sided = source.doubleSided;
     read_extensions(source.extensions, m);
+    drop_unread_textures(m);
     return m;
   }
 
@@ -94,6 +96,22 @@ class Converter {
       m.sheen_roughness = unit(number_or(*e, "sheenRoughnessFactor", 0.0), "sheenRoughnessFactor");
       m.sheen_roughness_texture = slot(*e, "sheenRoughnessTexture");
     }
+  }
+
+  /// A texture whose factor is zero changes nothing: it is not decoded, and need not exist.
+  static void drop_unread_textures(Material& m) {
+    const auto keep = [](bool condition, std::initializer_list<TextureSlot*> slots) {
+      for (TextureSlot* slot : slots) {
+        if (!condition) *slot = {};
+      }
+    };
+    keep(!m.unlit, {&m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture});
+    keep(m.emits(), {&m.emission_texture});
+    keep(!m.unlit && m.specular > 0.0f, {&m.specular_texture, &m.specular_color_texture});
+    keep(!m.unlit && m.transmits(), {&m.transmission_texture});
+    keep(!m.unlit && m.clearcoat > 0.0f,
+         {&m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture});
+    keep(!m.unlit && (m.sheen_color > 0.0f).any(), {&m.sheen_color_texture, &m.sheen_roughness_texture});
   }
 
   float unit(double value, std::string_view name) {

@@ -1,0 +1,341 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::HasSubstr;
+
+/// A triangle whose texture coordinates are read, since its material has a (missing) texture.
+struct Textured {
+  GltfBuilder file;
+  json primitive;
+
+  Textured() {
+    file.add("images", {{"uri", "absent.png"}});
+    file.add("textures", {{"source", 0}});
+    file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    primitive = {{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}},
+                 {"material", 0}};
+  }
+
+  Mesh load(int uv) {
+    primitive["attributes"]["TEXCOORD_0"] = uv;
+    file.node({{"mesh", file.mesh(primitive)}});
+    return only_mesh(file.load({.missing_is_error = false}));
+  }
+};
+
+template <typename T>
+void expect_uvs(int type, const std::vector<T>& values, bool normalized, const std::vector<float>& expected) {
+  Textured t;
+  const Mesh mesh = t.load(t.file.accessor(values, type, "VEC2", 3, {{"normalized", normalized}}));
+  ASSERT_EQ(mesh.uv0.size(), 3u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_FLOAT_EQ(mesh.uv0[i / 2][static_cast<int>(i % 2)], expected[i])
+        << "type " << type << " entry " << i;
+  }
+}
+
+TEST(Accessors, NormalisedIntegersMapToUnitRange) {
+  expect_uvs<std::uint8_t>(kUnsignedByte, {0, 255, 51, 102, 204, 1}, true,
+                           {0, 1, 0.2f, 0.4f, 0.8f, 1.0f / 255});
+  expect_uvs<std::uint16_t>(kUnsignedShort, {0, 65535, 13107, 26214, 52428, 1}, true,
+                            {0, 1, 0.2f, 0.4f, 0.8f, 1.0f / 65535});
+  expect_uvs<std::int8_t>(kByte, {0, 127, -127, -128, 64, -1}, true,
+                          {0, 1, -1, -1, 64.0f / 127, -1.0f / 127});
+  expect_uvs<std::int16_t>(kShort, {0, 32767, -32767, -32768, 1, -1}, true,
+                           {0, 1, -1, -1, 1.0f / 32767, -1.0f / 32767});
+}
+
+TEST(Accessors, QuantizedIntegersKeepTheirValue) {
+  expect_uvs<std::uint8_t>(kUnsignedByte, {0, 255, 3, 4, 5, 6}, false, {0, 255, 3, 4, 5, 6});
+  expect_uvs<std::int16_t>(kShort, {-5, 300, 3, 4, 5, 6}, false, {-5, 300, 3, 4, 5, 6});
+}
+
+TEST(Accessors, PositionsMayBeQuantized) {
+  GltfBuilder file;
+  // Padded to 8 bytes an element, as KHR_mesh_quantization asks.
+  const int view =
+      file.view(std::vector<std::int16_t>{0, 0, 0, 0, 100, 0, 0, 0, 0, -200, 7, 0}, {{"byteStride", 8}});
+  const int position = file.add(
+      "accessors", {{"bufferView", view}, {"componentType", kShort}, {"type", "VEC3"}, {"count", 3}});
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}}}})}, {"scale", {0.01, 0.01, 0.01}}});
+  file.root["extensionsRequired"] = {"KHR_mesh_quantization"};
+  file.root["extensionsUsed"] = {"KHR_mesh_quantization"};
+  const Scene scene = file.load();
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_TRUE(only_mesh(scene).positions[1].isApprox(Vec3(1, 0, 0)));
+  EXPECT_TRUE(only_mesh(scene).positions[2].isApprox(Vec3(0, -2, 0.07f)));
+}
+
+TEST(Accessors, InterleavedAttributesShareAView) {
+  GltfBuilder file;
+  std::vector<float> data;
+  for (int i = 0; i < 3; ++i) {
+    for (const float f : {i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f, 2.0f})
+      data.push_back(f);
+  }
+  const int view = file.view(data, {{"byteStride", 24}});
+  const auto part = [&](int offset) {
+    return file.add("accessors", {{"bufferView", view},
+                                  {"byteOffset", offset},
+                                  {"componentType", kFloat},
+                                  {"type", "VEC3"},
+                                  {"count", 3}});
+  };
+  const int position = part(0);
+  const int normal = part(12);
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}})}});
+  const Mesh mesh = only_mesh(file.load());
+  EXPECT_EQ(mesh.positions[1], Vec3(1, 0, 0));
+  EXPECT_EQ(mesh.positions[2], Vec3(0, 1, 0));
+  EXPECT_EQ(mesh.normals[2], Vec3(0, 0, 1)) << "normalised";
+}
+
+TEST(Accessors, SparseEntriesReplaceValues) {
+  GltfBuilder file;
+  const int index_view = file.view(std::vector<std::uint16_t>{1, 2});
+  const int value_view = file.view(std::vector<float>{5, 0, 0, 0, 6, 0});
+  const json sparse = {{"count", 2},
+                       {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedShort}}},
+                       {"values", {{"bufferView", value_view}}}};
+  const int based =
+      file.accessor(std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3}, kFloat, "VEC3", 3, {{"sparse", sparse}});
+  const int zeros =
+      file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3}, {"sparse", sparse}});
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", based}}}})}});
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", zeros}}}})}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.meshes[0].positions[0], Vec3(1, 1, 1));
+  EXPECT_EQ(scene.meshes[0].positions[1], Vec3(5, 0, 0));
+  EXPECT_EQ(scene.meshes[0].positions[2], Vec3(0, 6, 0));
+  EXPECT_EQ(scene.meshes[1].positions[0], Vec3(0, 0, 0));
+  EXPECT_EQ(scene.meshes[1].positions[2], Vec3(0, 6, 0));
+}
+
+TEST(Accessors, SparseIndexBufferIsRead) {
+  GltfBuilder file;
+  const int index_view = file.view(std::vector<std::uint8_t>{1, 2});
+  const int value_view = file.view(std::vector<std::uint16_t>{2, 1});
+  const int indices =
+      file.add("accessors", {{"componentType", kUnsignedShort},
+                             {"type", "SCALAR"},
+                             {"count", 3},
+                             {"sparse",
+                              {{"count", 2},
+                               {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedByte}}},
+                               {"values", {{"bufferView", value_view}}}}}});
+  json primitive = file.triangle();
+  primitive["indices"] = indices;
+  file.node({{"mesh", file.mesh(primitive)}});
+  const std::array<std::uint32_t, 3> expected = {0, 2, 1};
+  EXPECT_EQ(only_mesh(file.load()).triangles.at(0), expected);
+}
+
+TEST(Accessors, WithoutAViewAreZeros) {
+  Textured t;
+  const Mesh mesh =
+      t.load(t.file.add("accessors", {{"componentType", kFloat}, {"type", "VEC2"}, {"count", 3}}));
+  ASSERT_EQ(mesh.uv0.size(), 3u);
+  for (const Vec2& uv : mesh.uv0) EXPECT_EQ(uv, Vec2(0, 0));
+}
+
+TEST(Accessors, AllIndexTypesGiveTheSameTriangle) {
+  const auto load = [](auto zero, int type) {
+    using T = decltype(zero);
+    GltfBuilder file;
+    json primitive = file.triangle();
+    primitive["indices"] = file.accessor(std::vector<T>{2, 0, 1}, type, "SCALAR", 3);
+    file.node({{"mesh", file.mesh(primitive)}});
+    return only_mesh(file.load()).triangles.at(0);
+  };
+  const std::array<std::uint32_t, 3> expected = {2, 0, 1};
+  EXPECT_EQ(load(std::uint8_t{}, kUnsignedByte), expected);
+  EXPECT_EQ(load(std::uint16_t{}, kUnsignedShort), expected);
+  EXPECT_EQ(load(std::uint32_t{}, kUnsignedInt), expected);
+}
+
+TEST(Accessors, ColorsComeInThreeOrFourComponentsAndAnyType) {
+  const auto load = [](auto values, int type, const char* kind) {
+    GltfBuilder file;
+    json primitive = file.triangle();
+    primitive["attributes"]["COLOR_0"] =
+        file.accessor(values, type, kind, 3, {{"normalized", type != kFloat}});
+    file.node({{"mesh", file.mesh(primitive)}});
+    return only_mesh(file.load()).colors;
+  };
+  const auto rgb = load(std::vector<float>{1, 0, 0, 0, 0.5f, 0, 0, 0, 1}, kFloat, "VEC3");
+  ASSERT_EQ(rgb.size(), 3u);
+  EXPECT_EQ(rgb[1], Vec4(0, 0.5f, 0, 1)) << "alpha is one where the file has none";
+  const auto rgba =
+      load(std::vector<std::uint8_t>{255, 0, 0, 51, 0, 0, 0, 0, 0, 0, 0, 0}, kUnsignedByte, "VEC4");
+  EXPECT_TRUE(rgba[0].isApprox(Vec4(1, 0, 0, 0.2f)));
+  EXPECT_TRUE(load(std::vector<float>(9, 1.0f), kFloat, "VEC3").empty()) << "white changes nothing";
+}
+
+TEST(Accessors, TextureCoordinatesNobodyReadsAreDropped) {
+  GltfBuilder file;
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  EXPECT_TRUE(only_mesh(file.load()).uv0.empty());
+}
+
+/// Changes one number of a file that loads; every change must be refused.
+struct Damage {
+  const char* pointer;  ///< into the JSON
+  json value;
+  const char* says;
+};
+
+void PrintTo(const Damage& damage, std::ostream* out) {
+  *out << damage.pointer << " = " << damage.value;
+}
+
+class DamagedFile : public testing::TestWithParam<Damage> {
+ protected:
+  static GltfBuilder whole() {
+    GltfBuilder file;
+    const int position = file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const int index_view = file.view(std::vector<std::uint16_t>{1});
+    const int value_view = file.view(std::vector<float>{1, 0, 0});
+    const int normal = file.accessor(
+        std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3,
+        {{"byteOffset", 0},
+         {"sparse",
+          {{"count", 1},
+           {"indices", {{"bufferView", index_view}, {"byteOffset", 0}, {"componentType", kUnsignedShort}}},
+           {"values", {{"bufferView", value_view}, {"byteOffset", 0}}}}}});
+    json primitive = {{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"mode", 4}};
+    primitive["indices"] = file.indices({0, 1, 2});
+    file.node({{"mesh", file.mesh(primitive)},
+               {"camera", 0},
+               {"translation", {0, 0, 0}},
+               {"scale", {1, 1, 1}},
+               {"rotation", {0, 0, 0, 1}}});
+    file.add("cameras", {{"type", "perspective"},
+                         {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"aspectRatio", 1.5}}}});
+    file.root["scene"] = 0;
+    while (file.bin.size() % 4 != 0) file.bin.push_back(0);
+    file.root["buffers"] = {{{"byteLength", file.bin.size()}}};
+    return file;
+  }
+};
+
+TEST_F(DamagedFile, IsWholeBeforehand) {
+  EXPECT_EQ(whole().refused(), "");
+}
+
+TEST_P(DamagedFile, IsRefusedInOneLine) {
+  GltfBuilder file = whole();
+  file.root[json::json_pointer(GetParam().pointer)] = GetParam().value;
+  const std::string message = file.refused();
+  EXPECT_THAT(message, HasSubstr("test.glb: "));
+  EXPECT_THAT(message, HasSubstr("expected"));
+  EXPECT_THAT(message, HasSubstr(GetParam().says));
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+const double kHuge = 1e300;
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, DamagedFile,
+    testing::Values(
+        Damage{"/accessors/0/count", 0, "accessors[0].count"},
+        Damage{"/accessors/0/count", -1, "accessors[0].count"},
+        Damage{"/accessors/0/count", 4, "accessors[0]"},
+        Damage{"/accessors/0/count", 4611686018427387904, "count"},
+        Damage{"/accessors/0/count", 1.5, "accessors[0].count"}, Damage{"/accessors/0/count", kHuge, "count"},
+        Damage{"/accessors/1/count", 2, "accessors[1]"}, Damage{"/accessors/0/byteOffset", -4, "byteOffset"},
+        Damage{"/accessors/0/byteOffset", 4, "accessors[0]"},
+        Damage{"/accessors/0/byteOffset", 9007199254740992, "accessors[0]"},
+        Damage{"/accessors/0/bufferView", 99, "bufferView"},
+        Damage{"/accessors/0/bufferView", -1, "bufferView"},
+        Damage{"/accessors/0/componentType", 5124, "componentType"},
+        Damage{"/accessors/0/componentType", 5125, "accessors[0]"},
+        Damage{"/accessors/0/type", "VEC2", "accessors[0]"}, Damage{"/accessors/0/type", "VEC5", "type"},
+        Damage{"/accessors/2/componentType", 5126, "accessors[2]"},
+        Damage{"/accessors/2/type", "VEC2", "accessors[2]"}, Damage{"/accessors/1/sparse/count", 2, "sparse"},
+        Damage{"/accessors/1/sparse/count", 4, "sparse"}, Damage{"/accessors/1/sparse/count", 0, "sparse"},
+        Damage{"/accessors/1/sparse/indices/bufferView", 77, "sparse.indices"},
+        Damage{"/accessors/1/sparse/indices/byteOffset", 1, "sparse.indices"},
+        Damage{"/accessors/1/sparse/values/byteOffset", 4, "sparse.values"},
+        Damage{"/accessors/1/sparse/indices/componentType", 5126, "componentType"},
+        Damage{"/bufferViews/0/buffer", 1, "bufferViews[0].buffer"},
+        Damage{"/bufferViews/0/byteOffset", 100000, "bufferViews[0]"},
+        Damage{"/bufferViews/0/byteLength", 100000, "bufferViews[0]"},
+        Damage{"/bufferViews/0/byteLength", 0, "byteLength"},
+        Damage{"/bufferViews/0/byteLength", -8, "byteLength"},
+        Damage{"/bufferViews/0/byteStride", 3, "byteStride"},
+        Damage{"/bufferViews/0/byteStride", 8, "byteStride"},
+        Damage{"/bufferViews/0/byteStride", 256, "byteStride"},
+        Damage{"/bufferViews/0/byteStride", 24, "accessors[0]"},
+        Damage{"/buffers/0/byteLength", 1000000, "buffers[0]"},
+        Damage{"/buffers/0/byteLength", 10, "bufferViews"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Structure, DamagedFile,
+    testing::Values(
+        Damage{"/meshes/0/primitives/0/mode", 7, "mode"}, Damage{"/meshes/0/primitives/0/mode", -1, "mode"},
+        Damage{"/meshes/0/primitives/0/indices", 9, "indices"},
+        Damage{"/meshes/0/primitives/0/material", 0, "material"},
+        Damage{"/meshes/0/primitives/0/attributes/POSITION", 50, "POSITION"},
+        Damage{"/meshes/0/primitives/0/attributes", json::object(), "POSITION"},
+        Damage{"/meshes/0/primitives", 3, "primitives"}, Damage{"/nodes/0/mesh", 1, "nodes[0].mesh"},
+        Damage{"/nodes/0/camera", 1, "nodes[0].camera"},
+        Damage{"/nodes/0/children", json::array({0}), "nodes[0]"},
+        Damage{"/nodes/0/children", json::array({8}), "children[0]"},
+        Damage{"/nodes/0/translation", json::array({1, 2}), "translation"},
+        Damage{"/nodes/0/translation/1", 1e39, "translation"},
+        Damage{"/nodes/0/translation/1", "x", "translation"},
+        Damage{"/nodes/0/translation/1", 1e30, "origin"}, Damage{"/nodes/0/scale/1", 3e38, "origin"},
+        Damage{"/nodes/0/rotation", json::array({0, 0, 0, 0}), "rotation"},
+        Damage{"/nodes/0/matrix", json::array({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}), "matrix"},
+        Damage{"/scene", 1, "scene"}, Damage{"/scenes/0/nodes", json::array({0, 0}), "twice"},
+        Damage{"/scenes/0/nodes/0", 5, "scenes[0].nodes[0]"},
+        Damage{"/cameras/0/perspective/yfov", 0, "yfov"}, Damage{"/cameras/0/perspective/yfov", 4, "yfov"},
+        Damage{"/cameras/0/perspective/aspectRatio", -1, "aspectRatio"},
+        Damage{"/cameras/0/type", "fisheye", "type"}, Damage{"/asset/version", "1.0", "asset.version"},
+        Damage{"/asset/minVersion", "2.1", "minVersion"}, Damage{"/accessors/0", "text", "accessors[0]"},
+        Damage{"/nodes", 5, "nodes"}));
+
+TEST(Accessors, NonFinitePositionsAreRefused) {
+  for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    GltfBuilder file;
+    file.node({{"mesh",
+                file.mesh({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, bad, 0})}}}})}});
+    EXPECT_THAT(file.refused(), HasSubstr("position 2"));
+  }
+}
+
+TEST(Accessors, SparseIndexBeyondTheCountIsRefused) {
+  GltfBuilder file;
+  const int index_view = file.view(std::vector<std::uint8_t>{3});
+  const int value_view = file.view(std::vector<float>{5, 0, 0});
+  const int position =
+      file.add("accessors", {{"componentType", kFloat},
+                             {"type", "VEC3"},
+                             {"count", 3},
+                             {"sparse",
+                              {{"count", 1},
+                               {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedByte}}},
+                               {"values", {{"bufferView", value_view}}}}}});
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}}}})}});
+  EXPECT_THAT(file.refused(), HasSubstr("index 3, expected less than 3"));
+}
+
+TEST(Accessors, ZerosWithoutDataHaveALimit) {
+  GltfBuilder file;
+  const int position =
+      file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3000000000}});
+  file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}}}})}});
+  EXPECT_THAT(file.refused(), HasSubstr("without a bufferView"));
+}
+
+}  // namespace
+}  // namespace gatelight::scene

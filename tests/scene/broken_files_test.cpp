@@ -1,0 +1,205 @@
+// Whatever the bytes are: a file loads, or is refused with SceneError in one line.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+/// What must hold for anything that loads: the renderer trusts it.
+void expect_consistent(const Scene& scene, const std::string& name) {
+  for (const Instance& instance : scene.instances) {
+    ASSERT_LT(static_cast<std::size_t>(instance.mesh), scene.meshes.size()) << name;
+    ASSERT_TRUE(instance.transform.matrix().allFinite()) << name;
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    const std::size_t n = mesh.positions.size();
+    ASSERT_LT(static_cast<std::size_t>(mesh.material), scene.materials.size()) << name;
+    ASSERT_GT(mesh.positions.capacity(), n) << name;
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t i : t) ASSERT_LT(i, n) << name;
+    }
+    for (const Vec3& p : mesh.positions) ASSERT_TRUE(p.allFinite()) << name;
+    for (const Vec3& v : mesh.normals) ASSERT_NEAR(v.norm(), 1.0f, 1e-4f) << name;
+    for (const Vec4& t : mesh.tangents) ASSERT_NEAR(t.head<3>().norm(), 1.0f, 1e-4f) << name;
+    for (const std::size_t size :
+         {mesh.normals.size(), mesh.tangents.size(), mesh.uv0.size(), mesh.uv1.size(), mesh.colors.size()}) {
+      ASSERT_TRUE(size == 0 || size == n) << name;
+    }
+    for (const Vec2& uv : mesh.uv0) ASSERT_TRUE(uv.allFinite()) << name;
+  }
+  for (const Texture& texture : scene.textures) {
+    ASSERT_LT(static_cast<std::size_t>(texture.image), scene.images.size()) << name;
+  }
+  for (const Image& image : scene.images) {
+    ASSERT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width * image.height * image.channels))
+        << name;
+  }
+  for (const std::string& warning : scene.warnings) ASSERT_EQ(warning.find('\n'), std::string::npos) << name;
+}
+
+/// True if it loaded.
+bool loads_or_refuses(const std::filesystem::path& path, const std::string& what) {
+  try {
+    expect_consistent(load_gltf(path), what);
+    return true;
+  } catch (const SceneError& e) {
+    const std::string message = e.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos) << what << ": " << message;
+    EXPECT_NE(message.find(path.filename().string()), std::string::npos) << what << ": " << message;
+  } catch (const std::exception& e) {
+    ADD_FAILURE() << what << ": " << e.what();
+  }
+  return false;
+}
+
+std::vector<std::filesystem::path> files_under(const char* folder) {
+  std::vector<std::filesystem::path> files;
+  const std::filesystem::path root = std::filesystem::path(std::getenv("GATELIGHT_SCENES")) / folder;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const std::string extension = entry.path().extension();
+    if (extension == ".gltf" || extension == ".glb") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(BrokenFiles, SamplesLoadOrAreRefused) {
+  if (!std::getenv("GATELIGHT_SCENES")) GTEST_SKIP() << "GATELIGHT_SCENES is not set";
+  std::size_t refused = 0;
+  const auto files = files_under("gltf-invalid");
+  for (const auto& path : files) refused += loads_or_refuses(path, path.string()) ? 0 : 1;
+  EXPECT_GT(files.size(), 50u);
+  EXPECT_GT(refused, 30u);
+}
+
+TEST(BrokenFiles, FeatureSamplesLoad) {
+  if (!std::getenv("GATELIGHT_SCENES")) GTEST_SKIP() << "GATELIGHT_SCENES is not set";
+  for (const auto& path : files_under("gltf-features")) {
+    // The only one that requires an extension that the specification has retired.
+    const bool expected = path.filename() != "14_emission_strength.gltf";
+    EXPECT_EQ(loads_or_refuses(path, path.string()), expected) << path;
+  }
+}
+
+/// A small file that passes through most of the loader.
+std::vector<std::uint8_t> rich_file() {
+  GltfBuilder file;
+  const std::vector<std::uint8_t> png = {
+      0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
+      0,    0,    2,    0,    0,    0,    1,    8,    0,    0,    0,    0,    0xd1, 0x49, 0x20, 0x56, 0,
+      0,    0,    11,   'I',  'D',  'A',  'T',  0x78, 0xda, 0x63, 0x60, 0xff, 0x05, 0,    0x01, 0x0b, 0x01,
+      0x02, 0x54, 0xf9, 0x8c, 0xc4, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
+  file.add("images", {{"bufferView", file.view(png)}, {"mimeType", "image/png"}});
+  file.add("textures", {{"source", 0}});
+  file.add("materials", {{"normalTexture",
+                          {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}}}}}}},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}});
+  json primitive = file.triangle();
+  primitive["material"] = 0;
+  primitive["attributes"]["NORMAL"] =
+      file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
+  primitive["indices"] = file.accessor(std::vector<std::uint16_t>{0, 1, 2}, kUnsignedShort, "SCALAR", 3);
+  const int mesh = file.mesh(primitive);
+  const int places = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0}, kFloat, "VEC3", 2);
+  file.add("nodes", {{"mesh", mesh}, {"rotation", {0, 0, 0, 1}}});
+  file.node({{"children", {0}}, {"scale", {2, 2, 2}}});
+  file.node({{"mesh", mesh},
+             {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+  file.node({{"camera", 0}});
+  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
+  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  return file.glb();
+}
+
+class Mutation : public testing::Test {
+ protected:
+  void try_bytes(const std::vector<std::uint8_t>& bytes, const std::string& what) {
+    write_bytes(path_, bytes);
+    ++(loads_or_refuses(path_, what) ? loaded_ : refused_);
+  }
+
+  TempFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "mutant.glb";
+  int loaded_ = 0;
+  int refused_ = 0;
+};
+
+TEST_F(Mutation, OfBytesIsLoadedOrRefused) {
+  const std::vector<std::uint8_t> whole = rich_file();
+  std::mt19937 random(20240607);
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  for (int variant = 0; variant < 4000; ++variant) {
+    std::vector<std::uint8_t> bytes = whole;
+    for (std::size_t flips = 1 + below(3); flips > 0; --flips) {
+      std::uint8_t& byte = bytes[below(bytes.size())];
+      // Digits turn into digits now and then, so that the JSON stays JSON.
+      byte = byte >= '0' && byte <= '9' && below(4) != 0 ? static_cast<std::uint8_t>('0' + below(10))
+                                                         : static_cast<std::uint8_t>(below(256));
+    }
+    try_bytes(bytes, "variant " + std::to_string(variant));
+  }
+  EXPECT_GT(loaded_, 100);
+  EXPECT_GT(refused_, 100);
+}
+
+TEST_F(Mutation, OfLengthIsLoadedOrRefused) {
+  const std::vector<std::uint8_t> whole = rich_file();
+  for (std::size_t length = 0; length < whole.size(); length += 3) {
+    std::vector<std::uint8_t> bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+    if (length >= 12) {  // with a header that fits, so that the chunks are looked at
+      for (std::size_t i = 0; i < 4; ++i) bytes[8 + i] = static_cast<std::uint8_t>(length >> (8 * i));
+    }
+    try_bytes(bytes, "length " + std::to_string(length));
+  }
+  EXPECT_EQ(loaded_, 0);
+}
+
+TEST_F(Mutation, OfJsonValuesIsLoadedOrRefused) {
+  const std::vector<std::uint8_t> whole = rich_file();
+  const std::size_t size = whole[12] | static_cast<std::size_t>(whole[13]) << 8;
+  const json original =
+      json::parse(whole.begin() + 20, whole.begin() + 20 + static_cast<std::ptrdiff_t>(size));
+  const std::size_t bin_start = 20 + size + 8;
+  const json flat = original.flatten();
+  const std::vector<json> values = {nullptr,
+                                    true,
+                                    -1,
+                                    0,
+                                    1,
+                                    7,
+                                    4294967295u,
+                                    1e300,
+                                    0.5,
+                                    "text",
+                                    json::array(),
+                                    json::object(),
+                                    json::array({0, 1, 2}),
+                                    json{{"a", 1}}};
+  for (const auto& [pointer, ignored] : flat.items()) {
+    // Every value, and every container around it.
+    for (std::string at = pointer; !at.empty(); at.resize(at.rfind('/'))) {
+      for (const json& value : values) {
+        GltfBuilder file;
+        file.root = original;
+        file.root[json::json_pointer(at)] = value;
+        file.bin.assign(whole.begin() + static_cast<std::ptrdiff_t>(bin_start), whole.end());
+        try_bytes(file.glb(), at + " = " + value.dump());
+      }
+    }
+  }
+  EXPECT_GT(loaded_, 100);
+  EXPECT_GT(refused_, 1000);
+}
+
+}  // namespace
+}  // namespace gatelight::scene

@@ -1,0 +1,251 @@
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kGrid = 9;
+
+/// A wavy sheet of kGrid x kGrid vertices.
+std::vector<float> sheet_positions() {
+  std::vector<float> xyz;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      xyz.push_back(static_cast<float>(x));
+      xyz.push_back(static_cast<float>(y));
+      xyz.push_back(std::sin(static_cast<float>(x + 2 * y)));
+    }
+  }
+  return xyz;
+}
+
+std::vector<std::uint32_t> sheet_indices() {
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t y = 0; y + 1 < kGrid; ++y) {
+    for (std::uint32_t x = 0; x + 1 < kGrid; ++x) {
+      const std::uint32_t i = y * kGrid + x;
+      for (const std::uint32_t k : {i, i + 1, i + kGrid, i + 1, i + kGrid + 1, i + kGrid}) list.push_back(k);
+    }
+  }
+  return list;
+}
+
+/// Compressors reorder: a mesh as the set of its triangles, each from its smallest corner on.
+std::set<std::vector<long>> triangle_set(const Mesh& mesh, float grid) {
+  std::set<std::vector<long>> result;
+  for (const auto& t : mesh.triangles) {
+    std::array<std::vector<long>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) corners[k].push_back(std::lround(mesh.positions[t[k]][c] / grid));
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    std::vector<long> flat;
+    for (const auto& corner : corners) flat.insert(flat.end(), corner.begin(), corner.end());
+    result.insert(flat);
+  }
+  return result;
+}
+
+Mesh plain_sheet() {
+  GltfBuilder file;
+  json primitive = {{"attributes", {{"POSITION", file.positions(sheet_positions())}}}};
+  primitive["indices"] = file.indices(sheet_indices());
+  file.node({{"mesh", file.mesh(primitive)}});
+  return only_mesh(file.load());
+}
+
+GltfBuilder meshopt_sheet(const std::string& index_mode) {
+  GltfBuilder file;
+  file.root["extensionsRequired"] = {"EXT_meshopt_compression"};
+  const std::vector<float> xyz = sheet_positions();
+  const std::vector<std::uint32_t> list = sheet_indices();
+  const std::size_t vertices = xyz.size() / 3;
+  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(vertices, 12));
+  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), xyz.data(), vertices, 12));
+  std::vector<std::uint8_t> indices;
+  if (index_mode == "TRIANGLES") {
+    indices.resize(meshopt_encodeIndexBufferBound(list.size(), vertices));
+    indices.resize(meshopt_encodeIndexBuffer(indices.data(), indices.size(), list.data(), list.size()));
+  } else {
+    indices.resize(meshopt_encodeIndexSequenceBound(list.size(), vertices));
+    indices.resize(meshopt_encodeIndexSequence(indices.data(), indices.size(), list.data(), list.size()));
+  }
+  const auto add = [&](const std::vector<std::uint8_t>& bytes, std::size_t count, std::size_t stride,
+                       const std::string& mode) {
+    const int packed_view = file.view(bytes);
+    const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
+    json view = {{"buffer", 1}, {"byteLength", count * stride}};
+    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                     {"byteOffset", where["byteOffset"]},
+                                                     {"byteLength", bytes.size()},
+                                                     {"byteStride", stride},
+                                                     {"count", count},
+                                                     {"mode", mode}};
+    return file.add("bufferViews", view);
+  };
+  const int vertex_view = add(packed, vertices, 12, "ATTRIBUTES");
+  const int index_view = add(indices, list.size(), 2, index_mode);
+  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
+  file.root["buffers"] = {
+      {{"byteLength", file.bin.size()}},
+      {{"byteLength", 1 << 20}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+  json primitive;
+  primitive["attributes"]["POSITION"] = file.add(
+      "accessors",
+      {{"bufferView", vertex_view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", vertices}});
+  primitive["indices"] = file.add("accessors", {{"bufferView", index_view},
+                                                {"componentType", kUnsignedShort},
+                                                {"type", "SCALAR"},
+                                                {"count", list.size()}});
+  file.node({{"mesh", file.mesh(primitive)}});
+  return file;
+}
+
+TEST(Meshopt, DecodesToThePlainMesh) {
+  const Mesh plain = plain_sheet();
+  for (const char* mode : {"TRIANGLES", "INDICES"}) {
+    const Mesh mesh = only_mesh(meshopt_sheet(mode).load());
+    EXPECT_EQ(mesh.positions, plain.positions) << mode;
+    EXPECT_EQ(triangle_set(mesh, 1e-4f), triangle_set(plain, 1e-4f)) << mode;
+  }
+}
+
+TEST(Meshopt, OctahedralFilterGivesNormals) {
+  const std::vector<float> normals = {0, 0.6f, 0.8f, 0, 1, 0, 0, 0, -0.28f, 0.96f, 0, 0};
+  std::vector<std::uint8_t> filtered(3 * 8);
+  meshopt_encodeFilterOct(filtered.data(), 3, 8, 16, normals.data());
+  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(3, 8));
+  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), filtered.data(), 3, 8));
+  GltfBuilder file;
+  json primitive = file.triangle();
+  const int packed_view = file.view(packed);
+  const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
+  json view = {{"buffer", 1}, {"byteLength", 24}, {"byteStride", 8}};
+  view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                   {"byteOffset", where["byteOffset"]},
+                                                   {"byteLength", packed.size()},
+                                                   {"byteStride", 8},
+                                                   {"count", 3},
+                                                   {"mode", "ATTRIBUTES"},
+                                                   {"filter", "OCTAHEDRAL"}};
+  const int decoded = file.add("bufferViews", view);
+  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
+  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 24}}};
+  primitive["attributes"]["NORMAL"] = file.add("accessors", {{"bufferView", decoded},
+                                                             {"componentType", kShort},
+                                                             {"normalized", true},
+                                                             {"type", "VEC3"},
+                                                             {"count", 3}});
+  file.node({{"mesh", file.mesh(primitive)}});
+  const Mesh mesh = only_mesh(file.load());
+  ASSERT_EQ(mesh.normals.size(), 3u);
+  EXPECT_TRUE(mesh.normals[0].isApprox(Vec3(0, 0.6f, 0.8f), 1e-3f));
+  EXPECT_TRUE(mesh.normals[2].isApprox(Vec3(-0.28f, 0.96f, 0), 1e-3f));
+}
+
+TEST(Meshopt, BrokenDataAndCountsAreRefused) {
+  GltfBuilder damaged = meshopt_sheet("TRIANGLES");
+  damaged.bin[0] = 0x11;
+  EXPECT_THAT(damaged.refused(), HasSubstr("cannot be decoded"));
+  const auto with = [](const char* key, const json& value) {
+    GltfBuilder file = meshopt_sheet("TRIANGLES");
+    file.root["bufferViews"][1]["extensions"]["EXT_meshopt_compression"][key] = value;
+    return file.refused();
+  };
+  EXPECT_THAT(with("count", 80), HasSubstr("80 elements"));
+  EXPECT_THAT(with("byteStride", 10), HasSubstr("multiple of 4"));
+  EXPECT_THAT(with("byteLength", 1000000), HasSubstr("bytes at"));
+  EXPECT_THAT(with("mode", "MAGIC"), HasSubstr("ATTRIBUTES|TRIANGLES|INDICES"));
+  EXPECT_THAT(with("filter", "QUATERNION"), HasSubstr("expected 8"));
+  EXPECT_THAT(with("buffer", 1), HasSubstr("has no data"));
+  EXPECT_THAT(with("buffer", 2), HasSubstr("an index into buffers"));
+}
+
+/// The sheet as Draco data, positions in 14 bits.
+std::vector<std::uint8_t> draco_sheet(int& position_id) {
+  const std::vector<float> xyz = sheet_positions();
+  const std::vector<std::uint32_t> list = sheet_indices();
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(static_cast<int>(list.size() / 3));
+  const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  for (std::uint32_t f = 0; f < list.size() / 3; ++f) {
+    builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(f), &xyz[list[f * 3] * 3],
+                                      &xyz[list[f * 3 + 1] * 3], &xyz[list[f * 3 + 2] * 3]);
+  }
+  const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
+  position_id = static_cast<int>(mesh->attribute(attribute)->unique_id());
+  draco::Encoder encoder;
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+  return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+GltfBuilder draco_file() {
+  GltfBuilder file;
+  int id = 0;
+  const int view = file.view(draco_sheet(id));
+  json primitive;
+  primitive["attributes"]["POSITION"] =
+      file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", kGrid * kGrid}});
+  primitive["indices"] =
+      file.add("accessors",
+               {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", sheet_indices().size()}});
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
+                                                           {"attributes", {{"POSITION", id}}}};
+  file.node({{"mesh", file.mesh(primitive)}});
+  file.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  return file;
+}
+
+TEST(Draco, DecodesToThePlainMesh) {
+  const Mesh mesh = only_mesh(draco_file().load());
+  EXPECT_EQ(mesh.triangles.size(), sheet_indices().size() / 3);
+  // 14 bits over 8 units: a step of 5e-4.
+  EXPECT_EQ(triangle_set(mesh, 0.05f), triangle_set(plain_sheet(), 0.05f));
+}
+
+TEST(Draco, BrokenDataIsRefused) {
+  GltfBuilder file = draco_file();
+  file.bin[8] ^= 0xff;
+  EXPECT_THAT(file.refused(), HasSubstr("KHR_draco_mesh_compression"));
+  GltfBuilder cut = draco_file();
+  cut.root["bufferViews"][0]["byteLength"] = 40;
+  EXPECT_THAT(cut.refused(), HasSubstr("cannot be decoded"));
+  GltfBuilder wrong = draco_file();
+  wrong.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
+            ["POSITION"] = 7;
+  EXPECT_THAT(wrong.refused(), HasSubstr("POSITION is attribute 7"));
+}
+
+TEST(Draco, TheSampleBoxIsAUnitCube) {
+  const char* scenes = std::getenv("GATELIGHT_SCENES");
+  if (!scenes) GTEST_SKIP() << "GATELIGHT_SCENES is not set";
+  const Scene scene = load_gltf(std::filesystem::path(scenes) / "gltf-features/BoxDraco/BoxDraco.gltf");
+  EXPECT_EQ(count_triangles(scene), 12u);
+  EXPECT_TRUE(scene.bounds.min().isApprox(Vec3::Constant(-0.5f), 1e-3f));
+  EXPECT_TRUE(scene.bounds.max().isApprox(Vec3::Constant(0.5f), 1e-3f));
+  EXPECT_EQ(scene.meshes.at(0).normals.size(), scene.meshes.at(0).positions.size());
+  for (const Instance& instance : scene.instances) {
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      EXPECT_GT(world_normal(scene, instance, i).dot(world_triangle(scene, instance, i)[0]), 0.0f)
+          << "faces outwards";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::scene

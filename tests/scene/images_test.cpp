@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// 2x2: red, half-transparent green (0, 200, 0, 128); transparent (10, 20, 30, 0), (1, 2, 3, 64).
+const char* const kRgba =
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAGklEQVR42mP4z8Dwn+EEQwMDl4gcAyMTswMALzMDyc"
+    "BfC3YAAAAASUVORK5CYII=";
+/// 2x1 grey: 7, 250.
+const std::vector<std::uint8_t> kGrey = {
+    0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
+    0,    0,    2,    0,    0,    0,    1,    8,    0,    0,    0,    0,    0xd1, 0x49, 0x20, 0x56, 0,
+    0,    0,    11,   'I',  'D',  'A',  'T',  0x78, 0xda, 0x63, 0x60, 0xff, 0x05, 0,    0x01, 0x0b, 0x01,
+    0x02, 0x54, 0xf9, 0x8c, 0xc4, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
+/// A header that promises 30000 x 30000 pixels, and 12 bytes of data.
+const char* const kBomb =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAdTAAAHUwCAIAAADpRW/"
+    "tAAAADElEQVR42mNgZGIGAAAOAAfpkjfUAAAAAElFTkSuQmCC";
+
+GltfBuilder with_image(const json& image) {
+  GltfBuilder file;
+  file.add("images", image);
+  file.add("textures", {{"source", 0}});
+  json primitive = file.triangle();
+  primitive["material"] =
+      file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  file.node({{"mesh", file.mesh(primitive)}});
+  return file;
+}
+
+TEST(Images, KeepEightBitsAndUnassociatedAlpha) {
+  const Scene scene = with_image({{"uri", kRgba}}).load();
+  ASSERT_EQ(scene.images.size(), 1u);
+  const Image& image = scene.images[0];
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 2);
+  EXPECT_EQ(image.channels, 4);
+  EXPECT_THAT(image.pixels, ElementsAre(255, 0, 0, 255, 0, 200, 0, 128, 10, 20, 30, 0, 1, 2, 3, 64));
+}
+
+TEST(Images, GreyStaysOneChannel) {
+  GltfBuilder file = with_image({{"mimeType", "image/png"}, {"name", "ramp"}});
+  file.root["images"][0]["bufferView"] = file.view(kGrey);
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.images.at(0).name, "ramp");
+  EXPECT_EQ(scene.images.at(0).channels, 1);
+  EXPECT_THAT(scene.images.at(0).pixels, ElementsAre(7, 250));
+}
+
+TEST(Images, FilesMayHavePercentEncodedNames) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "my pictures");
+  write_bytes(folder.path() / "my pictures" / "grey 50%.png", kGrey);
+  const Scene scene = load_gltf(with_image({{"uri", "my%20pictures/grey%2050%25.png"}}).write(folder));
+  EXPECT_EQ(scene.images.at(0).width, 2);
+}
+
+TEST(Images, TheBytesTellTheFormatNotTheName) {
+  const TempFolder folder;
+  write_bytes(folder.path() / "really_a_png.jpg", kGrey);
+  EXPECT_EQ(load_gltf(with_image({{"uri", "really_a_png.jpg"}}).write(folder)).images.at(0).pixels.at(1),
+            250);
+}
+
+TEST(Images, ColourProfilesAreIgnoredInSilence) {
+  // A gAMA chunk of 0 and a profile that is none: decoders warn about both, on stderr.
+  std::vector<std::uint8_t> bytes(kGrey.begin(), kGrey.begin() + 33);
+  for (const char* type : {"gAMA", "iCCP"}) {
+    for (const int b : {0, 0, 0, 4}) bytes.push_back(static_cast<std::uint8_t>(b));
+    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(type[i]));
+    bytes.insert(bytes.end(), 8, 0);  // the content and a checksum, both wrong
+  }
+  bytes.insert(bytes.end(), kGrey.begin() + 33, kGrey.end());
+  GltfBuilder file = with_image({{"mimeType", "image/png"}});
+  file.root["images"][0]["bufferView"] = file.view(bytes);
+  testing::internal::CaptureStderr();
+  const Scene scene = file.load();
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_THAT(scene.images.at(0).pixels, ElementsAre(7, 250));
+}
+
+TEST(Images, DamageIsRefusedInSilence) {
+  for (std::size_t at = 8; at < kGrey.size(); ++at) {
+    std::vector<std::uint8_t> bytes = kGrey;
+    bytes[at] ^= 0x55;
+    GltfBuilder file = with_image({{"mimeType", "image/png"}});
+    file.root["images"][0]["bufferView"] = file.view(bytes);
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(file.refused(), HasSubstr("images[0]")) << at;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at;
+  }
+}
+
+TEST(Images, AMissingFileIsAnErrorOrWhite) {
+  GltfBuilder file = with_image({{"uri", "absent.png"}});
+  EXPECT_THAT(file.refused(), HasSubstr("images[0]"));
+  EXPECT_THAT(file.refused(), HasSubstr("absent.png"));
+  const Scene scene = file.load({.missing_is_error = false});
+  EXPECT_THAT(scene.images.at(0).pixels, ElementsAre(255, 255, 255));
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("absent.png")));
+}
+
+TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
+  const std::string whole = kRgba;
+  std::vector<json> broken = {{{"uri", "data:image/png;base64,QUJDREVGR0hJSktM"}},
+                              {{"uri", whole.substr(0, 60)}},
+                              {{"uri", "data:image/jpeg;base64,/9j/4AAQ"}},
+                              {{"uri", kBomb}},
+                              {{"uri", "data:,"}},
+                              json::object()};
+  for (const json& image : broken) {
+    const std::string message = with_image(image).refused();
+    EXPECT_THAT(message, HasSubstr("images[0]")) << image;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_EQ(with_image(image).load({.missing_is_error = false}).images.at(0).width, 1);
+  }
+}
+
+TEST(Images, PathsOutsideTheFolderAreRefused) {
+  const TempFolder outer;
+  write_bytes(outer.path() / "secret.png", kGrey);
+  const std::filesystem::path inner = outer.path() / "scene";
+  std::filesystem::create_directory(inner);
+  const auto refused = [&](const std::string& uri) {
+    const std::filesystem::path path = inner / "test.glb";
+    write_bytes(path, with_image({{"uri", uri}}).glb());
+    return refusal(path);
+  };
+  for (const std::string& uri :
+       {std::string("../secret.png"), std::string("%2e%2e/secret.png"), std::string("a/../../secret.png"),
+        (outer.path() / "secret.png").string(), "file://" + (outer.path() / "secret.png").string(),
+        std::string("http://localhost/secret.png"), std::string("secret.png%00.png"),
+        std::string("..\\secret.png")}) {
+    EXPECT_THAT(refused(uri), HasSubstr("images[0].uri")) << uri;
+  }
+  EXPECT_THAT(refused("../secret.png"), HasSubstr("leaves the folder"));
+  EXPECT_THAT(refused("http://localhost/x"), HasSubstr("scheme"));
+  write_bytes(inner / "own.png", kGrey);
+  EXPECT_EQ(refused("sub/../own.png"), "");
+}
+
+TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
+  GltfBuilder file = with_image({{"uri", kRgba}});
+  file.root["textures"][0].erase("source");
+  const Scene scene = file.load();
+  EXPECT_FALSE(scene.materials.at(0).base_color_texture);
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST(Images, OfMaterialsThatNobodyShowsAreNotDecoded) {
+  GltfBuilder file = with_image({{"uri", "absent.png"}});
+  file.root["meshes"][0]["primitives"][0].erase("material");
+  const Scene scene = file.load();
+  EXPECT_TRUE(scene.images.empty());
+  EXPECT_TRUE(scene.textures.empty());
+}
+
+}  // namespace
+}  // namespace gatelight::scene

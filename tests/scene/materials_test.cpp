@@ -1,0 +1,266 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A scene of one triangle with the given material; two textures are there (of one missing image).
+Scene load_material(const json& material, GltfBuilder file = {}) {
+  file.add("images", {{"uri", "absent.png"}});
+  file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+  file.add("textures", {{"source", 0}});
+  file.add("textures", {{"source", 0}, {"sampler", 0}});
+  json primitive = file.triangle();
+  primitive["material"] = file.add("materials", material);
+  file.node({{"mesh", file.mesh(primitive)}});
+  return file.load({.missing_is_error = false});
+}
+
+Material only_material(const json& material) {
+  const Scene scene = load_material(material);
+  EXPECT_EQ(scene.materials.size(), 1u);
+  return scene.materials.at(0);
+}
+
+json extension(const char* name, json value) {
+  return {{"extensions", {{name, std::move(value)}}}};
+}
+
+TEST(Materials, CoreFactorsAndTexturesArrive) {
+  const Scene scene = load_material({{"name", "steel"},
+                                     {"pbrMetallicRoughness",
+                                      {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                                       {"metallicFactor", 0.5},
+                                       {"roughnessFactor", 0.6},
+                                       {"baseColorTexture", {{"index", 0}}},
+                                       {"metallicRoughnessTexture", {{"index", 1}, {"texCoord", 1}}}}},
+                                     {"normalTexture", {{"index", 0}, {"scale", 0.7}}},
+                                     {"emissiveFactor", {0.1, 0, 0}},
+                                     {"emissiveTexture", {{"index", 1}}},
+                                     {"alphaMode", "MASK"},
+                                     {"alphaCutoff", 0.3},
+                                     {"doubleSided", true}});
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.name, "steel");
+  EXPECT_TRUE(m.base_color.isApprox(Color(0.1f, 0.2f, 0.3f)));
+  EXPECT_FLOAT_EQ(m.base_alpha, 0.4f);
+  EXPECT_FLOAT_EQ(m.metallic, 0.5f);
+  EXPECT_FLOAT_EQ(m.roughness, 0.6f);
+  EXPECT_FLOAT_EQ(m.normal_scale, 0.7f);
+  EXPECT_TRUE(m.base_color_texture);
+  EXPECT_EQ(m.metallic_roughness_texture.texcoord, 1);
+  EXPECT_TRUE(m.normal_texture);
+  EXPECT_TRUE(m.emission_texture);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+  EXPECT_FLOAT_EQ(m.alpha_cutoff, 0.3f);
+  EXPECT_TRUE(m.double_sided);
+  ASSERT_EQ(scene.textures.size(), 2u);
+  const Texture& plain = scene.textures[static_cast<std::size_t>(m.base_color_texture.texture)];
+  const Texture& other = scene.textures[static_cast<std::size_t>(m.emission_texture.texture)];
+  EXPECT_EQ(plain.wrap_s, Wrap::repeat);
+  EXPECT_FALSE(plain.nearest);
+  EXPECT_EQ(other.wrap_s, Wrap::clamp_to_edge);
+  EXPECT_EQ(other.wrap_t, Wrap::mirrored_repeat);
+  EXPECT_TRUE(other.nearest);
+  EXPECT_EQ(scene.images.size(), 1u) << "two textures, one picture";
+}
+
+TEST(Materials, DefaultsAreThoseOfTheSpecification) {
+  const Material m = only_material(json::object());
+  EXPECT_TRUE(m.base_color.isApprox(Color(1, 1, 1)));
+  EXPECT_EQ(m.metallic, 1.0f);
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(m.alpha_cutoff, 0.5f);
+  EXPECT_FALSE(m.emits() || m.transmits() || m.double_sided || m.unlit);
+  EXPECT_EQ(m.attenuation_distance, kInfinity);
+}
+
+TEST(Materials, APrimitiveWithoutOneGetsTheDefault) {
+  GltfBuilder file;
+  file.add("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.material_of(scene.instances[0]).metallic, 1.0f);
+}
+
+TEST(Materials, EmissiveStrengthMultiplies) {
+  json material = extension("KHR_materials_emissive_strength", {{"emissiveStrength", 40}});
+  material["emissiveFactor"] = {1, 0.5, 0};
+  EXPECT_TRUE(only_material(material).emission.isApprox(Color(40, 20, 0)));
+}
+
+TEST(Materials, IorSpecularAndUnlit) {
+  EXPECT_FLOAT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 1.33}})).ior, 1.33f);
+  EXPECT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0.0f);
+  EXPECT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 0.5}})).ior, 1.0f);
+  const Material m =
+      only_material(extension("KHR_materials_specular", {{"specularFactor", 0.25},
+                                                         {"specularColorFactor", {1, 2, 0.5}},
+                                                         {"specularTexture", {{"index", 0}}},
+                                                         {"specularColorTexture", {{"index", 1}}}}));
+  EXPECT_FLOAT_EQ(m.specular, 0.25f);
+  EXPECT_TRUE(m.specular_color.isApprox(Color(1, 2, 0.5f))) << "may be above one";
+  EXPECT_TRUE(m.specular_texture && m.specular_color_texture);
+  EXPECT_TRUE(only_material(extension("KHR_materials_unlit", json::object())).unlit);
+}
+
+TEST(Materials, TransmissionAndVolume) {
+  json material = extension("KHR_materials_transmission",
+                            {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}});
+  EXPECT_FALSE(only_material(material).has_volume());
+  material["extensions"]["KHR_materials_volume"] = {
+      {"thicknessFactor", 2}, {"attenuationDistance", 3}, {"attenuationColor", {0.5, 0.25, 1}}};
+  const Material m = only_material(material);
+  EXPECT_FLOAT_EQ(m.transmission, 0.75f);
+  EXPECT_TRUE(m.transmission_texture);
+  EXPECT_TRUE(m.has_volume());
+  EXPECT_EQ(m.attenuation_distance, 3.0f);
+  EXPECT_TRUE(m.attenuation_color.isApprox(Color(0.5f, 0.25f, 1)));
+}
+
+TEST(Materials, ClearcoatAndSheen) {
+  json material =
+      extension("KHR_materials_clearcoat", {{"clearcoatFactor", 0.5},
+                                            {"clearcoatTexture", {{"index", 0}}},
+                                            {"clearcoatRoughnessFactor", 0.25},
+                                            {"clearcoatRoughnessTexture", {{"index", 1}}},
+                                            {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}});
+  material["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", {0.1, 0.2, 0.3}},
+                                                   {"sheenColorTexture", {{"index", 0}}},
+                                                   {"sheenRoughnessFactor", 0.4},
+                                                   {"sheenRoughnessTexture", {{"index", 1}}}};
+  const Material m = only_material(material);
+  EXPECT_EQ(m.clearcoat, 0.5f);
+  EXPECT_EQ(m.clearcoat_roughness, 0.25f);
+  EXPECT_EQ(m.clearcoat_normal_scale, 2.0f);
+  EXPECT_TRUE(m.clearcoat_texture && m.clearcoat_roughness_texture && m.clearcoat_normal_texture);
+  EXPECT_TRUE(m.sheen_color.isApprox(Color(0.1f, 0.2f, 0.3f)));
+  EXPECT_FLOAT_EQ(m.sheen_roughness, 0.4f);
+  EXPECT_TRUE(m.sheen_color_texture && m.sheen_roughness_texture);
+}
+
+TEST(Materials, TexturesOfAZeroFactorAreNotRead) {
+  const Scene scene =
+      load_material({{"emissiveTexture", {{"index", 0}}},
+                     {"extensions",
+                      {{"KHR_materials_transmission", {{"transmissionTexture", {{"index", 1}}}}},
+                       {"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 0}}}}},
+                       {"KHR_materials_sheen", {{"sheenColorTexture", {{"index", 0}}}}}}}});
+  EXPECT_TRUE(scene.textures.empty());
+  EXPECT_TRUE(scene.images.empty());
+}
+
+TEST(Materials, FactorsOutsideTheirRangeAreClampedWithAWarning) {
+  const Scene scene = load_material(
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {2, -1, 0.5, 1}}, {"metallicFactor", -3}}}});
+  EXPECT_TRUE(scene.materials[0].base_color.isApprox(Color(1, 0, 0.5f)));
+  EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+  EXPECT_EQ(scene.warnings.size(), 3u);
+}
+
+TEST(Materials, ATexCoordSetBeyondTwoIsIgnoredWithAWarning) {
+  const Scene scene =
+      load_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 2}}}}}});
+  EXPECT_FALSE(scene.materials[0].base_color_texture);
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("texCoord 2")));
+}
+
+TEST(Materials, WrongNumbersAreRefused) {
+  const auto refused = [](const json& material) {
+    GltfBuilder file;
+    json primitive = file.triangle();
+    primitive["material"] = file.add("materials", material);
+    file.node({{"mesh", file.mesh(primitive)}});
+    return file.refused();
+  };
+  EXPECT_THAT(refused({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}),
+              HasSubstr("an array of 4"));
+  EXPECT_THAT(refused({{"emissiveFactor", {1, 1, "x"}}}), HasSubstr("emissiveFactor[2]"));
+  EXPECT_THAT(refused({{"alphaMode", "GLASS"}}), HasSubstr("OPAQUE|MASK|BLEND"));
+  EXPECT_THAT(refused({{"normalTexture", {{"index", 0}}}}), HasSubstr("normalTexture.index"));
+  EXPECT_THAT(refused(extension("KHR_materials_ior", {{"ior", -1}})), HasSubstr("ior"));
+  EXPECT_THAT(refused(extension("KHR_materials_volume", {{"attenuationDistance", 0}})),
+              HasSubstr("above zero"));
+  EXPECT_THAT(refused(extension("KHR_materials_emissive_strength", {{"emissiveStrength", -1}})),
+              HasSubstr("not negative"));
+  EXPECT_THAT(refused(extension("KHR_materials_unlit", 5)), HasSubstr("an object"));
+}
+
+TEST(TextureTransform, IsOffsetTimesRotationTimesScale) {
+  const double angle = 0.3;
+  const json transform = {{"offset", {0.1, 0.2}}, {"rotation", angle}, {"scale", {2, 3}}, {"texCoord", 1}};
+  const json info = {{"index", 0}, {"texCoord", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+  const TextureSlot slot =
+      only_material({{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}).base_color_texture;
+  EXPECT_EQ(slot.texcoord, 1) << "the extension's set wins";
+  const float c = std::cos(static_cast<float>(angle));
+  const float s = std::sin(static_cast<float>(angle));
+  // The example of the extension, followed by hand: scale, turn counter-clockwise (v points down), shift.
+  const Eigen::Vector3f uv(0.5f, 0.25f, 1.0f);
+  const Vec2 scaled(2 * uv.x(), 3 * uv.y());
+  const Vec2 expected(c * scaled.x() + s * scaled.y() + 0.1f, -s * scaled.x() + c * scaled.y() + 0.2f);
+  EXPECT_TRUE(Vec2(slot.transform * uv).isApprox(expected, 1e-6f));
+}
+
+TEST(TextureTransform, AQuarterTurnTakesTheRightEdgeUp) {
+  const json info = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", EIGEN_PI / 2}}}}}};
+  const TextureSlot slot =
+      only_material({{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}).base_color_texture;
+  const Vec2 turned = slot.transform * Eigen::Vector3f(1, 0, 1);
+  EXPECT_NEAR(turned.x(), 0.0f, 1e-6f);
+  EXPECT_NEAR(turned.y(), -1.0f, 1e-6f) << "up is towards smaller v";
+}
+
+TEST(TextureTransform, ReachesTheSlotsOfExtensions) {
+  const json info = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {4, 5}}}}}}};
+  const Material m = only_material(
+      extension("KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", info}}));
+  EXPECT_EQ(m.transmission_texture.transform(0, 0), 4.0f);
+  EXPECT_EQ(m.transmission_texture.transform(1, 1), 5.0f);
+}
+
+GltfBuilder with_variants() {
+  GltfBuilder file;
+  file.root["extensionsRequired"] = {"KHR_materials_variants"};
+  file.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "day"}}, {{"name", "night"}}};
+  for (const char* name : {"plain", "blue", "black"}) file.add("materials", {{"name", name}});
+  json primitive = file.triangle();
+  primitive["material"] = 0;
+  primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}},
+                                                                   {{"material", 2}, {"variants", {1}}}};
+  file.node({{"mesh", file.mesh(primitive)}});
+  return file;
+}
+
+TEST(Variants, ChooseTheMaterial) {
+  GltfBuilder file = with_variants();
+  const auto name = [&](const std::string& variant) {
+    const Scene scene = file.load({.variant = variant});
+    EXPECT_THAT(scene.variants, ElementsAre("day", "night"));
+    return scene.material_of(scene.instances.at(0)).name;
+  };
+  EXPECT_EQ(name(""), "plain");
+  EXPECT_EQ(name("day"), "blue");
+  EXPECT_EQ(name("night"), "black");
+}
+
+TEST(Variants, AnUnknownNameIsRefusedWithTheKnownOnes) {
+  EXPECT_THAT(with_variants().refused({.variant = "dusk"}),
+              HasSubstr("'dusk' is not there, expected one of: day, night"));
+  GltfBuilder none;
+  none.node({{"mesh", none.mesh(none.triangle())}});
+  EXPECT_THAT(none.refused({.variant = "dusk"}), HasSubstr("no variants"));
+}
+
+}  // namespace
+}  // namespace gatelight::scene

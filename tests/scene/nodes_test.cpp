@@ -1,0 +1,258 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/scene/gltf_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Nodes, TrsEqualsItsMatrix) {
+  const float s = std::sqrt(0.5f);
+  GltfBuilder trs;
+  trs.node({{"mesh", trs.mesh(trs.triangle())},
+            {"translation", {1, 2, 3}},
+            {"rotation", {0, 0, s, s}},
+            {"scale", {2, 3, 4}}});
+  GltfBuilder matrix;
+  // A quarter turn about z after the scale, column by column.
+  matrix.node({{"mesh", matrix.mesh(matrix.triangle())},
+               {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1}}});
+  const Mesh a = only_mesh(trs.load());
+  const Mesh b = only_mesh(matrix.load());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(a.positions[i].isApprox(b.positions[i], 1e-6f));
+  EXPECT_TRUE(b.positions[1].isApprox(Vec3(1, 4, 3)));
+  EXPECT_TRUE(b.positions[2].isApprox(Vec3(-2, 2, 3)));
+}
+
+TEST(Nodes, TransformsAccumulateFromTheRoot) {
+  GltfBuilder file;
+  const int mesh = file.mesh(file.triangle());
+  file.add("nodes", {{"mesh", mesh}, {"translation", {1, 0, 0}}});
+  file.add("nodes", {{"children", {0}}, {"scale", {2, 2, 2}}});
+  file.node({{"children", {1}}, {"translation", {0, 0, 5}}});
+  EXPECT_EQ(only_mesh(file.load()).positions[0], Vec3(2, 0, 5));
+}
+
+TEST(Nodes, RotationsNeedNotHaveUnitLength) {
+  GltfBuilder file;
+  file.node({{"mesh", file.mesh(file.triangle())}, {"rotation", {0, 0, 3, 3}}});
+  EXPECT_TRUE(only_mesh(file.load()).positions[1].isApprox(Vec3(0, 1, 0)));
+}
+
+TEST(Nodes, AMeshInSeveralNodesIsSeveralInstances) {
+  GltfBuilder file;
+  const int mesh = file.mesh(file.triangle());
+  file.node({{"mesh", mesh}, {"name", "left"}});
+  file.node({{"mesh", mesh}, {"name", "right"}, {"translation", {4, 0, 0}}});
+  const Scene scene = file.load({.bake_transforms = false});
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.instances[1].name, "right");
+  EXPECT_EQ(world_triangle(scene, scene.instances[1], 0)[0], Vec3(4, 0, 0));
+  EXPECT_EQ(scene.bounds.max(), Vec3(5, 1, 0));
+}
+
+TEST(Nodes, ADeepChainNeitherOverflowsNorLosesItsPlace) {
+  GltfBuilder file;
+  const int depth = 20000;
+  const int mesh = file.mesh(file.triangle());
+  json nodes = json::array();
+  for (int i = 0; i + 1 < depth; ++i) nodes.push_back({{"children", {i + 1}}, {"translation", {0.5, 0, 0}}});
+  nodes.push_back({{"mesh", mesh}});
+  file.root["nodes"] = nodes;
+  file.root["scenes"] = {{{"nodes", {0}}}};
+  EXPECT_EQ(only_mesh(file.load()).positions[0], Vec3(0.5f * (depth - 1), 0, 0));
+}
+
+TEST(Nodes, CyclesAreRefusedEvenOutsideTheScene) {
+  GltfBuilder file;
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  file.add("nodes", {{"children", {2}}});
+  file.add("nodes", {{"children", {3}}});
+  file.add("nodes", {{"children", {1}}});
+  EXPECT_THAT(file.refused(), HasSubstr("its own ancestor"));
+}
+
+TEST(Nodes, TwoParentsAreRefused) {
+  GltfBuilder file;
+  file.add("nodes", {{"mesh", file.mesh(file.triangle())}});
+  file.node({{"children", {0}}});
+  file.node({{"children", {0}}});
+  EXPECT_THAT(file.refused(), HasSubstr("expected one parent"));
+}
+
+TEST(Nodes, ARootWithAParentIsRefused) {
+  GltfBuilder file;
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  file.node({{"children", {0}}});
+  EXPECT_THAT(file.refused(), HasSubstr("expected a root"));
+}
+
+TEST(Nodes, OverflowAlongTheHierarchyIsRefused) {
+  GltfBuilder file;
+  file.add("nodes", {{"mesh", file.mesh(file.triangle())}, {"scale", {1e30, 1, 1}}});
+  file.node({{"children", {0}}, {"scale", {1e30, 1, 1}}});
+  EXPECT_THAT(file.refused(), HasSubstr("not finite"));
+}
+
+TEST(Nodes, MeshesScaledToNothingAreLeftOut) {
+  GltfBuilder file;
+  const int mesh = file.mesh(file.triangle());
+  file.node({{"mesh", mesh}, {"scale", {0, 0, 0}}});
+  file.node({{"mesh", mesh}, {"scale", {0, 0, 1}}});
+  file.node({{"mesh", mesh}, {"scale", {1, 1, 0}}});
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.instances.size(), 1u) << "flat, but visible";
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("scaled to nothing")));
+}
+
+TEST(Nodes, TheSceneCanBeChosen) {
+  GltfBuilder file;
+  const int mesh = file.mesh(file.triangle());
+  file.add("nodes", {{"mesh", mesh}});
+  file.add("nodes", {{"mesh", mesh}, {"translation", {7, 0, 0}}});
+  file.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
+  EXPECT_EQ(only_mesh(file.load()).positions[0].x(), 0.0f) << "the first without a default";
+  EXPECT_EQ(only_mesh(file.load({.scene = 1})).positions[0].x(), 7.0f);
+  file.root["scene"] = 1;
+  EXPECT_EQ(only_mesh(file.load()).positions[0].x(), 7.0f) << "the file's default";
+  EXPECT_EQ(only_mesh(file.load({.scene = 0})).positions[0].x(), 0.0f);
+  EXPECT_THAT(file.refused({.scene = 2}), HasSubstr("scene 2 asked for, expected less than 2"));
+}
+
+TEST(Nodes, AFileWithoutScenesIsAnEmptyScene) {
+  GltfBuilder file;
+  file.add("nodes", {{"mesh", file.mesh(file.triangle())}});
+  const Scene scene = file.load();
+  EXPECT_TRUE(scene.instances.empty());
+  EXPECT_TRUE(scene.bounds.isEmpty());
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("no scene")));
+}
+
+TEST(Cameras, StandWhereTheirNodesPutThem) {
+  GltfBuilder file;
+  file.add("cameras", {{"type", "perspective"},
+                       {"name", "eye"},
+                       {"perspective", {{"yfov", 0.9}, {"znear", 0.1}, {"aspectRatio", 1.25}}}});
+  file.add("cameras", {{"type", "orthographic"},
+                       {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}});
+  const float s = std::sqrt(0.5f);
+  file.add("nodes", {{"camera", 0}, {"translation", {0, 0, 1}}, {"scale", {3, 5, 0.5}}});
+  file.node(
+      {{"children", {0}}, {"rotation", {0, s, 0, s}}, {"translation", {10, 0, 0}}, {"scale", {2, 2, 2}}});
+  file.node({{"camera", 1}, {"name", "top"}, {"scale", {-1, 1, 1}}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  const Camera& eye = scene.cameras[0];
+  EXPECT_EQ(eye.name, "eye");
+  EXPECT_FALSE(eye.orthographic);
+  EXPECT_FLOAT_EQ(eye.vertical_fov, 0.9f);
+  EXPECT_FLOAT_EQ(eye.aspect, 1.25f);
+  EXPECT_TRUE(eye.transform.translation().isApprox(Vec3(12, 0, 0))) << "the parent's scale moves it";
+  EXPECT_TRUE(Vec3(-eye.transform.linear().col(2)).isApprox(Vec3(-1, 0, 0))) << "a quarter turn from -z";
+  EXPECT_TRUE(Vec3(eye.transform.linear().col(1)).isApprox(Vec3(0, 1, 0)));
+  for (const Camera& c : scene.cameras) {
+    const Eigen::Matrix3f r = c.transform.linear();
+    EXPECT_TRUE(Eigen::Matrix3f(r.transpose() * r).isApprox(Eigen::Matrix3f::Identity(), 1e-5f))
+        << "without scale";
+    EXPECT_NEAR(r.determinant(), 1.0f, 1e-5f);
+  }
+  const Camera& top = scene.cameras[1];
+  EXPECT_EQ(top.name, "top");
+  EXPECT_TRUE(top.orthographic);
+  EXPECT_EQ(top.half_height, 2.0f);
+  EXPECT_EQ(top.half_width, 3.0f);
+}
+
+TEST(Lights, CarryIntensityPlaceAndCone) {
+  GltfBuilder file;
+  file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}, {"name", "sun"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}},
+      {{"type", "point"}, {"range", 12}},
+      {{"type", "spot"}, {"intensity", 2}, {"spot", {{"innerConeAngle", 0.3}, {"outerConeAngle", 0.6}}}},
+      {{"type", "spot"}, {"spot", json::object()}}};
+  const float s = std::sqrt(0.5f);
+  const auto light = [](int index) { return json{{"KHR_lights_punctual", {{"light", index}}}}; };
+  file.node({{"extensions", light(0)}, {"rotation", {-s, 0, 0, s}}, {"scale", {5, 5, 5}}});
+  file.node({{"extensions", light(1)}, {"translation", {1, 2, 3}}, {"name", "lamp"}});
+  file.node({{"extensions", light(2)}});
+  file.node({{"extensions", light(3)}});
+  const Scene scene = file.load();
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_EQ(scene.lights.size(), 4u);
+  EXPECT_EQ(scene.lights[0].type, LightType::directional);
+  EXPECT_EQ(scene.lights[0].name, "sun");
+  EXPECT_TRUE(scene.lights[0].intensity.isApprox(Color(3, 1.5f, 0.75f)));
+  EXPECT_TRUE(scene.lights[0].direction.isApprox(Vec3(0, -1, 0))) << "down, and unit";
+  EXPECT_EQ(scene.lights[1].type, LightType::point);
+  EXPECT_EQ(scene.lights[1].name, "lamp");
+  EXPECT_EQ(scene.lights[1].position, Vec3(1, 2, 3));
+  EXPECT_EQ(scene.lights[1].range, 12.0f);
+  EXPECT_TRUE(scene.lights[1].intensity.isApprox(Color(1, 1, 1)));
+  EXPECT_EQ(scene.lights[2].range, kInfinity);
+  EXPECT_FLOAT_EQ(scene.lights[2].cos_inner, std::cos(0.3f));
+  EXPECT_FLOAT_EQ(scene.lights[2].cos_outer, std::cos(0.6f));
+  EXPECT_FLOAT_EQ(scene.lights[3].cos_inner, 1.0f);
+  EXPECT_NEAR(scene.lights[3].cos_outer, std::sqrt(0.5f), 1e-6f);
+}
+
+TEST(Lights, AnEmptyConeIsRefused) {
+  GltfBuilder file;
+  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.6}, {"outerConeAngle", 0.6}}}}};
+  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  EXPECT_THAT(file.refused(), HasSubstr("innerConeAngle"));
+}
+
+TEST(Instancing, PlacesTheMeshInEachTransform) {
+  GltfBuilder file;
+  const int t = file.accessor(std::vector<float>{0, 0, 0, 10, 0, 0}, kFloat, "VEC3", 2);
+  const int r = file.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 23170, 23170}, kShort, "VEC4",
+                              2, {{"normalized", true}});
+  const int scale = file.accessor(std::vector<float>{1, 1, 1, 2, 3, 4}, kFloat, "VEC3", 2);
+  file.node({{"mesh", file.mesh(file.triangle())},
+             {"translation", {0, 0, 1}},
+             {"extensions",
+              {{"EXT_mesh_gpu_instancing",
+                {{"attributes", {{"TRANSLATION", t}, {"ROTATION", r}, {"SCALE", scale}}}}}}}});
+  const Scene scene = file.load({.bake_transforms = false});
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_TRUE(world_triangle(scene, scene.instances[0], 0)[1].isApprox(Vec3(1, 0, 1)));
+  EXPECT_TRUE(world_triangle(scene, scene.instances[1], 0)[1].isApprox(Vec3(10, 2, 1), 1e-4f))
+      << "scaled, then turned";
+}
+
+TEST(Instancing, CountsThatDifferAreRefused) {
+  GltfBuilder file;
+  const int t = file.accessor(std::vector<float>(6, 0.0f), kFloat, "VEC3", 2);
+  const int scale = file.accessor(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
+  file.node({{"mesh", file.mesh(file.triangle())},
+             {"extensions",
+              {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", t}, {"SCALE", scale}}}}}}}});
+  EXPECT_THAT(file.refused(), HasSubstr("expected 2"));
+}
+
+TEST(Skins, ShowTheBindPoseWithOneWarning) {
+  GltfBuilder file;
+  json primitive = file.triangle();
+  primitive["targets"] = {{{"POSITION", primitive["attributes"]["POSITION"]}}};
+  const int mesh = file.mesh(primitive);
+  // The inverse of the joint's place, then moved by 3 along x: the mesh stands at x = 3.
+  const int ibm =
+      file.accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, -5, 0, 1}, kFloat, "MAT4", 1);
+  file.node({{"translation", {0, 5, 0}}, {"name", "joint"}});
+  file.add("skins", {{"joints", {0}}, {"inverseBindMatrices", ibm}});
+  file.node({{"mesh", mesh}, {"skin", 0}, {"translation", {100, 100, 100}}});
+  const Scene scene = file.load();
+  EXPECT_EQ(only_mesh(scene).positions[0], Vec3(3, 0, 0)) << "the node's own transform does not count";
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("bind pose")));
+}
+
+}  // namespace
+}  // namespace gatelight::scene
