@@ -126,7 +126,7 @@ class Mutation : public testing::Test {
     ++(loads_or_refuses(path_, what) ? loaded_ : refused_);
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "mutant.glb";
   int loaded_ = 0;
   int refused_ = 0;

@@ -18,7 +18,7 @@ GltfBuilder triangle_file() {
 }
 
 std::string refused_bytes(const std::vector<std::uint8_t>& bytes, const char* name = "test.glb") {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder.path() / name, bytes);
   return refusal(folder.path() / name);
 }
@@ -41,7 +41,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 TEST(Container, JsonWithADataUriEqualsTheBinary) {
   GltfBuilder file = triangle_file();
   const Mesh binary = only_mesh(file.load());
-  const TempFolder folder;
+  const TemporaryFolder folder;
   json root = file.root;
   root["buffers"] = {
       {{"byteLength", file.bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(file.bin)}}};
@@ -55,7 +55,7 @@ TEST(Container, JsonWithADataUriEqualsTheBinary) {
 }
 
 TEST(Container, MessagesNameTheFileFirst) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string path = (folder.path() / "nowhere.glb").string();
   EXPECT_THAT(refusal(path), AllOf(StartsWith(path + ": "), HasSubstr("does not exist")));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("not a regular file"));
@@ -83,7 +83,7 @@ TEST(Container, BrokenHeadersAreRefused) {
 TEST(Container, BytesAfterTheEndAreIgnoredWithAWarning) {
   std::vector<std::uint8_t> bytes = triangle_file().glb();
   bytes.resize(bytes.size() + 5);
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder.path() / "test.glb", bytes);
   EXPECT_THAT(load_gltf(folder.path() / "test.glb").warnings,
               ElementsAre(HasSubstr("5 bytes after the end")));
@@ -154,7 +154,7 @@ TEST(Buffers, OutsideTheFolderAreRefused) {
 TEST(Buffers, WithoutASourceAreRefusedWhenRead) {
   GltfBuilder file = triangle_file();
   file.root["buffers"] = {{{"byteLength", 1000}}};
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
   EXPECT_THAT(refusal(folder.path() / "test.gltf"), HasSubstr("has no data"));
 }

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "scene/gltf.h"
+#include "tests/temporary_folder.h"
 
 namespace gatelight::scene {
 
 using nlohmann::json;
+using tests::TemporaryFolder;
 
 inline constexpr int kByte = 5120;
 inline constexpr int kUnsignedByte = 5121;
@@ -23,26 +25,6 @@ inline constexpr int kShort = 5122;
 inline constexpr int kUnsignedShort = 5123;
 inline constexpr int kUnsignedInt = 5125;
 inline constexpr int kFloat = 5126;
-
-/// A folder of the running test, removed with it.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gatelight-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline void write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
   std::ofstream out(path, std::ios::binary);
@@ -137,19 +119,19 @@ class GltfBuilder {
     return out;
   }
 
-  std::filesystem::path write(const TempFolder& folder, const std::string& name = "test.glb") {
+  std::filesystem::path write(const TemporaryFolder& folder, const std::string& name = "test.glb") {
     const std::filesystem::path path = folder.path() / name;
     write_bytes(path, glb());
     return path;
   }
 
   Scene load(const LoadOptions& options = {}) {
-    const TempFolder folder;
+    const TemporaryFolder folder;
     return load_gltf(write(folder), options);
   }
 
   std::string refused(const LoadOptions& options = {}) {
-    const TempFolder folder;
+    const TemporaryFolder folder;
     return refusal(write(folder), options);
   }
 

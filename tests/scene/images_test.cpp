@@ -56,7 +56,7 @@ TEST(Images, GreyStaysOneChannel) {
 }
 
 TEST(Images, FilesMayHavePercentEncodedNames) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "my pictures");
   write_bytes(folder.path() / "my pictures" / "grey 50%.png", kGrey);
   const Scene scene = load_gltf(with_image({{"uri", "my%20pictures/grey%2050%25.png"}}).write(folder));
@@ -64,7 +64,7 @@ TEST(Images, FilesMayHavePercentEncodedNames) {
 }
 
 TEST(Images, TheBytesTellTheFormatNotTheName) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder.path() / "really_a_png.jpg", kGrey);
   EXPECT_EQ(load_gltf(with_image({{"uri", "really_a_png.jpg"}}).write(folder)).images.at(0).pixels.at(1),
             250);
@@ -125,7 +125,7 @@ TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
 }
 
 TEST(Images, PathsOutsideTheFolderAreRefused) {
-  const TempFolder outer;
+  const TemporaryFolder outer;
   write_bytes(outer.path() / "secret.png", kGrey);
   const std::filesystem::path inner = outer.path() / "scene";
   std::filesystem::create_directory(inner);
