@@ -60,6 +60,10 @@ Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, cons
     nc_ = bend_normal(nc, ng, wo);
     set_up_layers(material);
   }
+  // The tables' interpolation can overshoot by some tenths of a percent.
+  albedo_ = albedo_.max(0.0f).min(1.0f);
+  // Whatever has a value must have a chance, however small its albedo came out.
+  p_microfacet_ = std::max(p_microfacet_, 1e-3f * f90_ * base_scale_);
   float* const probabilities[] = {&p_microfacet_,    &p_diffuse_, &p_clear_, &p_loss_reflect_,
                                   &p_loss_transmit_, &p_coat_,    &p_sheen_};
   float total = 0.0f;
@@ -151,8 +155,8 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
 
 void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   fresnel_base_ = ior_f0;
+  const Facet straight = facet(ggx_.cos_o);
   if (ggx_.delta) {
-    const Facet straight = facet(ggx_.cos_o);
     const Color added = straight.reflected + straight.transmitted;
     albedo_ += added;
     p_microfacet_ += scene::luminance(added);
@@ -163,7 +167,13 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   glass_there_ = tables.rows(roughness, 1.0f / eta_);
   const float k = glass_f90_;
   const GlassAlbedo out = glass_here_.at(ggx_.cos_o);
-  const Color single = glass_weight_ * out.reflect(k) + glass_tint_ * out.transmit(k);
+  // The reflectance of the smooth interface scaled to what is not lost, and the table's difference to it.
+  const Color reflected_once =
+      (straight.reflected * (1.0f - out.lost) + glass_weight_ * (k * out.reflected + out.total))
+          .max(0.0f)
+          .min(glass_weight_ * (1.0f - out.loss(k)));
+  const Color single =
+      reflected_once + glass_tint_ * (1.0f - out.loss(k) - reflected_once * (1.0f / glass_weight_));
   albedo_ += single;
   p_microfacet_ += scene::luminance(single);
 

@@ -90,7 +90,7 @@ void Bsdf::add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const 
     }
   }
   if (p_loss_reflect_ > 0.0f) {
-    result.value += glass_multiple_reflect_ * glass_here_.at(cos_i).loss(glass_f90_) * cos_i;
+    result.value += glass_multiple_reflect_ * glass_here_.loss_at(cos_i, glass_f90_) * cos_i;
     result.pdf += p_loss_reflect_ * loss_lobe_.pdf(cos_i);
   }
   if (p_diffuse_ > 0.0f) {
@@ -114,7 +114,7 @@ void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) cons
     return;
   }
   if (p_loss_transmit_ > 0.0f) {
-    result.value += glass_multiple_transmit_ * (glass_there_.at(cos_i).loss(glass_f90_) * cos_i);
+    result.value += glass_multiple_transmit_ * (glass_there_.loss_at(cos_i, glass_f90_) * cos_i);
     result.pdf += p_loss_transmit_ * loss_lobe_.pdf(cos_i);
   }
   // Walter et al. 2007, equations 16, 17 and 21. The half vector -(wo + eta wi) points to the rarer side;

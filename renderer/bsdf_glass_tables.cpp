@@ -21,7 +21,10 @@ float eta_of_node(int node) {
 GlassAlbedo integrate(float alpha, float cosine, float eta) {
   const float alpha2 = alpha * alpha;
   const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-  GlassAlbedo sum;
+  float reflected = 0.0f;
+  float total = 0.0f;
+  float transmitted = 0.0f;
+  float unreflected = 0.0f;  // would be transmitted too if F were 0
   for_visible_normals<377, 233>(alpha, wo, [&](const Vec3& h, float weight) {
     const float oh = std::max(wo.dot(h), 0.0f);
     float cos_t;
@@ -31,20 +34,22 @@ GlassAlbedo integrate(float alpha, float cosine, float eta) {
     if (cos_t > 0.0f) {
       const float cos_i = (cosine - oh * h.z()) / eta + cos_t * h.z();
       const float passed = weight * (cos_i > 0.0f ? smith_ratio(alpha2, cosine, cos_i) : 0.0f);
-      sum.reflected += fresnel * kept;
-      sum.transmitted += (1.0f - fresnel) * passed;
-      sum.unreflected += fresnel * passed;
+      reflected += fresnel * kept;
+      transmitted += (1.0f - fresnel) * passed;
+      unreflected += fresnel * passed;
     } else {
-      sum.total += kept;
+      total += kept;
     }
   });
-  return sum;
+  float cos_t;
+  const float smooth = fresnel_dielectric(cosine, eta, cos_t) * (reflected + total + transmitted);
+  return {1.0f - reflected - total - transmitted, reflected - unreflected,
+          cos_t > 0.0f ? reflected - smooth : reflected, cos_t > 0.0f ? total : total - smooth};
 }
 
 GlassAlbedo mix(const GlassAlbedo& a, const GlassAlbedo& b, float t) {
-  return {a.reflected + t * (b.reflected - a.reflected), a.total + t * (b.total - a.total),
-          a.transmitted + t * (b.transmitted - a.transmitted),
-          a.unreflected + t * (b.unreflected - a.unreflected)};
+  return {a.lost + t * (b.lost - a.lost), a.change + t * (b.change - a.change),
+          a.reflected + t * (b.reflected - a.reflected), a.total + t * (b.total - a.total)};
 }
 
 }  // namespace
@@ -121,8 +126,8 @@ GlassTables::GlassTables() {
       Mean mean{0.0f, 0.0f};
       for_mean_cosines([&](float cosine, float weight) {
         const GlassAlbedo albedo = interpolated.at(cosine);
-        mean.loss += weight * albedo.loss(1.0f);
-        mean.loss_change += weight * (albedo.reflected - albedo.unreflected);
+        mean.loss += weight * albedo.lost;
+        mean.loss_change += weight * albedo.change;
       });
       const float alpha2 = roughness * roughness * roughness * roughness;
       means_[e][k] = {mean.loss / alpha2, mean.loss_change / alpha2};

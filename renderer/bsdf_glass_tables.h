@@ -8,22 +8,20 @@
 
 namespace gatelight::renderer {
 
-/// Power that leaves the interface, as parts of what arrives. For the reflectance k F (and 1 at total
-/// internal reflection) the interface reflects k reflected + total and transmits transmitted + (1 - k)
-/// unreflected.
+/// For the reflectance k F, and 1 at total internal reflection. Reflected power is tabulated less what a
+/// smooth interface would reflect (of what is not lost), whose edge at the critical angle no table could
+/// hold.
 struct GlassAlbedo {
-  float reflected = 0.0f;    ///< by F below the critical angle
-  float total = 0.0f;        ///< by total internal reflection
-  float transmitted = 0.0f;  ///< by 1 - F
-  float unreflected = 0.0f;  ///< would be transmitted in addition if F were 0 below the critical angle
+  float lost = 0.0f;       ///< for k = 1
+  float change = 0.0f;     ///< with k: lost + (1 - k) change is lost
+  float reflected = 0.0f;  ///< by F below the critical angle, less F of the smooth interface
+  float total = 0.0f;      ///< by total internal reflection, less that of the smooth interface
 
-  float reflect(float k) const { return k * reflected + total; }
-  float transmit(float k) const { return transmitted + (1.0f - k) * unreflected; }
-  float loss(float k) const { return std::max(0.0f, 1.0f - reflect(k) - transmit(k)); }
+  float loss(float k) const { return std::max(0.0f, lost + (1.0f - k) * change); }
 };
 
 /// Over roughness, cosine (with the coordinate of GgxTables) and the signed root of the normal reflectance,
-/// (eta - 1) / (eta + 1), for eta in [1/3, 3]. 64 KiB, built when the first rough refracting surface is met.
+/// (eta - 1) / (eta + 1), for eta in [1/3, 3]. 80 KiB, built when the first rough refracting surface is met.
 class GlassTables {
  public:
   static constexpr int kEta = 17;  // odd: the middle one is eta = 1
@@ -36,6 +34,7 @@ class GlassTables {
   class Rows {
    public:
     GlassAlbedo at(float cosine) const;
+    float loss_at(float cosine, float k) const { return at(cosine).loss(k); }
     /// Cosine-weighted mean of the loss over the hemisphere.
     float mean_loss(float k) const { return loss_ + (1.0f - k) * loss_change_; }
     /// Mean reflectance of the smooth interface.

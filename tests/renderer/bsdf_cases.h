@@ -1,0 +1,99 @@
+#pragma once
+// The materials that the tests of the BSDF go through: every lobe, and mixtures.
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "renderer/bsdf.h"
+
+namespace gatelight::renderer {
+
+struct BsdfCase {
+  std::string name;
+  SurfaceMaterial material;
+  bool front = true;
+  bool layered = false;  ///< clearcoat or sheen
+};
+
+/// White materials: a furnace shows one.
+inline std::vector<BsdfCase> white_cases() {
+  std::vector<BsdfCase> cases;
+  const auto add = [&](const char* name, bool front, bool layered, auto&& change) {
+    SurfaceMaterial material;
+    change(material);
+    cases.push_back({name, material, front, layered});
+  };
+  add("dielectric", true, false, [](SurfaceMaterial&) {});
+  add("metal", true, false, [](SurfaceMaterial& m) { m.metallic = 1.0f; });
+  add("half metal", true, false, [](SurfaceMaterial& m) { m.metallic = 0.5f; });
+  add("ior 3", true, false, [](SurfaceMaterial& m) { m.ior = 3.0f; });
+  add("ior 1", true, false, [](SurfaceMaterial& m) { m.ior = 1.0f; });
+  add("ior 0", true, false, [](SurfaceMaterial& m) { m.ior = 0.0f; });
+  add("specular 0.3", true, false, [](SurfaceMaterial& m) { m.specular = 0.3f; });
+  add("thin", true, false, [](SurfaceMaterial& m) { m.transmission = 1.0f; });
+  const auto glass = [](float ior, float transmission) {
+    return [=](SurfaceMaterial& m) {
+      m.transmission = transmission;
+      m.thin_walled = false;
+      m.ior = ior;
+    };
+  };
+  add("into glass", true, false, glass(1.5f, 1.0f));
+  add("out of glass", false, false, glass(1.5f, 1.0f));
+  add("into water", true, false, glass(1.33f, 1.0f));
+  add("out of water", false, false, glass(1.33f, 1.0f));
+  add("into ior 3", true, false, glass(3.0f, 1.0f));
+  add("out of ior 3", false, false, glass(3.0f, 1.0f));
+  add("clear", true, false, glass(1.0f, 1.0f));
+  add("half glass", true, false, glass(1.5f, 0.5f));
+  add("coat", true, true, [](SurfaceMaterial& m) {
+    m.clearcoat = 1.0f;
+    m.clearcoat_roughness = 0.4f;
+  });
+  add("smooth coat on metal", true, true, [](SurfaceMaterial& m) {
+    m.clearcoat = 0.7f;
+    m.metallic = 1.0f;
+  });
+  add("sheen", true, true, [](SurfaceMaterial& m) {
+    m.sheen_color = Color(1.0f, 1.0f, 1.0f);
+    m.sheen_roughness = 0.5f;
+  });
+  add("rough sheen under coat", true, true, [](SurfaceMaterial& m) {
+    m.sheen_color = Color(0.5f, 0.5f, 0.5f);
+    m.sheen_roughness = 1.0f;
+    m.clearcoat = 0.5f;
+    m.clearcoat_roughness = 0.2f;
+  });
+  return cases;
+}
+
+/// The same with colours, so that the chances of the lobes differ from their shares in white.
+inline std::vector<BsdfCase> colored_cases() {
+  std::vector<BsdfCase> cases = white_cases();
+  for (BsdfCase& c : cases) {
+    c.material.base_color = Color(0.8f, 0.4f, 0.1f);
+    c.material.specular_color = Color(0.9f, 1.0f, 0.5f);
+    c.material.sheen_color *= Color(0.2f, 0.7f, 0.9f);
+  }
+  return cases;
+}
+
+/// A direction in the xz plane around +z.
+inline Vec3 incident(float cosine) {
+  return {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine};
+}
+
+inline Bsdf flat_bsdf(const BsdfCase& c, float roughness, const Vec3& wo) {
+  SurfaceMaterial material = c.material;
+  material.roughness = roughness;
+  const Vec3 n = Vec3::UnitZ();
+  return Bsdf(material, n, n, n, wo, c.front);
+}
+
+inline std::string describe(const BsdfCase& c, float roughness, float cosine) {
+  return c.name + ", roughness " + std::to_string(roughness) + ", cosine " + std::to_string(cosine);
+}
+
+}  // namespace gatelight::renderer
