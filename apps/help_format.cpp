@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace gatelight::apps {
 namespace {
@@ -30,6 +31,13 @@ std::string wrap(const std::string& text) {
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter() { column_width(kFlagColumns); }
+
+  /// One empty line between groups; the library leaves two.
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+    return text;
+  }
 
   std::string make_option_opts(const CLI::Option* option) const override {
     return option->get_type_name().empty() ? "" : " " + option->get_type_name();

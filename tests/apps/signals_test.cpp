@@ -5,6 +5,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -53,6 +54,21 @@ TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
     EXPECT_EQ(folder.count_files(), 4u) << "a temporary file is left";
     for (const char* name : {"a.exr", "b.png", "s.json"}) std::filesystem::remove(path(name));
   }
+}
+
+TEST_F(Signals, ASecondInterruptEndsTheProgramAtOnce) {
+  std::vector<std::string> arguments = endless();
+  // A pass of four million samples on one thread is not finished in between.
+  std::replace(arguments.begin(), arguments.end(), std::string("64x64"), std::string("2048x2048"));
+  Process process(arguments);
+  ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
+  process.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  process.send(SIGINT);
+  const Output output = process.finish();
+  EXPECT_TRUE(output.killed);
+  EXPECT_EQ(output.exit_code, 130);
+  EXPECT_EQ(folder.count_files(), 1u) << "only the scene";
 }
 
 TEST_F(Signals, User1WritesASnapshotAndTheRunGoesOn) {
