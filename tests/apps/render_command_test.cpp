@@ -238,7 +238,8 @@ TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   EXPECT_GT(stats["nonfinite"]["count"], 0);
   EXPECT_THAT(keys(stats["nonfinite"]["samples"][0]), UnorderedElementsAre("x", "y", "sample", "seed"));
   EXPECT_THAT(dropped.err, HasSubstr("not finite"));
-  for (const float value : read_image(path("a.exr")).layers[0].values) EXPECT_TRUE(std::isfinite(value));
+  const Picture picture = read_image(path("a.exr"));
+  for (const float value : picture.layers[0].values) EXPECT_TRUE(std::isfinite(value));
 
   std::filesystem::remove(path("a.exr"));
   std::vector<std::string> stopping = {"render", scene, "--nan", "error"};
