@@ -87,7 +87,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
 TEST_F(Usage, VersionIsOneLineOnStdout) {
   const Output output = run_gatelight({"--version"});
   EXPECT_EQ(output.exit_code, 0);
-  EXPECT_THAT(output.out, StartsWith("gatelight 0."));
+  EXPECT_THAT(output.out, ::testing::MatchesRegex("gatelight [0-9]+[.][0-9]+[.][0-9]+.*\n"));
   EXPECT_EQ(output.out.find('\n'), output.out.size() - 1);
 }
 
