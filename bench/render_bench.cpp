@@ -52,7 +52,7 @@ void set_rates(benchmark::State& state, std::uint64_t samples, std::uint64_t ray
 
 void render_path(benchmark::State& state, const SceneCase& which) {
   const WorldFixture* w = world(which);
-  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  if (!w) return state.SkipWithError(kNoScene);
   const renderer::PathIntegrator integrator(*w->world, w->options);
   const int threads = static_cast<int>(state.range(0));
   tbb::enumerable_thread_specific<Worker> workers;
@@ -82,7 +82,7 @@ void render_path(benchmark::State& state, const SceneCase& which) {
 
 void render_tracing_only(benchmark::State& state, const SceneCase& which) {
   const WorldFixture* w = world(which);
-  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  if (!w) return state.SkipWithError(kNoScene);
   const TracingOnly tracer(*w);
   std::atomic<std::uint64_t> rays{0};
   std::uint64_t samples = 0;
@@ -117,8 +117,9 @@ const renderer::RayLog& recorded(const WorldFixture& w, const std::string& name)
 void replay(benchmark::State& state, const SceneCase& which,
             std::vector<renderer::Ray> renderer::RayLog::*kind, bool packets) {
   const WorldFixture* w = world(which);
-  if (!w) return state.SkipWithError("set GATELIGHT_SCENES to the folder of the scenes");
+  if (!w) return state.SkipWithError(kNoScene);
   const std::vector<renderer::Ray>& rays = recorded(*w, which.name).*kind;
+  const BareEmbree& bare = w->bare();
   const bool shadow = kind == &renderer::RayLog::shadow;
   const bool camera = kind == &renderer::RayLog::camera;
   const int threads = static_cast<int>(state.range(0));
@@ -132,9 +133,9 @@ void replay(benchmark::State& state, const SceneCase& which,
                         [&](const tbb::blocked_range<std::size_t>& range) {
                           const std::span part(rays.data() + range.begin(), range.size());
                           if (packets) {
-                            w->bare->trace_packets(part, shadow, camera);
+                            bare.trace_packets(part, shadow, camera);
                           } else {
-                            w->bare->trace_single(part, shadow);
+                            bare.trace_single(part, shadow);
                           }
                         });
     });

@@ -8,7 +8,7 @@
 
 namespace gatelight::bench {
 
-TracingOnly::TracingOnly(const WorldFixture& world) : world_(world) {
+TracingOnly::TracingOnly(const WorldFixture& world) : bare_(world.bare()) {
   for (const scene::Instance& instance : world.scene.instances) {
     if (!world.scene.material_of(instance).emits()) continue;
     const std::size_t count = world.scene.mesh_of(instance).triangles.size();
@@ -23,7 +23,7 @@ std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples
   std::uint64_t rays = 0;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  const RTCScene scene = world_.bare->scene();
+  const RTCScene scene = bare_.scene();
   for (const renderer::CameraSample& sample : samples) {
     scene::Vec3 origin = sample.camera_ray.ray.origin;
     scene::Vec3 direction = sample.camera_ray.ray.direction;

@@ -19,7 +19,7 @@ class TracingOnly {
   std::uint64_t trace(std::span<const renderer::CameraSample> samples) const;
 
  private:
-  const WorldFixture& world_;
+  const BareEmbree& bare_;
   std::vector<scene::Vec3> light_points_;  ///< on the emissive triangles; empty: a sun overhead
 };
 

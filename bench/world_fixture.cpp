@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "renderer/camera.h"
@@ -13,12 +12,15 @@ namespace gatelight::bench {
 namespace {
 
 std::unique_ptr<WorldFixture> load(const SceneCase& which) {
-  const char* folder = std::getenv("GATELIGHT_SCENES");
-  if (!folder) return nullptr;
-  const std::filesystem::path file = std::filesystem::path(folder) / which.file;
-  if (!std::filesystem::exists(file)) return nullptr;
+  const std::filesystem::path file = file_of(which);
+  if (file.empty()) return nullptr;
   auto w = std::make_unique<WorldFixture>();
   w->scene = scene::load_gltf(file);
+  if (!which.sun) {
+    std::erase_if(w->scene.lights, [](const scene::PunctualLight& light) {
+      return light.type == scene::LightType::directional;
+    });
+  }
   w->options.width = kWidth;
   w->options.height = kHeight;
   w->options.max_depth = kMaxDepth;
@@ -37,7 +39,6 @@ std::unique_ptr<WorldFixture> load(const SceneCase& which) {
   const float aspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
   w->camera = std::make_unique<renderer::Camera>(renderer::choose_camera(w->scene, w->options.camera, aspect),
                                                  kWidth, kHeight);
-  w->bare = std::make_unique<BareEmbree>(w->scene);
   return w;
 }
 
@@ -63,6 +64,18 @@ std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32
     }
   }
   return result;
+}
+
+const BareEmbree& WorldFixture::bare() const {
+  if (!bare_) bare_ = std::make_unique<BareEmbree>(scene);
+  return *bare_;
+}
+
+std::filesystem::path file_of(const SceneCase& which) {
+  const char* folder = std::getenv("GATELIGHT_SCENES");
+  if (!folder) return {};
+  std::filesystem::path file = std::filesystem::path(folder) / which.file;
+  return std::filesystem::exists(file) ? file : std::filesystem::path{};
 }
 
 const WorldFixture* world(const SceneCase& which) {

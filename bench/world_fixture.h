@@ -1,6 +1,7 @@
 #pragma once
 // Real scenes made ready for tracing, loaded once per program.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,10 +17,18 @@ struct SceneCase {
   const char* file;
   const char* camera;
   scene::Color sky;
+  bool sun = true;  ///< keeps the file's directional lights
 };
 
 inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {0.65f, 0.8f, 1.0f}};
 inline const SceneCase kKitchen{"kitchen", "country-kitchen/country-kitchen.glb", "", {0.0f, 0.0f, 0.0f}};
+inline const SceneCase kBistro{
+    "bistro", "bistro-exterior/bistro-exterior.glb", "street", {0.65f, 0.8f, 1.0f}};
+/// Without sun and sky, by the light of its lamps.
+inline const SceneCase kBistroNight{
+    "bistro_night", "bistro-exterior/bistro-exterior.glb", "street", {0.0f, 0.0f, 0.0f}, false};
+
+inline constexpr const char* kNoScene = "GATELIGHT_SCENES does not name a folder with this scene";
 
 inline constexpr int kWidth = 640;
 inline constexpr int kHeight = 360;
@@ -39,13 +48,20 @@ struct WorldFixture {
   std::unique_ptr<renderer::Lights> lights;
   std::unique_ptr<renderer::World> world;
   std::unique_ptr<renderer::Camera> camera;
-  std::unique_ptr<BareEmbree> bare;
-
   /// Camera samples of one pass over the picture, in tiles of 16x16.
   std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
+
+  /// Built when it is first asked for. Not thread-safe.
+  const BareEmbree& bare() const;
+
+ private:
+  mutable std::unique_ptr<BareEmbree> bare_;
 };
 
-/// Nullptr where GATELIGHT_SCENES is not set or does not hold the file.
+/// Empty where GATELIGHT_SCENES is not set or does not hold the file.
+std::filesystem::path file_of(const SceneCase& which);
+
+/// Nullptr where file_of() finds nothing.
 const WorldFixture* world(const SceneCase& which);
 
 }  // namespace gatelight::bench
