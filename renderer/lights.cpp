@@ -93,6 +93,10 @@ int Lights::count_distant(const Vec3& n) const {
   return count;
 }
 
+bool Lights::samples_sky(int other_parts) const {
+  return !environment_.black() && !(environment_.constant() && other_parts > 0);
+}
+
 LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
   LightTree::Weights root{};
   bool local = has_local();
@@ -101,7 +105,7 @@ LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const V
     local = root.sum > 0.0f;
   }
   const int distant = count_distant(n);
-  const bool sky = !environment_.black();
+  const bool sky = samples_sky((local ? 1 : 0) + distant);
   const int parts = (local ? 1 : 0) + distant + (sky ? 1 : 0);
   if (parts == 0) return {};
 
@@ -186,8 +190,8 @@ LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& 
 
 float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const {
   const float probability = tree_.empty() ? table_.probability(light) : tree_.probability(p, n, light);
-  const int others = count_distant(n) + (environment_.black() ? 0 : 1);
-  return probability / static_cast<float>(1 + others);
+  const int suns = count_distant(n);
+  return probability / static_cast<float>(1 + suns + (samples_sky(1 + suns) ? 1 : 0));
 }
 
 float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
@@ -205,11 +209,12 @@ float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance,
 }
 
 float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const {
-  if (environment_.black()) return 0.0f;
+  const bool local = has_local() && (tree_.empty() || tree_.weigh_root(p, n).sum > 0.0f);
+  const int others = (local ? 1 : 0) + count_distant(n);
+  if (!samples_sky(others)) return 0.0f;
   const float density =
       environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi);
-  const bool local = has_local() && (tree_.empty() || tree_.weigh_root(p, n).sum > 0.0f);
-  return density / static_cast<float>((local ? 1 : 0) + count_distant(n) + 1);
+  return density / static_cast<float>(1 + others);
 }
 
 std::size_t Lights::bytes() const {

@@ -62,6 +62,9 @@ class Lights {
 
   bool has_local() const { return !tree_.empty() || !table_.empty(); }
   int count_distant(const Vec3& n) const;
+  /// A constant sky is found by the BSDF's own directions as well as by any others: it takes no light samples
+  /// from lamps and suns, and is sampled only where there are none.
+  bool samples_sky(int other_parts) const;
 
   const Environment& environment_;
   EmissiveTriangles triangles_;
