@@ -51,7 +51,7 @@ struct RenderOptions {
   int spp = 64;
   double time_limit_seconds = 0.0;  ///< 0: none; rendering stops after the pass that reaches it
   int max_depth = 8;                ///< scattering events; 1 is emission and direct light
-  int min_depth = 3;                ///< Russian roulette starts after this many scattering events
+  int min_depth = 2;                ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
   int threads = 0;  ///< 0: what the machine and the cgroup allow
   SamplerKind sampler = SamplerKind::sobol;

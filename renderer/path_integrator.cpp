@@ -158,7 +158,9 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   path.seed = hash(path.seed + 0x9e3779b9u);
 
   if (path.depth >= options_.min_depth) {
-    const float survival = std::min(0.95f, path.throughput.maxCoeff() / path.radiance_scale);
+    // The root of what is left: in bright rooms, where long paths carry much, roulette by the throughput
+    // itself costs more noise than it saves time (Country Kitchen: a tenth more noise in the same time).
+    const float survival = std::min(0.95f, std::sqrt(path.throughput.maxCoeff() / path.radiance_scale));
     if (sampling::to_unit_float(hash(path.seed ^ 0x68bc21ebu)) >= survival) return false;
     path.throughput /= survival;
   }
