@@ -161,7 +161,8 @@ TEST(DirectLightTest, SunSkyAndLampsAddUp) {
   light.type = scene::LightType::point;
   light.position = Vec3(0, 1, 0);
   scene.lights.push_back(light);
-  const LitScene lit(std::move(scene), LightSelection::tree, {.constant = Color(1, 1, 1)});
+  const tests::TemporaryFolder folder;
+  const LitScene lit(std::move(scene), LightSelection::tree, testing::uniform_picture(folder, 1.0f));
   const Vec3 n = tilted(20.0f);
   const double expected = 3.0 * testing::triangles_irradiance(triangles, Vec3::Zero(), n) +
                           4.0 * static_cast<double>(n.y()) + M_PI;

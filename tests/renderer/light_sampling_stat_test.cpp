@@ -236,7 +236,8 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
   scene.lights = {sun};
   sun.direction = Vec3(0, 0.6f, 0.8f);  // from below
   scene.lights.push_back(sun);
-  const LitScene lit(std::move(scene), LightSelection::tree, {.constant = Color(0.5f, 0.5f, 0.5f)});
+  const tests::TemporaryFolder folder;
+  const LitScene lit(std::move(scene), LightSelection::tree, testing::uniform_picture(folder, 0.5f));
   const Vec3 p = Vec3::Zero();
   struct Case {
     Vec3 n;
@@ -270,6 +271,24 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
     EXPECT_TRUE(
         testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, kTests)));
   }
+}
+
+TEST(LightSamplingTest, AConstantSkyTakesNoSamplesFromOtherLights) {
+  scene::PunctualLight sun;
+  sun.type = scene::LightType::directional;
+  sun.direction = Vec3(0, -1, 0);
+  scene::Scene scene;
+  scene.lights = {sun};
+  const LitScene lit(std::move(scene), LightSelection::tree, {.constant = Color(0.5f, 0.5f, 0.5f)});
+  const LightSample towards_sun = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f));
+  EXPECT_TRUE(towards_sun.delta);
+  EXPECT_EQ(towards_sun.pdf, 1.0f);
+  // The density says so too, or multiple importance sampling would lose the sky.
+  EXPECT_EQ(lit.lights.pdf_environment(Vec3::Zero(), Vec3::UnitY(), Vec3(0.6f, 0.8f, 0)), 0.0f);
+  // Where the sun is below the horizon the sky is all there is to sample.
+  EXPECT_EQ(lit.lights.sample(Vec3::Zero(), -Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f)).distance,
+            scene::kInfinity);
+  EXPECT_GT(lit.lights.pdf_environment(Vec3::Zero(), -Vec3::UnitY(), Vec3(0.6f, -0.8f, 0)), 0.0f);
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/image_write.h"
 #include "renderer/lights.h"
 #include "scene/scene.h"
+#include "tests/temporary_folder.h"
 
 namespace gatelight::testing {
 
@@ -48,6 +50,18 @@ inline std::uint32_t add_light(scene::Scene& scene, const std::vector<Triangle>&
 /// Two triangles over a parallelogram; the front is where cross(edge1, edge2) points.
 inline std::vector<Triangle> quad(const Vec3& corner, const Vec3& edge1, const Vec3& edge2) {
   return {{corner, corner + edge1, corner + edge1 + edge2}, {corner, corner + edge1 + edge2, corner + edge2}};
+}
+
+/// A sky picture in which every texel has this radiance: found by light samples, unlike a constant sky.
+inline renderer::EnvironmentOptions uniform_picture(const tests::TemporaryFolder& folder, float radiance) {
+  renderer::Picture picture{.width = 8, .height = 4};
+  renderer::Layer beauty{.channels = {"R", "G", "B"}, .values = std::vector<float>(8 * 4 * 3, radiance)};
+  beauty.full_precision = true;
+  picture.layers.push_back(beauty);
+  renderer::EnvironmentOptions options;
+  options.file = (folder / "sky.exr").string();
+  renderer::write_image(picture, options.file);
+  return options;
 }
 
 /// A scene with all that its Lights refer to.
