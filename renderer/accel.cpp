@@ -80,6 +80,21 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+void set_lane(RTCRay16& packet, unsigned i, const Ray& ray) {
+  packet.org_x[i] = ray.origin.x();
+  packet.org_y[i] = ray.origin.y();
+  packet.org_z[i] = ray.origin.z();
+  packet.dir_x[i] = ray.direction.x();
+  packet.dir_y[i] = ray.direction.y();
+  packet.dir_z[i] = ray.direction.z();
+  packet.tnear[i] = 0.0f;
+  packet.tfar[i] = ray.t_max;
+  packet.time[i] = 0.0f;
+  packet.mask[i] = ~0u;
+  packet.id[i] = i;
+  packet.flags[i] = 0;
+}
+
 const char* embree_isa(const std::string& isa) {
   if (isa == "scalar") return "sse2";
   if (isa == "avx2") return "avx2";
@@ -228,18 +243,7 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
     for (unsigned i = 0; i < kPacket; ++i) {
       valid[i] = i < count ? -1 : 0;
       const Ray& ray = rays[first + std::min(i, count - 1)];
-      packet.ray.org_x[i] = ray.origin.x();
-      packet.ray.org_y[i] = ray.origin.y();
-      packet.ray.org_z[i] = ray.origin.z();
-      packet.ray.dir_x[i] = ray.direction.x();
-      packet.ray.dir_y[i] = ray.direction.y();
-      packet.ray.dir_z[i] = ray.direction.z();
-      packet.ray.tnear[i] = 0.0f;
-      packet.ray.tfar[i] = ray.t_max;
-      packet.ray.time[i] = 0.0f;
-      packet.ray.mask[i] = ~0u;
-      packet.ray.id[i] = i;
-      packet.ray.flags[i] = 0;
+      set_lane(packet.ray, i, ray);
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       if (any_filter_) context.lanes[i].seed = ray.seed;
@@ -269,18 +273,7 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
     for (unsigned i = 0; i < kPacket; ++i) {
       valid[i] = i < count ? -1 : 0;
       const Ray& ray = rays[first + std::min(i, count - 1)];
-      packet.org_x[i] = ray.origin.x();
-      packet.org_y[i] = ray.origin.y();
-      packet.org_z[i] = ray.origin.z();
-      packet.dir_x[i] = ray.direction.x();
-      packet.dir_y[i] = ray.direction.y();
-      packet.dir_z[i] = ray.direction.z();
-      packet.tnear[i] = 0.0f;
-      packet.tfar[i] = ray.t_max;
-      packet.time[i] = 0.0f;
-      packet.mask[i] = ~0u;
-      packet.id[i] = i;
-      packet.flags[i] = 0;
+      set_lane(packet, i, ray);
       if (any_filter_) {
         Lane& lane = context.lanes[i];
         lane.seed = ray.seed;
