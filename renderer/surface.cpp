@@ -129,7 +129,7 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   s.position = p0 * b.x() + p1 * b.y() + p2 * b.z();
   // Rounding in the corners, the interpolation and the next intersection test is some units in the last place
   // of the largest coordinate; 16 of them were enough from 1e-3 to 1e6 metres
-  // (tests/renderer/offset_test.cpp).
+  // (tests/renderer/accel_test.cpp).
   constexpr float kUlps = 16.0f * 0x1p-23f;
   s.offset = kUlps * view.condition * (std::max({largest(p0), largest(p1), largest(p2)}) + view.translation);
 
