@@ -1,0 +1,58 @@
+#pragma once
+// The seam between what is learned and the machine that learns it. Members of equal rank: CPU, Vulkan, and
+// the reference in double precision.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "neural/batch.h"
+#include "neural/state.h"
+
+namespace gatelight::neural {
+
+struct StepStatistics {
+  double loss = 0.0;           ///< mean over accepted records and outputs, before the step; 0 for none
+  std::uint64_t records = 0;   ///< accepted
+  std::uint64_t rejected = 0;  ///< NaN or infinity in an input or the target
+  std::uint64_t unstored = 0;  ///< on a surface without storage, or out of the layout's range
+  std::uint64_t clipped = 0;   ///< accepted with a target clamped to max_target
+  std::uint64_t touched_nodes = 0;
+  std::uint64_t skipped_updates =
+      0;  ///< parameters (weights) or nodes left alone for a gradient that is not finite
+  double seconds_network = 0.0;  ///< encode, forward, loss, backward
+  double seconds_sort = 0.0;     ///< gradients to their nodes
+  double seconds_update = 0.0;   ///< reduction and Adam
+  double seconds = 0.0;          ///< the whole call
+};
+
+enum class QueryPrecision : std::uint8_t { fp32, bf16 };
+
+/// What a query does to the network's linear output. A value that is not finite becomes 0 unless raw.
+enum class OutputRange : std::uint8_t { raw, non_negative, unit };
+
+struct QueryOptions {
+  QueryPrecision precision = QueryPrecision::fp32;  ///< bf16: weights and activations rounded, sums in fp32
+  OutputRange range = OutputRange::non_negative;
+  bool averaged = true;  ///< the averages, else the raw parameters
+};
+
+/// One thread calls at a time. A batch with spans of the wrong length throws BadConfiguration and changes
+/// nothing. The same bits for any number of threads.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  /// One step over the whole batch. A batch without an accepted record changes nothing.
+  virtual StepStatistics train(const TrainingBatch& batch) = 0;
+  /// out: batch.size x outputs, row-major. Points without storage encode to zero features.
+  virtual void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const = 0;
+  virtual ModelState export_state() const = 0;
+  /// Throws BadConfiguration when the sizes are not the model's.
+  virtual void import_state(const ModelState& state) = 0;
+  /// "cpu avx512", "reference", "vulkan NAME": for records.
+  virtual std::string name() const = 0;
+  virtual std::uint64_t parameter_bytes() const = 0;
+  virtual std::uint64_t optimizer_bytes() const = 0;  ///< moments, masters, averages, counters
+};
+
+}  // namespace gatelight::neural

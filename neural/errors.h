@@ -1,0 +1,23 @@
+#pragma once
+// The ways in which the library refuses.
+
+#include <stdexcept>
+
+namespace gatelight::neural {
+
+/// A configuration or a batch that cannot be: the message names the value and what was expected.
+struct BadConfiguration : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The instruction set or the device asked for is not there. The message lists what is.
+struct Unavailable : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A cache file that cannot be read or belongs to another model. The message names file and difference.
+struct CacheFileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace gatelight::neural

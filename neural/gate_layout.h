@@ -1,0 +1,104 @@
+#pragma once
+// Where the feature vectors of GATE lie: mesh colours (Yuksel, Keyser, House 2010) on the triangles of a
+// SurfaceLayout, several resolutions deep.
+//
+// A *node* is one feature vector. All nodes of all levels and surfaces have one index space; node n's
+// features are the floats n*L .. n*L+L-1 of the parameters. The tables here are plain arrays so that CPU
+// kernels and compute shaders read the same bytes.
+
+#include <cstdint>
+#include <vector>
+
+#include "neural/surface_layout.h"
+
+namespace gatelight::neural {
+
+inline constexpr std::uint32_t kMaxResolution = 64;
+inline constexpr std::uint32_t kMaxStack = 4;
+
+enum class ResolutionRule : std::uint8_t {
+  uniform,  ///< R = round(sqrt(A) / spacing), A the area-weighted mean area of the instance's triangles
+            ///< (world)
+  paper,    ///< R = clamp(32 A^2 scale, 1, 32), A the mean area over the greatest mean area of all instances
+  fixed,    ///< the same R everywhere
+};
+
+enum class NodeStorage : std::uint8_t {
+  shared,        ///< blocks [vertex | edge | interior] for each surface; edges and vertices are shared
+  per_triangle,  ///< (R+1)(R+2)/2 nodes for each triangle, in a row
+};
+
+/// A level of the stack: `kAdaptive` takes the rule's R, any other value is the R of all instances.
+inline constexpr std::uint32_t kAdaptive = 0;
+
+struct GateOptions {
+  std::uint32_t features = 8;                         ///< L: floats in a feature vector, 1 to 16
+  std::vector<std::uint32_t> stack = {kAdaptive, 1};  ///< at most kMaxStack levels
+  ResolutionRule rule = ResolutionRule::uniform;
+  float node_spacing = 0.1f;           ///< world units; `uniform`, and the clusters' cell is half of it
+  float resolution_scale = 1.0f;       ///< `paper`
+  std::uint32_t fixed_resolution = 4;  ///< `fixed`
+  std::uint32_t max_resolution = 32;   ///< of adaptive levels
+  NodeStorage storage = NodeStorage::shared;
+  /// Merge the vertices of surfaces whose R is 1 where triangles are smaller than the node spacing. A
+  /// vertex's cluster is (instance, cell of half the spacing, dominant axis and sign of its normal). Only
+  /// with `uniform` and `shared`.
+  bool cluster = true;
+  /// Bytes that the feature vectors may take, 0 for no limit. Given, node_spacing (or resolution_scale) is
+  /// solved for: the finest layout that fits.
+  std::uint64_t memory_budget = 0;
+  std::uint32_t bytes_per_feature = 4;  ///< for the budget: 4 or 2
+};
+
+/// The topology of surface s: for triangle t the three corners at topology[topology_offset + t *
+/// topology_stride], then, if the stride is 6, its three edges; edge c is the one opposite to corner c.
+/// Corner and edge numbers count from vertex_base and edge_base. An edge is walked from its corner with the
+/// lower number to the one with the higher.
+struct GateSurface {
+  std::uint32_t topology_offset = 0;
+  std::uint32_t topology_stride = 3;  ///< 3 or 6
+  std::uint32_t triangle_count = 0;
+  std::uint32_t first_triangle = 0;  ///< number of the surface's triangle 0 among all triangles with storage
+};
+
+/// One level of one surface, at levels[surface * stack + level]. R = 0: no storage.
+/// Shared: corner v's node is vertex_base + v; the node i steps (1 .. R-1) from the lower corner of edge e is
+/// edge_base + e (R-1) + i-1; the interior node (i,j,k) of triangle t is
+/// interior_base + t (R-1)(R-2)/2 + (i-1)(2(R-1)-i)/2 + j-1.
+/// Per triangle: node (i,j,k) of triangle t is vertex_base + t (R+1)(R+2)/2 + i(2R+3-i)/2 + j.
+/// (i,j,k) are the integer barycentrics that belong to corners 0, 1, 2; their sum is R.
+struct GateSurfaceLevel {
+  std::uint32_t resolution = 0;
+  std::uint32_t vertex_base = 0;
+  std::uint32_t edge_base = 0;
+  std::uint32_t interior_base = 0;
+};
+
+struct GateLayoutReport {
+  std::uint64_t vertex_nodes = 0, edge_nodes = 0, interior_nodes = 0, cluster_nodes = 0, triangle_nodes = 0;
+  std::uint64_t topology_bytes = 0;
+  std::uint64_t table_bytes = 0;  ///< surfaces and levels
+  std::uint64_t clustered_surfaces = 0;
+  std::vector<std::uint64_t> resolution_histogram;  ///< instances with storage by the R of the first level
+  float node_spacing = 0.0f;                        ///< resolved: after the budget
+  float resolution_scale = 0.0f;
+};
+
+struct GateLayout {
+  std::uint32_t features = 0;
+  std::uint32_t stack = 0;
+  NodeStorage storage = NodeStorage::shared;
+  std::uint32_t node_count = 0;
+  std::uint32_t triangle_count = 0;   ///< with storage, each side counted
+  std::vector<GateSurface> surfaces;  ///< 2 per instance
+  std::vector<GateSurfaceLevel> levels;
+  std::vector<std::uint32_t> topology;
+  GateLayoutReport report;
+};
+
+/// Runs in parallel (oneTBB) and gives the same layout for any number of threads. Throws BadConfiguration for
+/// options out of range, indices beyond a mesh's positions, a mesh number that is not there, or more than
+/// 2^32-1 nodes.
+GateLayout build_gate_layout(const SurfaceLayout& surfaces, const GateOptions& options);
+
+}  // namespace gatelight::neural
