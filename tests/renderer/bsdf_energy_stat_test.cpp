@@ -5,7 +5,7 @@
 
 #include "renderer/bsdf_fresnel.h"
 #include "tests/renderer/bsdf_cases.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -10,7 +10,7 @@
 #include "renderer/image_read.h"
 #include "tests/renderer/golden_cases.h"
 #include "tests/renderer/golden_compare.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::testing {
 namespace {

@@ -11,7 +11,7 @@
 #include "renderer/lights.h"
 #include "renderer/warp.h"
 #include "tests/renderer/light_scenes.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -13,7 +13,7 @@
 #include "renderer/lights.h"
 #include "renderer/warp.h"
 #include "tests/renderer/light_scenes.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {

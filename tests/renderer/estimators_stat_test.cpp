@@ -10,7 +10,7 @@
 
 #include "renderer/render.h"
 #include "tests/renderer/scene_builder.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

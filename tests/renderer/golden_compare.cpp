@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::testing {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::testing {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "renderer/alias_table.h"
 #include "renderer/warp.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

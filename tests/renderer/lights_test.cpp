@@ -9,7 +9,7 @@
 
 #include "renderer/warp.h"
 #include "tests/renderer/light_scenes.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/sampler.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -9,7 +9,7 @@
 #include "renderer/image_write.h"
 #include "tests/renderer/golden_cases.h"
 #include "tests/renderer/golden_compare.h"
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 #include <gmock/gmock.h>
 

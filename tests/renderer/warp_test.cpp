@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/renderer/statistics.h"
+#include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
