@@ -1,6 +1,7 @@
 #pragma once
 // Which triangle to train next (paper, section 3.2.1): candidates are chosen by how seldom they were trained.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,9 @@ std::vector<Isa> available_isas();
 
 /// The fastest, unless one is forced: by the argument, or else by the environment variable GATELIGHT_ISA.
 /// Throws Unavailable, with the list of those that are there, when the forced one is missing or unknown.
+/// An empty variable forces nothing.
 Isa select_isa(std::optional<Isa> forced = std::nullopt);
+/// The same choice among `available`, slowest first, with the variable's value given.
+Isa choose_isa(std::optional<Isa> forced, std::string_view environment, std::span<const Isa> available);
 
 }  // namespace gatelight::neural::cpu

@@ -1,0 +1,102 @@
+#include "neural/cpu/isa.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "neural/errors.h"
+
+namespace gatelight::neural::cpu {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::array<Isa, 2> kWithoutAvx512 = {Isa::scalar, Isa::avx2};
+
+/// GATELIGHT_ISA for as long as the object lives.
+class Variable {
+ public:
+  explicit Variable(const char* value) {
+    if (const char* old = std::getenv("GATELIGHT_ISA")) old_ = old;
+    ::setenv("GATELIGHT_ISA", value, 1);
+  }
+  ~Variable() {
+    if (old_) {
+      ::setenv("GATELIGHT_ISA", old_->c_str(), 1);
+    } else {
+      ::unsetenv("GATELIGHT_ISA");
+    }
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  std::optional<std::string> old_;
+};
+
+template <class Choice>
+std::string refusal(Choice&& choice) {
+  try {
+    choice();
+  } catch (const Unavailable& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Isa, NamesAndWordsAreInverse) {
+  for (const Isa isa : {Isa::scalar, Isa::avx2, Isa::avx512}) EXPECT_EQ(parse_isa(isa_name(isa)), isa);
+  for (const char* word : {"", "AVX2", "avx", "avx5122", "auto"}) EXPECT_EQ(parse_isa(word), std::nullopt);
+}
+
+TEST(Isa, ScalarIsAlwaysThereAndFirst) {
+  const std::vector<Isa> isas = available_isas();
+  ASSERT_FALSE(isas.empty());
+  EXPECT_EQ(isas.front(), Isa::scalar);
+  EXPECT_TRUE(std::is_sorted(isas.begin(), isas.end()));
+  EXPECT_EQ(std::adjacent_find(isas.begin(), isas.end()), isas.end());
+}
+
+TEST(Isa, TheFastestIsTakenUnlessForced) {
+  EXPECT_EQ(choose_isa(std::nullopt, "", kWithoutAvx512), Isa::avx2);
+  EXPECT_EQ(choose_isa(Isa::scalar, "", kWithoutAvx512), Isa::scalar);
+  EXPECT_EQ(choose_isa(std::nullopt, "scalar", kWithoutAvx512), Isa::scalar);
+  const Variable variable("");
+  EXPECT_EQ(select_isa(), available_isas().back());
+}
+
+TEST(Isa, TheArgumentBeatsTheEnvironment) {
+  EXPECT_EQ(choose_isa(Isa::avx2, "scalar", kWithoutAvx512), Isa::avx2);
+  EXPECT_EQ(choose_isa(Isa::scalar, "avx512", kWithoutAvx512), Isa::scalar);
+  const Variable variable("no-such-isa");
+  EXPECT_EQ(select_isa(Isa::scalar), Isa::scalar);
+}
+
+TEST(Isa, TheEnvironmentIsRead) {
+  for (const Isa isa : available_isas()) {
+    const Variable variable(std::string(isa_name(isa)).c_str());
+    EXPECT_EQ(select_isa(), isa);
+  }
+}
+
+TEST(Isa, AMissingOneIsRefusedWithThoseThatAreThere) {
+  EXPECT_THAT(refusal([] { choose_isa(Isa::avx512, "", kWithoutAvx512); }),
+              AllOf(HasSubstr("avx512 is not"), HasSubstr("scalar, avx2"), Not(HasSubstr("GATELIGHT_ISA"))));
+  EXPECT_THAT(refusal([] { choose_isa(std::nullopt, "avx512", kWithoutAvx512); }),
+              AllOf(HasSubstr("GATELIGHT_ISA: avx512 is not"), HasSubstr("scalar, avx2")));
+}
+
+TEST(Isa, AnUnknownWordIsRefusedWithThoseThatAreThere) {
+  const Variable variable("sse9");
+  EXPECT_THAT(refusal([] { select_isa(); }),
+              AllOf(HasSubstr("GATELIGHT_ISA"), HasSubstr("'sse9'"), HasSubstr("scalar")));
+}
+
+}  // namespace
+}  // namespace gatelight::neural::cpu
