@@ -14,9 +14,11 @@ namespace gatelight::neural {
 struct StepStatistics {
   double loss = 0.0;           ///< mean over accepted records and outputs, before the step; 0 for none
   std::uint64_t records = 0;   ///< accepted
-  std::uint64_t rejected = 0;  ///< NaN or infinity in an input or the target
-  std::uint64_t unstored = 0;  ///< on a surface without storage, or out of the layout's range
+  std::uint64_t rejected = 0;  ///< NaN or infinity in an input that the model reads, or in the target
+  std::uint64_t unstored = 0;  ///< finite, but on a surface without storage or out of the layout's range
   std::uint64_t clipped = 0;   ///< accepted with a target clamped to max_target
+  /// Nodes that an accepted record reads with a weight other than 0. A node whose weights are all 0 (at a
+  /// corner, along an edge) is not touched: no step, no decay of its moments with sparse updates.
   std::uint64_t touched_nodes = 0;
   std::uint64_t skipped_updates =
       0;  ///< parameters (weights) or nodes left alone for a gradient that is not finite

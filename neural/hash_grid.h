@@ -27,8 +27,9 @@ struct HashGridOptions {
 };
 
 /// Level l: scale = base growth^l - 1, resolution = ceil(scale) + 1; a point x in [0,1]^3 lies at x scale +
-/// 0.5; dense (x + y res + z res^2) where res^3 entries fit, else (x ^ y 2654435761 ^ z 805459861) mod
-/// entries.
+/// 0.5; dense (x + y res + z res^2) where res^3 entries fit, else x ^ y 2654435761 ^ z 805459861 (32 bits).
+/// Both mod entries: a cell at the far border has corners with a coordinate of res, so that a dense index can
+/// be beyond the entries, though less than twice.
 struct HashGridLevel {
   float scale = 0.0f;
   std::uint32_t resolution = 0;
@@ -48,5 +49,8 @@ struct HashGridLayout {
 
 /// Throws BadConfiguration for options out of range or bounds that are empty or not finite.
 HashGridLayout build_hash_grid_layout(const HashGridOptions& options);
+
+/// A layout without levels: only how the bounds map positions to the unit cube. Throws like the other.
+HashGridLayout build_position_mapping(const HashGridOptions& options);
 
 }  // namespace gatelight::neural

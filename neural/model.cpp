@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "neural/errors.h"
@@ -61,6 +62,12 @@ std::vector<AuxiliaryInput> composite_inputs(const RequiredInputs& required, std
   return inputs;
 }
 
+bool uses_input(const ModelConfig& config, InputSource source) {
+  if (source == InputSource::position && config.encoding == FeatureEncoding::hash_grid) return true;
+  return std::any_of(config.auxiliary.begin(), config.auxiliary.end(),
+                     [&](const AuxiliaryInput& input) { return input.source == source; });
+}
+
 std::uint32_t Model::levels() const {
   switch (config.encoding) {
     case FeatureEncoding::gate:
@@ -95,6 +102,8 @@ std::shared_ptr<const Model> make_model(const ModelConfig& config, const Surface
     layout.node_count = model->hash_grid.node_count;
     layout.features = model->hash_grid.features;
   }
+  if (config.encoding != FeatureEncoding::hash_grid && uses_input(config, InputSource::position))
+    model->hash_grid = build_position_mapping(config.hash_grid);
   layout.feature_inputs = model->levels() * layout.features;
   layout.inputs = layout.feature_inputs;
   for (const AuxiliaryInput& input : config.auxiliary) {

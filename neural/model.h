@@ -64,6 +64,9 @@ struct ModelConfig {
   MlpOptions mlp;
 };
 
+/// Whether the encoding or an auxiliary input reads the source.
+bool uses_input(const ModelConfig& config, InputSource source);
+
 /// One layer: y = W x + b, W row-major [outputs][inputs] at `weights`, b at `biases` of the flat parameters.
 struct LayerLayout {
   std::uint32_t inputs = 0;
@@ -91,7 +94,7 @@ struct ParameterLayout {
 struct Model {
   ModelConfig config;
   GateLayout gate;           ///< empty unless encoding is gate
-  HashGridLayout hash_grid;  ///< empty unless encoding is hash_grid
+  HashGridLayout hash_grid;  ///< without levels unless encoding is hash_grid; maps position inputs too
   ParameterLayout parameters;
   /// Nodes that a point's encoding reads (3 a GATE level, 8 a hash level), their features' levels in a row.
   std::uint32_t nodes_per_point() const;
