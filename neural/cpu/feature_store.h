@@ -1,0 +1,44 @@
+#pragma once
+// The feature vectors and what Adam keeps of them, as the kernels read and write them.
+
+#include <cstdint>
+
+#include "neural/cpu/huge_buffer.h"
+#include "neural/cpu/kernels.h"
+#include "neural/state.h"
+
+namespace gatelight::neural::cpu {
+
+class FeatureStore {
+ public:
+  FeatureStore(const Model& model, const TrainingOptions& options);
+
+  void set_training_view(KernelEncoder& encoder) const;
+  void set_query_view(KernelEncoder& encoder, bool averaged) const;
+  void set_update_view(KernelFeatureUpdate& update) const;
+
+  /// The features' part of the arrays, which are resized.
+  void export_to(ModelState& state) const;
+  void import_from(const ModelState& state);
+
+  /// What a forward pass reads.
+  std::uint64_t parameter_bytes() const;
+  /// Moments, masters, averages and counters.
+  std::uint64_t optimizer_bytes() const;
+
+ private:
+  std::uint64_t count_;      // of floats
+  std::uint64_t all_count_;  // of the model's parameters
+  std::uint32_t features_;
+  FeaturePrecision precision_;
+  HugeBuffer<float> floats_;          // parameters, or masters
+  HugeBuffer<std::uint16_t> halves_;  // parameters in fp16
+  HugeBuffer<float> averages_;
+  HugeBuffer<std::uint16_t> average_halves_;
+  HugeBuffer<float> moments_;  // [node][m of L, v of L]: one line for L = 8
+  HugeBuffer<std::uint32_t> steps_;
+  std::uint32_t nodes_;
+  bool averaging_, sparse_;
+};
+
+}  // namespace gatelight::neural::cpu

@@ -1,0 +1,182 @@
+#pragma once
+// The inputs beside the features: one-blob, frequency and identity of positions, directions, normals, albedos
+// and roughness. Part of kernels.cpp.
+
+#include "neural/cpu/kernels.h"
+#include "neural/cpu/simd.h"
+
+namespace {
+
+using namespace gatelight::neural::cpu;
+
+// Up to four coordinates of each of a tile's points.
+struct TileCoordinates {
+  alignas(64) float raw[3 * kTile];
+  alignas(64) float lanes[3][kTile];
+  alignas(64) float rows[kTile][4];
+};
+
+// atan(a), a in [0,1]: a polynomial in a^2 fitted at Chebyshev nodes; error 1.1e-7 in single precision.
+GATELIGHT_INLINE Float arctangent_unit(Float a) {
+  const float coefficients[9] = {0.999999984f,   -0.333330668f, 0.199924836f,   -0.142025705f, 0.106367541f,
+                                 -0.0749544544f, 0.0425876075f, -0.0160050305f, 0.0028340643f};
+  const Float z = mul(a, a);
+  Float p = broadcast(coefficients[8]);
+  for (int i = 7; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
+  return mul(p, a);
+}
+
+// atan2(y, x) in (-pi, pi]; 0 for (0, 0).
+GATELIGHT_INLINE Float arctangent(Float y, Float x) {
+  const Float ax = absolute(x), ay = absolute(y);
+  const Float longest = max(ax, ay);
+  const Float ratio = div(min(ax, ay), max(longest, broadcast(1e-37f)));
+  Float angle = arctangent_unit(ratio);
+  angle = select(less(ax, ay), sub(broadcast(1.57079632679f), angle), angle);
+  angle = select(less(x, zero()), sub(broadcast(3.14159265359f), angle), angle);
+  return select(less(y, zero()), sub(zero(), angle), angle);
+}
+
+// sin(pi x): the argument is reduced exactly, then a polynomial on [-1/2, 1/2]; error 2e-7.
+GATELIGHT_INLINE Float sine_pi(Float x) {
+  const float coefficients[5] = {3.14159264f, -5.16771008f, 2.55007752f, -0.598291286f, 0.0776576603f};
+  const Float turns = round(mul(x, broadcast(0.5f)));
+  Float r = fma(turns, broadcast(-2.0f), x);  // in [-1, 1]
+  const Float magnitude = absolute(r);
+  const Float folded = min(magnitude, sub(broadcast(1.0f), magnitude));  // sin(pi r) = sin(pi (1 - r))
+  r = select(less(r, zero()), sub(zero(), folded), folded);
+  r = clamp(r, -0.5f, 0.5f);
+  const Float z = mul(r, r);
+  Float p = broadcast(coefficients[4]);
+  for (int i = 3; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
+  return mul(p, r);
+}
+
+// Unit coordinates of a direction: theta / pi from the z axis and phi / 2 pi in [0, 1).
+GATELIGHT_INLINE void spherical(TileCoordinates& tile) {
+  for (uint32_t s = 0; s < kTile; s += kLanes) {
+    const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
+    const Float theta = arctangent(sqrt(fma(x, x, mul(y, y))), z);
+    Float phi = mul(arctangent(y, x), broadcast(0.159154943092f));
+    phi = select(less(phi, zero()), add(phi, broadcast(1.0f)), phi);
+    store(tile.lanes[0] + s, mul(theta, broadcast(0.318309886184f)));
+    store(tile.lanes[1] + s, phi);
+  }
+}
+
+GATELIGHT_INLINE const float* span_of(const KernelPoints& points, KernelSource source) {
+  switch (source) {
+    case KernelSource::position:
+      return points.positions;
+    case KernelSource::direction:
+      return points.directions;
+    case KernelSource::normal:
+      return points.normals;
+    case KernelSource::albedo:
+      return points.albedos;
+    case KernelSource::roughness:
+      return points.roughnesses;
+  }
+  return nullptr;
+}
+
+// Primitive of the quartic kernel 15/16 (1 - u^2)^2 on [-1, 1], from 0 to 1.
+GATELIGHT_INLINE Float quartic_primitive(Float u) {
+  u = clamp(u, -1.0f, 1.0f);
+  const Float z = mul(u, u);
+  const Float p = fma(fma(z, broadcast(0.2f), broadcast(-2.0f / 3.0f)), z, broadcast(1.0f));
+  return fma(mul(u, broadcast(15.0f / 16.0f)), p, broadcast(0.5f));
+}
+
+// One-blob (Mueller et al. 2019, 2021): the share of a quartic kernel of radius 1/size around the coordinate
+// that falls into each bin. A lane is a bin; the azimuth (the second of spherical coordinates) wraps.
+GATELIGHT_INLINE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                      uint32_t stride) {
+  const bool wraps = a.transform == KernelTransform::spherical_one_blob;
+  const float size = static_cast<float>(a.size);
+  const Int bins = broadcast_int(a.size);
+  const uint32_t log2_size = static_cast<uint32_t>(__builtin_ctz(a.size));
+  for (uint32_t first_bin = 0; first_bin < a.inputs; first_bin += kLanes) {
+    const Int lane = add_int(lane_numbers(), broadcast_int(first_bin));
+    const Int coordinate = shift_right(lane, log2_size);
+    const Float center = mul(add(to_float(and_int(lane, sub_int(bins, broadcast_int(1)))), broadcast(0.5f)),
+                             broadcast(1.0f / size));
+    const Float wrap =
+        wraps ? select(equal_int(coordinate, broadcast_int(1)), broadcast(1.0f), zero()) : zero();
+    const uint32_t count = a.inputs - first_bin;
+    float* row = inputs + a.first_input + first_bin;
+    const Int picked = and_int(coordinate, broadcast_int(3));
+    for (uint32_t s = 0; s < kTile; ++s, row += stride) {
+      Float distance = sub(center, pick4(tile.rows[s], picked));
+      distance = sub(distance, mul(wrap, round(distance)));
+      const Float upper = quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f)));
+      const Float lower = quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f)));
+      const Float share = sub(upper, lower);
+      if (count >= kLanes) {
+        store(row, share);
+      } else {
+        store_partial(row, share, count);
+      }
+    }
+  }
+}
+
+GATELIGHT_INLINE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                       uint32_t stride) {
+  alignas(64) float sines[kLanes], cosines[kLanes];
+  for (uint32_t c = 0; c < a.coordinates; ++c) {
+    float scale = 1.0f;
+    for (uint32_t i = 0; i < a.size; ++i, scale *= 2.0f) {
+      for (uint32_t s = 0; s < kTile; s += kLanes) {
+        const Float x = mul(load(tile.lanes[c] + s), broadcast(scale));
+        store(sines, sine_pi(x));
+        // The quarter turn is added after the reduction to [-1, 1], where it is exact enough.
+        const Float reduced = fma(round(mul(x, broadcast(0.5f))), broadcast(-2.0f), x);
+        store(cosines, sine_pi(add(reduced, broadcast(0.5f))));
+        float* column = inputs + s * stride + a.first_input + 2 * (c * a.size + i);
+        for (uint32_t l = 0; l < kLanes; ++l) {
+          column[l * stride] = sines[l];
+          column[l * stride + 1] = cosines[l];
+        }
+      }
+    }
+  }
+}
+
+// Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points are as zeros.
+GATELIGHT_INLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                       uint32_t count, const float* valid, float* inputs, uint32_t stride) {
+  TileCoordinates tile;
+  for (uint32_t i = 0; i < e.auxiliary_count; ++i) {
+    const KernelAuxiliary& a = e.auxiliary[i];
+    const uint32_t width = a.source == KernelSource::roughness ? 1 : 3;
+    const float* span = span_of(points, a.source) + begin * width;
+    __builtin_memcpy(tile.raw, span, count * width * sizeof(float));
+    __builtin_memset(tile.raw + count * width, 0, (kTile - count) * width * sizeof(float));
+    const Int triples = mul_int(lane_numbers(), broadcast_int(width));
+    for (uint32_t s = 0; s < kTile; s += kLanes) {
+      const Mask usable = less(zero(), load(valid + s));
+      for (uint32_t c = 0; c < width; ++c) {
+        Float x = select(usable, gather(tile.raw + s * width + c, triples), zero());
+        if (a.source == KernelSource::position)
+          x = clamp(mul(sub(x, broadcast(e.bounds_min[c])), broadcast(e.inverse_extent)), 0.0f, 1.0f);
+        store(tile.lanes[c] + s, x);
+      }
+    }
+    if (a.transform == KernelTransform::spherical_one_blob) spherical(tile);
+    if (a.transform == KernelTransform::frequency) {
+      encode_frequency(a, tile, inputs, stride);
+      continue;
+    }
+    for (uint32_t s = 0; s < kTile; ++s)
+      for (uint32_t c = 0; c < a.coordinates; ++c) tile.rows[s][c] = tile.lanes[c][s];
+    if (a.transform == KernelTransform::identity) {
+      for (uint32_t s = 0; s < kTile; ++s)
+        for (uint32_t c = 0; c < a.coordinates; ++c) inputs[s * stride + a.first_input + c] = tile.rows[s][c];
+    } else {
+      encode_one_blob(a, tile, inputs, stride);
+    }
+  }
+}
+
+}  // namespace

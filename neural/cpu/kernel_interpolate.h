@@ -1,0 +1,93 @@
+#pragma once
+// z = sum of w_t z_t (paper, eq. 1) for a tile, level by level into the first columns of the inputs. Part of
+// kernels.cpp.
+
+#include "neural/cpu/kernel_short_vectors.h"
+#include "neural/cpu/kernels.h"
+
+namespace {
+
+using namespace gatelight::neural::cpu;
+
+template <uint32_t kNodes, class Element>
+GATELIGHT_INLINE void interpolate_rows(const Element* features, uint32_t length, uint32_t levels,
+                                       const uint32_t* nodes, const float* weights, float* inputs,
+                                       uint32_t stride) {
+  for (uint32_t s = 0; s < kTile; ++s) {
+    float* row = inputs + s * stride;
+    for (uint32_t l = 0; l < levels; ++l, row += length) {
+      const uint32_t* node = nodes + l * kNodes * kTile + s;
+      const float* weight = weights + l * kNodes * kTile + s;
+      for_parts(
+          length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
+            using V = typename Short<decltype(part)::value>::Type;
+            V z = load_short<V>(features + uint64_t{node[0]} * length + at) * weight[0];
+            for (uint32_t n = 1; n < kNodes; ++n)
+              z += load_short<V>(features + uint64_t{node[n * kTile]} * length + at) * weight[n * kTile];
+            store_short(row + at, z);
+          });
+    }
+  }
+}
+
+template <class Element>
+GATELIGHT_INLINE void interpolate_from(const KernelEncoder& e, const Element* features, const uint32_t* nodes,
+                                       const float* weights, float* inputs, uint32_t stride) {
+  if (e.encoding == KernelEncoding::hash_grid) {
+    if (e.features == 4)
+      interpolate_rows<8>(features, 4, e.levels, nodes, weights, inputs, stride);
+    else
+      interpolate_rows<8>(features, e.features, e.levels, nodes, weights, inputs, stride);
+    return;
+  }
+  switch (e.features) {
+    case 2:
+      return interpolate_rows<3>(features, 2, e.levels, nodes, weights, inputs, stride);
+    case 4:
+      return interpolate_rows<3>(features, 4, e.levels, nodes, weights, inputs, stride);
+    case 8:
+      return interpolate_rows<3>(features, 8, e.levels, nodes, weights, inputs, stride);
+    default:
+      return interpolate_rows<3>(features, e.features, e.levels, nodes, weights, inputs, stride);
+  }
+}
+
+GATELIGHT_INLINE void interpolate(const KernelEncoder& e, const uint32_t* nodes, const float* weights,
+                                  float* inputs, uint32_t stride) {
+  if (e.half_features != nullptr)
+    interpolate_from(e, e.half_features, nodes, weights, inputs, stride);
+  else
+    interpolate_from(e, e.float_features, nodes, weights, inputs, stride);
+}
+
+// Asks for the feature vectors of a tile a few at a time between blocks of arithmetic, so that the misses
+// overlap it.
+struct Prefetcher {
+  const uint32_t* nodes = nullptr;
+  uint32_t count = 0;
+  uint32_t next = 0;
+  uint32_t step = 0;
+  const char* base = nullptr;
+  uint32_t bytes = 0;
+
+  __attribute__((always_inline)) void some() {
+    const uint32_t end = next + step < count ? next + step : count;
+    for (; next < end; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+  }
+  __attribute__((always_inline)) void rest() {
+    for (; next < count; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+  }
+};
+
+GATELIGHT_INLINE Prefetcher make_prefetcher(const KernelEncoder& e, const uint32_t* nodes, uint32_t blocks) {
+  Prefetcher p;
+  p.nodes = nodes;
+  p.count = e.levels * e.nodes_per_level * kTile;
+  p.step = (p.count + blocks - 1) / blocks;
+  p.base = e.half_features != nullptr ? reinterpret_cast<const char*>(e.half_features)
+                                      : reinterpret_cast<const char*>(e.float_features);
+  p.bytes = e.features * (e.half_features != nullptr ? 2 : 4);
+  return p;
+}
+
+}  // namespace

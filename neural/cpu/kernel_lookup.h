@@ -1,0 +1,266 @@
+#pragma once
+// Points to nodes: mesh colours and hash grid, one point a lane. Part of kernels.cpp.
+
+#include "neural/cpu/kernels.h"
+#include "neural/cpu/simd.h"
+
+namespace {
+
+using namespace gatelight::neural;
+using namespace gatelight::neural::cpu;
+
+// A tile's points, copied so that there are always kTile of them; those that are not finite or missing are
+// replaced by zeros. 1 or 0: `finite` tells which are there and finite, `valid` which of them have storage
+// too.
+struct TilePoints {
+  alignas(64) uint32_t surfaces[kTile];
+  alignas(64) uint32_t triangles[kTile];
+  alignas(64) float barycentrics[2 * kTile];
+  alignas(64) float positions[3 * kTile];
+  alignas(64) float finite[kTile];
+  alignas(64) float valid[kTile];
+};
+
+// The integer barycentrics of a virtual triangle's three nodes and their weights (Yuksel et al. 2010). With
+// B = R b, i = floor(B), w = B - i, the fractions sum to 0, 1 or 2, known exactly from the integers: R -
+// sum(i).
+struct VirtualTriangle {
+  Int node[3][3];  // [node][corner]
+  Float weight[3];
+};
+
+GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resolution) {
+  const Float scale = to_float(resolution);
+  Int i[3];
+  Float w[3];
+  for (int c = 0; c < 3; ++c) {
+    const Float scaled = mul(b[c], scale);
+    const Float whole = floor(scaled);
+    i[c] = to_int(whole);
+    w[c] = sub(scaled, whole);
+  }
+  const Int one = broadcast_int(1);
+  Int rest = sub_int(resolution, add_int(i[0], add_int(i[1], i[2])));
+  // Rounding can leave all three fractions just below one: the node is the one above.
+  const Mask three = equal_int(rest, broadcast_int(3));
+  for (int c = 0; c < 3; ++c) i[c] = add_int(i[c], select_int(three, one, broadcast_int(0)));
+  rest = select_int(three, broadcast_int(0), rest);
+  const Mask upright = equal_int(rest, one);
+  const Mask inverted = equal_int(rest, broadcast_int(2));
+  const Mask inside = either(upright, inverted);
+
+  // Upright: node c is i + e_c with weight w_c. Inverted: i + 1 - e_c with 1 - w_c. Else i itself.
+  for (int c = 0; c < 3; ++c) w[c] = select(inverted, sub(broadcast(1.0f), w[c]), w[c]);
+  const Float inverse = div(broadcast(1.0f), max(add(w[0], add(w[1], w[2])), broadcast(1e-30f)));
+  VirtualTriangle t;
+  const Int own = select_int(upright, one, broadcast_int(0));
+  const Int other = select_int(inverted, one, broadcast_int(0));
+  for (int n = 0; n < 3; ++n) {
+    for (int c = 0; c < 3; ++c) t.node[n][c] = add_int(i[c], n == c ? own : other);
+    t.weight[n] = select(inside, mul(w[n], inverse), broadcast(n == 0 ? 1.0f : 0.0f));
+  }
+  return t;
+}
+
+struct LaneLevel {
+  Int resolution, vertex_base, edge_base, interior_base;
+};
+
+GATELIGHT_INLINE LaneLevel lane_level(const GateSurfaceLevel& level) {
+  return {broadcast_int(level.resolution), broadcast_int(level.vertex_base), broadcast_int(level.edge_base),
+          broadcast_int(level.interior_base)};
+}
+
+GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int index) {
+  const uint32_t* words = &levels->resolution;
+  const Int at = mul_int(index, broadcast_int(4));
+  return {gather_int(words, at), gather_int(words, add_int(at, broadcast_int(1))),
+          gather_int(words, add_int(at, broadcast_int(2))), gather_int(words, add_int(at, broadcast_int(3)))};
+}
+
+// Address of the node with integer barycentrics a (gate_tables.h). `corners` are those of the triangle;
+// `edges` points at the topology word of edge 0.
+GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const Int (&corners)[3],
+                                 const uint32_t* topology, Int edges, Int triangle) {
+  const Int none = broadcast_int(0);
+  const Int one = broadcast_int(1);
+  const Int last = sub_int(level.resolution, one);  // R - 1
+  Mask at_zero[3], at_corner[3];
+  for (int c = 0; c < 3; ++c) {
+    at_zero[c] = equal_int(a[c], none);
+    at_corner[c] = equal_int(a[c], level.resolution);
+  }
+  const Mask vertex = either(at_corner[0], either(at_corner[1], at_corner[2]));
+  const Mask edge = either(at_zero[0], either(at_zero[1], at_zero[2]));
+  Int node = add_int(level.vertex_base,
+                     select_int(at_corner[0], corners[0], select_int(at_corner[1], corners[1], corners[2])));
+  if (all(vertex)) return node;
+
+  // Along the edge opposite to the corner whose coordinate is zero, from its lower corner: the steps are the
+  // coordinate of its higher corner.
+  const Int opposite = select_int(at_zero[0], none, select_int(at_zero[1], one, broadcast_int(2)));
+  const Mask swap0 = less_unsigned(corners[1], corners[2]);
+  const Mask swap1 = less_unsigned(corners[2], corners[0]);
+  const Mask swap2 = less_unsigned(corners[0], corners[1]);
+  const Int steps0 = select_int(swap0, a[2], a[1]);
+  const Int steps1 = select_int(swap1, a[0], a[2]);
+  const Int steps2 = select_int(swap2, a[1], a[0]);
+  const Int steps = select_int(at_zero[0], steps0, select_int(at_zero[1], steps1, steps2));
+  // Where this is no edge node there may be no edge words: read word 0 instead.
+  const Int word = select_int(vertex, none, select_int(edge, add_int(edges, opposite), none));
+  const Int number = gather_int(topology, word);
+  const Int edge_node = add_int(level.edge_base, add_int(mul_int(number, last), sub_int(steps, one)));
+
+  const Int row = sub_int(a[0], one);
+  const Int interior_count = half_int(mul_int(last, sub_int(last, one)));
+  const Int before = half_int(mul_int(row, sub_int(add_int(last, last), a[0])));
+  const Int interior_node = add_int(
+      level.interior_base, add_int(mul_int(triangle, interior_count), add_int(before, sub_int(a[1], one))));
+  return select_int(vertex, node, select_int(edge, edge_node, interior_node));
+}
+
+GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, Int triangle) {
+  const Int r = level.resolution;
+  const Int one = broadcast_int(1);
+  const Int count = half_int(mul_int(add_int(r, one), add_int(r, broadcast_int(2))));
+  const Int before = half_int(mul_int(a[0], sub_int(add_int(add_int(r, r), broadcast_int(3)), a[0])));
+  return add_int(level.vertex_base, add_int(mul_int(triangle, count), add_int(before, a[1])));
+}
+
+// Writes nodes and weights [slot][kTile]; weight 0 for points without storage, whose `valid` becomes 0.
+// Returns how many valid points had none.
+GATELIGHT_INLINE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
+                                      float* weights) {
+  uint32_t unstored = 0;
+  const uint32_t* words = &e.surfaces->topology_offset;
+  for (uint32_t s = 0; s < kTile; s += kLanes) {
+    const Float valid = load(points.valid + s);
+    Int surface = load_int(points.surfaces + s);
+    Mask stored = less_unsigned(surface, broadcast_int(e.surface_count));
+    surface = select_int(stored, surface, broadcast_int(0));
+    const uint32_t leader = first_lane(surface);
+    const bool same = all(equal_int(surface, broadcast_int(leader)));
+
+    Int offset, stride, count;
+    if (same) {
+      const GateSurface& one = e.surfaces[leader];
+      offset = broadcast_int(one.topology_offset);
+      stride = broadcast_int(one.topology_stride);
+      count = broadcast_int(one.triangle_count);
+    } else {
+      const Int at = mul_int(surface, broadcast_int(4));
+      offset = gather_int(words, at);
+      stride = gather_int(words, add_int(at, broadcast_int(1)));
+      count = gather_int(words, add_int(at, broadcast_int(2)));
+    }
+    Int triangle = load_int(points.triangles + s);
+    stored = both(stored, less_unsigned(triangle, count));
+
+    const Int pairs = add_int(lane_numbers(), lane_numbers());
+    Float b[3];
+    b[1] = gather(points.barycentrics + 2 * s, pairs);
+    b[2] = gather(points.barycentrics + 2 * s + 1, pairs);
+    b[0] = sub(sub(broadcast(1.0f), b[1]), b[2]);
+    for (Float& x : b) x = max(x, zero());
+    const Float inverse = div(broadcast(1.0f), add(b[0], add(b[1], b[2])));
+    for (Float& x : b) x = mul(x, inverse);
+
+    Int corners[3], edges = broadcast_int(0);
+    for (uint32_t l = 0; l < e.levels; ++l) {
+      const LaneLevel level =
+          same ? lane_level(e.surface_levels[leader * e.levels + l])
+               : gather_level(e.surface_levels,
+                              add_int(mul_int(surface, broadcast_int(e.levels)), broadcast_int(l)));
+      if (l == 0) {
+        stored = both(stored, less_unsigned(broadcast_int(0), level.resolution));
+        triangle = select_int(stored, triangle, broadcast_int(0));
+        if (e.per_triangle == 0) {
+          const Int at = select_int(stored, add_int(offset, mul_int(triangle, stride)), broadcast_int(0));
+          for (uint32_t c = 0; c < 3; ++c) corners[c] = gather_int(e.topology + c, at);
+          edges = add_int(at, broadcast_int(3));
+        }
+      }
+      const VirtualTriangle t = virtual_triangle(b, level.resolution);
+      for (uint32_t n = 0; n < 3; ++n) {
+        const Int node = e.per_triangle != 0
+                             ? triangle_node(t.node[n], level, triangle)
+                             : shared_node(t.node[n], level, corners, e.topology, edges, triangle);
+        const Float weight = mul(valid, t.weight[n]);
+        store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
+        store(weights + (3 * l + n) * kTile + s, select(stored, weight, zero()));
+      }
+    }
+    if (!all(stored)) {
+      const Float left = select(stored, zero(), valid);
+      unstored += static_cast<uint32_t>(sum(left));
+      store(points.valid + s, select(stored, valid, zero()));
+    }
+  }
+  return unstored;
+}
+
+// number mod entries. Entries are a multiple of 8, so that a quotient of 29-bit numbers suffices: it is the
+// upper half of a product with 2^(32+shift) / (entries / 8), rounded up, which is exact for them (Granlund,
+// Montgomery 1994).
+GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
+  if ((level.entries & (level.entries - 1)) == 0) return and_int(number, broadcast_int(level.entries - 1));
+  const Int quotient =
+      shift_right(multiply_high(shift_right(number, 3), broadcast_int(level.multiplier)), level.shift);
+  return sub_int(number, mul_int(quotient, broadcast_int(level.entries)));
+}
+
+// Instant-ngp's grid: points at x scale + 0.5, eight corners with trilinear weights.
+GATELIGHT_INLINE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
+                                       float* weights) {
+  for (uint32_t s = 0; s < kTile; s += kLanes) {
+    const Float valid = load(points.valid + s);
+    const Int triples = add_int(lane_numbers(), add_int(lane_numbers(), lane_numbers()));
+    Float x[3];
+    for (uint32_t c = 0; c < 3; ++c) {
+      x[c] = mul(sub(gather(points.positions + 3 * s + c, triples), broadcast(e.bounds_min[c])),
+                 broadcast(e.inverse_extent));
+      x[c] = clamp(x[c], 0.0f, 1.0f);
+    }
+    for (uint32_t l = 0; l < e.levels; ++l) {
+      const KernelHashLevel& level = e.hash_levels[l];
+      Int low[3][2];  // the term of each axis for the lower and the upper corner
+      Float w[3][2];
+      for (uint32_t c = 0; c < 3; ++c) {
+        const Float scaled = fma(x[c], broadcast(level.scale), broadcast(0.5f));
+        const Float whole = floor(scaled);
+        w[c][1] = sub(scaled, whole);
+        w[c][0] = sub(broadcast(1.0f), w[c][1]);
+        const Int cell = to_int(whole);
+        const Int next = add_int(cell, broadcast_int(1));
+        const uint32_t factors[2][3] = {{1u, 2654435761u, 805459861u},
+                                        {1u, level.resolution, level.resolution * level.resolution}};
+        const Int factor = broadcast_int(factors[level.dense][c]);
+        low[c][0] = mul_int(cell, factor);
+        low[c][1] = mul_int(next, factor);
+      }
+      for (uint32_t k = 0; k < 8; ++k) {
+        const Int a = low[0][k & 1], b = low[1][k >> 1 & 1], c = low[2][k >> 2];
+        const Int number = level.dense != 0 ? add_int(a, add_int(b, c)) : xor_int(a, xor_int(b, c));
+        const Int node = add_int(broadcast_int(level.first_node), modulo(number, level));
+        const Float weight = mul(mul(w[0][k & 1], w[1][k >> 1 & 1]), mul(w[2][k >> 2], valid));
+        store_int(nodes + (8 * l + k) * kTile + s, node);
+        store(weights + (8 * l + k) * kTile + s, weight);
+      }
+    }
+  }
+}
+
+// The addresses that lookup_gate will read first, so that they are near when it comes.
+GATELIGHT_INLINE void prefetch_topology(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                        uint64_t end) {
+  if (e.encoding != KernelEncoding::gate || e.per_triangle != 0) return;
+  for (uint64_t i = begin; i < end; ++i) {
+    const uint32_t surface = points.surfaces[i];
+    if (surface >= e.surface_count) continue;
+    const GateSurface& s = e.surfaces[surface];
+    if (points.triangles[i] >= s.triangle_count) continue;
+    prefetch(e.topology + s.topology_offset + uint64_t{points.triangles[i]} * s.topology_stride);
+  }
+}
+
+}  // namespace

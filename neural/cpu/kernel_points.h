@@ -1,0 +1,80 @@
+#pragma once
+// A tile's points taken from the batch: which are usable, and copies that the lookups may read in whole
+// vectors. Part of kernels.cpp.
+
+#include "neural/cpu/kernel_lookup.h"
+
+namespace {
+
+// Whether all of `count` floats are finite.
+GATELIGHT_INLINE bool all_finite(const float* p, uint32_t count) {
+  Float total = zero();
+  uint32_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Float x = load(p + i);
+    total = add(total, sub(x, x));
+  }
+  if (i < count) {
+    const Float x = load_partial(p + i, count - i);
+    total = add(total, sub(x, x));
+  }
+  return all(equal(total, zero()));
+}
+
+struct FiniteSpan {
+  const float* p;
+  uint32_t width;
+};
+
+// Copies points [begin, begin + count) and sets valid and finite: 1 where every input, and the target if
+// there is one, is finite. Returns how many are not.
+GATELIGHT_INLINE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points,
+                                      const float* targets, uint32_t outputs, uint64_t begin, uint32_t count,
+                                      TilePoints& tile) {
+  const FiniteSpan spans[7] = {{points.barycentrics, 2}, {points.positions, 3}, {points.directions, 3},
+                               {points.normals, 3},      {points.albedos, 3},   {points.roughnesses, 1},
+                               {targets, outputs}};
+  for (uint32_t s = 0; s < kTile; ++s) tile.finite[s] = s < count ? 1.0f : 0.0f;
+  uint32_t rejected = 0;
+  for (const FiniteSpan& span : spans) {
+    if (span.p == nullptr) continue;
+    const float* p = span.p + begin * span.width;
+    if (all_finite(p, count * span.width)) continue;
+    for (uint32_t s = 0; s < count; ++s)
+      if (tile.finite[s] != 0.0f && !all_finite(p + s * span.width, span.width)) {
+        tile.finite[s] = 0.0f;
+        ++rejected;
+      }
+  }
+  __builtin_memcpy(tile.valid, tile.finite, sizeof tile.valid);
+
+  if (e.encoding == KernelEncoding::gate) {
+    __builtin_memcpy(tile.surfaces, points.surfaces + begin, count * 4);
+    __builtin_memcpy(tile.triangles, points.triangles + begin, count * 4);
+    __builtin_memcpy(tile.barycentrics, points.barycentrics + 2 * begin, count * 8);
+    if (count < kTile) {
+      __builtin_memset(tile.surfaces + count, 0, (kTile - count) * 4);
+      __builtin_memset(tile.triangles + count, 0, (kTile - count) * 4);
+      __builtin_memset(tile.barycentrics + 2 * count, 0, (kTile - count) * 8);
+    }
+  } else if (e.encoding == KernelEncoding::hash_grid) {
+    __builtin_memcpy(tile.positions, points.positions + 3 * begin, count * 12);
+    if (count < kTile) __builtin_memset(tile.positions + 3 * count, 0, (kTile - count) * 12);
+  }
+  if (rejected != 0)
+    for (uint32_t s = 0; s < count; ++s)
+      if (tile.finite[s] == 0.0f) {
+        tile.barycentrics[2 * s] = tile.barycentrics[2 * s + 1] = 0.0f;
+        tile.positions[3 * s] = tile.positions[3 * s + 1] = tile.positions[3 * s + 2] = 0.0f;
+      }
+  return rejected;
+}
+
+// Nodes and weights of a tile; returns how many of its finite points have no storage.
+GATELIGHT_INLINE uint32_t lookup(const KernelEncoder& e, TilePoints& tile, uint32_t* nodes, float* weights) {
+  if (e.encoding == KernelEncoding::gate) return lookup_gate(e, tile, nodes, weights);
+  if (e.encoding == KernelEncoding::hash_grid) lookup_hash_grid(e, tile, nodes, weights);
+  return 0;
+}
+
+}  // namespace

@@ -1,0 +1,120 @@
+#pragma once
+// The three matrix products of a layer, all as one pattern: blocks of kBlockRows x kBlockVectors
+// accumulators, a broadcast from the left matrix times vectors of the right one. The left matrix is a tile's
+// activations (records in rows) or, for weight gradients, their transpose; nothing is ever transposed in
+// memory. Part of kernels.cpp.
+
+#include "neural/cpu/simd.h"
+
+namespace {
+
+// acc[r][v] += sum over d of x[r * kRowStride + d * depth_stride] * w[d * w_stride + v * kLanes].
+template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride>
+GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, uint32_t depth_stride,
+                                 const float* w, uint32_t w_stride, uint32_t depth) {
+  for (uint32_t d = 0; d < depth; ++d, x += depth_stride, w += w_stride) {
+    Float column[kVectors];
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) column[v] = load(w + v * kLanes);
+#pragma GCC unroll 16
+    for (uint32_t r = 0; r < kRows; ++r) {
+      const Float a = broadcast(x[r * kRowStride]);
+#pragma GCC unroll 4
+      for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = fma(a, column[v], acc[r][v]);
+    }
+  }
+}
+
+// y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. finish(row, column, value) stores a vector;
+// between_blocks() is called after each block.
+template <uint32_t kRowStride, uint32_t kVectors, class Finish, class Between>
+GATELIGHT_INLINE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
+                                             uint32_t w_stride, const float* bias, uint32_t columns,
+                                             Finish&& finish, Between&& between_blocks) {
+  for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
+    Float start[kVectors];
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) start[v] = bias != nullptr ? load(bias + c + v * kLanes) : zero();
+    for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
+      Float acc[kBlockRows][kVectors];
+#pragma GCC unroll 16
+      for (uint32_t r = 0; r < kBlockRows; ++r)
+#pragma GCC unroll 4
+        for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = start[v];
+      accumulate<kBlockRows, kVectors, kRowStride>(acc, x + r0 * kRowStride, 1, w + c, w_stride, depth);
+#pragma GCC unroll 16
+      for (uint32_t r = 0; r < kBlockRows; ++r)
+#pragma GCC unroll 4
+        for (uint32_t v = 0; v < kVectors; ++v) finish(r0 + r, c + v * kLanes, acc[r][v]);
+      between_blocks();
+    }
+  }
+}
+
+// `columns` is a multiple of 16. One vector a row where two do not fit.
+template <uint32_t kRowStride, class Finish, class Between>
+GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, const float* w,
+                               uint32_t w_stride, const float* bias, uint32_t columns, Finish&& finish,
+                               Between&& between_blocks) {
+  const uint32_t pairs = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
+  multiply_block_columns<kRowStride, kBlockVectors>(x, rows, depth, w, w_stride, bias, pairs, finish,
+                                                    between_blocks);
+  if (pairs < columns)
+    multiply_block_columns<kRowStride, 1>(
+        x, rows, depth, w + pairs, w_stride, bias != nullptr ? bias + pairs : nullptr, columns - pairs,
+        [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) { finish(r, c + pairs, a); },
+        between_blocks);
+}
+
+// g[i][c] += sum over s of x[s][i] d[s][c], i in [0, kRows).
+template <uint32_t kRows, uint32_t kVectors>
+GATELIGHT_INLINE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
+                                      const float* d, uint32_t d_stride, uint32_t samples) {
+  Float acc[kRows][kVectors];
+#pragma GCC unroll 16
+  for (uint32_t r = 0; r < kRows; ++r)
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = load(g + r * g_stride + v * kLanes);
+  accumulate<kRows, kVectors, 1>(acc, x, x_stride, d, d_stride, samples);
+#pragma GCC unroll 16
+  for (uint32_t r = 0; r < kRows; ++r)
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) store(g + r * g_stride + v * kLanes, acc[r][v]);
+}
+
+// Weight gradients: g[i][c] += sum over the samples of x[s][i] d[s][c] for i < rows, c < columns (a multiple
+// of 16).
+template <class Between>
+GATELIGHT_INLINE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
+                                const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
+                                Between&& between_blocks) {
+  constexpr uint32_t kPair = kBlockVectors * kLanes;
+  for (uint32_t i = 0; i < rows;) {
+    const uint32_t left = rows - i;
+    uint32_t done = 1;
+    uint32_t c = 0;
+    const auto sweep = [&](auto size) __attribute__((always_inline)) {
+      constexpr uint32_t kRows = decltype(size)::value;
+      done = kRows;
+      for (; c + kPair <= columns; c += kPair)
+        add_outer_block<kRows, kBlockVectors>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c,
+                                              d_stride, samples);
+      for (; c < columns; c += kLanes)
+        add_outer_block<kRows, 1>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c, d_stride, samples);
+    };
+    if (left >= kBlockRows)
+      sweep(Constant<kBlockRows>{});
+    else if (left >= 8 && kBlockRows > 8)
+      sweep(Constant<8>{});
+    else if (left >= 4)
+      sweep(Constant<4>{});
+    else if (left >= 2)
+      sweep(Constant<2>{});
+    else
+      sweep(Constant<1>{});
+    i += done;
+    between_blocks();
+  }
+}
+
+}  // namespace

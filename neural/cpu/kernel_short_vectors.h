@@ -1,0 +1,155 @@
+#pragma once
+// Vectors as long as a feature vector or a part of it: 8, 4, 2 or 1 floats, read from floats or halves. The
+// compiler lowers them to what the instruction set has. Part of kernels.cpp.
+
+#include "neural/cpu/simd.h"
+
+namespace {
+
+typedef float Float8 __attribute__((vector_size(32)));
+typedef float Float4 __attribute__((vector_size(16)));
+typedef float Float2 __attribute__((vector_size(8)));
+
+template <uint32_t kCount>
+struct Short;
+template <>
+struct Short<8> {
+  using Type = Float8;
+};
+template <>
+struct Short<4> {
+  using Type = Float4;
+};
+template <>
+struct Short<2> {
+  using Type = Float2;
+};
+template <>
+struct Short<1> {
+  using Type = float;
+};
+
+template <class V>
+GATELIGHT_INLINE V load_short(const float* p) {
+  V v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+template <class V>
+GATELIGHT_INLINE void store_short(float* p, V v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+
+#if defined(GATELIGHT_ISA_SCALAR)
+
+GATELIGHT_INLINE float float_of_half(uint16_t half) {
+  const uint32_t sign = static_cast<uint32_t>(half & 0x8000u) << 16;
+  const uint32_t magnitude = half & 0x7fffu;
+  // The exponent is rebiased by a product with 2^112, which also normalises subnormals. Halves here are
+  // finite.
+  const uint32_t shifted = magnitude << 13;
+  float value;
+  __builtin_memcpy(&value, &shifted, 4);
+  value *= 0x1p112f;
+  return sign != 0 ? -value : value;
+}
+GATELIGHT_INLINE uint16_t half_of_float(float value) {
+  uint32_t word;
+  __builtin_memcpy(&word, &value, 4);
+  const uint32_t sign = (word >> 16) & 0x8000u;
+  const uint32_t magnitude = word & 0x7fffffffu;
+  if (magnitude < 0x38800000u) {
+    float shifted;
+    __builtin_memcpy(&shifted, &magnitude, 4);
+    shifted += 0.5f;
+    __builtin_memcpy(&word, &shifted, 4);
+    return static_cast<uint16_t>(sign | (word - 0x3f000000u));
+  }
+  const uint32_t odd = magnitude >> 13 & 1u;
+  return static_cast<uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
+}
+template <class V>
+GATELIGHT_INLINE V load_short(const uint16_t* p) {
+  float lanes[sizeof(V) / 4];
+  for (uint32_t i = 0; i < sizeof(V) / 4; ++i) lanes[i] = float_of_half(p[i]);
+  return load_short<V>(lanes);
+}
+template <class V>
+GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
+  float lanes[sizeof(V) / 4];
+  __builtin_memcpy(lanes, &v, sizeof v);
+  for (uint32_t i = 0; i < sizeof(V) / 4; ++i) p[i] = half_of_float(lanes[i]);
+}
+template <class V>
+GATELIGHT_INLINE V sqrt_short(V v) {
+  float lanes[sizeof(V) / 4];
+  __builtin_memcpy(lanes, &v, sizeof v);
+  for (float& x : lanes) x = __builtin_sqrtf(x);
+  return load_short<V>(lanes);
+}
+
+#else
+
+template <class V>
+GATELIGHT_INLINE V load_short(const uint16_t* p) {
+  V v;
+  if constexpr (sizeof(V) == 32) {
+    const __m256 x = _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+    __builtin_memcpy(&v, &x, sizeof v);
+  } else {
+    long long word = 0;
+    __builtin_memcpy(&word, p, sizeof(V) / 2);
+    const __m128 x = _mm_cvtph_ps(_mm_cvtsi64_si128(word));
+    __builtin_memcpy(&v, &x, sizeof v);
+  }
+  return v;
+}
+template <class V>
+GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
+  if constexpr (sizeof(V) == 32) {
+    __m256 x;
+    __builtin_memcpy(&x, &v, sizeof v);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtps_ph(x, _MM_FROUND_TO_NEAREST_INT));
+  } else {
+    __m128 x = _mm_setzero_ps();
+    __builtin_memcpy(&x, &v, sizeof v);
+    const long long word = _mm_cvtsi128_si64(_mm_cvtps_ph(x, _MM_FROUND_TO_NEAREST_INT));
+    __builtin_memcpy(p, &word, sizeof(V) / 2);
+  }
+}
+template <class V>
+GATELIGHT_INLINE V sqrt_short(V v) {
+  if constexpr (sizeof(V) == 32) {
+    __m256 x;
+    __builtin_memcpy(&x, &v, sizeof v);
+    x = _mm256_sqrt_ps(x);
+    __builtin_memcpy(&v, &x, sizeof v);
+  } else {
+    __m128 x = _mm_setzero_ps();
+    __builtin_memcpy(&x, &v, sizeof v);
+    x = _mm_sqrt_ps(x);
+    __builtin_memcpy(&v, &x, sizeof v);
+  }
+  return v;
+}
+
+#endif
+
+/// Calls part(Constant<size>, offset) for the parts of `count` floats: as many eights as fit, then four, two,
+/// one.
+template <class F>
+GATELIGHT_INLINE void for_parts(uint32_t count, F&& part) {
+  uint32_t at = 0;
+  for (; at + 8 <= count; at += 8) part(Constant<8>{}, at);
+  if (at + 4 <= count) {
+    part(Constant<4>{}, at);
+    at += 4;
+  }
+  if (at + 2 <= count) {
+    part(Constant<2>{}, at);
+    at += 2;
+  }
+  if (at < count) part(Constant<1>{}, at);
+}
+
+}  // namespace

@@ -1,0 +1,202 @@
+// Compiled once for each instruction set (see simd.h): encode, forward, loss and backward of a tile of
+// records without a store of its activations beyond the caches; queries; Adam at the nodes.
+
+#include "neural/cpu/kernels.h"
+
+#include "neural/cpu/kernel_bf16.h"
+#include "neural/cpu/kernel_inputs.h"
+#include "neural/cpu/kernel_interpolate.h"
+#include "neural/cpu/kernel_loss.h"
+#include "neural/cpu/kernel_network.h"
+#include "neural/cpu/kernel_points.h"
+#include "neural/cpu/kernel_update.h"
+
+namespace {
+
+GATELIGHT_INLINE TileBuffers tile_buffers(const KernelNetwork& n, float* scratch) {
+  TileBuffers b;
+  const uint64_t hidden = uint64_t{kTile} * n.width;
+  b.inputs = scratch;
+  scratch += uint64_t{kTile} * n.input_stride;
+  for (uint32_t l = 0; l + 1 < n.layer_count; ++l, scratch += hidden) b.hidden[l] = scratch;
+  b.outputs = scratch;
+  scratch += kTile * kOutputStride;
+  b.output_gradients = scratch;
+  scratch += kTile * kOutputStride;
+  // Also holds the inputs of a bf16 query.
+  const uint64_t gradient = uint64_t{kTile} * (n.width > n.input_stride ? n.width : n.input_stride);
+  b.gradients[0] = scratch;
+  b.gradients[1] = scratch + gradient;
+  return b;
+}
+
+GATELIGHT_INLINE uint64_t buffer_floats(const KernelNetwork& n) {
+  const uint64_t longest = n.width > n.input_stride ? n.width : n.input_stride;
+  return kTile * (n.input_stride + uint64_t{n.width} * (n.layer_count - 1) + 2 * kOutputStride + 2 * longest);
+}
+
+GATELIGHT_INLINE uint32_t padded_rows(uint32_t count) {
+  return (count + kBlockRows - 1) / kBlockRows * kBlockRows;
+}
+
+GATELIGHT_INLINE uint32_t tile_count(uint64_t begin, uint64_t end, uint64_t tile) {
+  const uint64_t first = begin + tile * kTile;
+  return static_cast<uint32_t>(end - first < kTile ? end - first : kTile);
+}
+
+// Calls of between_blocks in a tile, for the pace of prefetching.
+GATELIGHT_INLINE uint32_t forward_blocks(const KernelNetwork& n) {
+  const uint32_t wide = (n.width + kBlockVectors * kLanes - 1) / (kBlockVectors * kLanes);
+  return kTile / kBlockRows * (wide * (n.layer_count - 1) + 1);
+}
+
+void train(const KernelTraining& t) {
+  const KernelEncoder& e = *t.encoder;
+  const KernelNetwork& n = *t.network;
+  const TileBuffers b = tile_buffers(n, t.scratch);
+  const uint32_t slots = e.levels * e.nodes_per_level;
+  const uint64_t tiles = (uint64_t{t.end} - t.begin + kTile - 1) / kTile;
+  const uint64_t first_tile = t.begin / kTile;
+  TilePoints points[2];
+  KernelChunkStatistics statistics = {};
+  __builtin_memset(b.inputs, 0, kTile * n.input_stride * sizeof(float));
+  __builtin_memset(b.output_gradients, 0, kTile * kOutputStride * sizeof(float));
+
+  const auto prepare = [&](uint64_t k) {
+    const uint64_t begin = t.begin + k * kTile;
+    const uint32_t count = tile_count(t.begin, t.end, k);
+    TilePoints& tile = points[k & 1];
+    uint32_t* nodes = t.nodes + (first_tile + k) * slots * kTile;
+    float* weights = t.weights + (first_tile + k) * slots * kTile;
+    statistics.rejected += take_points(e, t.points, t.targets, n.outputs, begin, count, tile);
+    statistics.unstored += lookup(e, tile, nodes, weights);
+    for (uint32_t s = 0; s < count; ++s) {
+      const bool usable = tile.valid[s] != 0.0f;
+      t.accepted[begin + s] = usable ? 1 : 0;
+      statistics.accepted += usable ? 1 : 0;
+    }
+    for (uint32_t i = 0; i < slots * kTile; ++i)
+      if (weights[i] != 0.0f) ++t.bucket_counts[nodes[i] >> t.bucket_shift];
+  };
+
+  if (tiles > 0) {
+    prefetch_topology(e, t.points, t.begin, t.begin + tile_count(t.begin, t.end, 0));
+    prepare(0);
+  }
+  for (uint64_t k = 0; k < tiles; ++k) {
+    const uint64_t begin = t.begin + k * kTile;
+    const uint32_t count = tile_count(t.begin, t.end, k);
+    const uint32_t rows = padded_rows(count);
+    const TilePoints& tile = points[k & 1];
+    const uint32_t* nodes = t.nodes + (first_tile + k) * slots * kTile;
+    const float* weights = t.weights + (first_tile + k) * slots * kTile;
+    if (k + 2 < tiles)
+      prefetch_topology(e, t.points, begin + 2 * kTile,
+                        begin + 2 * kTile + tile_count(t.begin, t.end, k + 2));
+    Prefetcher ahead;
+    if (k + 1 < tiles) {
+      prepare(k + 1);
+      ahead = make_prefetcher(e, nodes + slots * kTile, 3 * forward_blocks(n));
+    }
+    const auto between = [&]() __attribute__((always_inline)) {
+      ahead.some();
+    };
+
+    if (t.inputs != nullptr) {
+      __builtin_memcpy(b.inputs, t.inputs + begin * n.input_stride, count * n.input_stride * sizeof(float));
+    } else {
+      if (slots > 0) interpolate(e, nodes, weights, b.inputs, n.input_stride);
+      encode_auxiliary(e, t.points, begin, count, tile.finite, b.inputs, n.input_stride);
+    }
+    forward<false>(n, b, rows, between);
+    statistics.loss += loss(n.outputs, t.relative_loss != 0, t.max_target, t.targets + begin * n.outputs,
+                            tile.valid, count, rows, b.outputs, b.output_gradients, statistics.clipped);
+    float* feature_gradients = t.feature_gradients + begin * n.feature_inputs;
+    backward(
+        n, b, rows, t.gradients,
+        [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
+          if (r >= count || c >= n.feature_inputs) return;
+          float* to = feature_gradients + r * n.feature_inputs + c;
+          if (c + kLanes <= n.feature_inputs)
+            store(to, a);
+          else
+            store_partial(to, a, n.feature_inputs - c);
+        },
+        between);
+    ahead.rest();
+  }
+  *t.statistics = statistics;
+}
+
+GATELIGHT_INLINE float in_range(float y, uint32_t range) {
+  if (range == 0) return y;
+  if (!(y - y == 0.0f)) return 0.0f;
+  y = y > 0.0f ? y : 0.0f;
+  return range == 2 && y > 1.0f ? 1.0f : y;
+}
+
+void query(const KernelQuery& q) {
+  const KernelEncoder& e = *q.encoder;
+  const KernelNetwork& n = *q.network;
+  const TileBuffers b = tile_buffers(n, q.scratch);
+  const uint32_t slots = e.levels * e.nodes_per_level;
+  float* ring = q.scratch + buffer_floats(n);  // nodes and weights of two tiles
+  const uint64_t tiles = (q.end - q.begin + kTile - 1) / kTile;
+  TilePoints points[2];
+  __builtin_memset(b.inputs, 0, kTile * n.input_stride * sizeof(float));
+
+  const auto nodes_of = [&](uint64_t k) {
+    return reinterpret_cast<uint32_t*>(ring) + (k & 1) * slots * kTile;
+  };
+  const auto weights_of = [&](uint64_t k) { return ring + (2 + (k & 1)) * slots * kTile; };
+  const auto prepare = [&](uint64_t k) {
+    TilePoints& tile = points[k & 1];
+    take_points(e, q.points, nullptr, 0, q.begin + k * kTile, tile_count(q.begin, q.end, k), tile);
+    lookup(e, tile, nodes_of(k), weights_of(k));
+  };
+
+  if (tiles > 0) {
+    prefetch_topology(e, q.points, q.begin, q.begin + tile_count(q.begin, q.end, 0));
+    prepare(0);
+  }
+  for (uint64_t k = 0; k < tiles; ++k) {
+    const uint64_t begin = q.begin + k * kTile;
+    const uint32_t count = tile_count(q.begin, q.end, k);
+    const uint32_t rows = padded_rows(count);
+    if (k + 2 < tiles)
+      prefetch_topology(e, q.points, begin + 2 * kTile,
+                        begin + 2 * kTile + tile_count(q.begin, q.end, k + 2));
+    Prefetcher ahead;
+    if (k + 1 < tiles) {
+      prepare(k + 1);
+      ahead = make_prefetcher(e, nodes_of(k + 1), forward_blocks(n));
+    }
+    const auto between = [&]() __attribute__((always_inline)) {
+      ahead.some();
+    };
+
+    if (slots > 0) interpolate(e, nodes_of(k), weights_of(k), b.inputs, n.input_stride);
+    encode_auxiliary(e, q.points, begin, count, points[k & 1].finite, b.inputs, n.input_stride);
+    if (q.bf16 != 0)
+      forward_bf16(n, b, rows, between);
+    else
+      forward<false>(n, b, rows, between);
+    ahead.rest();
+    float* out = q.out + begin * n.outputs;
+    for (uint32_t s = 0; s < count; ++s)
+      for (uint32_t c = 0; c < n.outputs; ++c) *out++ = in_range(b.outputs[s * kOutputStride + c], q.range);
+  }
+}
+
+uint64_t scratch_floats(const KernelEncoder& e, const KernelNetwork& n) {
+  return buffer_floats(n) + 4 * uint64_t{e.levels} * e.nodes_per_level * kTile;
+}
+
+}  // namespace
+
+namespace gatelight::neural::cpu {
+
+extern const KernelTable GATELIGHT_KERNEL_TABLE;
+const KernelTable GATELIGHT_KERNEL_TABLE = {kLanes, scratch_floats, train, query, update_features};
+
+}  // namespace gatelight::neural::cpu

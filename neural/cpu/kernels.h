@@ -1,0 +1,199 @@
+#pragma once
+// What a kernel object offers: one table of functions for each instruction set, and the plain structs they
+// read. C-like, so that kernels.cpp can include it (see simd.h).
+//
+// Records are worked on in tiles of kTile: small enough that a tile's activations stay in the first two
+// levels of the cache, a multiple of every instruction set's block of rows.
+
+#include <stdint.h>
+
+#include "neural/gate_tables.h"
+
+namespace gatelight::neural::cpu {
+
+constexpr uint32_t kTile = 48;
+constexpr uint32_t kMaxKernelLayers = 6;
+constexpr uint32_t kMaxKernelLevels = 16;
+constexpr uint32_t kMaxAuxiliary = 16;
+constexpr uint32_t kOutputStride = 16;  // floats a row of outputs and of their gradients
+
+// Spans of QueryBatch. Null where not used.
+struct KernelPoints {
+  const uint32_t* surfaces;
+  const uint32_t* triangles;
+  const float* barycentrics;
+  const float* positions;
+  const float* directions;
+  const float* normals;
+  const float* albedos;
+  const float* roughnesses;
+};
+
+struct KernelHashLevel {
+  float scale;
+  uint32_t resolution, entries, first_node, dense;
+  uint32_t multiplier, shift;  // of the division by entries / 8
+};
+
+enum class KernelEncoding : uint32_t { none, gate, hash_grid };
+enum class KernelSource : uint32_t { position, direction, normal, albedo, roughness };
+enum class KernelTransform : uint32_t { identity, one_blob, spherical_one_blob, frequency };
+
+struct KernelAuxiliary {
+  KernelSource source;
+  KernelTransform transform;
+  uint32_t coordinates, size, first_input, inputs;
+};
+
+// How points become nodes, and nodes and points become inputs.
+struct KernelEncoder {
+  KernelEncoding encoding;
+  uint32_t levels, nodes_per_level, features;  // features: L
+  // GATE
+  const GateSurface* surfaces;
+  const GateSurfaceLevel* surface_levels;
+  const uint32_t* topology;
+  uint32_t surface_count;
+  uint32_t per_triangle;
+  // Hash grid and positions
+  KernelHashLevel hash_levels[kMaxKernelLevels];
+  float bounds_min[3];
+  float inverse_extent;
+  KernelAuxiliary auxiliary[kMaxAuxiliary];
+  uint32_t auxiliary_count;
+  // Feature vectors: floats, or halves where `half_features` is given.
+  const float* float_features;
+  const uint16_t* half_features;
+};
+
+// Matrices are padded to 16 columns: `forward` is [inputs][padded outputs], `backward` [outputs][padded
+// inputs].
+struct KernelLayer {
+  uint32_t inputs, outputs;
+  uint32_t padded_inputs, padded_outputs;
+  const float* forward;
+  const float* backward;  // layer 0: feature inputs only
+  const float* biases;    // padded; zeros without biases
+  const uint16_t*
+      forward_bf16;  // [inputs / 2][padded outputs][2], inputs padded with zeros to an even number
+  const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without it
+  uint64_t gradient;  // offset in a chunk's gradient: [inputs][padded outputs]; last layer [outputs][padded
+                      // inputs]
+  uint64_t bias_gradient;  // offset: padded outputs
+};
+
+struct KernelNetwork {
+  KernelLayer layers[kMaxKernelLayers];
+  uint32_t layer_count;
+  uint32_t inputs, feature_inputs, input_stride;  // stride of a row of inputs: 16, 32, 64, 128 or 256
+  uint32_t width, outputs;
+  float slope;
+};
+
+// One reference of an accepted record to a node: gradient of the node += weight * feature_gradients[source
+// ...].
+struct KernelReference {
+  uint32_t node;
+  uint32_t source;
+  float weight;
+};
+
+struct KernelChunkStatistics {
+  double loss;  // sum over accepted records and outputs
+  uint32_t accepted, rejected, unstored, clipped;
+};
+
+// Encode, forward, loss and backward for records [begin, end); begin is a multiple of kTile.
+struct KernelTraining {
+  const KernelEncoder* encoder;
+  const KernelNetwork* network;
+  KernelPoints points;
+  const float* targets;
+  uint32_t begin, end;
+  uint32_t relative_loss;
+  float max_target;
+  float* scratch;       // KernelTable::scratch_floats, aligned to 64 bytes
+  const float* inputs;  // if given, rows of input_stride floats that stand in for the encoding (benchmarks)
+  // Results
+  uint32_t* nodes;           // [tile][node slot][kTile]; weight 0: no reference
+  float* weights;            // likewise
+  float* feature_gradients;  // [record][feature_inputs], of the sum of the records' losses
+  uint32_t*
+      bucket_counts;  // references of this chunk to each bucket of nodes (node >> bucket_shift); to be zeroed
+  uint32_t bucket_shift;
+  uint8_t* accepted;  // [record]
+  float* gradients;   // of the network; to be zeroed
+  KernelChunkStatistics* statistics;
+};
+
+struct KernelQuery {
+  const KernelEncoder* encoder;
+  const KernelNetwork* network;
+  KernelPoints points;
+  uint64_t begin, end;
+  uint32_t bf16;
+  uint32_t range;  // 0 raw, 1 non-negative, 2 unit
+  float* scratch;
+  float* out;
+};
+
+// Adam's factors for a step count: p -= step m / (sqrt(v) + epsilon); average += rate (p - average).
+struct KernelAdamStep {
+  float step, epsilon, average_rate, unused;
+};
+
+struct KernelAdam {
+  float beta1, beta2;
+  float l2;
+  float gradient_scale;
+};
+
+// Sums the references of one bucket of nodes in their order and updates the nodes.
+struct KernelFeatureUpdate {
+  const KernelReference* references;  // ordered by record
+  uint32_t reference_count;
+  uint32_t first_node, node_count;  // of the bucket
+  uint32_t features;
+  uint32_t feature_inputs;
+  const float* feature_gradients;
+  const uint32_t* record_steps;  // per record: the triangle's step count (per_triangle), or null
+  uint32_t dense;
+  KernelAdam adam;
+  const KernelAdamStep* steps;  // for t = 1 .. step_count at [t]
+  uint32_t step_count;
+  KernelAdamStep (*late_step)(const void* context, uint64_t t);  // for t beyond the table
+  const void* late_context;
+  KernelAdamStep dense_step;
+  // State. Moments: [node][m of L, v of L].
+  float* features_fp32;     // parameters or masters; null in fp16 without masters
+  uint16_t* features_fp16;  // null in fp32
+  float* averages;          // null without
+  uint16_t* averages_fp16;  // null unless averages are read in fp16
+  float* moments;
+  uint32_t* node_steps;  // null in dense mode
+  // Scratch, all zero before and after: node_count x features sums and node_count / 64 + 1 words of touched
+  // flags
+  float* sums;
+  uint64_t* touched;
+  uint32_t* touched_list;  // node_count
+  uint32_t* step_scratch;  // node_count, all zero before and after; read with record_steps only
+  // Results
+  uint64_t* touched_count;
+  uint64_t* skipped_count;
+};
+
+struct KernelTable {
+  uint32_t lanes;
+  /// Floats of scratch that train and query need.
+  uint64_t (*scratch_floats)(const KernelEncoder&, const KernelNetwork&);
+  void (*train)(const KernelTraining&);
+  void (*query)(const KernelQuery&);
+  void (*update_features)(const KernelFeatureUpdate&);
+};
+
+extern const KernelTable kScalarKernels;
+extern const KernelTable kAvx2Kernels;
+extern const KernelTable kAvx512Kernels;
+extern const KernelTable kAvx512Bf16Kernels;
+
+}  // namespace gatelight::neural::cpu

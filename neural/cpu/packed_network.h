@@ -1,0 +1,46 @@
+#pragma once
+// The network's parameters as the kernels read them: padded, both ways round, and in bf16.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "neural/cpu/huge_buffer.h"
+#include "neural/cpu/kernels.h"
+#include "neural/model.h"
+
+namespace gatelight::neural::cpu {
+
+class PackedNetwork {
+ public:
+  explicit PackedNetwork(const Model& model);
+
+  /// `network`: the network's part of the flat parameters.
+  void pack(std::span<const float> network);
+
+  const KernelNetwork& kernel() const { return kernel_; }
+  /// Floats of a chunk's gradients.
+  std::uint64_t gradient_size() const { return gradient_size_; }
+  /// From a chunk's gradients to the layout of the flat parameters.
+  void unpack_gradients(const float* packed, std::span<float> network) const;
+
+ private:
+  // The same places as in kernel_, writable.
+  struct Targets {
+    float* forward = nullptr;
+    float* rounded = nullptr;
+    float* backward = nullptr;
+    float* biases = nullptr;
+    std::uint16_t* halves = nullptr;
+  };
+
+  const Model* model_;
+  Targets targets_[kMaxKernelLayers];
+  KernelNetwork kernel_ = {};
+  std::uint64_t gradient_size_ = 0;
+  HugeBuffer<float> floats_;
+  HugeBuffer<std::uint16_t> halves_;
+};
+
+}  // namespace gatelight::neural::cpu

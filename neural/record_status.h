@@ -1,0 +1,20 @@
+#pragma once
+// Which records are learned from: one definition for all backends.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "neural/batch.h"
+#include "neural/model.h"
+
+namespace gatelight::neural {
+
+enum class RecordStatus : std::uint8_t {
+  accepted,
+  rejected,  ///< an input that the model reads, or the target, is NaN or infinite
+  unstored,  ///< the surface has no storage, or surface or triangle is out of the layout's range
+};
+
+RecordStatus record_status(const Model& model, const TrainingBatch& batch, std::size_t record);
+
+}  // namespace gatelight::neural
