@@ -144,7 +144,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   reserve(feature_gradients_, std::size_t{records} * layout_.feature_inputs);
   const std::uint64_t gradient_size = raw_.gradient_size();
   reserve(chunk_gradients_, chunks.count() * gradient_size);
-  accepted_.resize(records);
+  if (!triangle_steps_.empty()) accepted_.resize(records);
   chunk_statistics_.assign(chunks.count(), {});
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, raw_.kernel());
 
@@ -167,7 +167,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     t.feature_gradients = feature_gradients_.data();
     t.bucket_counts = references_.counts(chunk);
     t.bucket_shift = buckets_.shift;
-    t.accepted = accepted_.data();
+    t.accepted = triangle_steps_.empty() ? nullptr : accepted_.data();
     t.gradients = gradients;
     t.statistics = &chunk_statistics_[chunk];
     table_.train(t);

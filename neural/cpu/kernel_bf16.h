@@ -14,9 +14,9 @@ GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
 }
 
 template <uint32_t kRowStride, uint32_t kVectors, class Finish, class Between>
-GATELIGHT_INLINE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uint32_t pairs,
-                                            const uint16_t* w, uint32_t w_columns, const float* bias,
-                                            uint32_t columns, Finish&& finish, Between&& between) {
+GATELIGHT_ALONE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uint32_t pairs,
+                                           const uint16_t* w, uint32_t w_columns, const float* bias,
+                                           uint32_t columns, Finish&& finish, Between&& between) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
       Float acc[kBlockRows][kVectors];
@@ -67,12 +67,12 @@ GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x,
 
 // The rows of activations are bf16 in the buffers of the fp32 ones.
 template <class Between>
-GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, uint32_t rows,
+GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
                                    Between&& between) {
-  auto* x = reinterpret_cast<uint16_t*>(b.gradients[0]);
+  auto* x = reinterpret_cast<uint16_t*>(b.spare);
   for (uint32_t r = 0; r < rows; ++r)
     for (uint32_t c = 0; c < n.input_stride; c += kLanes)
-      store_bf16(x + r * n.input_stride + c, load(b.inputs + r * n.input_stride + c));
+      store_bf16(x + r * n.input_stride + c, load(inputs + r * n.input_stride + c));
   uint32_t stride = n.input_stride;
   const Float slope = broadcast(n.slope);
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l) {
@@ -101,10 +101,10 @@ GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b,
 #else
 
 template <class Between>
-GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, uint32_t rows,
+GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
                                    Between&& between) {
   for (uint32_t i = 0; i < rows * n.input_stride; i += kLanes)
-    store(b.inputs + i, round_to_bf16(load(b.inputs + i)));
+    store(inputs + i, round_to_bf16(load(inputs + i)));
   forward<true>(n, b, rows, between);
 }
 

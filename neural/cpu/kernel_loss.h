@@ -17,18 +17,18 @@ GATELIGHT_INLINE float output_luminance(const float* y, uint32_t outputs) {
   return total / static_cast<float>(outputs);
 }
 
-// Per row the sum over outputs of (y-t)^2 / denominator and its derivatives 2 (y-t) / denominator; the mean
-// over records and outputs is taken where gradients are used. Rows that are not valid, and those up to
-// `rows`, get zeros. Returns the sum of the losses.
+// Turns outputs y into derivatives, in place. Per row the sum over outputs of (y-t)^2 / denominator and its
+// derivatives 2 (y-t) / denominator; the mean over records and outputs is taken where gradients are used.
+// Rows that are not valid, and those up to `rows`, get zeros. Returns the sum of the losses.
 template <uint32_t kOutputs>
 GATELIGHT_INLINE double loss_rows(uint32_t outputs, bool relative, float max_target, const float* targets,
-                                  const float* valid, uint32_t count, uint32_t rows, const float* y,
-                                  float* gradients, uint32_t& clipped) {
+                                  const float* valid, uint32_t count, uint32_t rows, float* y,
+                                  uint32_t& clipped) {
   if (kOutputs != 0) outputs = kOutputs;
   double total = 0.0;
-  for (uint32_t r = 0; r < rows; ++r, y += kOutputStride, gradients += kOutputStride) {
+  for (uint32_t r = 0; r < rows; ++r, y += kOutputStride) {
     if (r >= count || valid[r] == 0.0f) {
-      for (uint32_t c = 0; c < outputs; ++c) gradients[c] = 0.0f;
+      for (uint32_t c = 0; c < outputs; ++c) y[c] = 0.0f;
       continue;
     }
     float inverse = 1.0f;
@@ -48,7 +48,7 @@ GATELIGHT_INLINE double loss_rows(uint32_t outputs, bool relative, float max_tar
       const float difference = y[c] - t;
       const float scaled = difference * inverse;
       sum += difference * scaled;
-      gradients[c] = 2.0f * scaled;
+      y[c] = 2.0f * scaled;
     }
     clipped += clamped ? 1 : 0;
     total += sum;
@@ -56,14 +56,77 @@ GATELIGHT_INLINE double loss_rows(uint32_t outputs, bool relative, float max_tar
   return total;
 }
 
+typedef float Row4 __attribute__((vector_size(16)));
+typedef int32_t Index4 __attribute__((vector_size(16)));
+
+GATELIGHT_INLINE float sum4(Row4 v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+
+// The same for up to four outputs where all rows are valid and no target is beyond max_target: a row is a
+// vector whose unused lanes are zeros. Reads four floats a row of targets, and so not the tile's last row.
+template <uint32_t kOutputs>
+GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uint32_t count, float* y) {
+  const Index4 used = {-1, kOutputs > 1 ? -1 : 0, kOutputs > 2 ? -1 : 0, kOutputs > 3 ? -1 : 0};
+  const Row4 luminance = kOutputs == 3 ? Row4{0.299f, 0.587f, 0.114f, 0.0f}
+                                       : Row4{1.0f, 1.0f, 1.0f, 1.0f} / static_cast<float>(kOutputs);
+  Row4 total = {};
+#pragma GCC unroll 2
+  for (uint32_t r = 0; r < count; ++r, y += kOutputStride, targets += kOutputs) {
+    Row4 value, target;
+    __builtin_memcpy(&value, y, sizeof value);
+    __builtin_memcpy(&target, targets, sizeof target);
+    value = (Row4)((Index4)value & used);
+    const Row4 difference = value - (Row4)((Index4)target & used);
+    Row4 scaled = difference;
+    if (relative) {
+      Row4 l = value * luminance;
+      l += __builtin_shuffle(l, Index4{2, 3, 0, 1});
+      l += __builtin_shuffle(l, Index4{1, 0, 3, 2});
+      scaled = difference / (l * l + 0.01f);
+    }
+    total += difference * scaled;
+    scaled += scaled;
+    __builtin_memcpy(y, &scaled, sizeof scaled);
+  }
+  return sum4(total);
+}
+
+// Whether all rows of a tile are valid and their targets no greater than max_target.
+GATELIGHT_INLINE bool plain(const float* targets, uint32_t outputs, float max_target, const float* valid,
+                            uint32_t count) {
+  Float least = broadcast(1.0f);
+  for (uint32_t s = 0; s < count; s += kLanes) least = min(least, load(valid + s));
+  Float greatest = zero();
+  uint32_t i = 0;
+  for (; i + kLanes <= count * outputs; i += kLanes) greatest = max(greatest, absolute(load(targets + i)));
+  for (; i < count * outputs; ++i)
+    if (__builtin_fabsf(targets[i]) > max_target) return false;
+  return all(less(zero(), least)) && !any(less(broadcast(max_target), greatest));
+}
+
+template <uint32_t kOutputs>
+GATELIGHT_INLINE double loss_of(uint32_t outputs, bool relative, float max_target, const float* targets,
+                                const float* valid, uint32_t count, uint32_t rows, float* y,
+                                uint32_t& clipped) {
+  if constexpr (kOutputs == 1 || kOutputs == 3) {
+    if (count == kTile && plain(targets, kOutputs, max_target, valid, count)) {
+      constexpr uint32_t kMost = kTile - 1;
+      const double total = loss_plain_rows<kOutputs>(relative, targets, kMost - (kOutputs == 1 ? 2 : 0), y);
+      constexpr uint32_t kFrom = kMost - (kOutputs == 1 ? 2 : 0);
+      return total + loss_rows<kOutputs>(outputs, relative, max_target, targets + kFrom * kOutputs,
+                                         valid + kFrom, kTile - kFrom, kTile - kFrom,
+                                         y + kFrom * kOutputStride, clipped);
+    }
+  }
+  return loss_rows<kOutputs>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
+}
+
 GATELIGHT_INLINE double loss(uint32_t outputs, bool relative, float max_target, const float* targets,
-                             const float* valid, uint32_t count, uint32_t rows, const float* y,
-                             float* gradients, uint32_t& clipped) {
-  if (outputs == 3)
-    return loss_rows<3>(outputs, relative, max_target, targets, valid, count, rows, y, gradients, clipped);
-  if (outputs == 1)
-    return loss_rows<1>(outputs, relative, max_target, targets, valid, count, rows, y, gradients, clipped);
-  return loss_rows<0>(outputs, relative, max_target, targets, valid, count, rows, y, gradients, clipped);
+                             const float* valid, uint32_t count, uint32_t rows, float* y, uint32_t& clipped) {
+  if (outputs == 3) return loss_of<3>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
+  if (outputs == 1) return loss_of<1>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
+  return loss_of<0>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
 }
 
 }  // namespace

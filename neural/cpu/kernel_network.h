@@ -29,13 +29,13 @@ struct NoBetween {
   __attribute__((always_inline)) void operator()() const {}
 };
 
-// Where the activations of a tile lie.
+// Where the activations of a tile lie. On the way back gradients take the places of what they belong to: with
+// a second set of buffers a tile of the common networks would not fit into the first level of the cache.
 struct TileBuffers {
-  float* inputs;                    // [kTile][input_stride]
+  const float* inputs;              // [kTile][input_stride]
   float* hidden[kMaxKernelLayers];  // [kTile][width]
   float* outputs;                   // [kTile][kOutputStride]
-  float* output_gradients;          // [kTile][kOutputStride]
-  float* gradients[2];              // [kTile][width]
+  float* spare;                     // as long as the inputs
 };
 
 GATELIGHT_INLINE Float leaky(Float a, Float slope) {
@@ -60,9 +60,64 @@ GATELIGHT_INLINE void forward_hidden(const KernelLayer& layer, const float* x, u
       });
 }
 
+#if !defined(GATELIGHT_ISA_SCALAR)
+
+// Up to four outputs would leave most lanes of a vector idle. So lanes are inputs: a group of four lanes
+// holds four outputs' sums over every fourth input, and a row's groups are added at the end.
+template <bool kRounded, uint32_t kVectors>
+GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* x, uint32_t x_stride,
+                                         float* y, uint32_t rows) {
+  Float w[4 * kVectors];
+  const float* packed = kRounded ? layer.forward_groups_rounded : layer.forward_groups;
+#pragma GCC unroll 8
+  for (uint32_t v = 0; v < kVectors; ++v)
+#pragma GCC unroll 4
+    for (uint32_t q = 0; q < 4; ++q)
+      w[4 * v + q] = load(packed + (v * kLanes / 16 * 4 + q) * 16 + v * kLanes % 16);
+  const Float bias = load_first4(layer.biases);
+#pragma GCC unroll 2
+  for (uint32_t r = 0; r < rows; ++r) {
+    Float even = bias, odd = zero();
+#pragma GCC unroll 8
+    for (uint32_t v = 0; v < kVectors; ++v) {
+      const Float h = load(x + r * x_stride + v * kLanes);
+      even = fma(repeat4<0>(h), w[4 * v], even);
+      odd = fma(repeat4<1>(h), w[4 * v + 1], odd);
+      even = fma(repeat4<2>(h), w[4 * v + 2], even);
+      odd = fma(repeat4<3>(h), w[4 * v + 3], odd);
+    }
+    store_sum4(y + r * kOutputStride, add(even, odd));
+  }
+}
+
+#endif
+
 template <bool kRounded, class Between>
 GATELIGHT_INLINE void forward_output(const KernelLayer& layer, const float* x, uint32_t x_stride, float* y,
                                      uint32_t rows, Between&& between) {
+#if !defined(GATELIGHT_ISA_SCALAR)
+  if (layer.forward_groups != nullptr) {
+    switch (layer.inputs / kLanes) {
+      case 1:
+        forward_few_outputs<kRounded, 1>(layer, x, x_stride, y, rows);
+        break;
+      case 2:
+        forward_few_outputs<kRounded, 2>(layer, x, x_stride, y, rows);
+        break;
+      case 4:
+        forward_few_outputs<kRounded, 4>(layer, x, x_stride, y, rows);
+        break;
+      case 8:
+        forward_few_outputs<kRounded, 8>(layer, x, x_stride, y, rows);
+        break;
+      default:
+        forward_few_outputs<kRounded, 16>(layer, x, x_stride, y, rows);
+        break;
+    }
+    between();
+    return;
+  }
+#endif
   with_stride(
       x_stride, [&](auto stride) __attribute__((always_inline)) {
         multiply<decltype(stride)::value>(
@@ -99,8 +154,9 @@ GATELIGHT_INLINE void add_columns(float* sums, const float* d, uint32_t stride, 
   }
 }
 
-// From output_gradients to the gradients of weights and biases (added to `gradients`) and of the feature
-// inputs, which finish_features(row, column, value) takes. rows is a multiple of kBlockRows and so even.
+// From the gradients in `outputs` to the gradients of weights and biases (added to `gradients`) and of the
+// feature inputs, which finish_features(row, column, value) takes. rows is a multiple of kBlockRows and so
+// even.
 template <class FinishFeatures, class Between>
 GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uint32_t rows, float* gradients,
                                FinishFeatures&& finish_features, Between&& between) {
@@ -109,25 +165,28 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   const uint32_t width = n.width;
   const Float one = broadcast(1.0f), slope = broadcast(n.slope);
 
-  add_outer(gradients + output.gradient, output.padded_inputs, b.output_gradients, kOutputStride,
-            output.outputs, b.hidden[last - 1], width, width, rows, between);
-  add_columns(gradients + output.bias_gradient, b.output_gradients, kOutputStride, kOutputStride, rows);
+  // Three rows are one block of four: the fourth is room for what nobody reads.
+  const uint32_t output_rows = output.outputs == 3 ? 4 : output.outputs;
+  add_outer(gradients + output.gradient, output.padded_inputs, b.outputs, kOutputStride, output_rows,
+            b.hidden[last - 1], width, width, rows, between);
+  add_columns(gradients + output.bias_gradient, b.outputs, kOutputStride, kOutputStride, rows);
 
-  // Through a layer's weights and the activation of the layer below.
-  const auto descend = [&](const KernelLayer& layer, const float* d, auto stride, const float* h,
-                           float* below) __attribute__((always_inline)) {
+  // Through a layer's weights and the activation of the layer below, whose values give way to their
+  // gradients.
+  const auto descend = [&](const KernelLayer& layer, const float* d, auto stride, float* h)
+      __attribute__((always_inline)) {
     multiply<decltype(stride)::value>(
         d, rows, layer.outputs, layer.backward, layer.padded_inputs, nullptr, width,
         [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
-          const Float active = load(h + r * width + c);
-          store(below + r * width + c, mul(a, select(less(zero(), active), one, slope)));
+          float* at = h + r * width + c;
+          store(at, mul(a, select(less(zero(), load(at)), one, slope)));
         },
         between);
   };
-  float* d = b.gradients[0];
-  descend(output, b.output_gradients, Constant<kOutputStride>{}, b.hidden[last - 1], d);
+  descend(output, b.outputs, Constant<kOutputStride>{}, b.hidden[last - 1]);
 
   for (uint32_t l = last; l-- > 0;) {
+    const float* d = b.hidden[l];
     const KernelLayer& layer = n.layers[l];
     const float* x = l == 0 ? b.inputs : b.hidden[l - 1];
     const uint32_t x_stride = l == 0 ? n.input_stride : width;
@@ -135,11 +194,9 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
               rows, between);
     add_columns(gradients + layer.bias_gradient, d, width, width, rows);
     if (l > 0) {
-      float* below = d == b.gradients[0] ? b.gradients[1] : b.gradients[0];
       with_stride(
           width, [&](auto stride)
-                     __attribute__((always_inline)) { descend(layer, d, stride, b.hidden[l - 1], below); });
-      d = below;
+                     __attribute__((always_inline)) { descend(layer, d, stride, b.hidden[l - 1]); });
     } else if (n.feature_inputs > 0) {
       const uint32_t columns = (n.feature_inputs + 15) / 16 * 16;
       with_stride(

@@ -12,6 +12,7 @@ namespace {
 template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride>
 GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, uint32_t depth_stride,
                                  const float* w, uint32_t w_stride, uint32_t depth) {
+#pragma GCC unroll 4
   for (uint32_t d = 0; d < depth; ++d, x += depth_stride, w += w_stride) {
     Float column[kVectors];
 #pragma GCC unroll 4
@@ -28,9 +29,9 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, 
 // y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. finish(row, column, value) stores a vector;
 // between_blocks() is called after each block.
 template <uint32_t kRowStride, uint32_t kVectors, class Finish, class Between>
-GATELIGHT_INLINE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
-                                             uint32_t w_stride, const float* bias, uint32_t columns,
-                                             Finish&& finish, Between&& between_blocks) {
+GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
+                                            uint32_t w_stride, const float* bias, uint32_t columns,
+                                            Finish&& finish, Between&& between_blocks) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     Float start[kVectors];
 #pragma GCC unroll 4
@@ -68,8 +69,8 @@ GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, co
 
 // g[i][c] += sum over s of x[s][i] d[s][c], i in [0, kRows).
 template <uint32_t kRows, uint32_t kVectors>
-GATELIGHT_INLINE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
-                                      const float* d, uint32_t d_stride, uint32_t samples) {
+GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
+                                     const float* d, uint32_t d_stride, uint32_t samples) {
   Float acc[kRows][kVectors];
 #pragma GCC unroll 16
   for (uint32_t r = 0; r < kRows; ++r)

@@ -13,6 +13,7 @@
 
 namespace {
 
+// The first of them are the rows of inputs.
 GATELIGHT_INLINE TileBuffers tile_buffers(const KernelNetwork& n, float* scratch) {
   TileBuffers b;
   const uint64_t hidden = uint64_t{kTile} * n.width;
@@ -21,18 +22,12 @@ GATELIGHT_INLINE TileBuffers tile_buffers(const KernelNetwork& n, float* scratch
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l, scratch += hidden) b.hidden[l] = scratch;
   b.outputs = scratch;
   scratch += kTile * kOutputStride;
-  b.output_gradients = scratch;
-  scratch += kTile * kOutputStride;
-  // Also holds the inputs of a bf16 query.
-  const uint64_t gradient = uint64_t{kTile} * (n.width > n.input_stride ? n.width : n.input_stride);
-  b.gradients[0] = scratch;
-  b.gradients[1] = scratch + gradient;
+  b.spare = scratch;
   return b;
 }
 
 GATELIGHT_INLINE uint64_t buffer_floats(const KernelNetwork& n) {
-  const uint64_t longest = n.width > n.input_stride ? n.width : n.input_stride;
-  return kTile * (n.input_stride + uint64_t{n.width} * (n.layer_count - 1) + 2 * kOutputStride + 2 * longest);
+  return kTile * (2 * uint64_t{n.input_stride} + uint64_t{n.width} * (n.layer_count - 1) + kOutputStride);
 }
 
 GATELIGHT_INLINE uint32_t padded_rows(uint32_t count) {
@@ -53,14 +48,16 @@ GATELIGHT_INLINE uint32_t forward_blocks(const KernelNetwork& n) {
 void train(const KernelTraining& t) {
   const KernelEncoder& e = *t.encoder;
   const KernelNetwork& n = *t.network;
-  const TileBuffers b = tile_buffers(n, t.scratch);
+  TileBuffers b = tile_buffers(n, t.scratch);
+  float* const inputs = t.scratch;
   const uint32_t slots = e.levels * e.nodes_per_level;
   const uint64_t tiles = (uint64_t{t.end} - t.begin + kTile - 1) / kTile;
   const uint64_t first_tile = t.begin / kTile;
   TilePoints points[2];
   KernelChunkStatistics statistics = {};
-  __builtin_memset(b.inputs, 0, kTile * n.input_stride * sizeof(float));
-  __builtin_memset(b.output_gradients, 0, kTile * kOutputStride * sizeof(float));
+  __builtin_memset(inputs, 0, kTile * n.input_stride * sizeof(float));
+
+  __builtin_memset(b.outputs, 0, kTile * kOutputStride * sizeof(float));
 
   const auto prepare = [&](uint64_t k) {
     const uint64_t begin = t.begin + k * kTile;
@@ -70,13 +67,15 @@ void train(const KernelTraining& t) {
     float* weights = t.weights + (first_tile + k) * slots * kTile;
     statistics.rejected += take_points(e, t.points, t.targets, n.outputs, begin, count, tile);
     statistics.unstored += lookup(e, tile, nodes, weights);
-    for (uint32_t s = 0; s < count; ++s) {
-      const bool usable = tile.valid[s] != 0.0f;
-      t.accepted[begin + s] = usable ? 1 : 0;
-      statistics.accepted += usable ? 1 : 0;
-    }
+    Float accepted = zero();
+    for (uint32_t s = 0; s < kTile; s += kLanes) accepted = add(accepted, load(tile.valid + s));
+    statistics.accepted += static_cast<uint32_t>(sum(accepted));
+    if (uint8_t* flags = t.accepted; flags != nullptr)
+      for (uint32_t s = 0; s < count; ++s) flags[begin + s] = tile.valid[s] != 0.0f ? 1 : 0;
+    uint32_t* bucket_counts = t.bucket_counts;
+    const uint32_t shift = t.bucket_shift;
     for (uint32_t i = 0; i < slots * kTile; ++i)
-      if (weights[i] != 0.0f) ++t.bucket_counts[nodes[i] >> t.bucket_shift];
+      if (weights[i] != 0.0f) ++bucket_counts[nodes[i] >> shift];
   };
 
   if (tiles > 0) {
@@ -103,14 +102,16 @@ void train(const KernelTraining& t) {
     };
 
     if (t.inputs != nullptr) {
-      __builtin_memcpy(b.inputs, t.inputs + begin * n.input_stride, count * n.input_stride * sizeof(float));
+      const float* given = t.inputs + (begin - t.begin) * n.input_stride;
+      if (count < kTile) __builtin_memcpy(inputs, given, count * n.input_stride * sizeof(float));
+      b.inputs = count < kTile ? inputs : given;
     } else {
-      if (slots > 0) interpolate(e, nodes, weights, b.inputs, n.input_stride);
-      encode_auxiliary(e, t.points, begin, count, tile.finite, b.inputs, n.input_stride);
+      if (slots > 0) interpolate(e, nodes, weights, inputs, n.input_stride);
+      encode_auxiliary(e, t.points, begin, count, tile.finite, inputs, n.input_stride);
     }
     forward<false>(n, b, rows, between);
     statistics.loss += loss(n.outputs, t.relative_loss != 0, t.max_target, t.targets + begin * n.outputs,
-                            tile.valid, count, rows, b.outputs, b.output_gradients, statistics.clipped);
+                            tile.valid, count, rows, b.outputs, statistics.clipped);
     float* feature_gradients = t.feature_gradients + begin * n.feature_inputs;
     backward(
         n, b, rows, t.gradients,
@@ -139,11 +140,12 @@ void query(const KernelQuery& q) {
   const KernelEncoder& e = *q.encoder;
   const KernelNetwork& n = *q.network;
   const TileBuffers b = tile_buffers(n, q.scratch);
+  float* const inputs = q.scratch;
   const uint32_t slots = e.levels * e.nodes_per_level;
   float* ring = q.scratch + buffer_floats(n);  // nodes and weights of two tiles
   const uint64_t tiles = (q.end - q.begin + kTile - 1) / kTile;
   TilePoints points[2];
-  __builtin_memset(b.inputs, 0, kTile * n.input_stride * sizeof(float));
+  __builtin_memset(inputs, 0, kTile * n.input_stride * sizeof(float));
 
   const auto nodes_of = [&](uint64_t k) {
     return reinterpret_cast<uint32_t*>(ring) + (k & 1) * slots * kTile;
@@ -175,10 +177,10 @@ void query(const KernelQuery& q) {
       ahead.some();
     };
 
-    if (slots > 0) interpolate(e, nodes_of(k), weights_of(k), b.inputs, n.input_stride);
-    encode_auxiliary(e, q.points, begin, count, points[k & 1].finite, b.inputs, n.input_stride);
+    if (slots > 0) interpolate(e, nodes_of(k), weights_of(k), inputs, n.input_stride);
+    encode_auxiliary(e, q.points, begin, count, points[k & 1].finite, inputs, n.input_stride);
     if (q.bf16 != 0)
-      forward_bf16(n, b, rows, between);
+      forward_bf16(n, b, inputs, rows, between);
     else
       forward<false>(n, b, rows, between);
     ahead.rest();

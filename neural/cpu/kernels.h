@@ -77,6 +77,10 @@ struct KernelLayer {
   const uint16_t*
       forward_bf16;  // [inputs / 2][padded outputs][2], inputs padded with zeros to an even number
   const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without it
+  // Last layer with up to four outputs: for groups of four lanes (16 inputs a time), [input / 16][input %
+  // 4][16], lane 4 g + o being the weight of input 4 g + (input % 4) for output o. Null otherwise.
+  const float* forward_groups;
+  const float* forward_groups_rounded;
   uint64_t gradient;  // offset in a chunk's gradient: [inputs][padded outputs]; last layer [outputs][padded
                       // inputs]
   uint64_t bias_gradient;  // offset: padded outputs
@@ -112,16 +116,16 @@ struct KernelTraining {
   uint32_t begin, end;
   uint32_t relative_loss;
   float max_target;
-  float* scratch;       // KernelTable::scratch_floats, aligned to 64 bytes
-  const float* inputs;  // if given, rows of input_stride floats that stand in for the encoding (benchmarks)
-  // Results
+  float* scratch;  // KernelTable::scratch_floats, aligned to 64 bytes
+  // If given, rows of input_stride floats that stand in for the encoding, counted from `begin` (benchmarks).
+  const float* inputs;
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0: no reference
   float* weights;            // likewise
   float* feature_gradients;  // [record][feature_inputs], of the sum of the records' losses
   uint32_t*
       bucket_counts;  // references of this chunk to each bucket of nodes (node >> bucket_shift); to be zeroed
   uint32_t bucket_shift;
-  uint8_t* accepted;  // [record]
+  uint8_t* accepted;  // [record], or null
   float* gradients;   // of the network; to be zeroed
   KernelChunkStatistics* statistics;
 };

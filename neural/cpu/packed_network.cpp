@@ -40,12 +40,13 @@ PackedNetwork::PackedNetwork(const Model& model) : model_(&model) {
     layer.padded_outputs = padded(layer.outputs);
     const bool last = l + 1 == kernel_.layer_count;
     layer.gradient = gradient_size_;
-    gradient_size_ += last ? std::uint64_t{layer.outputs} * layer.padded_inputs
+    gradient_size_ += last ? std::uint64_t{(layer.outputs + 3) / 4 * 4} * layer.padded_inputs
                            : std::uint64_t{layer.inputs} * layer.padded_outputs;
     layer.bias_gradient = gradient_size_;
     gradient_size_ += layer.padded_outputs;
     const std::uint64_t forward = std::uint64_t{layer.inputs} * layer.padded_outputs;
     floats += 2 * forward + std::uint64_t{layer.outputs} * layer.padded_inputs + layer.padded_outputs;
+    if (last && layer.outputs <= 4) floats += 2 * 4 * std::uint64_t{layer.inputs};
     halves += std::uint64_t{layer.inputs + 1} * layer.padded_outputs;
   }
   gradient_size_ = (gradient_size_ + 15) / 16 * 16;
@@ -63,6 +64,13 @@ PackedNetwork::PackedNetwork(const Model& model) : model_(&model) {
     to.biases = to.backward + std::uint64_t{layer.outputs} * layer.padded_inputs;
     to.halves = h;
     f = to.biases + layer.padded_outputs;
+    if (l + 1 == kernel_.layer_count && layer.outputs <= 4) {
+      to.groups = f;
+      to.groups_rounded = f + 4 * std::uint64_t{layer.inputs};
+      f += 8 * std::uint64_t{layer.inputs};
+    }
+    layer.forward_groups = to.groups;
+    layer.forward_groups_rounded = to.groups_rounded;
     h += std::uint64_t{layer.inputs + 1} / 2 * 2 * layer.padded_outputs;
     layer.forward = to.forward;
     layer.forward_rounded = to.rounded;
@@ -88,6 +96,11 @@ void PackedNetwork::pack(std::span<const float> network) {
         to.rounded[std::uint64_t{i} * layer.padded_outputs + o] =
             std::bit_cast<float>(std::uint32_t{half} << 16);
         to.halves[(std::uint64_t{i / 2} * layer.padded_outputs + o) * 2 + i % 2] = half;
+        if (to.groups != nullptr) {
+          const std::uint32_t at = (i / 16 * 4 + i % 4) * 16 + i % 16 / 4 * 4 + o;
+          to.groups[at] = w;
+          to.groups_rounded[at] = std::bit_cast<float>(std::uint32_t{half} << 16);
+        }
         if (i < backward_inputs) to.backward[std::uint64_t{o} * layer.padded_inputs + i] = w;
       }
     if (layout.biases)

@@ -32,6 +32,8 @@ class PackedNetwork {
     float* rounded = nullptr;
     float* backward = nullptr;
     float* biases = nullptr;
+    float* groups = nullptr;
+    float* groups_rounded = nullptr;
     std::uint16_t* halves = nullptr;
   };
 
