@@ -43,10 +43,12 @@ struct GateOptions {
   NodeStorage storage = NodeStorage::shared;
   /// Merge the vertices of surfaces whose R is 1 where triangles are smaller than the node spacing. A
   /// vertex's cluster is (instance, cell of half the spacing, dominant axis and sign of its normal). Only
-  /// with `uniform` and `shared`.
+  /// with `uniform` and `shared`, and where all levels of the stack have R = 1.
   bool cluster = true;
   /// Bytes that the feature vectors may take, 0 for no limit. Given, node_spacing (or resolution_scale) is
-  /// solved for: the finest layout that fits.
+  /// solved for: the finest layout that fits. Where clusters are made and even one cell for each instance and
+  /// normal is too much, they lose first the normal; then those of different instances are merged, by cell
+  /// and normal. A budget that cannot be met throws BadConfiguration with the least bytes possible.
   std::uint64_t memory_budget = 0;
   std::uint32_t bytes_per_feature = 4;  ///< for the budget: 4 or 2
 };
@@ -74,8 +76,8 @@ struct GateLayout {
 };
 
 /// Runs in parallel (oneTBB) and gives the same layout for any number of threads. Throws BadConfiguration for
-/// options out of range, indices beyond a mesh's positions, a mesh number that is not there, or more than
-/// 2^32-1 nodes.
+/// options out of range, indices beyond a mesh's positions, a mesh number that is not there, positions or
+/// transforms that are not finite, or more than 2^32-1 nodes, words of topology or triangles with storage.
 GateLayout build_gate_layout(const SurfaceLayout& surfaces, const GateOptions& options);
 
 }  // namespace gatelight::neural

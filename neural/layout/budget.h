@@ -1,0 +1,11 @@
+#pragma once
+
+#include "neural/layout/plan.h"
+
+namespace gatelight::neural {
+
+/// The plan of the options as they are, or, with a memory budget, the finest one that fits. Throws
+/// BadConfiguration for more than 2^32-1 nodes and for a budget that cannot be met.
+LayoutPlan solve_plan(PlanScene& scene);
+
+}  // namespace gatelight::neural

@@ -1,0 +1,114 @@
+#include "neural/layout/layout_checks.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "neural/errors.h"
+
+namespace gatelight::neural {
+
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
+
+void require(bool holds, const char* what, std::uint64_t value, const char* expected) {
+  if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
+}
+
+void require_positive(const char* what, float value) {
+  if (!(value > 0.0f) || !std::isfinite(value))
+    throw BadConfiguration(fmt::format("{}: {}, expected a positive number", what, value));
+}
+
+/// The first of 0 .. count-1 that is bad, else kNone.
+template <class Bad>
+std::size_t find_first(std::size_t count, const Bad& bad) {
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, count, 16384), kNone,
+      [&](const Range& range, std::size_t first) {
+        for (std::size_t i = range.begin(); i != range.end() && i < first; ++i)
+          if (bad(i)) return i;
+        return first;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+void check_mesh(const SurfaceMesh& mesh, std::size_t number) {
+  require(mesh.positions.size() <= kMaxIndex, "positions of a mesh", mesh.positions.size(), "at most 2^32-1");
+  require(mesh.triangles.size() <= kMaxIndex / 3, "triangles of a mesh", mesh.triangles.size(),
+          "at most (2^32-1)/3");
+  const std::size_t triangle = find_first(mesh.triangles.size(), [&](std::size_t t) {
+    return std::ranges::any_of(mesh.triangles[t],
+                               [&](std::uint32_t v) { return v >= mesh.positions.size(); });
+  });
+  if (triangle != kNone)
+    throw BadConfiguration(fmt::format("mesh {}, triangle {}: index {}, expected less than its {} positions",
+                                       number, triangle, std::ranges::max(mesh.triangles[triangle]),
+                                       mesh.positions.size()));
+  const std::size_t position = find_first(mesh.positions.size(), [&](std::size_t p) {
+    return !std::ranges::all_of(mesh.positions[p], [](float x) { return std::isfinite(x); });
+  });
+  if (position != kNone) {
+    const Float3& p = mesh.positions[position];
+    throw BadConfiguration(fmt::format("mesh {}, position {}: ({}, {}, {}), expected finite numbers", number,
+                                       position, p[0], p[1], p[2]));
+  }
+}
+
+}  // namespace
+
+void check_gate_options(const GateOptions& options) {
+  require(options.features >= 1 && options.features <= 16, "features", options.features, "1 to 16");
+  require(!options.stack.empty() && options.stack.size() <= kMaxStack, "levels of the stack",
+          options.stack.size(), "1 to 4");
+  for (const std::uint32_t level : options.stack)
+    require(level <= kMaxResolution, "resolution of a level", level, "at most 64, 0 for adaptive");
+  require_positive("node spacing", options.node_spacing);
+  require_positive("resolution scale", options.resolution_scale);
+  require(options.fixed_resolution >= 1 && options.fixed_resolution <= kMaxResolution, "fixed resolution",
+          options.fixed_resolution, "1 to 64");
+  require(options.max_resolution >= 1 && options.max_resolution <= kMaxResolution, "greatest resolution",
+          options.max_resolution, "1 to 64");
+  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "bytes of a feature",
+          options.bytes_per_feature, "2 or 4");
+}
+
+void check_surfaces(const SurfaceLayout& surfaces) {
+  for (std::size_t i = 0; i < surfaces.instances.size(); ++i) {
+    const SurfaceInstance& instance = surfaces.instances[i];
+    if (instance.mesh >= surfaces.meshes.size())
+      throw BadConfiguration(fmt::format("instance {}: mesh {}, expected less than the {} meshes", i,
+                                         instance.mesh, surfaces.meshes.size()));
+    if (static_cast<std::uint8_t>(instance.sides) > static_cast<std::uint8_t>(Sides::both))
+      throw BadConfiguration(
+          fmt::format("instance {}: sides {}, expected 0 to 3", i, static_cast<int>(instance.sides)));
+    if (instance.sides == Sides::none) continue;
+    for (const float x : instance.object_to_world)
+      if (!std::isfinite(x))
+        throw BadConfiguration(
+            fmt::format("instance {}: {} in its transform, expected finite numbers", i, x));
+  }
+  // The first mesh that is wrong is named, whichever thread is the quickest.
+  std::vector<std::string> messages(surfaces.meshes.size());
+  tbb::parallel_for(std::size_t{0}, surfaces.meshes.size(), [&](std::size_t m) {
+    try {
+      check_mesh(surfaces.meshes[m], m);
+    } catch (const BadConfiguration& error) {
+      messages[m] = error.what();
+    }
+  });
+  for (const std::string& message : messages)
+    if (!message.empty()) throw BadConfiguration(message);
+}
+
+}  // namespace gatelight::neural

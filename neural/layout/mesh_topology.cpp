@@ -1,0 +1,125 @@
+#include "neural/layout/mesh_topology.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "neural/layout/prefix_sum.h"
+
+namespace gatelight::neural {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kLongList = 65536;
+using Range = tbb::blocked_range<std::size_t>;
+
+void add_corners(MeshTopology& topology) {
+  if (!topology.corners)
+    topology.corners =
+        build_vertex_corners(topology.triangles, static_cast<std::uint32_t>(topology.vertices.size()));
+}
+
+/// A triangle's edge at the lower of its two vertices.
+struct HalfEdge {
+  std::uint32_t high = 0;
+  std::uint32_t slot = 0;  ///< 3 * triangle + opposite corner
+  friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
+};
+
+void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<HalfEdge>& edges) {
+  edges.clear();
+  const VertexCorners& around = *topology.corners;
+  for (std::uint32_t a = around.offsets[vertex]; a < around.offsets[vertex + 1]; ++a) {
+    const std::uint32_t corner = around.corners[a];
+    const std::uint32_t first_slot = corner - corner % 3;
+    const std::uint32_t next = (corner + 1 - first_slot) % 3;
+    const std::uint32_t previous = (corner + 2 - first_slot) % 3;
+    const TriangleCorners& triangle = topology.triangles[corner / 3];
+    if (triangle[next] >= vertex) edges.push_back({triangle[next], first_slot + previous});
+    // An edge from a vertex to itself is found as the next one alone.
+    if (triangle[previous] > vertex) edges.push_back({triangle[previous], first_slot + next});
+  }
+  if (edges.size() > kLongList)
+    tbb::parallel_sort(edges.begin(), edges.end());
+  else
+    std::sort(edges.begin(), edges.end());
+}
+
+}  // namespace
+
+MeshTopology number_vertices(const SurfaceMesh& mesh) {
+  MeshTopology topology;
+  std::vector<std::uint32_t> numbers(mesh.positions.size(), 0);
+  const Range triangles(0, mesh.triangles.size(), kGrain);
+  tbb::parallel_for(triangles, [&](const Range& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t)
+      for (const std::uint32_t v : mesh.triangles[t])
+        std::atomic_ref(numbers[v]).store(1, std::memory_order_relaxed);
+  });
+  inclusive_prefix_sum(numbers);  // the vertex's number plus one
+  topology.vertices.resize(numbers.empty() ? 0 : numbers.back());
+  tbb::parallel_for(Range(0, numbers.size(), kGrain), [&](const Range& range) {
+    for (std::size_t p = range.begin(); p != range.end(); ++p)
+      if (numbers[p] != (p == 0 ? 0 : numbers[p - 1]))
+        topology.vertices[numbers[p] - 1] = static_cast<std::uint32_t>(p);
+  });
+  topology.triangles.resize(mesh.triangles.size());
+  tbb::parallel_for(triangles, [&](const Range& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t)
+      for (int c = 0; c < 3; ++c) topology.triangles[t][c] = numbers[mesh.triangles[t][c]] - 1;
+  });
+  return topology;
+}
+
+void add_edges(MeshTopology& topology) {
+  if (topology.triangle_edges.size() == topology.triangles.size()) return;
+  add_corners(topology);
+  const std::size_t vertex_count = topology.vertices.size();
+  std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // one more than the number of edges before and at v
+  const Range vertices(0, vertex_count, kGrain);
+  tbb::parallel_for(vertices, [&](const Range& range) {
+    std::vector<HalfEdge> edges;
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      list_edges(topology, static_cast<std::uint32_t>(v), edges);
+      std::uint32_t count = 0;
+      for (std::size_t e = 0; e < edges.size(); ++e)
+        if (e == 0 || edges[e].high != edges[e - 1].high) ++count;
+      ends[v + 1] = count;
+    }
+  });
+  inclusive_prefix_sum(ends);
+  topology.edge_count = ends.back();
+  topology.triangle_edges.resize(topology.triangles.size());
+  tbb::parallel_for(vertices, [&](const Range& range) {
+    std::vector<HalfEdge> edges;
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      list_edges(topology, static_cast<std::uint32_t>(v), edges);
+      std::uint32_t number = ends[v];
+      for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (e > 0 && edges[e].high != edges[e - 1].high) ++number;
+        topology.triangle_edges[edges[e].slot / 3][edges[e].slot % 3] = number;
+      }
+    }
+  });
+}
+
+void add_normals(MeshTopology& topology, const SurfaceMesh& mesh) {
+  if (topology.normals.size() == topology.vertices.size()) return;
+  add_corners(topology);
+  topology.normals.resize(topology.vertices.size());
+  tbb::parallel_for(Range(0, topology.vertices.size(), kGrain), [&](const Range& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      const VertexCorners& around = *topology.corners;
+      Double3 sum = {0, 0, 0};
+      for (std::uint32_t a = around.offsets[v]; a < around.offsets[v + 1]; ++a)
+        sum = sum + area_vector(mesh, mesh.triangles[around.corners[a] / 3]);
+      topology.normals[v] = sum;
+    }
+  });
+}
+
+}  // namespace gatelight::neural

@@ -1,0 +1,31 @@
+#include "neural/layout/resolution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::neural {
+
+std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const SurfaceAreas> areas) {
+  std::vector<double> sizes(areas.size(), 0.0);
+  double greatest = 0.0;
+  for (const SurfaceAreas& a : areas) greatest = std::max(greatest, a.mean());
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    if (areas[i].count == 0) continue;
+    if (rule == ResolutionRule::uniform) sizes[i] = std::sqrt(areas[i].weighted_mean());
+    if (rule == ResolutionRule::paper) {
+      const double normalized = areas[i].mean() / greatest;
+      sizes[i] = 32.0 * normalized * normalized;  // clamp(32 A^2 scale, 1, 32)
+    }
+  }
+  return sizes;
+}
+
+std::uint32_t adaptive_resolution(const GateOptions& options, double size, float node_spacing,
+                                  float resolution_scale) {
+  if (options.rule == ResolutionRule::fixed) return options.fixed_resolution;
+  const double r = options.rule == ResolutionRule::uniform ? size / node_spacing : size * resolution_scale;
+  return static_cast<std::uint32_t>(
+      std::clamp(std::round(r), 1.0, static_cast<double>(options.max_resolution)));
+}
+
+}  // namespace gatelight::neural

@@ -1,0 +1,56 @@
+#include "neural/layout/vertex_corners.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "neural/layout/prefix_sum.h"
+
+namespace gatelight::neural {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kLongList = 65536;
+
+}  // namespace
+
+VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, std::uint32_t vertex_count) {
+  VertexCorners result;
+  result.offsets.assign(vertex_count + std::size_t{1}, 0);
+  result.corners.resize(3 * triangles.size());
+  std::vector<std::uint32_t>& offsets = result.offsets;
+  using Range = tbb::blocked_range<std::size_t>;
+  // The sums are the lists' ends; the scatter counts each down to its beginning.
+  tbb::parallel_for(Range(0, triangles.size(), kGrain), [&](const Range& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t)
+      for (const std::uint32_t v : triangles[t])
+        std::atomic_ref(offsets[v]).fetch_add(1, std::memory_order_relaxed);
+  });
+  inclusive_prefix_sum(offsets);
+  tbb::parallel_for(Range(0, triangles.size(), kGrain), [&](const Range& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t)
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const std::uint32_t slot =
+            std::atomic_ref(offsets[triangles[t][c]]).fetch_sub(1, std::memory_order_relaxed) - 1;
+        result.corners[slot] = static_cast<std::uint32_t>(3 * t + c);
+      }
+  });
+  // The scatter's order depends on the threads, the sorted one does not.
+  tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      const auto first = result.corners.begin() + offsets[v];
+      const auto last = result.corners.begin() + offsets[v + 1];
+      if (last - first > std::ptrdiff_t{kLongList})
+        tbb::parallel_sort(first, last);
+      else
+        std::sort(first, last);
+    }
+  });
+  return result;
+}
+
+}  // namespace gatelight::neural

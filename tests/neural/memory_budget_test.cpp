@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "neural/errors.h"
+#include "neural/mesh_colors.h"
+#include "tests/neural/meshes.h"
+
+namespace gatelight::neural {
+namespace {
+
+using testing::Mesh;
+
+constexpr std::uint64_t kMegabyte = 1000000;
+
+/// The fewest bytes that a refused budget's message names.
+std::uint64_t least_bytes(const SurfaceLayout& scene, GateOptions options) {
+  options.memory_budget = 1;
+  try {
+    build_gate_layout(scene, options);
+  } catch (const BadConfiguration& error) {
+    std::smatch match;
+    const std::string message = error.what();
+    if (std::regex_search(message, match, std::regex("memory budget: 1 bytes, expected at least ([0-9]+)")))
+      return std::stoull(match[1]);
+    ADD_FAILURE() << message;
+  }
+  return 0;
+}
+
+/// Spheres of several tessellations and sizes, some with both sides, and a floor of two large triangles.
+struct Scene {
+  std::vector<Mesh> meshes = {testing::sphere(16, 1), testing::sphere(48, 0.5f), testing::sphere(128, 1),
+                              testing::grid(1, 20)};
+  SurfaceLayout surfaces;
+  Scene() {
+    for (const Mesh& mesh : meshes) surfaces.meshes.push_back(testing::view(mesh));
+    for (std::uint32_t i = 0; i < 20; ++i)
+      surfaces.instances.push_back({i % 3, testing::translation(static_cast<float>(i), 0, 1),
+                                    i % 4 == 0 ? Sides::both : Sides::front});
+    surfaces.instances.push_back({3});
+  }
+};
+
+TEST(MemoryBudget, IsMetAndUsed) {
+  const Scene scene;
+  GateOptions options;
+  for (std::uint64_t budget = 3000; budget < 100 * kMegabyte; budget = budget * 3 / 2) {
+    options.memory_budget = budget;
+    const GateLayout layout = build_gate_layout(scene.surfaces, options);
+    EXPECT_LE(testing::feature_bytes(layout, options), budget);
+    if (budget > 100000) {
+      EXPECT_GE(testing::feature_bytes(layout, options), 0.5 * budget);
+    }
+  }
+}
+
+TEST(MemoryBudget, TheFinestLayoutIsTakenWhereItFits) {
+  const Scene scene;
+  GateOptions options;
+  options.memory_budget = 10000 * kMegabyte;
+  const GateLayout layout = build_gate_layout(scene.surfaces, options);
+  EXPECT_EQ(layout.report.resolution_histogram[options.max_resolution], 21u);
+}
+
+TEST(MemoryBudget, TheReportedSpacingGivesTheSameLayout) {
+  const Scene scene;
+  for (const std::uint64_t budget : {100000, 1000000, 10000000}) {
+    GateOptions options;
+    options.memory_budget = budget;
+    const GateLayout layout = build_gate_layout(scene.surfaces, options);
+    options.memory_budget = 0;
+    options.node_spacing = layout.report.node_spacing;
+    testing::expect_same_tables(layout, build_gate_layout(scene.surfaces, options));
+  }
+}
+
+TEST(MemoryBudget, WithoutClustersTheNextFinerFloatWouldNotFit) {
+  const Scene scene;
+  for (const NodeStorage storage : {NodeStorage::shared, NodeStorage::per_triangle})
+    for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper}) {
+      GateOptions options;
+      options.storage = storage;
+      options.rule = rule;
+      options.cluster = false;
+      options.memory_budget = 40 * kMegabyte;
+      const GateLayout layout = build_gate_layout(scene.surfaces, options);
+      EXPECT_LE(testing::feature_bytes(layout, options), options.memory_budget);
+      GateOptions finer = options;
+      finer.memory_budget = 0;
+      finer.node_spacing = std::nextafter(layout.report.node_spacing, 0.0f);
+      finer.resolution_scale = std::nextafter(layout.report.resolution_scale, 1e30f);
+      EXPECT_GT(testing::feature_bytes(build_gate_layout(scene.surfaces, finer), finer),
+                options.memory_budget);
+    }
+}
+
+TEST(MemoryBudget, HalfTheBytesOfAFeatureGiveAboutTwiceTheNodes) {
+  const Scene scene;
+  GateOptions options;
+  options.memory_budget = kMegabyte;
+  const GateLayout full = build_gate_layout(scene.surfaces, options);
+  options.bytes_per_feature = 2;
+  const GateLayout half = build_gate_layout(scene.surfaces, options);
+  EXPECT_LE(testing::feature_bytes(half, options), kMegabyte);
+  EXPECT_NEAR(half.node_count, 2.0 * full.node_count, 0.3 * full.node_count);
+}
+
+TEST(MemoryBudget, OneMegabyteHoldsAMillionSmallTriangles) {
+  Mesh mesh = testing::grid(708, 10);
+  for (Float3& p : mesh.positions) p[2] = std::sin(p[0]) * std::cos(p[1]);
+  ASSERT_GE(mesh.triangles.size(), 1000000u);
+  GateOptions options;
+  for (const std::uint64_t budget : {kMegabyte, 16 * kMegabyte}) {
+    options.memory_budget = budget;
+    const GateLayout layout = build_gate_layout(testing::one_instance(mesh), options);
+    EXPECT_LE(testing::feature_bytes(layout, options), budget);
+    EXPECT_GE(testing::feature_bytes(layout, options), 0.95 * budget);
+    EXPECT_EQ(layout.report.clustered_surfaces, 1u);
+  }
+}
+
+/// Instances all over a cube of 100^3, every other one with both sides.
+SurfaceLayout many_instances(const Mesh& mesh, std::uint32_t count) {
+  SurfaceLayout scene = {{testing::view(mesh)}, {}};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto coordinate = [&](std::uint32_t c) { return static_cast<float>(100 * testing::uniform(c, i)); };
+    scene.instances.push_back({0, testing::translation(coordinate(0), coordinate(1), coordinate(2)),
+                               i % 2 == 0 ? Sides::both : Sides::front});
+  }
+  return scene;
+}
+
+TEST(MemoryBudget, ManyInstancesLoseFirstTheNormalThenTheirOwnClusters) {
+  const Mesh mesh = testing::sphere(8, 0.5f);
+  const SurfaceLayout scene = many_instances(mesh, 1000);  // 1500 sides
+  GateOptions options;
+  const auto nodes_per_side = [&](std::uint64_t nodes_in_budget) {
+    options.memory_budget = nodes_in_budget * options.features * options.bytes_per_feature;
+    const GateLayout layout = build_gate_layout(scene, options);
+    EXPECT_LE(layout.node_count, nodes_in_budget);
+    EXPECT_GE(layout.node_count, 0.8 * nodes_in_budget);
+    EXPECT_EQ(layout.report.clustered_surfaces, 1500u);
+    std::set<std::uint32_t> bases;
+    for (const GateSurfaceLevel& level : layout.levels) bases.insert(level.vertex_base);
+    return bases.size();
+  };
+  // Two levels: six clusters a side are 18000 nodes, one is 3000. Then all instances share a block for each
+  // side and level.
+  EXPECT_EQ(nodes_per_side(25000), 3000u);
+  EXPECT_EQ(nodes_per_side(8000), 3000u);
+  EXPECT_EQ(nodes_per_side(2500), 4u);
+  EXPECT_EQ(nodes_per_side(600), 4u);
+}
+
+TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
+  const Mesh mesh = testing::sphere(8, 0.5f);
+  const SurfaceLayout scene = many_instances(mesh, 40000);
+  GateOptions options;
+  options.memory_budget = kMegabyte;
+  const GateLayout layout = build_gate_layout(scene, options);
+  EXPECT_LE(testing::feature_bytes(layout, options), kMegabyte);
+  EXPECT_GE(testing::feature_bytes(layout, options), 0.9 * kMegabyte);
+  // Instances share nodes where they are near, and no node is out of range.
+  for (std::uint32_t surface = 0; surface < layout.surfaces.size(); surface += 777)
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto sample = gate_lookup(layout, surface, 1, t, std::array{0.2, 0.3, 0.5});
+      for (const std::uint32_t node : sample->nodes) EXPECT_LT(node, layout.node_count);
+    }
+}
+
+TEST(MemoryBudget, TheLeastPossibleIsNamedAndAccepted) {
+  const Scene scene;
+  std::vector<GateOptions> all(7);
+  all[0].cluster = false;
+  all[1].storage = NodeStorage::per_triangle;
+  all[2].rule = ResolutionRule::paper;
+  all[3].rule = ResolutionRule::fixed;
+  all[4].rule = ResolutionRule::fixed;
+  all[4].storage = NodeStorage::per_triangle;
+  all[5].stack = {kAdaptive, 4};
+  all[6] = {};  // clusters: a node for each normal, side and level
+  for (GateOptions options : all) {
+    const std::uint64_t least = least_bytes(scene.surfaces, options);
+    ASSERT_GT(least, 0u);
+    options.memory_budget = least;
+    EXPECT_EQ(testing::feature_bytes(build_gate_layout(scene.surfaces, options), options), least);
+    options.memory_budget = least - 1;
+    EXPECT_THROW(build_gate_layout(scene.surfaces, options), BadConfiguration);
+  }
+  EXPECT_LE(least_bytes(scene.surfaces, {}), 2u * 2 * 6 * 32);
+}
+
+}  // namespace
+}  // namespace gatelight::neural
