@@ -88,6 +88,7 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
 
   void write(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;  // fwrite takes no null pointer
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
       refuse_to_write(path_, describe(errno));
   }

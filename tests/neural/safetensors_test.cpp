@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <functional>
@@ -64,7 +65,7 @@ TEST(Safetensors, TensorsAndMetadataComeBack) {
   std::array<std::byte, 24> out;
   for (const TensorView& tensor : tensors) {
     reader.read(tensor.name, tensor.type, tensor.shape, std::span(out).first(tensor.data.size()));
-    EXPECT_EQ(std::memcmp(out.data(), tensor.data.data(), tensor.data.size()), 0) << tensor.name;
+    EXPECT_TRUE(std::equal(tensor.data.begin(), tensor.data.end(), out.begin())) << tensor.name;
   }
   EXPECT_THAT(refusal([&] { reader.read("halves", TensorType::f32, tensors[0].shape, out); }),
               AllOf(HasSubstr("'halves': F16 [3], expected F32 [3]")));
