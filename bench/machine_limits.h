@@ -1,0 +1,60 @@
+#pragma once
+// What this machine can do at most, measured here and now on all threads that the process may use: the
+// denominators of every fraction that the benchmarks print.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "neural/cpu/isa.h"
+
+namespace gatelight::bench {
+
+enum class Arithmetic : std::uint8_t {
+  sse2,    ///< multiply and add of 4 floats: what code for any x86-64 can do
+  avx2,    ///< fused, of 8 floats
+  avx512,  ///< fused, of 16 floats
+  bf16,    ///< dot products of 32 bfloat16 into 16 floats (AVX512_BF16)
+};
+
+std::string_view arithmetic_name(Arithmetic arithmetic);
+/// What the processor has, slowest first.
+std::vector<Arithmetic> available_arithmetics();
+Arithmetic arithmetic_of(neural::cpu::Isa isa);
+
+/// An amount of work and the seconds it took.
+struct Work {
+  double amount = 0.0;
+  double seconds = 0.0;
+  double rate() const { return amount / seconds; }
+};
+
+/// Floating-point operations: a multiplication and an addition count two. Some milliseconds.
+Work run_fma(Arithmetic arithmetic);
+
+/// Memory far greater than any cache, in huge pages where the system gives them, touched.
+class BigBuffer {
+ public:
+  BigBuffer();
+  ~BigBuffer();
+  BigBuffer(const BigBuffer&) = delete;
+  BigBuffer& operator=(const BigBuffer&) = delete;
+  static constexpr std::size_t kBytes = std::size_t{1} << 30;
+  const std::uint64_t* words() const { return words_; }
+
+ private:
+  std::uint64_t* words_ = nullptr;
+};
+
+/// Bytes read in a row.
+Work run_stream(const BigBuffer& buffer);
+/// Reads of 64 aligned bytes at random places, prefetched 32 ahead.
+Work run_gather(const BigBuffer& buffer);
+
+/// The best of several runs, made once in the life of the process (0.2 s for all).
+double fma_limit(Arithmetic arithmetic);  ///< operations per second
+double stream_limit();                    ///< bytes per second
+double gather_limit();                    ///< reads per second
+
+}  // namespace gatelight::bench

@@ -1,0 +1,98 @@
+// train_step/{nrc,nao}/{gate,hashgrid}/{coherent,random}: a step of 49152 records on one million triangles.
+
+#include "bench/neural_rows.h"
+
+namespace gatelight::bench {
+namespace {
+
+struct TrainCase {
+  NeuralCase model;
+  Order order = Order::coherent;
+  neural::FeatureUpdate update = neural::FeatureUpdate::sparse;
+  neural::FeaturePrecision precision = neural::FeaturePrecision::fp32;
+  friend bool operator==(const TrainCase&, const TrainCase&) = default;
+};
+
+/// Google Benchmark calls a row several times: the backend of the last one is kept.
+struct Learner {
+  TrainCase which;
+  std::shared_ptr<const neural::Model> model;
+  std::unique_ptr<neural::Backend> backend;
+  std::vector<std::vector<float>> targets;
+
+  explicit Learner(const TrainCase& c) : which(c), model(neural_model(c.model)) {
+    neural::TrainingOptions options;
+    options.update = c.update;
+    options.precision = c.precision;
+    backend = neural::cpu::make_cpu_backend(model, options);
+    for (const NeuralPoints& points : training_points(c.order))
+      targets.push_back(training_targets(points, model->config.mlp.outputs));
+    for (std::size_t i = 0; i < targets.size(); ++i) step(i);  // warm up: memory, threads, every batch once
+  }
+
+  neural::StepStatistics step(std::size_t i) {
+    const std::size_t batch = i % targets.size();
+    return backend->train({training_points(which.order)[batch].query_batch(), targets[batch]});
+  }
+};
+
+void train_step(benchmark::State& state, const TrainCase& which) {
+  static std::unique_ptr<Learner> learner;
+  all_threads().execute([&] {
+    if (learner == nullptr || learner->which != which) {
+      learner.reset();
+      learner = std::make_unique<Learner>(which);
+    }
+    double seconds = 0.0, network = 0.0, sort = 0.0, update = 0.0, touched = 0.0, steps = 0.0;
+    for (auto _ : state) {
+      const Stopwatch watch;
+      const neural::StepStatistics statistics = learner->step(static_cast<std::size_t>(steps));
+      seconds += watch.seconds();
+      network += statistics.seconds_network;
+      sort += statistics.seconds_sort;
+      update += statistics.seconds_update;
+      touched += static_cast<double>(statistics.touched_nodes);
+      steps += 1.0;
+    }
+    const neural::Model& model = *learner->model;
+    const double records = steps * kBatchRecords;
+    // A node is read for each record that it belongs to; the update reads two moments and the average.
+    const double reads = records * model.nodes_per_point() + 3 * touched;
+    set_fractions(state, records * training_operations(model.parameters), seconds, arithmetic_in_use(),
+                  which.order == Order::random ? reads : 0.0);
+    state.counters["network_ms"] = 1e3 * network / steps;
+    state.counters["sort_ms"] = 1e3 * sort / steps;
+    state.counters["update_ms"] = 1e3 * update / steps;
+    state.counters["touched"] = touched / steps;
+    state.counters["feature_MB"] = static_cast<double>(learner->backend->parameter_bytes()) / 1e6;
+  });
+}
+
+const bool registered = [] {
+  const auto add = [](TrainCase which, const char* suffix) {
+    for (const Order order : {Order::coherent, Order::random}) {
+      which.order = order;
+      const std::string name = "train_step/" + case_name(which.model) + suffix + "/" + order_name(order);
+      benchmark::RegisterBenchmark(name.c_str(), train_step, which)->Unit(benchmark::kMillisecond);
+    }
+  };
+  for (const Cache cache : {Cache::nrc, Cache::nao}) {
+    for (const Encoding encoding :
+         {Encoding::gate, Encoding::hash_grid, Encoding::hash_grid_m, Encoding::hash_grid_s}) {
+      TrainCase which{{cache, encoding}};
+      add(which, "");
+      if (encoding == Encoding::gate) {
+        which.precision = neural::FeaturePrecision::fp16;
+        add(which, "_fp16");
+      }
+      if (encoding == Encoding::hash_grid) {
+        which.update = neural::FeatureUpdate::dense;
+        add(which, "_dense");
+      }
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace gatelight::bench
