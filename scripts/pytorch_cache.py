@@ -1,0 +1,215 @@
+"""The cache of `train_step/nrc/gate` and `query/nrc/gate` in PyTorch, for scripts/compare-pytorch. Prints one line of JSON.
+
+The same mathematics on a surface of the same size: feature vectors of 8 on the nodes of two levels (R = 2 and 1), 16 direction
+inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. All that PyTorch is
+not made for is left out of its clock: which nodes a point reads and with which weights, and the direction's
+encoding, are computed beforehand; it keeps no averages and rejects no records. Its own choices are its fastest:
+embedding_bag with sparse gradients, queries in chunks."""
+
+import argparse
+import json
+import statistics
+import time
+
+import numpy as np
+import torch
+from torch.nn import functional
+
+COLUMNS, ROWS = 1000, 500  # quads of the torus; two triangles each
+VERTICES, EDGES = COLUMNS * ROWS, 3 * COLUMNS * ROWS
+FEATURES, DIRECTION_INPUTS, WIDTH, OUTPUTS = 8, 16, 32, 3
+BATCH = (256, 192)
+PICTURE = (1920, 1080)
+BATCHES = 8
+
+
+def corners_and_edges(triangle):
+    """Vertices of the corners, and the edges opposite to them, of each triangle: [n, 3] both."""
+    quad, upper = triangle // 2, triangle % 2
+    row, column = quad // COLUMNS, quad % COLUMNS
+    right, above = (column + 1) % COLUMNS, (row + 1) % ROWS
+    a, b = row * COLUMNS + column, row * COLUMNS + right
+    c, d = above * COLUMNS + right, above * COLUMNS + column
+    # Of the edges that begin at a vertex: to the right 3v, upwards 3v+1, the diagonal 3v+2.
+    lower_corners, upper_corners = np.stack([a, b, c], 1), np.stack([a, c, d], 1)
+    lower_edges = np.stack([3 * b + 1, 3 * a + 2, 3 * a], 1)
+    upper_edges = np.stack([3 * d, 3 * a + 1, 3 * a + 2], 1)
+    pick = (upper == 1)[:, None]
+    return np.where(pick, upper_corners, lower_corners), np.where(pick, upper_edges, lower_edges)
+
+
+def nodes_and_weights(triangle, b1, b2):
+    """[n, 6] of both levels: mesh colours at R = 2 on vertices and edge middles, at R = 1 on vertices."""
+    corners, edges = corners_and_edges(triangle)
+    weights1 = np.stack([1 - b1 - b2, b1, b2], 1)
+    scaled = 2 * weights1
+    whole = np.minimum(np.floor(scaled), 1)
+    rest = scaled - whole
+    corner = np.argmax(whole, 1)  # of the corner triangles, whose whole parts sum to 1
+    inside = whole.sum(1) == 0  # the triangle of the three edge middles
+    at = np.arange(len(triangle))
+    middles = VERTICES + edges
+    nodes2 = middles.copy()
+    weights2 = 1 - rest
+    # Corner triangle of corner k: node k is the corner, node m is the middle of k and m, opposite to the third.
+    for k in range(3):
+        rows = at[~inside & (corner == k)]
+        m, n = (k + 1) % 3, (k + 2) % 3
+        nodes2[rows, k] = corners[rows, k]
+        nodes2[rows, m] = middles[rows, n]
+        nodes2[rows, n] = middles[rows, m]
+        weights2[rows] = rest[rows]
+    return np.concatenate([nodes2, VERTICES + EDGES + corners], 1), np.concatenate([weights2, weights1], 1)
+
+
+def one_blob(direction, bins=8):
+    """Theta / pi and phi / 2 pi, a quartic kernel over `bins` each."""
+    theta = np.arccos(np.clip(direction[:, 2], -1, 1)) / np.pi
+    phi = np.arctan2(direction[:, 1], direction[:, 0]) / (2 * np.pi) % 1
+
+    def integral(x):
+        x = np.clip(x, -1, 1)
+        return 0.5 + 15 / 16 * (x - 2 / 3 * x**3 + x**5 / 5)
+
+    edges = np.arange(bins + 1) / bins
+    out = []
+    for value, wraps in ((theta, False), (phi, True)):
+        steps = integral((edges[None, :] - value[:, None]) * bins)
+        blob = np.diff(steps, axis=1)
+        if wraps:
+            for shift in (-1, 1):
+                blob += np.diff(integral((edges[None, :] - value[:, None] + shift) * bins), axis=1)
+        out.append(blob)
+    return np.concatenate(out, 1)
+
+
+def points(order, size, patch):
+    """As bench/neural_fixture makes them: pixels, two a quad in each direction, or any place."""
+    width, height = size
+    count = width * height
+    random = np.random.default_rng(1000 + patch)
+    if order == "coherent":
+        y, x = np.divmod(np.arange(count), width)
+        quad = (y // 2 + 61 * patch) % ROWS * COLUMNS + (x // 2 + 137 * patch) % COLUMNS
+        u, v = (x % 2 + random.random(count)) / 2, (y % 2 + random.random(count)) / 2
+        lower = u >= v
+        triangle = 2 * quad + ~lower
+        b1, b2 = np.where(lower, u - v, u), np.where(lower, v, v - u)
+        direction = np.stack([x / 1000 - 0.5, y / 1000 - 0.5, np.ones(count)], 1)
+    else:
+        triangle = random.integers(0, 2 * COLUMNS * ROWS, count)
+        b1, b2 = random.random(count), random.random(count)
+        b1, b2 = np.where(b1 + b2 > 1, 1 - b1, b1), np.where(b1 + b2 > 1, 1 - b2, b2)
+        direction = random.normal(size=(count, 3))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    nodes, weights = nodes_and_weights(triangle, b1, b2)
+    return {"nodes": torch.from_numpy(nodes.reshape(-1, 3)),
+            "weights": torch.from_numpy(weights.reshape(-1, 3).astype(np.float32)),
+            "direction": torch.from_numpy(one_blob(direction).astype(np.float32)),
+            "targets": torch.from_numpy(random.random((count, OUTPUTS), dtype=np.float32))}
+
+
+class Cache:
+    def __init__(self):
+        torch.manual_seed(1)
+        count = 2 * VERTICES + EDGES
+        self.features = torch.empty(count, FEATURES).uniform_(-1e-4, 1e-4).requires_grad_()
+        self.network = torch.nn.Sequential(
+            torch.nn.Linear(2 * FEATURES + DIRECTION_INPUTS, WIDTH), torch.nn.LeakyReLU(0.01, inplace=True),
+            torch.nn.Linear(WIDTH, WIDTH), torch.nn.LeakyReLU(0.01, inplace=True), torch.nn.Linear(WIDTH, OUTPUTS))
+        options = {"lr": 1e-2, "betas": (0.9, 0.99), "eps": 1e-15}
+        self.optimizers = [torch.optim.SparseAdam([self.features], **options),
+                           torch.optim.Adam(self.network.parameters(), weight_decay=1e-6, **options)]
+        self.luminance = torch.tensor([0.299, 0.587, 0.114])
+
+    def encode(self, nodes, weights, direction, features):
+        found = functional.embedding_bag(nodes, features, per_sample_weights=weights, mode="sum", sparse=True)
+        return torch.cat([found.view(-1, 2 * FEATURES), direction], 1)
+
+    def step(self, batch):
+        for optimizer in self.optimizers:
+            optimizer.zero_grad(set_to_none=True)
+        y = self.network(self.encode(batch["nodes"], batch["weights"], batch["direction"], self.features))
+        scale = 1 / ((y.detach() @ self.luminance) ** 2 + 0.01)
+        loss = ((y - batch["targets"]) ** 2 * scale[:, None]).mean()
+        loss.backward()
+        for optimizer in self.optimizers:
+            optimizer.step()
+        return loss
+
+    @torch.no_grad()
+    def query(self, batch, out, network, dtype, chunk):
+        features = self.features.detach()
+        for begin in range(0, len(out), chunk):
+            end = begin + chunk
+            x = self.encode(batch["nodes"][2 * begin:2 * end], batch["weights"][2 * begin:2 * end],
+                            batch["direction"][begin:end], features)
+            out[begin:end] = network(x.to(dtype)).clamp_(min=0)
+
+
+def median_ms(run, repetitions, warm_up):
+    for i in range(warm_up):
+        run(i)
+    times = []
+    for i in range(repetitions):
+        start = time.perf_counter()
+        run(i)
+        times.append(1e3 * (time.perf_counter() - start))
+    return statistics.median(times)
+
+
+def check():
+    """What is precomputed is a mesh-colour lookup: an affine field over a triangle comes back exactly."""
+    triangle = np.repeat(np.arange(0, 2000, 7), 50)
+    random = np.random.default_rng(1)
+    b1, b2 = random.random((2, len(triangle)))
+    b1, b2 = np.where(b1 + b2 > 1, 1 - b1, b1), np.where(b1 + b2 > 1, 1 - b2, b2)
+    corners, edges = corners_and_edges(triangle)
+    nodes, weights = nodes_and_weights(triangle, b1, b2)
+    field = np.full((len(triangle), 3), [1.0, 5.0, -2.0])
+    middles = (field.sum(1, keepdims=True) - field) / 2
+    value = np.zeros(len(triangle))
+    for k in range(3):
+        for number, at in ((corners, field), (VERTICES + edges, middles)):
+            for m in range(3):
+                value += np.where(nodes[:, k] == number[:, m], weights[:, k] * at[:, m], 0)
+    expected = (1 - b1 - b2) * 1.0 + b1 * 5.0 + b2 * -2.0
+    assert np.allclose(value, expected) and np.allclose(weights.sum(1), 2), "the lookups are wrong"
+    blobs = one_blob(random.normal(size=(1000, 3)) / 9 + [0, 1, 0])
+    assert np.allclose(blobs[:, 8:].sum(1), 1), "the direction's encoding is wrong"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--threads", type=int, required=True)
+    parser.add_argument("--steps", type=int, required=True)
+    parser.add_argument("--queries", type=int, required=True)
+    parser.add_argument("--chunk", type=int, required=True)
+    options = parser.parse_args()
+    check()
+    torch.set_num_threads(options.threads)
+    result = {}
+    for order in ("coherent", "random"):
+        cache = Cache()
+        batches = [points(order, BATCH, patch) for patch in range(BATCHES)]
+        first = cache.step(batches[0]).item()
+        result[f"train/{order}"] = median_ms(lambda i: cache.step(batches[i % BATCHES]), options.steps, BATCHES)
+        last = cache.step(batches[0]).item()
+        assert last < first, f"PyTorch does not learn: loss {first} to {last}"
+        picture = points(order, PICTURE, 0)
+        out = torch.empty(PICTURE[0] * PICTURE[1], OUTPUTS)
+        half = torch.nn.Sequential(*[
+            torch.nn.LeakyReLU(0.01, inplace=True) if not hasattr(layer, "weight") else
+            torch.nn.Linear(layer.in_features, layer.out_features) for layer in cache.network])
+        half.load_state_dict(cache.network.state_dict())
+        half.bfloat16()
+        for name, network, dtype in (("fp32", cache.network, torch.float32), ("bf16", half, torch.bfloat16)):
+            result[f"query/{order}/{name}"] = median_ms(
+                lambda _: cache.query(picture, out, network, dtype, options.chunk), options.queries, 1)
+    with open("/proc/self/maps", encoding="utf-8") as file:
+        result["openblas"] = "openblas" in file.read()
+    result["torch"] = torch.__version__
+    print(json.dumps(result))
+
+
+main()
