@@ -9,7 +9,8 @@ namespace gatelight::neural {
 /// The topology of surface s: for triangle t the three corners at topology[topology_offset + t *
 /// topology_stride], then, if the stride is 6, its three edges; edge c is the one opposite to corner c.
 /// Corner and edge numbers count from vertex_base and edge_base. An edge is walked from its corner with the
-/// lower number to the one with the higher.
+/// lower number to the one with the higher; one between equal corners, of a degenerate triangle, from corner
+/// c+2 to c+1 (modulo 3). A clustered surface has its clusters for corners. Per triangle: no topology.
 struct GateSurface {
   uint32_t topology_offset = 0;
   uint32_t topology_stride = 3;  ///< 3 or 6
