@@ -150,14 +150,16 @@ GATELIGHT_INLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoint
   for (uint32_t i = 0; i < e.auxiliary_count; ++i) {
     const KernelAuxiliary& a = e.auxiliary[i];
     const uint32_t width = a.source == KernelSource::roughness ? 1 : 3;
-    const float* span = span_of(points, a.source) + begin * width;
-    __builtin_memcpy(tile.raw, span, count * width * sizeof(float));
-    __builtin_memset(tile.raw + count * width, 0, (kTile - count) * width * sizeof(float));
+    const float* rows = span_of(points, a.source) + begin * width;
+    if (count < kTile) {
+      for (uint32_t k = 0; k < kTile * width; ++k) tile.raw[k] = k < count * width ? rows[k] : 0.0f;
+      rows = tile.raw;
+    }
     const Int triples = mul_int(lane_numbers(), broadcast_int(width));
     for (uint32_t s = 0; s < kTile; s += kLanes) {
       const Mask usable = less(zero(), load(valid + s));
       for (uint32_t c = 0; c < width; ++c) {
-        Float x = select(usable, gather(tile.raw + s * width + c, triples), zero());
+        Float x = select(usable, gather(rows + s * width + c, triples), zero());
         if (a.source == KernelSource::position)
           x = clamp(mul(sub(x, broadcast(e.bounds_min[c])), broadcast(e.inverse_extent)), 0.0f, 1.0f);
         store(tile.lanes[c] + s, x);

@@ -9,16 +9,20 @@ namespace {
 using namespace gatelight::neural;
 using namespace gatelight::neural::cpu;
 
-// A tile's points, copied so that there are always kTile of them; those that are not finite or missing are
-// replaced by zeros. 1 or 0: `finite` tells which are there and finite, `valid` which of them have storage
-// too.
+// A tile's points: kTile of each array, in the batch itself or, where points are missing or not finite,
+// copies with zeros in their places. 1 or 0: `finite` tells which are there and finite, `valid` which of them
+// have storage too.
 struct TilePoints {
-  alignas(64) uint32_t surfaces[kTile];
-  alignas(64) uint32_t triangles[kTile];
-  alignas(64) float barycentrics[2 * kTile];
-  alignas(64) float positions[3 * kTile];
+  const uint32_t* surfaces;
+  const uint32_t* triangles;
+  const float* barycentrics;
+  const float* positions;
   alignas(64) float finite[kTile];
   alignas(64) float valid[kTile];
+  alignas(64) uint32_t surface_copies[kTile];
+  alignas(64) uint32_t triangle_copies[kTile];
+  alignas(64) float barycentric_copies[2 * kTile];
+  alignas(64) float position_copies[3 * kTile];
 };
 
 // The integer barycentrics of a virtual triangle's three nodes and their weights (Yuksel et al. 2010). With
@@ -250,16 +254,31 @@ GATELIGHT_INLINE void lookup_hash_grid(const KernelEncoder& e, const TilePoints&
   }
 }
 
-// The addresses that lookup_gate will read first, so that they are near when it comes.
-GATELIGHT_INLINE void prefetch_topology(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                        uint64_t end) {
+GATELIGHT_INLINE void prefetch_rows(const float* p, uint32_t width, uint64_t begin, uint64_t end) {
+  if (p == nullptr) return;
+  for (uint64_t i = begin * width; i < end * width; i += 16) prefetch(p + i);
+}
+
+// What the lookups of points [begin, end) will read first, so that it is near when they come.
+GATELIGHT_INLINE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                      uint64_t end) {
+  prefetch_rows(points.barycentrics, 2, begin, end);
+  prefetch_rows(points.positions, 3, begin, end);
+  prefetch_rows(points.directions, 3, begin, end);
+  prefetch_rows(points.normals, 3, begin, end);
+  prefetch_rows(points.albedos, 3, begin, end);
   if (e.encoding != KernelEncoding::gate || e.per_triangle != 0) return;
+  const GateSurface* surfaces = e.surfaces;
+  const uint32_t* topology = e.topology;
+  const uint32_t surface_count = e.surface_count;
+  const uint32_t* point_surfaces = points.surfaces;
+  const uint32_t* point_triangles = points.triangles;
   for (uint64_t i = begin; i < end; ++i) {
-    const uint32_t surface = points.surfaces[i];
-    if (surface >= e.surface_count) continue;
-    const GateSurface& s = e.surfaces[surface];
-    if (points.triangles[i] >= s.triangle_count) continue;
-    prefetch(e.topology + s.topology_offset + uint64_t{points.triangles[i]} * s.topology_stride);
+    const uint32_t surface = point_surfaces[i], triangle = point_triangles[i];
+    if (surface >= surface_count) continue;
+    const GateSurface& s = surfaces[surface];
+    if (triangle < s.triangle_count)
+      prefetch(topology + s.topology_offset + uint64_t{triangle} * s.topology_stride);
   }
 }
 

@@ -26,8 +26,17 @@ struct FiniteSpan {
   uint32_t width;
 };
 
-// Copies points [begin, begin + count) and sets valid and finite: 1 where every input, and the target if
-// there is one, is finite. Returns how many are not.
+// Copies `count` rows of `width` words and fills up to kTile with zeros, also where `finite` is 0.
+template <class Word>
+GATELIGHT_INLINE void copy_rows(Word* to, const Word* from, uint32_t width, uint32_t count,
+                                const float* finite) {
+  for (uint32_t s = 0; s < kTile; ++s)
+    for (uint32_t c = 0; c < width; ++c)
+      to[s * width + c] = s < count && finite[s] != 0.0f ? from[s * width + c] : 0;
+}
+
+// Takes points [begin, begin + count) and sets valid and finite: 1 where every input, and the target if there
+// is one, is finite. Returns how many are not.
 GATELIGHT_INLINE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points,
                                       const float* targets, uint32_t outputs, uint64_t begin, uint32_t count,
                                       TilePoints& tile) {
@@ -46,27 +55,28 @@ GATELIGHT_INLINE uint32_t take_points(const KernelEncoder& e, const KernelPoints
         ++rejected;
       }
   }
-  __builtin_memcpy(tile.valid, tile.finite, sizeof tile.valid);
+  for (uint32_t s = 0; s < kTile; s += kLanes) store(tile.valid + s, load(tile.finite + s));
 
+  const bool copies = count < kTile || rejected != 0;
   if (e.encoding == KernelEncoding::gate) {
-    __builtin_memcpy(tile.surfaces, points.surfaces + begin, count * 4);
-    __builtin_memcpy(tile.triangles, points.triangles + begin, count * 4);
-    __builtin_memcpy(tile.barycentrics, points.barycentrics + 2 * begin, count * 8);
-    if (count < kTile) {
-      __builtin_memset(tile.surfaces + count, 0, (kTile - count) * 4);
-      __builtin_memset(tile.triangles + count, 0, (kTile - count) * 4);
-      __builtin_memset(tile.barycentrics + 2 * count, 0, (kTile - count) * 8);
+    tile.surfaces = points.surfaces + begin;
+    tile.triangles = points.triangles + begin;
+    tile.barycentrics = points.barycentrics + 2 * begin;
+    if (copies) {
+      copy_rows(tile.surface_copies, tile.surfaces, 1, count, tile.finite);
+      copy_rows(tile.triangle_copies, tile.triangles, 1, count, tile.finite);
+      copy_rows(tile.barycentric_copies, tile.barycentrics, 2, count, tile.finite);
+      tile.surfaces = tile.surface_copies;
+      tile.triangles = tile.triangle_copies;
+      tile.barycentrics = tile.barycentric_copies;
     }
   } else if (e.encoding == KernelEncoding::hash_grid) {
-    __builtin_memcpy(tile.positions, points.positions + 3 * begin, count * 12);
-    if (count < kTile) __builtin_memset(tile.positions + 3 * count, 0, (kTile - count) * 12);
+    tile.positions = points.positions + 3 * begin;
+    if (copies) {
+      copy_rows(tile.position_copies, tile.positions, 3, count, tile.finite);
+      tile.positions = tile.position_copies;
+    }
   }
-  if (rejected != 0)
-    for (uint32_t s = 0; s < count; ++s)
-      if (tile.finite[s] == 0.0f) {
-        tile.barycentrics[2 * s] = tile.barycentrics[2 * s + 1] = 0.0f;
-        tile.positions[3 * s] = tile.positions[3 * s + 1] = tile.positions[3 * s + 2] = 0.0f;
-      }
   return rejected;
 }
 

@@ -84,7 +84,7 @@ GATELIGHT_INLINE void prefetch_node(const KernelFeatureUpdate& u, uint64_t node,
 template <uint32_t kLength>
 void update_features_of(const KernelFeatureUpdate& u) {
   const uint32_t length = kLength != 0 ? kLength : u.features;
-  constexpr uint32_t kAhead = 16;
+  constexpr uint32_t kAhead = 32;
 
   // In the order of the records, so that sums do not depend on threads.
   for (uint32_t i = 0; i < u.reference_count; ++i) {

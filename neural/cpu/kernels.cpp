@@ -79,7 +79,7 @@ void train(const KernelTraining& t) {
   };
 
   if (tiles > 0) {
-    prefetch_topology(e, t.points, t.begin, t.begin + tile_count(t.begin, t.end, 0));
+    prefetch_points(e, t.points, t.begin, t.begin + tile_count(t.begin, t.end, 0));
     prepare(0);
   }
   for (uint64_t k = 0; k < tiles; ++k) {
@@ -90,8 +90,7 @@ void train(const KernelTraining& t) {
     const uint32_t* nodes = t.nodes + (first_tile + k) * slots * kTile;
     const float* weights = t.weights + (first_tile + k) * slots * kTile;
     if (k + 2 < tiles)
-      prefetch_topology(e, t.points, begin + 2 * kTile,
-                        begin + 2 * kTile + tile_count(t.begin, t.end, k + 2));
+      prefetch_points(e, t.points, begin + 2 * kTile, begin + 2 * kTile + tile_count(t.begin, t.end, k + 2));
     Prefetcher ahead;
     if (k + 1 < tiles) {
       prepare(k + 1);
@@ -129,11 +128,30 @@ void train(const KernelTraining& t) {
   *t.statistics = statistics;
 }
 
-GATELIGHT_INLINE float in_range(float y, uint32_t range) {
-  if (range == 0) return y;
-  if (!(y - y == 0.0f)) return 0.0f;
-  y = y > 0.0f ? y : 0.0f;
-  return range == 2 && y > 1.0f ? 1.0f : y;
+// What a query makes of `count` floats in place: not finite becomes 0, then the range.
+GATELIGHT_INLINE Float in_range(Float y, uint32_t range) {
+  y = max(select(finite(y), y, zero()), zero());
+  return range == 2 ? min(y, broadcast(1.0f)) : y;
+}
+
+GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t count, uint32_t range,
+                                    float* out) {
+  const uint32_t total = count * outputs;
+  if (outputs <= 4) {
+    // Whole groups of four, each overwriting what is too much of the one before; the last rows one by one.
+    uint32_t s = 0;
+    for (; s * outputs + 4 <= total && s < count; ++s)
+      store_short(out + s * outputs, load_short<Float4>(y + s * kOutputStride));
+    for (; s < count; ++s)
+      for (uint32_t c = 0; c < outputs; ++c) out[s * outputs + c] = y[s * kOutputStride + c];
+  } else {
+    for (uint32_t s = 0; s < count; ++s)
+      for (uint32_t c = 0; c < outputs; ++c) out[s * outputs + c] = y[s * kOutputStride + c];
+  }
+  if (range == 0) return;
+  uint32_t i = 0;
+  for (; i + kLanes <= total; i += kLanes) store(out + i, in_range(load(out + i), range));
+  if (i < total) store_partial(out + i, in_range(load_partial(out + i, total - i), range), total - i);
 }
 
 void query(const KernelQuery& q) {
@@ -158,7 +176,7 @@ void query(const KernelQuery& q) {
   };
 
   if (tiles > 0) {
-    prefetch_topology(e, q.points, q.begin, q.begin + tile_count(q.begin, q.end, 0));
+    prefetch_points(e, q.points, q.begin, q.begin + tile_count(q.begin, q.end, 0));
     prepare(0);
   }
   for (uint64_t k = 0; k < tiles; ++k) {
@@ -166,8 +184,7 @@ void query(const KernelQuery& q) {
     const uint32_t count = tile_count(q.begin, q.end, k);
     const uint32_t rows = padded_rows(count);
     if (k + 2 < tiles)
-      prefetch_topology(e, q.points, begin + 2 * kTile,
-                        begin + 2 * kTile + tile_count(q.begin, q.end, k + 2));
+      prefetch_points(e, q.points, begin + 2 * kTile, begin + 2 * kTile + tile_count(q.begin, q.end, k + 2));
     Prefetcher ahead;
     if (k + 1 < tiles) {
       prepare(k + 1);
@@ -184,9 +201,7 @@ void query(const KernelQuery& q) {
     else
       forward<false>(n, b, rows, between);
     ahead.rest();
-    float* out = q.out + begin * n.outputs;
-    for (uint32_t s = 0; s < count; ++s)
-      for (uint32_t c = 0; c < n.outputs; ++c) *out++ = in_range(b.outputs[s * kOutputStride + c], q.range);
+    write_outputs(b.outputs, n.outputs, count, q.range, q.out + begin * n.outputs);
   }
 }
 
