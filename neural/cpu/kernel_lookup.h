@@ -165,7 +165,8 @@ GATELIGHT_INLINE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points
     b[1] = gather(points.barycentrics + 2 * s, pairs);
     b[2] = gather(points.barycentrics + 2 * s + 1, pairs);
     b[0] = sub(sub(broadcast(1.0f), b[1]), b[2]);
-    for (Float& x : b) x = max(x, zero());
+    // Points far outside stay finite, so that every node that comes out exists.
+    for (Float& x : b) x = min(max(x, zero()), broadcast(1e30f));
     const Float inverse = div(broadcast(1.0f), add(b[0], add(b[1], b[2])));
     for (Float& x : b) x = mul(x, inverse);
 
