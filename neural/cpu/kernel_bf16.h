@@ -13,10 +13,10 @@ GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
-template <uint32_t kRowStride, uint32_t kVectors, class Finish, class Between>
+template <uint32_t kRowStride, uint32_t kVectors, class Finish>
 GATELIGHT_ALONE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uint32_t pairs,
                                            const uint16_t* w, uint32_t w_columns, const float* bias,
-                                           uint32_t columns, Finish&& finish, Between&& between) {
+                                           uint32_t columns, Finish&& finish, const Between& between) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
       Float acc[kBlockRows][kVectors];
@@ -50,9 +50,9 @@ GATELIGHT_ALONE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uin
   }
 }
 
-template <uint32_t kRowStride, class Finish, class Between>
+template <uint32_t kRowStride, class Finish>
 GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x, uint32_t rows,
-                                    Finish&& finish, Between&& between) {
+                                    Finish&& finish, const Between& between) {
   const uint32_t columns = layer.padded_outputs;
   const uint32_t whole = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
   const uint32_t pairs = (layer.inputs + 1) / 2;
@@ -66,9 +66,8 @@ GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x,
 }
 
 // The rows of activations are bf16 in the buffers of the fp32 ones.
-template <class Between>
 GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
-                                   Between&& between) {
+                                   const Between& between) {
   auto* x = reinterpret_cast<uint16_t*>(b.spare);
   for (uint32_t r = 0; r < rows; ++r)
     for (uint32_t c = 0; c < n.input_stride; c += kLanes)
@@ -100,9 +99,8 @@ GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b,
 
 #else
 
-template <class Between>
 GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
-                                   Between&& between) {
+                                   const Between& between) {
   for (uint32_t i = 0; i < rows * n.input_stride; i += kLanes)
     store(inputs + i, round_to_bf16(load(inputs + i)));
   forward<true>(n, b, rows, between);

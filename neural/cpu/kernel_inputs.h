@@ -53,7 +53,7 @@ GATELIGHT_INLINE Float sine_pi(Float x) {
 }
 
 // Unit coordinates of a direction: theta / pi from the z axis and phi / 2 pi in [0, 1).
-GATELIGHT_INLINE void spherical(TileCoordinates& tile) {
+GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
     const Float theta = arctangent(sqrt(fma(x, x, mul(y, y))), z);
@@ -90,8 +90,8 @@ GATELIGHT_INLINE Float quartic_primitive(Float u) {
 
 // One-blob (Mueller et al. 2019, 2021): the share of a quartic kernel of radius 1/size around the coordinate
 // that falls into each bin. A lane is a bin; the azimuth (the second of spherical coordinates) wraps.
-GATELIGHT_INLINE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
-                                      uint32_t stride) {
+GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                     uint32_t stride) {
   const bool wraps = a.transform == KernelTransform::spherical_one_blob;
   const float size = static_cast<float>(a.size);
   const Int bins = broadcast_int(a.size);
@@ -121,8 +121,8 @@ GATELIGHT_INLINE void encode_one_blob(const KernelAuxiliary& a, const TileCoordi
   }
 }
 
-GATELIGHT_INLINE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
-                                       uint32_t stride) {
+GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                      uint32_t stride) {
   alignas(64) float sines[kLanes], cosines[kLanes];
   for (uint32_t c = 0; c < a.coordinates; ++c) {
     float scale = 1.0f;
@@ -144,8 +144,8 @@ GATELIGHT_INLINE void encode_frequency(const KernelAuxiliary& a, const TileCoord
 }
 
 // Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points are as zeros.
-GATELIGHT_INLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                       uint32_t count, const float* valid, float* inputs, uint32_t stride) {
+GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                      uint32_t count, const float* valid, float* inputs, uint32_t stride) {
   TileCoordinates tile;
   for (uint32_t i = 0; i < e.auxiliary_count; ++i) {
     const KernelAuxiliary& a = e.auxiliary[i];

@@ -10,9 +10,9 @@ namespace {
 using namespace gatelight::neural::cpu;
 
 template <uint32_t kNodes, class Element>
-GATELIGHT_INLINE void interpolate_rows(const Element* features, uint32_t length, uint32_t levels,
-                                       const uint32_t* nodes, const float* weights, float* inputs,
-                                       uint32_t stride) {
+GATELIGHT_ALONE void interpolate_rows(const Element* features, uint32_t length, uint32_t levels,
+                                      const uint32_t* nodes, const float* weights, float* inputs,
+                                      uint32_t stride) {
   for (uint32_t s = 0; s < kTile; ++s) {
     float* row = inputs + s * stride;
     for (uint32_t l = 0; l < levels; ++l, row += length) {
@@ -58,36 +58,6 @@ GATELIGHT_INLINE void interpolate(const KernelEncoder& e, const uint32_t* nodes,
     interpolate_from(e, e.half_features, nodes, weights, inputs, stride);
   else
     interpolate_from(e, e.float_features, nodes, weights, inputs, stride);
-}
-
-// Asks for the feature vectors of a tile a few at a time between blocks of arithmetic, so that the misses
-// overlap it.
-struct Prefetcher {
-  const uint32_t* nodes = nullptr;
-  uint32_t count = 0;
-  uint32_t next = 0;
-  uint32_t step = 0;
-  const char* base = nullptr;
-  uint32_t bytes = 0;
-
-  __attribute__((always_inline)) void some() {
-    const uint32_t end = next + step < count ? next + step : count;
-    for (; next < end; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
-  }
-  __attribute__((always_inline)) void rest() {
-    for (; next < count; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
-  }
-};
-
-GATELIGHT_INLINE Prefetcher make_prefetcher(const KernelEncoder& e, const uint32_t* nodes, uint32_t blocks) {
-  Prefetcher p;
-  p.nodes = nodes;
-  p.count = e.levels * e.nodes_per_level * kTile;
-  p.step = (p.count + blocks - 1) / blocks;
-  p.base = e.half_features != nullptr ? reinterpret_cast<const char*>(e.half_features)
-                                      : reinterpret_cast<const char*>(e.float_features);
-  p.bytes = e.features * (e.half_features != nullptr ? 2 : 4);
-  return p;
 }
 
 }  // namespace

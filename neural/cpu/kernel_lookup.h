@@ -133,8 +133,8 @@ GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, In
 
 // Writes nodes and weights [slot][kTile]; weight 0 for points without storage, whose `valid` becomes 0.
 // Returns how many valid points had none.
-GATELIGHT_INLINE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
-                                      float* weights) {
+GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
+                                     float* weights) {
   uint32_t unstored = 0;
   const uint32_t* words = &e.surfaces->topology_offset;
   for (uint32_t s = 0; s < kTile; s += kLanes) {
@@ -215,8 +215,8 @@ GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
 }
 
 // Instant-ngp's grid: points at x scale + 0.5, eight corners with trilinear weights.
-GATELIGHT_INLINE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
-                                       float* weights) {
+GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
+                                      float* weights) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
     const Int triples = add_int(lane_numbers(), add_int(lane_numbers(), lane_numbers()));
@@ -261,8 +261,8 @@ GATELIGHT_INLINE void prefetch_rows(const float* p, uint32_t width, uint64_t beg
 }
 
 // What the lookups of points [begin, end) will read first, so that it is near when they come.
-GATELIGHT_INLINE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                      uint64_t end) {
+GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                     uint64_t end) {
   prefetch_rows(points.barycentrics, 2, begin, end);
   prefetch_rows(points.positions, 3, begin, end);
   prefetch_rows(points.directions, 3, begin, end);

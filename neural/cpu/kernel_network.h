@@ -1,6 +1,7 @@
 #pragma once
 // Forward and backward through the network for one tile. Part of kernels.cpp.
 
+#include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_products.h"
 #include "neural/cpu/kernels.h"
 
@@ -25,10 +26,6 @@ GATELIGHT_INLINE void with_stride(uint32_t stride, F&& f) {
   }
 }
 
-struct NoBetween {
-  __attribute__((always_inline)) void operator()() const {}
-};
-
 // Where the activations of a tile lie. On the way back gradients take the places of what they belong to: with
 // a second set of buffers a tile of the common networks would not fit into the first level of the cache.
 struct TileBuffers {
@@ -43,9 +40,9 @@ GATELIGHT_INLINE Float leaky(Float a, Float slope) {
 }
 
 // y = activation(x W + b).
-template <bool kRounded, class Between>
+template <bool kRounded>
 GATELIGHT_INLINE void forward_hidden(const KernelLayer& layer, const float* x, uint32_t x_stride, float* y,
-                                     uint32_t y_stride, uint32_t rows, float slope, Between&& between) {
+                                     uint32_t y_stride, uint32_t rows, float slope, const Between& between) {
   const Float s = broadcast(slope);
   with_stride(
       x_stride, [&](auto stride) __attribute__((always_inline)) {
@@ -92,9 +89,9 @@ GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* 
 
 #endif
 
-template <bool kRounded, class Between>
+template <bool kRounded>
 GATELIGHT_INLINE void forward_output(const KernelLayer& layer, const float* x, uint32_t x_stride, float* y,
-                                     uint32_t rows, Between&& between) {
+                                     uint32_t rows, const Between& between) {
 #if !defined(GATELIGHT_ISA_SCALAR)
   if (layer.forward_groups != nullptr) {
     switch (layer.inputs / kLanes) {
@@ -129,9 +126,9 @@ GATELIGHT_INLINE void forward_output(const KernelLayer& layer, const float* x, u
       });
 }
 
-template <bool kRounded, class Between>
+template <bool kRounded>
 GATELIGHT_INLINE void forward(const KernelNetwork& n, const TileBuffers& b, uint32_t rows,
-                              Between&& between) {
+                              const Between& between) {
   const float* x = b.inputs;
   uint32_t stride = n.input_stride;
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l) {
@@ -157,9 +154,9 @@ GATELIGHT_INLINE void add_columns(float* sums, const float* d, uint32_t stride, 
 // From the gradients in `outputs` to the gradients of weights and biases (added to `gradients`) and of the
 // feature inputs, which finish_features(row, column, value) takes. rows is a multiple of kBlockRows and so
 // even.
-template <class FinishFeatures, class Between>
+template <class FinishFeatures>
 GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uint32_t rows, float* gradients,
-                               FinishFeatures&& finish_features, Between&& between) {
+                               FinishFeatures&& finish_features, const Between& between) {
   const uint32_t last = n.layer_count - 1;
   const KernelLayer& output = n.layers[last];
   const uint32_t width = n.width;

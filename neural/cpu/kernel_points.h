@@ -37,9 +37,8 @@ GATELIGHT_INLINE void copy_rows(Word* to, const Word* from, uint32_t width, uint
 
 // Takes points [begin, begin + count) and sets valid and finite: 1 where every input, and the target if there
 // is one, is finite. Returns how many are not.
-GATELIGHT_INLINE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points,
-                                      const float* targets, uint32_t outputs, uint64_t begin, uint32_t count,
-                                      TilePoints& tile) {
+GATELIGHT_ALONE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points, const float* targets,
+                                     uint32_t outputs, uint64_t begin, uint32_t count, TilePoints& tile) {
   const FiniteSpan spans[7] = {{points.barycentrics, 2}, {points.positions, 3}, {points.directions, 3},
                                {points.normals, 3},      {points.albedos, 3},   {points.roughnesses, 1},
                                {targets, outputs}};

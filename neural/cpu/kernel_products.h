@@ -4,6 +4,7 @@
 // activations (records in rows) or, for weight gradients, their transpose; nothing is ever transposed in
 // memory. Part of kernels.cpp.
 
+#include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/simd.h"
 
 namespace {
@@ -28,10 +29,10 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, 
 
 // y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. finish(row, column, value) stores a vector;
 // between_blocks() is called after each block.
-template <uint32_t kRowStride, uint32_t kVectors, class Finish, class Between>
+template <uint32_t kRowStride, uint32_t kVectors, class Finish>
 GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
                                             uint32_t w_stride, const float* bias, uint32_t columns,
-                                            Finish&& finish, Between&& between_blocks) {
+                                            Finish&& finish, const Between& between_blocks) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     Float start[kVectors];
 #pragma GCC unroll 4
@@ -53,10 +54,10 @@ GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint3
 }
 
 // `columns` is a multiple of 16. One vector a row where two do not fit.
-template <uint32_t kRowStride, class Finish, class Between>
+template <uint32_t kRowStride, class Finish>
 GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, const float* w,
                                uint32_t w_stride, const float* bias, uint32_t columns, Finish&& finish,
-                               Between&& between_blocks) {
+                               const Between& between_blocks) {
   const uint32_t pairs = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
   multiply_block_columns<kRowStride, kBlockVectors>(x, rows, depth, w, w_stride, bias, pairs, finish,
                                                     between_blocks);
@@ -85,10 +86,9 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
 
 // Weight gradients: g[i][c] += sum over the samples of x[s][i] d[s][c] for i < rows, c < columns (a multiple
 // of 16).
-template <class Between>
-GATELIGHT_INLINE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
-                                const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
-                                Between&& between_blocks) {
+GATELIGHT_ALONE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
+                               const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
+                               const Between& between_blocks) {
   constexpr uint32_t kPair = kBlockVectors * kLanes;
   for (uint32_t i = 0; i < rows;) {
     const uint32_t left = rows - i;

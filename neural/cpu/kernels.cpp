@@ -96,9 +96,7 @@ void train(const KernelTraining& t) {
       prepare(k + 1);
       ahead = make_prefetcher(e, nodes + slots * kTile, 3 * forward_blocks(n));
     }
-    const auto between = [&]() __attribute__((always_inline)) {
-      ahead.some();
-    };
+    const Between between{&ahead};
 
     if (t.inputs != nullptr) {
       const float* given = t.inputs + (begin - t.begin) * n.input_stride;
@@ -190,9 +188,7 @@ void query(const KernelQuery& q) {
       prepare(k + 1);
       ahead = make_prefetcher(e, nodes_of(k + 1), forward_blocks(n));
     }
-    const auto between = [&]() __attribute__((always_inline)) {
-      ahead.some();
-    };
+    const Between between{&ahead};
 
     if (slots > 0) interpolate(e, nodes_of(k), weights_of(k), inputs, n.input_stride);
     encode_auxiliary(e, q.points, begin, count, points[k & 1].finite, inputs, n.input_stride);

@@ -1,0 +1,47 @@
+#pragma once
+// Memory asked for ahead of its use, at the pace of the arithmetic. Part of kernels.cpp.
+
+#include "neural/cpu/kernels.h"
+#include "neural/cpu/simd.h"
+
+namespace {
+
+using namespace gatelight::neural::cpu;
+
+// Asks for the feature vectors of a tile a few at a time between blocks of arithmetic, so that the misses
+// overlap it.
+struct Prefetcher {
+  const uint32_t* nodes = nullptr;
+  uint32_t count = 0;
+  uint32_t next = 0;
+  uint32_t step = 0;
+  const char* base = nullptr;
+  uint32_t bytes = 0;
+
+  __attribute__((always_inline)) void some() {
+    const uint32_t end = next + step < count ? next + step : count;
+    for (; next < end; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+  }
+  __attribute__((always_inline)) void rest() {
+    for (; next < count; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+  }
+};
+
+GATELIGHT_INLINE Prefetcher make_prefetcher(const KernelEncoder& e, const uint32_t* nodes, uint32_t blocks) {
+  Prefetcher p;
+  p.nodes = nodes;
+  p.count = e.levels * e.nodes_per_level * kTile;
+  p.step = (p.count + blocks - 1) / blocks;
+  p.base = e.half_features != nullptr ? reinterpret_cast<const char*>(e.half_features)
+                                      : reinterpret_cast<const char*>(e.float_features);
+  p.bytes = e.features * (e.half_features != nullptr ? 2 : 4);
+  return p;
+}
+
+// What products call after each block.
+struct Between {
+  Prefetcher* prefetcher;
+  __attribute__((always_inline)) void operator()() const { prefetcher->some(); }
+};
+
+}  // namespace
