@@ -1,0 +1,18 @@
+#pragma once
+// Adam (Kingma, Ba 2015, algorithm 1).
+
+#include <cstdint>
+
+#include "neural/training_options.h"
+
+namespace gatelight::neural::reference {
+
+struct Moments {
+  double first = 0;   ///< m
+  double second = 0;  ///< v
+};
+
+/// m and v take the gradient in; returns the parameter after step t >= 1.
+double adam(const AdamOptions& options, std::uint64_t t, double parameter, double gradient, Moments& moments);
+
+}  // namespace gatelight::neural::reference

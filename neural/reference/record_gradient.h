@@ -1,0 +1,21 @@
+#pragma once
+// Forward and backward through everything, for one record.
+
+#include <span>
+#include <vector>
+
+#include "neural/reference/point.h"
+#include "neural/training_options.h"
+
+namespace gatelight::neural::reference {
+
+/// The network's linear outputs.
+std::vector<double> evaluate(const Model& model, std::span<const double> parameters, const Point& point);
+
+/// Adds scale times the derivative of the record's error to `gradients`, laid out like the parameters, and
+/// returns the error: the sum over the outputs.
+double add_record_gradient(const Model& model, Loss loss, std::span<const double> parameters,
+                           const Point& point, std::span<const double> targets, double scale,
+                           std::span<double> gradients);
+
+}  // namespace gatelight::neural::reference
