@@ -277,6 +277,22 @@ TEST(ReferenceBackend, HalfFeaturesAreReadRoundedAndMastersKeepTheRest) {
   }
 }
 
+TEST(ReferenceBackend, HalfFeaturesStayWithinTheirRange) {
+  const auto model = find_model_case("nao").model;
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
+    TrainingOptions options;
+    options.precision = precision;
+    options.adam.learning_rate = 1e5f;
+    const auto backend = make_reference_backend(model, options);
+    for (std::uint64_t step = 0; step < 3; ++step) backend->train(make_batch(*model, 50, step).training());
+    float greatest = 0;
+    const ModelState state = backend->export_state();
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      greatest = std::max(greatest, std::abs(state.parameters[p]));
+    EXPECT_EQ(greatest, 65504.0f);
+  }
+}
+
 TEST(ReferenceBackend, TrainingReadsMastersRounded) {
   // Masters between two halves give the loss that the half gives.
   const auto model = find_model_case("gate_alone").model;
