@@ -210,6 +210,7 @@ void CpuBackend::update_network(double scale, StepStatistics& statistics) {
     network_m_[i] = beta1 * network_m_[i] + (1.0f - beta1) * g;
     network_v_[i] = beta2 * network_v_[i] + (1.0f - beta2) * g * g;
     network_[i] -= step * network_m_[i] / (std::sqrt(network_v_[i]) + epsilon);
+    if (options_.average.network) network_average_[i] += rate * (network_[i] - network_average_[i]);
   };
   for (const LayerLayout& layer : layout_.layers) {
     for (std::uint64_t i = layer.weights; i < layer.biases; ++i)
@@ -218,9 +219,6 @@ void CpuBackend::update_network(double scale, StepStatistics& statistics) {
       for (std::uint64_t i = layer.biases; i < layer.biases + layer.outputs; ++i)
         update(i - layout_.network, 0.0f);
   }
-  if (options_.average.network)
-    for (std::size_t i = 0; i < network_.size(); ++i)
-      network_average_[i] += rate * (network_[i] - network_average_[i]);
   raw_.pack(network_);
   averaged_packed_ = false;
 }

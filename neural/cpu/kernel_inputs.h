@@ -88,6 +88,12 @@ GATELIGHT_INLINE Float quartic_primitive(Float u) {
   return fma(mul(u, broadcast(15.0f / 16.0f)), p, broadcast(0.5f));
 }
 
+// The part of a kernel of radius 1/size that falls into a bin whose centre is that far from its own.
+GATELIGHT_INLINE Float bin_share(Float distance, float size) {
+  return sub(quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f))),
+             quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f))));
+}
+
 // One-blob (Mueller et al. 2019, 2021): the share of a quartic kernel of radius 1/size around the coordinate
 // that falls into each bin. A lane is a bin; the azimuth (the second of spherical coordinates) wraps.
 GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
@@ -109,9 +115,11 @@ GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordin
     for (uint32_t s = 0; s < kTile; ++s, row += stride) {
       Float distance = sub(center, pick4(tile.rows[s], picked));
       distance = sub(distance, mul(wrap, round(distance)));
-      const Float upper = quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f)));
-      const Float lower = quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f)));
-      const Float share = sub(upper, lower);
+      Float share = bin_share(distance, size);
+      // Two bins around a circle are so wide that the kernel reaches one of them from both sides.
+      if (wraps && a.size == 2)
+        share =
+            fma(wrap, add(bin_share(add(distance, wrap), size), bin_share(sub(distance, wrap), size)), share);
       if (count >= kLanes) {
         store(row, share);
       } else {
