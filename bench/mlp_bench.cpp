@@ -82,16 +82,15 @@ void mlp_eigen(benchmark::State& state, EigenChunk chunk, Arithmetic arithmetic)
 const bool registered = [] {
   benchmark::RegisterBenchmark("mlp/nrc", mlp, Cache::nrc)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("mlp/nao", mlp, Cache::nao)->Unit(benchmark::kMillisecond);
-  const auto available = available_arithmetics();
-  const auto has = [&](Arithmetic a) {
-    return std::find(available.begin(), available.end(), a) != available.end();
+  const auto add_eigen = [](neural::cpu::Isa isa, EigenChunk chunk) {
+    const auto available = neural::cpu::available_isas();
+    if (std::find(available.begin(), available.end(), isa) == available.end()) return;
+    const std::string name = "mlp/nrc/eigen/" + std::string(neural::cpu::isa_name(isa));
+    benchmark::RegisterBenchmark(name.c_str(), mlp_eigen, chunk, arithmetic_of(isa))
+        ->Unit(benchmark::kMillisecond);
   };
-  if (has(Arithmetic::avx2))
-    benchmark::RegisterBenchmark("mlp/nrc/eigen/avx2", mlp_eigen, eigen_chunk_avx2, Arithmetic::avx2)
-        ->Unit(benchmark::kMillisecond);
-  if (has(Arithmetic::avx512))
-    benchmark::RegisterBenchmark("mlp/nrc/eigen/avx512", mlp_eigen, eigen_chunk_avx512, Arithmetic::avx512)
-        ->Unit(benchmark::kMillisecond);
+  add_eigen(neural::cpu::Isa::avx2, eigen_chunk_avx2);
+  add_eigen(neural::cpu::Isa::avx512, eigen_chunk_avx512);
   return true;
 }();
 

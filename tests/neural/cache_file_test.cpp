@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <functional>
 #include <initializer_list>
 
+#include "neural/cpu/cpu_backend.h"
 #include "neural/errors.h"
 #include "neural/safetensors.h"
 #include "neural/trainer.h"
@@ -63,6 +66,50 @@ TEST(CacheFile, EveryConfigurationComesBackToTheBit) {
       ASSERT_FALSE(same_bits(state_of(loaded), state_of(saved)));
       loaded.load(folder / "a", kFingerprint);
       EXPECT_TRUE(same_bits(state_of(loaded), state_of(saved)));
+    }
+  }
+}
+
+// The file holds all that training changes: what was loaded learns on as what was never saved.
+TEST(CacheFile, LearningGoesOnToTheBit) {
+  const TemporaryFolder folder;
+  for (const char* name : {"nrc", "nao", "hash_F4", "plain_256_inputs"}) {
+    const ModelCase c = find_model_case(name);
+    const OwnedBatch batches[] = {make_batch(*c.model, 300, 1), make_batch(*c.model, 300, 2)};
+    for (const auto& [options_name, options] : all_training_options(*c.model)) {
+      SCOPED_TRACE(std::string(name) + " " + options_name);
+      const auto learner = [&] { return Trainer(c.model, options, cpu::make_cpu_backend(c.model, options)); };
+      Trainer straight = learner();
+      for (int step = 0; step < 6; ++step) {
+        if (step == 3) straight.save(folder / "a", kFingerprint);
+        straight.train(batches[step % 2].training());
+      }
+      Trainer loaded = learner();
+      loaded.train(batches[1].training());
+      loaded.load(folder / "a", kFingerprint);
+      for (int step = 3; step < 6; ++step) loaded.train(batches[step % 2].training());
+      EXPECT_TRUE(same_bits(state_of(loaded), state_of(straight)));
+    }
+  }
+}
+
+TEST(CacheFile, HundredStepsMakeTheSameFileForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  for (const char* name : {"nrc", "nao", "hash_F4"}) {
+    const ModelCase c = find_model_case(name);
+    const OwnedBatch batches[] = {make_batch(*c.model, 4001, 1), make_batch(*c.model, 3000, 2)};
+    std::string first;
+    for (const int threads : {1, 2, 7}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+      tbb::task_arena(threads).execute([&] {
+        Trainer trainer(c.model, {}, cpu::make_cpu_backend(c.model, {}));
+        for (int step = 0; step < 100; ++step) trainer.train(batches[step % 2].training());
+        trainer.save(folder / "a", kFingerprint);
+      });
+      const std::string bytes = read_file(folder / "a");
+      if (threads == 1) first = bytes;
+      EXPECT_TRUE(bytes == first) << name << " with " << threads << " threads";
     }
   }
 }
