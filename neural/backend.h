@@ -46,7 +46,8 @@ class Backend {
   virtual ~Backend() = default;
   /// One step over the whole batch. A batch without an accepted record changes nothing.
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
-  /// out: batch.size x outputs, row-major. Points without storage encode to zero features.
+  /// out: batch.size x outputs, row-major. Points without storage encode to zero features. A point with an
+  /// input that is not finite (and that the model reads) answers NaN, and so 0 unless raw.
   virtual void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const = 0;
   virtual ModelState export_state() const = 0;
   /// Throws BadConfiguration when the sizes are not the model's.

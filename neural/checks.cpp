@@ -58,7 +58,8 @@ void check_options(const Model& model, const TrainingOptions& options) {
           "0 or more");
   require(adam.beta1 >= 0 && adam.beta1 < 1, "beta1", adam.beta1, "0 to less than 1");
   require(adam.beta2 >= 0 && adam.beta2 < 1, "beta2", adam.beta2, "0 to less than 1");
-  require(std::isfinite(adam.epsilon) && adam.epsilon > 0, "epsilon", adam.epsilon, "more than 0");
+  // Below, the factor of a step could be 0 in single precision, and 0 / 0 a step.
+  require(std::isfinite(adam.epsilon) && adam.epsilon >= 1e-30f, "epsilon", adam.epsilon, "1e-30 or more");
   require(std::isfinite(adam.l2_network) && adam.l2_network >= 0, "l2 of the network", adam.l2_network,
           "0 or more");
   require(std::isfinite(adam.decay_steps) && adam.decay_steps >= 0, "decay steps", adam.decay_steps,

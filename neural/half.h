@@ -2,6 +2,7 @@
 // IEEE binary16 by integer arithmetic, for code outside the kernels: rounds to nearest even, as the F16C
 // instructions do.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -20,6 +21,13 @@ constexpr std::uint16_t float_to_half(float value) {
   }
   const std::uint32_t odd = magnitude >> 13 & 1u;
   return static_cast<std::uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
+}
+
+inline constexpr float kMaxHalf = 65504.0f;
+
+/// The nearest half that is finite. For features, whose infinities would spoil everything.
+constexpr std::uint16_t float_to_finite_half(float value) {
+  return float_to_half(std::clamp(value, -kMaxHalf, kMaxHalf));
 }
 
 constexpr float half_to_float(std::uint16_t half) {

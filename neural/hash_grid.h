@@ -43,8 +43,9 @@ struct HashGridLayout {
   std::uint32_t node_count = 0;
   std::vector<HashGridLevel> levels;
   Float3 bounds_min = {0, 0, 0};
-  float inverse_extent =
-      1.0f;  ///< unit position = (position - bounds_min) * inverse_extent, clamped to [0,1]
+  /// Unit position = (position - bounds_min) * inverse_extent, clamped to [0,1]: in float, rounded twice, in
+  /// every backend, as high frequencies and fine levels magnify the rounding.
+  float inverse_extent = 1.0f;
 };
 
 /// Throws BadConfiguration for options out of range or bounds that are empty or not finite.

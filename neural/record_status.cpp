@@ -14,19 +14,23 @@ bool finite(const Vector& v) {
 
 }  // namespace
 
+bool is_finite(const Model& model, const QueryBatch& p, std::size_t i) {
+  const ModelConfig& config = model.config;
+  const auto usable = [&](InputSource source, const auto& span) {
+    return !uses_input(config, source) || finite(span[i]);
+  };
+  if (config.encoding == FeatureEncoding::gate && !finite(p.barycentrics[i])) return false;
+  if (uses_input(config, InputSource::roughness) && !std::isfinite(p.roughnesses[i])) return false;
+  return usable(InputSource::position, p.positions) && usable(InputSource::direction, p.directions) &&
+         usable(InputSource::normal, p.normals) && usable(InputSource::albedo, p.albedos);
+}
+
 RecordStatus record_status(const Model& model, const TrainingBatch& batch, std::size_t i) {
   const QueryBatch& p = batch.points;
   const std::size_t outputs = model.config.mlp.outputs;
-  const bool gate = model.config.encoding == FeatureEncoding::gate;
-  bool usable = finite(batch.targets.subspan(i * outputs, outputs));
-  if (gate) usable = usable && finite(p.barycentrics[i]);
-  if (uses_input(model.config, InputSource::position)) usable = usable && finite(p.positions[i]);
-  if (uses_input(model.config, InputSource::direction)) usable = usable && finite(p.directions[i]);
-  if (uses_input(model.config, InputSource::normal)) usable = usable && finite(p.normals[i]);
-  if (uses_input(model.config, InputSource::albedo)) usable = usable && finite(p.albedos[i]);
-  if (uses_input(model.config, InputSource::roughness)) usable = usable && std::isfinite(p.roughnesses[i]);
-  if (!usable) return RecordStatus::rejected;
-  if (gate) {
+  if (!is_finite(model, p, i) || !finite(batch.targets.subspan(i * outputs, outputs)))
+    return RecordStatus::rejected;
+  if (model.config.encoding == FeatureEncoding::gate) {
     const std::uint32_t surface = p.surfaces[i];
     if (surface >= model.gate.surfaces.size() ||
         p.triangles[i] >= model.gate.surfaces[surface].triangle_count ||

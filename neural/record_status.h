@@ -15,6 +15,9 @@ enum class RecordStatus : std::uint8_t {
   unstored,  ///< the surface has no storage, or surface or triangle is out of the layout's range
 };
 
+/// No input of the point that the model reads is NaN or infinite.
+bool is_finite(const Model& model, const QueryBatch& points, std::size_t point);
+
 RecordStatus record_status(const Model& model, const TrainingBatch& batch, std::size_t record);
 
 }  // namespace gatelight::neural

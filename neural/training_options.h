@@ -19,7 +19,7 @@ struct AdamOptions {
   float learning_rate = 1e-2f;
   float beta1 = 0.9f;
   float beta2 = 0.99f;
-  float epsilon = 1e-15f;
+  float epsilon = 1e-15f;    ///< 1e-30 or more
   float l2_network = 1e-6f;  ///< added to the gradient of network weights (not of biases or features): l2 * p
   float decay_steps = 50.0f;  ///< 0: the learning rate stays
 };

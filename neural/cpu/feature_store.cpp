@@ -85,9 +85,9 @@ void FeatureStore::export_to(ModelState& state) const {
 void FeatureStore::import_from(const ModelState& state) {
   for_range(count_, [&](std::uint64_t i) {
     if (!floats_.empty()) floats_[i] = state.parameters[i];
-    if (!halves_.empty()) halves_[i] = float_to_half(state.parameters[i]);
+    if (!halves_.empty()) halves_[i] = float_to_finite_half(state.parameters[i]);
     if (!averages_.empty()) averages_[i] = state.averages[i];
-    if (!average_halves_.empty()) average_halves_[i] = float_to_half(state.averages[i]);
+    if (!average_halves_.empty()) average_halves_[i] = float_to_finite_half(state.averages[i]);
     const std::uint64_t moment = i / features_ * 2 * features_ + i % features_;
     moments_[moment] = state.first_moments[i];
     moments_[moment + features_] = state.second_moments[i];

@@ -152,6 +152,13 @@ GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t c
   if (i < total) store_partial(out + i, in_range(load_partial(out + i, total - i), range), total - i);
 }
 
+// For points with an input that is not finite, which were encoded as zeros.
+GATELIGHT_INLINE void answer_nan(const TilePoints& points, uint32_t count, uint32_t outputs, float* y) {
+  for (uint32_t s = 0; s < count; ++s)
+    for (uint32_t c = 0; c < outputs && points.finite[s] == 0.0f; ++c)
+      y[s * kOutputStride + c] = __builtin_nanf("");
+}
+
 void query(const KernelQuery& q) {
   const KernelEncoder& e = *q.encoder;
   const KernelNetwork& n = *q.network;
@@ -161,6 +168,7 @@ void query(const KernelQuery& q) {
   float* ring = q.scratch + buffer_floats(n);  // nodes and weights of two tiles
   const uint64_t tiles = (q.end - q.begin + kTile - 1) / kTile;
   TilePoints points[2];
+  uint32_t rejected[2] = {};
   __builtin_memset(inputs, 0, kTile * n.input_stride * sizeof(float));
 
   const auto nodes_of = [&](uint64_t k) {
@@ -169,7 +177,8 @@ void query(const KernelQuery& q) {
   const auto weights_of = [&](uint64_t k) { return ring + (2 + (k & 1)) * slots * kTile; };
   const auto prepare = [&](uint64_t k) {
     TilePoints& tile = points[k & 1];
-    take_points(e, q.points, nullptr, 0, q.begin + k * kTile, tile_count(q.begin, q.end, k), tile);
+    rejected[k & 1] =
+        take_points(e, q.points, nullptr, 0, q.begin + k * kTile, tile_count(q.begin, q.end, k), tile);
     lookup(e, tile, nodes_of(k), weights_of(k));
   };
 
@@ -197,6 +206,7 @@ void query(const KernelQuery& q) {
     else
       forward<false>(n, b, rows, between);
     ahead.rest();
+    if (rejected[k & 1] != 0) answer_nan(points[k & 1], count, n.outputs, b.outputs);
     write_outputs(b.outputs, n.outputs, count, q.range, q.out + begin * n.outputs);
   }
 }

@@ -27,10 +27,10 @@ Point read_point(const Model& model, const QueryBatch& batch, std::size_t record
     point.barycentrics = {1.0 - second - third, second, third};
   }
   if (uses_input(config, InputSource::position)) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      point.position[axis] =
-          clamp_unit((static_cast<double>(batch.positions[record][axis]) - model.hash_grid.bounds_min[axis]) *
-                     model.hash_grid.inverse_extent);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float offset = batch.positions[record][axis] - model.hash_grid.bounds_min[axis];
+      point.position[axis] = clamp_unit(offset * model.hash_grid.inverse_extent);
+    }
   }
   if (uses_input(config, InputSource::direction)) point.direction = widen(batch.directions[record]);
   if (uses_input(config, InputSource::normal)) point.normal = widen(batch.normals[record]);

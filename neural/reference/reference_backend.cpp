@@ -18,8 +18,6 @@ namespace gatelight::neural::reference {
 
 namespace {
 
-constexpr double kMaxHalf = 65504.0;
-
 struct Record {
   Point point;
   std::vector<double> targets;
@@ -30,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 double round_to_half(double value) {
-  return half_to_float(float_to_half(static_cast<float>(value)));
+  return half_to_float(float_to_finite_half(static_cast<float>(value)));
 }
 
 void count_up(std::uint32_t& counter) {
@@ -170,7 +168,7 @@ void ReferenceBackend::update(std::size_t parameter, std::uint64_t t, double gra
   double& p = parameters_[parameter];
   double& average = averages_[parameter];
   p = adam(options_.adam, t, p, gradient, moments_[parameter]);
-  if (half) p = std::clamp(p, -kMaxHalf, kMaxHalf);
+  if (half) p = std::clamp<double>(p, -kMaxHalf, kMaxHalf);
   if (only_half) p = round_to_half(p);
   if (network ? options_.average.network : options_.average.features) {
     average += average_rate(options_.average, t) * (p - average);
@@ -224,10 +222,11 @@ void ReferenceBackend::query(const QueryBatch& batch, const QueryOptions& option
                              std::span<float> out) const {
   check_batch(*model_, batch, out);
   const std::vector<double> parameters = readable(options.averaged ? averages_ : parameters_);
+  const std::size_t count = model_->config.mlp.outputs;
   for (std::size_t r = 0; r < batch.size; ++r) {
-    const std::vector<double> outputs = evaluate(*model_, parameters, read_point(*model_, batch, r));
-    for (std::size_t o = 0; o < outputs.size(); ++o)
-      out[r * outputs.size() + o] = in_range(outputs[o], options.range);
+    std::vector<double> outputs(count, std::numeric_limits<double>::quiet_NaN());
+    if (is_finite(*model_, batch, r)) outputs = evaluate(*model_, parameters, read_point(*model_, batch, r));
+    for (std::size_t o = 0; o < count; ++o) out[r * count + o] = in_range(outputs[o], options.range);
   }
 }
 
