@@ -1,0 +1,330 @@
+// Nothing that a batch can hold makes a weight NaN or infinite, and what is to be rejected leaves no trace.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/neural/parity.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+using cpu::Isa;
+
+constexpr float kGreatest = std::numeric_limits<float>::max();
+
+std::vector<ModelCase> usual_cases() {
+  return {find_model_case("nrc"), find_model_case("hash_with_everything"),
+          find_model_case("plain_with_everything")};
+}
+
+/// For every instruction set and every way to store features.
+void for_every_backend(const ModelCase& c, const TrainingOptions& options,
+                       const std::function<void(Backend&)>& body) {
+  for (const Isa isa : cpu::available_isas())
+    for (const FeaturePrecision precision :
+         {FeaturePrecision::fp32, FeaturePrecision::fp16_masters, FeaturePrecision::fp16}) {
+      TrainingOptions with = options;
+      with.precision = precision;
+      SCOPED_TRACE(fmt::format("{} {} precision {}", c.name, isa_name(isa), static_cast<int>(precision)));
+      const auto backend = cpu::make_cpu_backend(c.model, with, isa);
+      body(*backend);
+    }
+}
+
+void expect_finite(const Backend& backend, const OwnedBatch& batch, const Model& model) {
+  const ModelState state = backend.export_state();
+  const auto finite = [](const std::vector<float>& values) {
+    return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+  };
+  EXPECT_TRUE(finite(state.parameters));
+  EXPECT_TRUE(finite(state.averages));
+  EXPECT_TRUE(finite(state.first_moments));
+  EXPECT_TRUE(finite(state.second_moments));
+  EXPECT_TRUE(
+      std::all_of(state.second_moments.begin(), state.second_moments.end(), [](float v) { return v >= 0; }));
+  for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})
+    for (const OutputRange range : {OutputRange::non_negative, OutputRange::unit}) {
+      std::vector<float> out(batch.size() * model.config.mlp.outputs);
+      backend.query(batch.points(), {precision, range}, out);
+      EXPECT_TRUE(finite(out));
+    }
+}
+
+TEST(Extremes, WeightsStayFiniteForEveryTarget) {
+  for (const ModelCase& c : usual_cases())
+    for (const Loss loss : {Loss::l2, Loss::relative_l2})
+      for (const float limit : {1e9f, kGreatest}) {
+        TrainingOptions options;
+        options.loss = loss;
+        options.max_target = limit;
+        for_every_backend(c, options, [&](Backend& backend) {
+          const ModelState start = backend.export_state();
+          for (const float target : {0.0f, 1e-45f, 1e-30f, 1e-6f, 1e6f, 1e9f, 1e30f, kGreatest}) {
+            SCOPED_TRACE(fmt::format("target {} limit {} loss {}", target, limit, static_cast<int>(loss)));
+            backend.import_state(start);
+            OwnedBatch batch = make_batch(*c.model, 50, 1);
+            for (int step = 0; step < 6; ++step) {
+              // The same sign, alternating by step, alternating by record and output.
+              for (std::size_t i = 0; i < batch.targets.size(); ++i) {
+                const bool negative = step >= 4 ? i % 2 == 1 : step >= 2 && step % 2 == 1;
+                batch.targets[i] = negative ? -target : target;
+              }
+              EXPECT_EQ(backend.train(batch.training()).records, 50u);
+            }
+            expect_finite(backend, batch, *c.model);
+          }
+        });
+      }
+}
+
+// Inputs that are finite, though nothing that a caller means.
+TEST(Extremes, WeightsStayFiniteForEveryInput) {
+  for (const ModelCase& c : usual_cases())
+    for_every_backend(c, {}, [&](Backend& backend) {
+      const ModelState start = backend.export_state();
+      for (const float value : {0.0f, 1e-45f, 1e-38f, 1e9f, 1e19f, 1e30f, kGreatest}) {
+        SCOPED_TRACE(value);
+        backend.import_state(start);
+        OwnedBatch batch = make_batch(*c.model, 60, 2);
+        for (std::size_t r = 0; r < batch.size(); ++r) {
+          const float sign = r % 2 == 0 ? 1.0f : -1.0f;
+          const auto set = [&](auto& span, std::size_t kind) {
+            if (span.empty() || r % 7 == kind) return;
+            for (std::size_t i = 0; i < span[r].size(); ++i)
+              if (r % 3 != i) span[r][i] = r % 5 == i ? -sign * value : sign * value;
+          };
+          set(batch.barycentrics, 0);
+          set(batch.positions, 1);
+          set(batch.directions, 2);
+          set(batch.normals, 3);
+          set(batch.albedos, 4);
+          if (!batch.roughnesses.empty() && r % 7 != 5) batch.roughnesses[r] = sign * value;
+        }
+        for (int step = 0; step < 4; ++step) EXPECT_EQ(backend.train(batch.training()).rejected, 0u);
+        expect_finite(backend, make_batch(*c.model, 60, 3), *c.model);
+        expect_finite(backend, batch, *c.model);
+      }
+    });
+}
+
+// A point far outside is the nearest point of the triangle, in single precision too.
+TEST(Extremes, BarycentricsOfAnySizeAreClamped) {
+  const ModelCase c = find_model_case("gate_L2_stack_4_2_1");
+  const ModelState state = random_state(*c.model, {}, 3, false);
+  OwnedBatch batch = make_batch(*c.model, 81, 3, {.crowded = 0});
+  constexpr float kValues[] = {-kGreatest, -1e20f, -3.0f, 0.0f, 1e-38f, 0.5f, 3.0f, 1e20f, kGreatest};
+  for (std::size_t r = 0; r < 81; ++r) batch.barycentrics[r] = {kValues[r % 9], kValues[r / 9]};
+  const auto reference = reference::make_reference_backend(c.model, {});
+  reference->import_state(state);
+  std::vector<float> expected(batch.size() * 3), out(batch.size() * 3);
+  reference->query(batch.points(), {QueryPrecision::fp32, OutputRange::raw}, expected);
+  for (const Isa isa : cpu::available_isas()) {
+    const auto fast = cpu::make_cpu_backend(c.model, {}, isa);
+    fast->import_state(state);
+    fast->query(batch.points(), {QueryPrecision::fp32, OutputRange::raw}, out);
+    for (std::size_t r = 0; r < 81; ++r)
+      for (std::size_t o = 0; o < 3; ++o)
+        EXPECT_NEAR(out[3 * r + o], expected[3 * r + o], 1e-5)
+            << isa_name(isa) << " at " << batch.barycentrics[r][0] << ", " << batch.barycentrics[r][1];
+  }
+}
+
+TEST(Extremes, BadRecordsAtTheEndOfABatchLeaveTheSameBits) {
+  for (const ModelCase& c : usual_cases()) {
+    const OwnedBatch good = make_batch(*c.model, 777, 4, {.beyond = 0.05f});
+    const OwnedBatch bad = make_batch(*c.model, 333, 5, {.nonfinite = 0.6f, .unstored = 0.4f});
+    OwnedBatch both = good;
+    const bool gate = c.model->config.encoding == FeatureEncoding::gate;
+    const std::size_t outputs = c.model->config.mlp.outputs;
+    for (std::size_t r = 0; r < bad.size(); ++r) {
+      if (!gate && bad.fates[r] != Fate::rejected) continue;
+      const auto append = [&](auto& to, const auto& from) {
+        if (!from.empty()) to.push_back(from[r]);
+      };
+      append(both.surfaces, bad.surfaces);
+      append(both.triangles, bad.triangles);
+      append(both.barycentrics, bad.barycentrics);
+      append(both.positions, bad.positions);
+      append(both.directions, bad.directions);
+      append(both.normals, bad.normals);
+      append(both.albedos, bad.albedos);
+      append(both.roughnesses, bad.roughnesses);
+      for (std::size_t o = 0; o < outputs; ++o) both.targets.push_back(bad.targets[r * outputs + o]);
+      both.fates.push_back(bad.fates[r]);
+    }
+    ASSERT_GT(both.size(), good.size() + 100);
+    for_every_backend(c, {}, [&](Backend& backend) {
+      const ModelState start = backend.export_state();
+      for (int step = 0; step < 3; ++step) backend.train(good.training());
+      const ModelState expected = backend.export_state();
+      backend.import_state(start);
+      for (int step = 0; step < 3; ++step) {
+        const StepStatistics s = backend.train(both.training());
+        EXPECT_EQ(s.records, good.size());
+        EXPECT_EQ(s.rejected + s.unstored, both.size() - good.size());
+      }
+      EXPECT_TRUE(backend.export_state() == expected);
+    });
+  }
+}
+
+TEST(Extremes, ABatchOfBadRecordsOnlyChangesNothing) {
+  for (const ModelCase& c : usual_cases()) {
+    OwnedBatch bad = make_batch(*c.model, 100, 6, {.nonfinite = 1.0f});
+    const OwnedBatch good = make_batch(*c.model, 100, 7);
+    for_every_backend(c, {}, [&](Backend& backend) {
+      for (const bool fresh : {true, false}) {
+        if (!fresh) backend.train(good.training());
+        const ModelState before = backend.export_state();
+        const StepStatistics s = backend.train(bad.training());
+        EXPECT_EQ(s.records, 0u);
+        EXPECT_EQ(s.rejected, 100u);
+        EXPECT_EQ(s.touched_nodes, 0u);
+        EXPECT_EQ(s.loss, 0.0);
+        EXPECT_TRUE(backend.export_state() == before);
+      }
+    });
+  }
+}
+
+TEST(Extremes, NoRecordsAndNoPointsAreFine) {
+  for (const ModelCase& c : usual_cases())
+    for_every_backend(c, {}, [&](Backend& backend) {
+      const ModelState before = backend.export_state();
+      const StepStatistics s = backend.train({});
+      EXPECT_EQ(s.records + s.rejected + s.unstored + s.clipped + s.touched_nodes, 0u);
+      EXPECT_EQ(s.loss, 0.0);
+      EXPECT_TRUE(backend.export_state() == before);
+      backend.query({}, {}, {});
+    });
+}
+
+// All records on one corner of one triangle: one node takes everything.
+TEST(Extremes, OneNodeCanTakeAllRecords) {
+  const ModelCase c = find_model_case("nrc");
+  TrainingOptions options;
+  make_smooth(options.adam);
+  options.start_at_mean = false;
+  const ModelState state = random_state(*c.model, options, 8, false);
+  OwnedBatch batch = make_smooth_batch(*c.model, state, 4999, 8, {.crowded = 1.0f});
+  for (Float2& b : batch.barycentrics) b = {1, 0};
+  const auto reference = reference::make_reference_backend(c.model, options);
+  reference->import_state(state);
+  EXPECT_EQ(reference->train(batch.training()).touched_nodes, 2u);  // one a level
+  const ModelState expected = reference->export_state();
+  for (const Isa isa : cpu::available_isas()) {
+    const auto fast = cpu::make_cpu_backend(c.model, options, isa);
+    fast->import_state(state);
+    EXPECT_EQ(fast->train(batch.training()).touched_nodes, 2u);
+    const ModelState got = fast->export_state();
+    EXPECT_EQ(got.node_steps, expected.node_steps);
+    const std::vector<bool> none(c.model->parameters.node_count, false);
+    EXPECT_LE(tensor_difference(*c.model, got.first_moments, expected.first_moments, none), 2e-5);
+    EXPECT_LE(tensor_difference(*c.model, got.parameters, expected.parameters, none), 2e-5);
+  }
+}
+
+// Step counters at the end of the table of Adam's factors, far beyond it, and at their own end.
+TEST(Extremes, StepsNeedNoTable) {
+  const ModelCase c = find_model_case("nrc");
+  for (const std::uint32_t counter : {65534u, 65535u, 65536u, 1000000000u, 0xfffffffdu, 0xffffffffu})
+    for (OptionsCase& o : all_training_options(*c.model)) {
+      if (o.options.precision != FeaturePrecision::fp32) continue;
+      make_smooth(o.options.adam);
+      o.options.adam.learning_rate = 1000;  // as it falls with the steps
+      ModelState state = random_state(*c.model, o.options, 9, true);
+      state.node_steps.assign(state.node_steps.size(), counter);
+      state.triangle_steps.assign(state.triangle_steps.size(), counter);
+      state.steps = std::uint64_t{counter} * 5;
+      const OwnedBatch batch = make_smooth_batch(*c.model, state, 70, 9, {});
+      const auto reference = reference::make_reference_backend(c.model, o.options);
+      reference->import_state(state);
+      for (int step = 0; step < 3; ++step) reference->train(batch.training());
+      const ModelState expected = reference->export_state();
+      for (const Isa isa : cpu::available_isas()) {
+        SCOPED_TRACE(fmt::format("{} {} after {} steps", o.name, isa_name(isa), counter));
+        const auto fast = cpu::make_cpu_backend(c.model, o.options, isa);
+        fast->import_state(state);
+        for (int step = 0; step < 3; ++step) fast->train(batch.training());
+        const ModelState got = fast->export_state();
+        EXPECT_EQ(got.steps, expected.steps);
+        EXPECT_EQ(got.node_steps, expected.node_steps);
+        EXPECT_EQ(got.triangle_steps, expected.triangle_steps);
+        const std::vector<bool> none(c.model->parameters.node_count, false);
+        EXPECT_LE(tensor_difference(*c.model, got.parameters, expected.parameters, none), 1e-4);
+        EXPECT_LE(tensor_difference(*c.model, got.averages, expected.averages, none), 1e-4);
+      }
+    }
+}
+
+// A gradient whose square overflows is left out: parameter, moments, average and counter stay.
+TEST(Extremes, GradientsBeyondAllBoundsChangeNothing) {
+  const ModelCase c = find_model_case("nrc");
+  for (const FeatureUpdate update : {FeatureUpdate::sparse, FeatureUpdate::dense}) {
+    TrainingOptions options;
+    options.loss = Loss::l2;
+    options.max_target = kGreatest;
+    options.update = update;
+    ModelState state = random_state(*c.model, options, 11, true);
+    OwnedBatch batch = make_batch(*c.model, 50, 11);
+    for (float& target : batch.targets) target = 1e36f;
+    for_every_backend(c, options, [&](Backend& backend) {
+      backend.import_state(state);
+      ModelState before = backend.export_state();
+      const StepStatistics s = backend.train(batch.training());
+      EXPECT_EQ(s.records, 50u);
+      // Nodes that the batch does not touch have no gradient and move on with dense updates.
+      EXPECT_EQ(s.skipped_updates, s.touched_nodes + c.model->parameters.network_count());
+      if (update == FeatureUpdate::dense) return;
+      before.steps += 1;
+      EXPECT_TRUE(backend.export_state() == before);
+    });
+  }
+}
+
+// Not from training, though perhaps from a file.
+TEST(Extremes, ImportedFeaturesBeyondFp16AreClamped) {
+  const ModelCase c = find_model_case("nrc");
+  const OwnedBatch batch = make_batch(*c.model, 100, 12);
+  for_every_backend(c, {}, [&](Backend& backend) {
+    ModelState state = backend.export_state();
+    for (std::size_t i = 0; i < c.model->parameters.network; ++i)
+      state.parameters[i] = state.averages[i] = i % 2 == 0 ? 1e6f : -1e6f;
+    backend.import_state(state);
+    backend.train(batch.training());
+    expect_finite(backend, batch, *c.model);
+  });
+}
+
+// Gradients so small that their squares vanish in single precision, with the default epsilon and the least.
+TEST(Extremes, VanishingGradientsLeaveWeightsFinite) {
+  const ModelCase c = find_model_case("nrc");
+  for (const float epsilon : {1e-15f, 1e-30f}) {
+    TrainingOptions options;
+    options.loss = Loss::l2;
+    options.start_at_mean = false;
+    options.adam.l2_network = 0;
+    options.adam.epsilon = epsilon;
+    for_every_backend(c, options, [&](Backend& backend) {
+      OwnedBatch batch = make_batch(*c.model, 50, 10);
+      ModelState state = backend.export_state();
+      std::fill(state.parameters.begin(), state.parameters.end(), 0.0f);
+      state.averages = state.parameters;
+      for (const float target : {1e-18f, 1e-20f, 1e-23f, 1e-30f, 1e-38f, 1e-45f, 0.0f}) {
+        SCOPED_TRACE(fmt::format("target {} epsilon {}", target, epsilon));
+        backend.import_state(state);
+        std::fill(batch.targets.begin(), batch.targets.end(), target);
+        for (int step = 0; step < 5; ++step) backend.train(batch.training());
+        expect_finite(backend, batch, *c.model);
+        if (epsilon < 1e-15f) continue;
+        for (const float p : backend.export_state().parameters) EXPECT_LE(std::abs(p), 0.1f);
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::neural
