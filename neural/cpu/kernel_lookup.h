@@ -185,6 +185,15 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
           edges = add_int(at, broadcast_int(3));
         }
       }
+      // Where all have R = 1 the nodes are the corners.
+      if (e.per_triangle == 0 && all(equal_int(level.resolution, broadcast_int(1)))) {
+        for (uint32_t n = 0; n < 3; ++n) {
+          const Int node = add_int(level.vertex_base, corners[n]);
+          store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
+          store(weights + (3 * l + n) * kTile + s, select(stored, mul(valid, b[n]), zero()));
+        }
+        continue;
+      }
       const VirtualTriangle t = virtual_triangle(b, level.resolution);
       for (uint32_t n = 0; n < 3; ++n) {
         const Int node = e.per_triangle != 0
