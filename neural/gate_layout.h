@@ -53,6 +53,9 @@ struct GateOptions {
   std::uint32_t bytes_per_feature = 4;  ///< for the budget: 4 or 2
 };
 
+/// Words of zeros behind the topology, so that kernels may read a triangle's words four at a time.
+inline constexpr std::uint32_t kTopologyPadding = 4;
+
 struct GateLayoutReport {
   std::uint64_t vertex_nodes = 0, edge_nodes = 0, interior_nodes = 0, cluster_nodes = 0, triangle_nodes = 0;
   std::uint64_t topology_bytes = 0;

@@ -11,7 +11,7 @@ using namespace gatelight::neural::cpu;
 
 // Up to four coordinates of each of a tile's points.
 struct TileCoordinates {
-  alignas(64) float raw[3 * kTile];
+  alignas(64) float raw[3 * kTile + 1];
   alignas(64) float lanes[3][kTile];
   alignas(64) float rows[kTile][4];
 };
@@ -151,23 +151,30 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
   }
 }
 
-// Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points are as zeros.
+// Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points are as zeros. `last`:
+// no points of the batch need follow, so that nothing behind them may be read.
 GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                      uint32_t count, const float* valid, float* inputs, uint32_t stride) {
+                                      uint32_t count, bool last, const float* valid, float* inputs,
+                                      uint32_t stride) {
   TileCoordinates tile;
   for (uint32_t i = 0; i < e.auxiliary_count; ++i) {
     const KernelAuxiliary& a = e.auxiliary[i];
     const uint32_t width = a.source == KernelSource::roughness ? 1 : 3;
     const float* rows = span_of(points, a.source) + begin * width;
-    if (count < kTile) {
+    if (last || count < kTile) {
       for (uint32_t k = 0; k < kTile * width; ++k) tile.raw[k] = k < count * width ? rows[k] : 0.0f;
       rows = tile.raw;
     }
-    const Int triples = mul_int(lane_numbers(), broadcast_int(width));
     for (uint32_t s = 0; s < kTile; s += kLanes) {
       const Mask usable = less(zero(), load(valid + s));
+      Int columns[4];
+      if (width == 1)
+        columns[0] = bits_of(load(rows + s));
+      else
+        load_columns4(
+            [&](uint32_t l) __attribute__((always_inline)) { return rows + (s + l) * 3; }, columns);
       for (uint32_t c = 0; c < width; ++c) {
-        Float x = select(usable, gather(rows + s * width + c, triples), zero());
+        Float x = select(usable, float_of(columns[c]), zero());
         if (a.source == KernelSource::position)
           x = clamp(mul(sub(x, broadcast(e.bounds_min[c])), broadcast(e.inverse_extent)), 0.0f, 1.0f);
         store(tile.lanes[c] + s, x);

@@ -82,10 +82,9 @@ GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int inde
           gather_int(words, add_int(at, broadcast_int(2))), gather_int(words, add_int(at, broadcast_int(3)))};
 }
 
-// Address of the node with integer barycentrics a (gate_tables.h). `corners` are those of the triangle;
-// `edges` points at the topology word of edge 0.
+// Address of the node with integer barycentrics a (gate_tables.h). `edges` are read for nodes on edges only.
 GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const Int (&corners)[3],
-                                 const uint32_t* topology, Int edges, Int triangle) {
+                                 const Int (&edges)[3], Int triangle) {
   const Int none = broadcast_int(0);
   const Int one = broadcast_int(1);
   const Int last = sub_int(level.resolution, one);  // R - 1
@@ -102,7 +101,6 @@ GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, cons
 
   // Along the edge opposite to the corner whose coordinate is zero, from its lower corner: the steps are the
   // coordinate of its higher corner.
-  const Int opposite = select_int(at_zero[0], none, select_int(at_zero[1], one, broadcast_int(2)));
   const Mask swap0 = less_unsigned(corners[1], corners[2]);
   const Mask swap1 = less_unsigned(corners[2], corners[0]);
   const Mask swap2 = less_unsigned(corners[0], corners[1]);
@@ -110,9 +108,7 @@ GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, cons
   const Int steps1 = select_int(swap1, a[0], a[2]);
   const Int steps2 = select_int(swap2, a[1], a[0]);
   const Int steps = select_int(at_zero[0], steps0, select_int(at_zero[1], steps1, steps2));
-  // Where this is no edge node there may be no edge words: read word 0 instead.
-  const Int word = select_int(vertex, none, select_int(edge, add_int(edges, opposite), none));
-  const Int number = gather_int(topology, word);
+  const Int number = select_int(at_zero[0], edges[0], select_int(at_zero[1], edges[1], edges[2]));
   const Int edge_node = add_int(level.edge_base, add_int(mul_int(number, last), sub_int(steps, one)));
 
   const Int row = sub_int(a[0], one);
@@ -160,17 +156,17 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
     Int triangle = load_int(points.triangles + s);
     stored = both(stored, less_unsigned(triangle, count));
 
-    const Int pairs = add_int(lane_numbers(), lane_numbers());
     Float b[3];
-    b[1] = gather(points.barycentrics + 2 * s, pairs);
-    b[2] = gather(points.barycentrics + 2 * s + 1, pairs);
+    load_pairs(points.barycentrics + 2 * s, b[1], b[2]);
     b[0] = sub(sub(broadcast(1.0f), b[1]), b[2]);
     // Points far outside stay finite, so that every node that comes out exists.
     for (Float& x : b) x = min(max(x, zero()), broadcast(1e30f));
     const Float inverse = div(broadcast(1.0f), add(b[0], add(b[1], b[2])));
     for (Float& x : b) x = mul(x, inverse);
 
-    Int corners[3], edges = broadcast_int(0);
+    Int corners[3], edges[3];
+    bool edges_read = false;
+    alignas(64) uint32_t places[kLanes];
     for (uint32_t l = 0; l < e.levels; ++l) {
       const LaneLevel level =
           same ? lane_level(e.surface_levels[leader * e.levels + l])
@@ -181,8 +177,11 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
         triangle = select_int(stored, triangle, broadcast_int(0));
         if (e.per_triangle == 0) {
           const Int at = select_int(stored, add_int(offset, mul_int(triangle, stride)), broadcast_int(0));
-          for (uint32_t c = 0; c < 3; ++c) corners[c] = gather_int(e.topology + c, at);
-          edges = add_int(at, broadcast_int(3));
+          store_int(places, at);
+          Int columns[4];
+          load_columns4(
+              [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i]; }, columns);
+          for (uint32_t c = 0; c < 3; ++c) corners[c] = columns[c];
         }
       }
       // Where all have R = 1 the nodes are the corners.
@@ -194,11 +193,17 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
         }
         continue;
       }
+      if (e.per_triangle == 0 && !edges_read) {
+        Int columns[4];
+        load_columns4(
+            [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i] + 2; }, columns);
+        for (uint32_t c = 0; c < 3; ++c) edges[c] = columns[c + 1];
+        edges_read = true;
+      }
       const VirtualTriangle t = virtual_triangle(b, level.resolution);
       for (uint32_t n = 0; n < 3; ++n) {
-        const Int node = e.per_triangle != 0
-                             ? triangle_node(t.node[n], level, triangle)
-                             : shared_node(t.node[n], level, corners, e.topology, edges, triangle);
+        const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
+                                             : shared_node(t.node[n], level, corners, edges, triangle);
         const Float weight = mul(valid, t.weight[n]);
         store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
         store(weights + (3 * l + n) * kTile + s, select(stored, weight, zero()));

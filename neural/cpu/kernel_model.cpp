@@ -30,7 +30,7 @@ KernelTransform transform_of(const AuxiliaryInput& input) {
 }
 
 // Lookups on surfaces without storage read the first triangle's words.
-constexpr std::uint32_t kNoTopology[6] = {};
+constexpr std::uint32_t kNoTopology[6 + kTopologyPadding] = {};
 constexpr GateSurface kNoSurface[1] = {};
 constexpr GateSurfaceLevel kNoLevels[kMaxStack] = {};
 

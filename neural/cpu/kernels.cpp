@@ -104,7 +104,7 @@ void train(const KernelTraining& t) {
       b.inputs = count < kTile ? inputs : given;
     } else {
       if (slots > 0) interpolate(e, nodes, weights, inputs, n.input_stride);
-      encode_auxiliary(e, t.points, begin, count, tile.finite, inputs, n.input_stride);
+      encode_auxiliary(e, t.points, begin, count, k + 1 == tiles, tile.finite, inputs, n.input_stride);
     }
     forward<false>(n, b, rows, between);
     statistics.loss += loss(n.outputs, t.relative_loss != 0, t.max_target, t.targets + begin * n.outputs,
@@ -126,30 +126,31 @@ void train(const KernelTraining& t) {
   *t.statistics = statistics;
 }
 
-// What a query makes of `count` floats in place: not finite becomes 0, then the range.
-GATELIGHT_INLINE Float in_range(Float y, uint32_t range) {
-  y = max(select(finite(y), y, zero()), zero());
-  return range == 2 ? min(y, broadcast(1.0f)) : y;
+// What is not finite becomes 0; then the range.
+GATELIGHT_INLINE Float4 in_range(Float4 y, uint32_t range) {
+  typedef int32_t Int4 __attribute__((vector_size(16)));
+  if (range == 0) return y;
+  const Float4 greatest = Float4{} + __FLT_MAX__;
+  y = (Float4)((Int4)y & (y > Float4{}) & (y <= greatest));
+  if (range == 2) y = (Float4)(((Int4)y & (y < 1.0f)) | ((Int4)(Float4{} + 1.0f) & (y >= 1.0f)));
+  return y;
 }
 
 GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t count, uint32_t range,
                                     float* out) {
-  const uint32_t total = count * outputs;
-  if (outputs <= 4) {
-    // Whole groups of four, each overwriting what is too much of the one before; the last rows one by one.
-    uint32_t s = 0;
-    for (; s * outputs + 4 <= total && s < count; ++s)
-      store_short(out + s * outputs, load_short<Float4>(y + s * kOutputStride));
-    for (; s < count; ++s)
-      for (uint32_t c = 0; c < outputs; ++c) out[s * outputs + c] = y[s * kOutputStride + c];
-  } else {
-    for (uint32_t s = 0; s < count; ++s)
-      for (uint32_t c = 0; c < outputs; ++c) out[s * outputs + c] = y[s * kOutputStride + c];
+  for (uint32_t c = 0; c < outputs; c += 4) {
+    const uint32_t used = outputs - c < 4 ? outputs - c : 4;
+    for (uint32_t s = 0; s < count; ++s) {
+      const Float4 answers = in_range(load_short<Float4>(y + s * kOutputStride + c), range);
+      float* to = out + s * outputs + c;
+      // A whole group of four where the next row overwrites what is too much of it.
+      if (used == 4 || (outputs < 4 && s * outputs + 4 <= count * outputs)) {
+        store_short(to, answers);
+      } else {
+        for (uint32_t i = 0; i < used; ++i) to[i] = answers[i];
+      }
+    }
   }
-  if (range == 0) return;
-  uint32_t i = 0;
-  for (; i + kLanes <= total; i += kLanes) store(out + i, in_range(load(out + i), range));
-  if (i < total) store_partial(out + i, in_range(load_partial(out + i, total - i), range), total - i);
 }
 
 // For points with an input that is not finite, which were encoded as zeros.
@@ -200,7 +201,7 @@ void query(const KernelQuery& q) {
     const Between between{&ahead};
 
     if (slots > 0) interpolate(e, nodes_of(k), weights_of(k), inputs, n.input_stride);
-    encode_auxiliary(e, q.points, begin, count, points[k & 1].finite, inputs, n.input_stride);
+    encode_auxiliary(e, q.points, begin, count, k + 1 == tiles, points[k & 1].finite, inputs, n.input_stride);
     if (q.bf16 != 0)
       forward_bf16(n, b, inputs, rows, between);
     else

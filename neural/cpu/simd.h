@@ -186,6 +186,37 @@ GATELIGHT_INLINE Float to_float(Int a) {
   return _mm512_cvtepi32_ps(a);
 }
 
+/// Four words each from kLanes places, as four vectors: column c, lane l is address(l)[c].
+template <class Address>
+GATELIGHT_INLINE void load_columns4(Address address, Int (&columns)[4]) {
+  __m512i rows[4];
+#pragma GCC unroll 4
+  for (uint32_t j = 0; j < 4; ++j) {
+    const auto part = [&](uint32_t l) __attribute__((always_inline)) {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(address(l)));
+    };
+    __m512i r = _mm512_castsi128_si512(part(j));
+    r = _mm512_inserti32x4(r, part(j + 4), 1);
+    r = _mm512_inserti32x4(r, part(j + 8), 2);
+    rows[j] = _mm512_inserti32x4(r, part(j + 12), 3);
+  }
+  const __m512i low01 = _mm512_unpacklo_epi32(rows[0], rows[1]),
+                high01 = _mm512_unpackhi_epi32(rows[0], rows[1]);
+  const __m512i low23 = _mm512_unpacklo_epi32(rows[2], rows[3]),
+                high23 = _mm512_unpackhi_epi32(rows[2], rows[3]);
+  columns[0] = _mm512_unpacklo_epi64(low01, low23);
+  columns[1] = _mm512_unpackhi_epi64(low01, low23);
+  columns[2] = _mm512_unpacklo_epi64(high01, high23);
+  columns[3] = _mm512_unpackhi_epi64(high01, high23);
+}
+/// Pairs in a row: first[l] = p[2 l], second[l] = p[2 l + 1].
+GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16);
+  first = _mm512_permutex2var_ps(a, even, b);
+  second = _mm512_permutex2var_ps(a, _mm512_add_epi32(even, _mm512_set1_epi32(1)), b);
+}
+
 #elif defined(GATELIGHT_ISA_AVX2)
 
 constexpr uint32_t kLanes = 8;
@@ -355,6 +386,32 @@ GATELIGHT_INLINE Float to_float(Int a) {
   return _mm256_cvtepi32_ps(a);
 }
 
+template <class Address>
+GATELIGHT_INLINE void load_columns4(Address address, Int (&columns)[4]) {
+  __m256i rows[4];
+#pragma GCC unroll 4
+  for (uint32_t j = 0; j < 4; ++j) {
+    const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address(j)));
+    const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address(j + 4)));
+    rows[j] = _mm256_inserti128_si256(_mm256_castsi128_si256(low), high, 1);
+  }
+  const __m256i low01 = _mm256_unpacklo_epi32(rows[0], rows[1]),
+                high01 = _mm256_unpackhi_epi32(rows[0], rows[1]);
+  const __m256i low23 = _mm256_unpacklo_epi32(rows[2], rows[3]),
+                high23 = _mm256_unpackhi_epi32(rows[2], rows[3]);
+  columns[0] = _mm256_unpacklo_epi64(low01, low23);
+  columns[1] = _mm256_unpackhi_epi64(low01, low23);
+  columns[2] = _mm256_unpacklo_epi64(high01, high23);
+  columns[3] = _mm256_unpackhi_epi64(high01, high23);
+}
+GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
+  const __m256 a = _mm256_loadu_ps(p), b = _mm256_loadu_ps(p + 8);
+  const __m256i even = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
+  const __m256i odd = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+  first = _mm256_castsi256_ps(_mm256_permute4x64_epi64(even, 0xd8));
+  second = _mm256_castsi256_ps(_mm256_permute4x64_epi64(odd, 0xd8));
+}
+
 #else
 
 constexpr uint32_t kLanes = 1;
@@ -507,6 +564,15 @@ GATELIGHT_INLINE Int to_int(Float a) {
 }
 GATELIGHT_INLINE Float to_float(Int a) {
   return static_cast<Float>(static_cast<int32_t>(a));
+}
+
+template <class Address>
+GATELIGHT_INLINE void load_columns4(Address address, Int (&columns)[4]) {
+  __builtin_memcpy(columns, address(0), sizeof columns);
+}
+GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
+  first = p[0];
+  second = p[1];
 }
 
 #endif

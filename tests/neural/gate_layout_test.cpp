@@ -217,7 +217,8 @@ TEST(GateLayout, OnlyMeshesThatNeedEdgesHaveThem) {
       build_gate_layout({{testing::view(coarse), testing::view(fine)}, {{0}, {1}}}, options);
   EXPECT_EQ(layout.surfaces[0].topology_stride, 6u);
   EXPECT_EQ(layout.surfaces[2].topology_stride, 3u);
-  EXPECT_EQ(layout.topology.size(), 6 * coarse.triangles.size() + 3 * fine.triangles.size());
+  EXPECT_EQ(layout.topology.size(),
+            6 * coarse.triangles.size() + 3 * fine.triangles.size() + kTopologyPadding);
   options.storage = NodeStorage::per_triangle;
   EXPECT_TRUE(build_gate_layout({{testing::view(coarse), testing::view(fine)}, {{0}, {1}}}, options)
                   .topology.empty());
