@@ -139,17 +139,55 @@ GATELIGHT_INLINE void forward(const KernelNetwork& n, const TileBuffers& b, uint
   forward_output<kRounded>(n.layers[n.layer_count - 1], x, stride, b.outputs, rows, between);
 }
 
-GATELIGHT_INLINE void add_columns(float* sums, const float* d, uint32_t stride, uint32_t columns,
-                                  uint32_t rows) {
-  for (uint32_t c = 0; c < columns; c += kLanes) {
-    Float even = load(sums + c), odd = zero();
-    for (uint32_t r = 0; r + 1 < rows; r += 2) {
-      even = add(even, load(d + r * stride + c));
-      odd = add(odd, load(d + (r + 1) * stride + c));
+#if !defined(GATELIGHT_ISA_SCALAR)
+
+// The last layer's way back where it has up to four outputs, in one pass over the activations below: their
+// gradients take their places, and the weights' gradients stay in registers.
+template <uint32_t kVectors>
+GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float* d, float* h, uint32_t width,
+                                          uint32_t rows, float slope, float* gradients,
+                                          float* bias_gradients) {
+  const Float one = broadcast(1.0f), leak = broadcast(slope);
+  for (uint32_t c = 0; c < width; c += kVectors * kLanes) {
+    Float w[4][kVectors], g[4][kVectors];
+#pragma GCC unroll 4
+    for (uint32_t o = 0; o < 4; ++o)
+#pragma GCC unroll 2
+      for (uint32_t v = 0; v < kVectors; ++v) {
+        const uint64_t at = uint64_t{o} * layer.padded_inputs + c + v * kLanes;
+        w[o][v] = o < layer.outputs ? load(layer.backward + at) : zero();
+        g[o][v] = load(gradients + at);
+      }
+    for (uint32_t r = 0; r < rows; ++r) {
+      Float y[4];
+#pragma GCC unroll 4
+      for (uint32_t o = 0; o < 4; ++o) y[o] = broadcast(d[r * kOutputStride + o]);
+#pragma GCC unroll 2
+      for (uint32_t v = 0; v < kVectors; ++v) {
+        float* at = h + r * width + c + v * kLanes;
+        const Float active = load(at);
+#pragma GCC unroll 4
+        for (uint32_t o = 0; o < 4; ++o) g[o][v] = fma(y[o], active, g[o][v]);
+        const Float below = fma(y[0], w[0][v], mul(y[1], w[1][v]));
+        const Float other = fma(y[2], w[2][v], mul(y[3], w[3][v]));
+        store(at, mul(add(below, other), select(less(zero(), active), one, leak)));
+      }
     }
-    store(sums + c, add(even, odd));
+#pragma GCC unroll 4
+    for (uint32_t o = 0; o < 4; ++o)
+#pragma GCC unroll 2
+      for (uint32_t v = 0; v < kVectors; ++v)
+        store(gradients + uint64_t{o} * layer.padded_inputs + c + v * kLanes, g[o][v]);
   }
+  Float even = load_first4(bias_gradients), odd = zero();
+  for (uint32_t r = 0; r < rows; r += 2) {
+    even = add(even, load_first4(d + r * kOutputStride));
+    odd = add(odd, load_first4(d + (r + 1) * kOutputStride));
+  }
+  store_partial(bias_gradients, add(even, odd), 4);
 }
+
+#endif
 
 // From the gradients in `outputs` to the gradients of weights and biases (added to `gradients`) and of the
 // feature inputs, which finish_features(row, column, value) takes. rows is a multiple of kBlockRows and so
@@ -161,12 +199,6 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   const KernelLayer& output = n.layers[last];
   const uint32_t width = n.width;
   const Float one = broadcast(1.0f), slope = broadcast(n.slope);
-
-  // Three rows are one block of four: the fourth is room for what nobody reads.
-  const uint32_t output_rows = output.outputs == 3 ? 4 : output.outputs;
-  add_outer(gradients + output.gradient, output.padded_inputs, b.outputs, kOutputStride, output_rows,
-            b.hidden[last - 1], width, width, rows, between);
-  add_columns(gradients + output.bias_gradient, b.outputs, kOutputStride, kOutputStride, rows);
 
   // Through a layer's weights and the activation of the layer below, whose values give way to their
   // gradients.
@@ -180,7 +212,29 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
         },
         between);
   };
-  descend(output, b.outputs, Constant<kOutputStride>{}, b.hidden[last - 1]);
+  float* const output_gradients = gradients + output.gradient;
+  float* const output_biases = gradients + output.bias_gradient;
+#if !defined(GATELIGHT_ISA_SCALAR)
+  constexpr uint32_t kFewVectors =
+      kLanes == 16 ? 2 : 1;  // eight vectors of weights and eight of gradients, or four
+  if (output.outputs <= 4) {
+    if (width % (kFewVectors * kLanes) == 0)
+      backward_few_outputs<kFewVectors>(output, b.outputs, b.hidden[last - 1], width, rows, n.slope,
+                                        output_gradients, output_biases);
+    else
+      backward_few_outputs<1>(output, b.outputs, b.hidden[last - 1], width, rows, n.slope, output_gradients,
+                              output_biases);
+    between();
+  } else
+#endif
+  {
+    float unused[kMaxWidth] = {};  // sums of activations
+    add_outer(output_gradients, output.padded_inputs, b.outputs, kOutputStride, output.outputs,
+              b.hidden[last - 1], width, width, rows, unused, between);
+    for (uint32_t r = 0; r < rows; ++r)
+      for (uint32_t c = 0; c < output.outputs; ++c) output_biases[c] += b.outputs[r * kOutputStride + c];
+    descend(output, b.outputs, Constant<kOutputStride>{}, b.hidden[last - 1]);
+  }
 
   for (uint32_t l = last; l-- > 0;) {
     const float* d = b.hidden[l];
@@ -188,8 +242,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
     const float* x = l == 0 ? b.inputs : b.hidden[l - 1];
     const uint32_t x_stride = l == 0 ? n.input_stride : width;
     add_outer(gradients + layer.gradient, layer.padded_outputs, x, x_stride, layer.inputs, d, width, width,
-              rows, between);
-    add_columns(gradients + layer.bias_gradient, d, width, width, rows);
+              rows, gradients + layer.bias_gradient, between);
     if (l > 0) {
       with_stride(
           width, [&](auto stride)

@@ -9,15 +9,23 @@
 
 namespace {
 
-// acc[r][v] += sum over d of x[r * kRowStride + d * depth_stride] * w[d * w_stride + v * kLanes].
-template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride>
+struct NoSums {
+  __attribute__((always_inline)) void operator()(uint32_t, Float) const {}
+};
+
+// acc[r][v] += sum over d of x[r * kRowStride + d * depth_stride] * w[d * w_stride + v * kLanes]. Shows each
+// vector of w.
+template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride, class See = NoSums>
 GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, uint32_t depth_stride,
-                                 const float* w, uint32_t w_stride, uint32_t depth) {
+                                 const float* w, uint32_t w_stride, uint32_t depth, See&& see = {}) {
 #pragma GCC unroll 4
   for (uint32_t d = 0; d < depth; ++d, x += depth_stride, w += w_stride) {
     Float column[kVectors];
 #pragma GCC unroll 4
-    for (uint32_t v = 0; v < kVectors; ++v) column[v] = load(w + v * kLanes);
+    for (uint32_t v = 0; v < kVectors; ++v) {
+      column[v] = load(w + v * kLanes);
+      see(v, column[v]);
+    }
 #pragma GCC unroll 16
     for (uint32_t r = 0; r < kRows; ++r) {
       const Float a = broadcast(x[r * kRowStride]);
@@ -68,16 +76,29 @@ GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, co
         between_blocks);
 }
 
-// g[i][c] += sum over s of x[s][i] d[s][c], i in [0, kRows).
-template <uint32_t kRows, uint32_t kVectors>
+// g[i][c] += sum over s of x[s][i] d[s][c], i in [0, kRows). And sums[c] += sum over s of d[s][c] where
+// asked: additions that cost nothing beside the multiply-adds.
+template <uint32_t kRows, uint32_t kVectors, bool kSums>
 GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
-                                     const float* d, uint32_t d_stride, uint32_t samples) {
+                                     const float* d, uint32_t d_stride, uint32_t samples, float* sums) {
   Float acc[kRows][kVectors];
 #pragma GCC unroll 16
   for (uint32_t r = 0; r < kRows; ++r)
 #pragma GCC unroll 4
     for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = load(g + r * g_stride + v * kLanes);
-  accumulate<kRows, kVectors, 1>(acc, x, x_stride, d, d_stride, samples);
+  if constexpr (kSums) {
+    Float total[kVectors];
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) total[v] = load(sums + v * kLanes);
+    accumulate<kRows, kVectors, 1>(
+        acc, x, x_stride, d, d_stride, samples, [&](uint32_t v, Float column) __attribute__((always_inline)) {
+          total[v] = add(total[v], column);
+        });
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) store(sums + v * kLanes, total[v]);
+  } else {
+    accumulate<kRows, kVectors, 1>(acc, x, x_stride, d, d_stride, samples);
+  }
 #pragma GCC unroll 16
   for (uint32_t r = 0; r < kRows; ++r)
 #pragma GCC unroll 4
@@ -85,37 +106,33 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
 }
 
 // Weight gradients: g[i][c] += sum over the samples of x[s][i] d[s][c] for i < rows, c < columns (a multiple
-// of 16).
+// of 16); and bias gradients: sums[c] += sum of d[s][c].
 GATELIGHT_ALONE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
                                const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
-                               const Between& between_blocks) {
+                               float* sums, const Between& between_blocks) {
   constexpr uint32_t kPair = kBlockVectors * kLanes;
-  for (uint32_t i = 0; i < rows;) {
-    const uint32_t left = rows - i;
-    uint32_t done = 1;
+  const auto sweep = [&](auto size, auto summed, uint32_t i) __attribute__((always_inline)) {
+    constexpr uint32_t kRows = decltype(size)::value;
+    constexpr bool kSums = decltype(summed)::value != 0;
     uint32_t c = 0;
-    const auto sweep = [&](auto size) __attribute__((always_inline)) {
-      constexpr uint32_t kRows = decltype(size)::value;
-      done = kRows;
-      for (; c + kPair <= columns; c += kPair)
-        add_outer_block<kRows, kBlockVectors>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c,
-                                              d_stride, samples);
-      for (; c < columns; c += kLanes)
-        add_outer_block<kRows, 1>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c, d_stride, samples);
-    };
-    if (left >= kBlockRows)
-      sweep(Constant<kBlockRows>{});
-    else if (left >= 8 && kBlockRows > 8)
-      sweep(Constant<8>{});
-    else if (left >= 4)
-      sweep(Constant<4>{});
-    else if (left >= 2)
-      sweep(Constant<2>{});
-    else
-      sweep(Constant<1>{});
-    i += done;
+    for (; c + kPair <= columns; c += kPair)
+      add_outer_block<kRows, kBlockVectors, kSums>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c,
+                                                   d_stride, samples, sums + c);
+    for (; c < columns; c += kLanes)
+      add_outer_block<kRows, 1, kSums>(g + i * g_stride + c, g_stride, x + i, x_stride, d + c, d_stride,
+                                       samples, sums + c);
     between_blocks();
-  }
+    return i + kRows;
+  };
+  const auto next = [&](uint32_t left, auto summed, uint32_t i) __attribute__((always_inline)) {
+    if (left >= kBlockRows) return sweep(Constant<kBlockRows>{}, summed, i);
+    if (left >= 8 && kBlockRows > 8) return sweep(Constant<8>{}, summed, i);
+    if (left >= 4) return sweep(Constant<4>{}, summed, i);
+    if (left >= 2) return sweep(Constant<2>{}, summed, i);
+    return sweep(Constant<1>{}, summed, i);
+  };
+  uint32_t i = rows > 0 ? next(rows, Constant<1>{}, 0) : 0;
+  while (i < rows) i = next(rows - i, Constant<0>{}, i);
 }
 
 }  // namespace

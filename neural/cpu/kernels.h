@@ -13,6 +13,7 @@ namespace gatelight::neural::cpu {
 
 constexpr uint32_t kTile = 48;
 constexpr uint32_t kMaxKernelLayers = 6;
+constexpr uint32_t kMaxWidth = 128;
 constexpr uint32_t kMaxKernelLevels = 16;
 constexpr uint32_t kMaxAuxiliary = 16;
 constexpr uint32_t kOutputStride = 16;  // floats a row of outputs and of their gradients
