@@ -30,6 +30,7 @@ void NodeReferences::start(const Chunks& chunks, const Buckets& buckets, std::ui
 
 void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
                           std::uint32_t feature_inputs) {
+  if (buckets_.count == 0) return;
   // Counts become the places where each chunk writes into each bucket.
   std::uint32_t total = 0;
   for (std::uint32_t b = 0; b < buckets_.count; ++b) {
@@ -44,19 +45,21 @@ void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
   starts_[buckets_.count] = total;
 
   tbb::parallel_for(0u, chunks_.count(), [&](std::uint32_t chunk) {
-    std::uint32_t* next = counts(chunk);
+    std::uint32_t* const next = counts(chunk);
+    KernelReference* const references = references_.data();
+    const std::uint32_t slots = slots_, shift = buckets_.shift;
     for (std::uint32_t first = chunks_.begin(chunk); first < chunks_.end(chunk); first += kTile) {
-      const std::uint32_t* nodes = nodes_.data() + std::size_t{first} * slots_;
-      const float* weights = weights_.data() + std::size_t{first} * slots_;
+      const std::uint32_t* nodes = nodes_.data() + std::size_t{first} * slots;
+      const float* weights = weights_.data() + std::size_t{first} * slots;
       const std::uint32_t count = std::min(kTile, chunks_.end(chunk) - first);
       for (std::uint32_t s = 0; s < count; ++s) {
         std::uint32_t source = (first + s) * feature_inputs;
-        for (std::uint32_t slot = 0; slot < slots_; source += features)
+        for (std::uint32_t slot = 0; slot < slots; source += features)
           for (std::uint32_t n = 0; n < nodes_per_level; ++n, ++slot) {
             const float weight = weights[slot * kTile + s];
             if (weight == 0.0f) continue;
             const std::uint32_t node = nodes[slot * kTile + s];
-            references_[next[node >> buckets_.shift]++] = {node, source, weight};
+            references[next[node >> shift]++] = {node, source, weight};
           }
       }
     }
