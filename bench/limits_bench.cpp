@@ -27,8 +27,8 @@ void stream(benchmark::State& state) {
   run_passes(state, "GB/s", 1e9, [&] { return run_stream(buffer); });
 }
 
-void gather(benchmark::State& state) {
-  const BigBuffer buffer;
+void gather(benchmark::State& state, bool huge_pages) {
+  const BigBuffer buffer(huge_pages);
   run_passes(state, "Mread/s", 1e6, [&] { return run_gather(buffer); });
 }
 
@@ -43,7 +43,8 @@ const bool registered = [] {
   }
   add("limits/fma", fma, widest);
   add("limits/stream", stream);
-  add("limits/gather", gather);
+  add("limits/gather", gather, true);
+  add("limits/gather/small_pages", gather, false);
   return true;
 }();
 

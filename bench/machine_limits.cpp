@@ -234,10 +234,11 @@ Work run_fma(Arithmetic arithmetic) {
   return {burner.operations * static_cast<double>(kSteps) * threads, seconds};
 }
 
-BigBuffer::BigBuffer() {
+BigBuffer::BigBuffer(bool huge_pages) {
   constexpr std::size_t kHugePage = std::size_t{2} << 20;
   words_ = static_cast<std::uint64_t*>(::operator new (kBytes, std::align_val_t{kHugePage}));
-  ::madvise(words_, kBytes, MADV_HUGEPAGE);  // where it is refused, the reads are slower, and so is the limit
+  // Where huge pages are refused, the reads are slower, and so is the limit.
+  ::madvise(words_, kBytes, huge_pages ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   const int threads = renderer::available_threads();
   const std::size_t count = kBytes / sizeof(std::uint64_t);
   seconds_of(threads, [&](int thread) {

@@ -36,7 +36,7 @@ Work run_fma(Arithmetic arithmetic);
 /// Memory far greater than any cache, in huge pages where the system gives them, touched.
 class BigBuffer {
  public:
-  BigBuffer();
+  explicit BigBuffer(bool huge_pages = true);
   ~BigBuffer();
   BigBuffer(const BigBuffer&) = delete;
   BigBuffer& operator=(const BigBuffer&) = delete;

@@ -116,10 +116,11 @@ void set_pixel(NeuralPoints& points, std::size_t i, std::uint32_t x, std::uint32
   set_point(points, i, 2 * quad + (below ? 0 : 1), below ? Float2{u - v, v} : Float2{u, v - u}, direction);
 }
 
-void set_random(NeuralPoints& points, std::size_t i, PointRandom& random) {
+void set_random(NeuralPoints& points, std::size_t i, bool sorted, PointRandom& random) {
   const auto count = static_cast<std::uint32_t>(neural_surface().triangles.size());
-  const auto triangle =
-      std::min(static_cast<std::uint32_t>(random.next() * static_cast<float>(count)), count - 1);
+  const float place =
+      sorted ? (static_cast<float>(i) + random.next()) / static_cast<float>(points.size()) : random.next();
+  const auto triangle = std::min(static_cast<std::uint32_t>(place * static_cast<float>(count)), count - 1);
   Float2 b = {random.next(), random.next()};
   if (b[0] + b[1] > 1) b = {1 - b[0], 1 - b[1]};
   const float z = 2 * random.next() - 1, phi = kTwoPi * random.next(), r = std::sqrt(1 - z * z);
@@ -211,7 +212,7 @@ neural::QueryBatch NeuralPoints::query_batch() const {
 }
 
 std::string order_name(Order order) {
-  return order == Order::coherent ? "coherent" : "random";
+  return order == Order::coherent ? "coherent" : order == Order::random ? "random" : "random_sorted";
 }
 
 NeuralPoints make_points(Order order, std::uint32_t width, std::uint32_t height, std::uint32_t patch) {
@@ -233,7 +234,7 @@ NeuralPoints make_points(Order order, std::uint32_t width, std::uint32_t height,
       if (order == Order::coherent) {
         set_pixel(points, i, x, y, patch, random);
       } else {
-        set_random(points, i, random);
+        set_random(points, i, order == Order::sorted, random);
       }
     }
   });

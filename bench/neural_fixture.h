@@ -63,6 +63,7 @@ struct NeuralPoints {
 enum class Order : std::uint8_t {
   coherent,  ///< pixels in rows over neighbouring triangles, two of them to a triangle
   random,    ///< any triangle of the surface
+  sorted,    ///< likewise, in the order of their numbers
 };
 std::string order_name(Order order);
 

@@ -59,7 +59,7 @@ void train_step(benchmark::State& state, const TrainCase& which) {
     // A node is read for each record that it belongs to; the update reads two moments and the average.
     const double reads = records * model.nodes_per_point() + 3 * touched;
     set_fractions(state, records * training_operations(model.parameters), seconds, arithmetic_in_use(),
-                  which.order == Order::random ? reads : 0.0);
+                  which.order != Order::coherent ? reads : 0.0);
     state.counters["network_ms"] = 1e3 * network / steps;
     state.counters["sort_ms"] = 1e3 * sort / steps;
     state.counters["update_ms"] = 1e3 * update / steps;
@@ -70,7 +70,8 @@ void train_step(benchmark::State& state, const TrainCase& which) {
 
 const bool registered = [] {
   const auto add = [](TrainCase which, const char* suffix) {
-    for (const Order order : {Order::coherent, Order::random}) {
+    for (const Order order : {Order::coherent, Order::random, Order::sorted}) {
+      if (order == Order::sorted && which.model.encoding != Encoding::gate) continue;
       which.order = order;
       const std::string name = "train_step/" + case_name(which.model) + suffix + "/" + order_name(order);
       benchmark::RegisterBenchmark(name.c_str(), train_step, which)->Unit(benchmark::kMillisecond);
