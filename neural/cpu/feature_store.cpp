@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "neural/half.h"
 
@@ -13,15 +14,12 @@ namespace {
 
 template <class F>
 void for_range(std::uint64_t count, F&& body) {
-  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 65536), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 4096), [&](const auto& range) {
     for (std::uint64_t i = range.begin(); i < range.end(); ++i) body(i);
   });
 }
 
-// Where the features are stored; one element stands in where there are none, so that lookups may read node 0.
-std::uint64_t at_least_one_node(std::uint64_t count, std::uint32_t features) {
-  return std::max<std::uint64_t>(count, features);
-}
+constexpr std::uint32_t kLineFloats = 16;
 
 }  // namespace
 
@@ -33,35 +31,63 @@ FeatureStore::FeatureStore(const Model& model, const TrainingOptions& options)
       nodes_(model.parameters.node_count),
       averaging_(options.average.features),
       sparse_(options.update == FeatureUpdate::sparse) {
-  const std::uint64_t size = at_least_one_node(count_, features_);
   const bool half = precision_ != FeaturePrecision::fp32;
   const bool floats = precision_ != FeaturePrecision::fp16;
-  if (floats) floats_ = HugeBuffer<float>(size);
-  if (half) halves_ = HugeBuffer<std::uint16_t>(size);
-  if (averaging_ && floats) averages_ = HugeBuffer<float>(size);
-  if (averaging_ && half) average_halves_ = HugeBuffer<std::uint16_t>(size);
-  moments_ = HugeBuffer<float>(2 * size);
-  if (sparse_) steps_ = HugeBuffer<std::uint32_t>(std::max(nodes_, 1u));
+  const bool beside = averaging_ && 2 * features_ <= kLineFloats;
+  feature_stride_ = beside ? 2 * features_ : features_;
+  if (floats) floats_ = HugeBuffer<float>(floats_of(feature_stride_));
+  if (half) halves_ = HugeBuffer<std::uint16_t>(floats_of(feature_stride_));
+  if (beside) {
+    if (floats) averages_ = floats_.data() + features_;
+    if (half) average_halves_ = halves_.data() + features_;
+  } else if (averaging_) {
+    if (floats) separate_averages_ = HugeBuffer<float>(floats_of(features_));
+    if (half) separate_average_halves_ = HugeBuffer<std::uint16_t>(floats_of(features_));
+    averages_ = separate_averages_.data();
+    average_halves_ = separate_average_halves_.data();
+  }
+
+  const std::uint32_t with_step = 2 * features_ + 1;
+  const bool behind = sparse_ && with_step <= kLineFloats;
+  moment_stride_ = behind ? std::bit_ceil(with_step) : 2 * features_;
+  moments_ = HugeBuffer<float>(floats_of(moment_stride_));
+  if (behind) {
+    steps_ = reinterpret_cast<std::uint32_t*>(moments_.data() + 2 * features_);
+    step_stride_ = moment_stride_;
+  } else if (sparse_) {
+    separate_steps_ = HugeBuffer<std::uint32_t>(floats_of(1));
+    steps_ = separate_steps_.data();
+  }
+}
+
+// One node stands in where there are none, so that lookups may read node 0.
+std::uint64_t FeatureStore::floats_of(std::uint64_t per_node) const {
+  return std::max(nodes_, 1u) * std::max<std::uint64_t>(per_node, 1);
 }
 
 void FeatureStore::set_training_view(KernelEncoder& encoder) const {
+  encoder.feature_stride = feature_stride_;
   encoder.float_features = floats_.data();
-  encoder.half_features = halves_.empty() ? nullptr : halves_.data();
+  encoder.half_features = halves_.data();
 }
 
 void FeatureStore::set_query_view(KernelEncoder& encoder, bool averaged) const {
-  if (!averaged || !averaging_) return set_training_view(encoder);
-  encoder.float_features = averages_.data();
-  encoder.half_features = average_halves_.empty() ? nullptr : average_halves_.data();
+  set_training_view(encoder);
+  if (!averaged || !averaging_) return;
+  encoder.float_features = averages_;
+  encoder.half_features = average_halves_;
 }
 
 void FeatureStore::set_update_view(KernelFeatureUpdate& update) const {
+  update.feature_stride = feature_stride_;
+  update.moment_stride = moment_stride_;
+  update.step_stride = step_stride_;
   update.features_fp32 = floats_.data();
   update.features_fp16 = halves_.data();
-  update.averages = averages_.data();
-  update.averages_fp16 = average_halves_.data();
+  update.averages = averages_;
+  update.averages_fp16 = average_halves_;
   update.moments = moments_.data();
-  update.node_steps = steps_.data();
+  update.node_steps = steps_;
 }
 
 void FeatureStore::export_to(ModelState& state) const {
@@ -69,30 +95,37 @@ void FeatureStore::export_to(ModelState& state) const {
   state.averages.resize(all_count_);
   state.first_moments.resize(all_count_);
   state.second_moments.resize(all_count_);
-  for_range(count_, [&](std::uint64_t i) {
-    const float p = floats_.empty() ? half_to_float(halves_[i]) : floats_[i];
-    state.parameters[i] = p;
-    state.averages[i] = !averaging_         ? p
-                        : averages_.empty() ? half_to_float(average_halves_[i])
-                                            : averages_[i];
-    const std::uint64_t moment = i / features_ * 2 * features_ + i % features_;
-    state.first_moments[i] = moments_[moment];
-    state.second_moments[i] = moments_[moment + features_];
+  state.node_steps.assign(sparse_ ? nodes_ : 0, 0);
+  for_range(nodes_, [&](std::uint64_t node) {
+    const float* m = moments_.data() + node * moment_stride_;
+    for (std::uint32_t f = 0; f < features_; ++f) {
+      const std::uint64_t from = node * feature_stride_ + f, to = node * features_ + f;
+      const float p = floats_.empty() ? half_to_float(halves_[from]) : floats_[from];
+      state.parameters[to] = p;
+      state.averages[to] = averages_ != nullptr         ? averages_[from]
+                           : average_halves_ != nullptr ? half_to_float(average_halves_[from])
+                                                        : p;
+      state.first_moments[to] = m[f];
+      state.second_moments[to] = m[f + features_];
+    }
+    if (sparse_) state.node_steps[node] = steps_[node * step_stride_];
   });
-  state.node_steps.assign(steps_.data(), steps_.data() + (sparse_ ? nodes_ : 0));
 }
 
 void FeatureStore::import_from(const ModelState& state) {
-  for_range(count_, [&](std::uint64_t i) {
-    if (!floats_.empty()) floats_[i] = state.parameters[i];
-    if (!halves_.empty()) halves_[i] = float_to_finite_half(state.parameters[i]);
-    if (!averages_.empty()) averages_[i] = state.averages[i];
-    if (!average_halves_.empty()) average_halves_[i] = float_to_finite_half(state.averages[i]);
-    const std::uint64_t moment = i / features_ * 2 * features_ + i % features_;
-    moments_[moment] = state.first_moments[i];
-    moments_[moment + features_] = state.second_moments[i];
+  for_range(nodes_, [&](std::uint64_t node) {
+    float* m = moments_.data() + node * moment_stride_;
+    for (std::uint32_t f = 0; f < features_; ++f) {
+      const std::uint64_t from = node * features_ + f, to = node * feature_stride_ + f;
+      if (!floats_.empty()) floats_[to] = state.parameters[from];
+      if (!halves_.empty()) halves_[to] = float_to_finite_half(state.parameters[from]);
+      if (averages_ != nullptr) averages_[to] = state.averages[from];
+      if (average_halves_ != nullptr) average_halves_[to] = float_to_finite_half(state.averages[from]);
+      m[f] = state.first_moments[from];
+      m[f + features_] = state.second_moments[from];
+    }
+    if (sparse_) steps_[node * step_stride_] = state.node_steps[node];
   });
-  if (sparse_) std::copy(state.node_steps.begin(), state.node_steps.end(), steps_.data());
 }
 
 std::uint64_t FeatureStore::parameter_bytes() const {
@@ -100,8 +133,9 @@ std::uint64_t FeatureStore::parameter_bytes() const {
 }
 
 std::uint64_t FeatureStore::optimizer_bytes() const {
-  const std::uint64_t masters = precision_ == FeaturePrecision::fp16_masters ? floats_.bytes() : 0;
-  return masters + averages_.bytes() + average_halves_.bytes() + moments_.bytes() + steps_.bytes();
+  const std::uint64_t all = floats_.bytes() + halves_.bytes() + separate_averages_.bytes() +
+                            separate_average_halves_.bytes() + moments_.bytes() + separate_steps_.bytes();
+  return all - parameter_bytes();
 }
 
 }  // namespace gatelight::neural::cpu

@@ -9,6 +9,8 @@
 
 namespace gatelight::neural::cpu {
 
+/// An update waits for memory, so what belongs to a node lies in as few lines as can be: a short feature
+/// vector beside its average, the step count behind the moments. Long ones are lines of their own.
 class FeatureStore {
  public:
   FeatureStore(const Model& model, const TrainingOptions& options);
@@ -27,16 +29,23 @@ class FeatureStore {
   std::uint64_t optimizer_bytes() const;
 
  private:
+  std::uint64_t floats_of(std::uint64_t per_node) const;
+
   std::uint64_t count_;      // of floats
   std::uint64_t all_count_;  // of the model's parameters
   std::uint32_t features_;
   FeaturePrecision precision_;
   HugeBuffer<float> floats_;          // parameters, or masters
   HugeBuffer<std::uint16_t> halves_;  // parameters in fp16
-  HugeBuffer<float> averages_;
-  HugeBuffer<std::uint16_t> average_halves_;
-  HugeBuffer<float> moments_;  // [node][m of L, v of L]: one line for L = 8
-  HugeBuffer<std::uint32_t> steps_;
+  HugeBuffer<float> separate_averages_;
+  HugeBuffer<std::uint16_t> separate_average_halves_;
+  HugeBuffer<float> moments_;
+  HugeBuffer<std::uint32_t> separate_steps_;
+  // Views of the above.
+  float* averages_ = nullptr;
+  std::uint16_t* average_halves_ = nullptr;
+  std::uint32_t* steps_ = nullptr;
+  std::uint32_t feature_stride_ = 0, moment_stride_ = 0, step_stride_ = 1;
   std::uint32_t nodes_;
   bool averaging_, sparse_;
 };

@@ -10,9 +10,9 @@ namespace {
 using namespace gatelight::neural::cpu;
 
 template <uint32_t kNodes, class Element>
-GATELIGHT_ALONE void interpolate_rows(const Element* features, uint32_t length, uint32_t levels,
-                                      const uint32_t* nodes, const float* weights, float* inputs,
-                                      uint32_t stride) {
+GATELIGHT_ALONE void interpolate_rows(const Element* features, uint64_t feature_stride, uint32_t length,
+                                      uint32_t levels, const uint32_t* nodes, const float* weights,
+                                      float* inputs, uint32_t stride) {
   for (uint32_t s = 0; s < kTile; ++s) {
     float* row = inputs + s * stride;
     for (uint32_t l = 0; l < levels; ++l, row += length) {
@@ -21,9 +21,9 @@ GATELIGHT_ALONE void interpolate_rows(const Element* features, uint32_t length, 
       for_parts(
           length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
             using V = typename Short<decltype(part)::value>::Type;
-            V z = load_short<V>(features + uint64_t{node[0]} * length + at) * weight[0];
+            V z = load_short<V>(features + node[0] * feature_stride + at) * weight[0];
             for (uint32_t n = 1; n < kNodes; ++n)
-              z += load_short<V>(features + uint64_t{node[n * kTile]} * length + at) * weight[n * kTile];
+              z += load_short<V>(features + node[n * kTile] * feature_stride + at) * weight[n * kTile];
             store_short(row + at, z);
           });
     }
@@ -35,20 +35,21 @@ GATELIGHT_INLINE void interpolate_from(const KernelEncoder& e, const Element* fe
                                        const float* weights, float* inputs, uint32_t stride) {
   if (e.encoding == KernelEncoding::hash_grid) {
     if (e.features == 4)
-      interpolate_rows<8>(features, 4, e.levels, nodes, weights, inputs, stride);
+      interpolate_rows<8>(features, e.feature_stride, 4, e.levels, nodes, weights, inputs, stride);
     else
-      interpolate_rows<8>(features, e.features, e.levels, nodes, weights, inputs, stride);
+      interpolate_rows<8>(features, e.feature_stride, e.features, e.levels, nodes, weights, inputs, stride);
     return;
   }
   switch (e.features) {
     case 2:
-      return interpolate_rows<3>(features, 2, e.levels, nodes, weights, inputs, stride);
+      return interpolate_rows<3>(features, e.feature_stride, 2, e.levels, nodes, weights, inputs, stride);
     case 4:
-      return interpolate_rows<3>(features, 4, e.levels, nodes, weights, inputs, stride);
+      return interpolate_rows<3>(features, e.feature_stride, 4, e.levels, nodes, weights, inputs, stride);
     case 8:
-      return interpolate_rows<3>(features, 8, e.levels, nodes, weights, inputs, stride);
+      return interpolate_rows<3>(features, e.feature_stride, 8, e.levels, nodes, weights, inputs, stride);
     default:
-      return interpolate_rows<3>(features, e.features, e.levels, nodes, weights, inputs, stride);
+      return interpolate_rows<3>(features, e.feature_stride, e.features, e.levels, nodes, weights, inputs,
+                                 stride);
   }
 }
 

@@ -34,7 +34,7 @@ GATELIGHT_INLINE Prefetcher make_prefetcher(const KernelEncoder& e, const uint32
   p.step = (p.count + blocks - 1) / blocks;
   p.base = e.half_features != nullptr ? reinterpret_cast<const char*>(e.half_features)
                                       : reinterpret_cast<const char*>(e.float_features);
-  p.bytes = e.features * (e.half_features != nullptr ? 2 : 4);
+  p.bytes = e.feature_stride * (e.half_features != nullptr ? 2 : 4);
   return p;
 }
 

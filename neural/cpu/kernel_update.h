@@ -35,14 +35,14 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
         length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
           using V = typename Short<decltype(part)::value>::Type;
           const V g = load_short<V>(sums + at) * u.adam.gradient_scale;
-          float* moments = u.moments + node * 2 * length + at;
+          float* moments = u.moments + node * u.moment_stride + at;
           V m = load_short<V>(moments);
           V v = load_short<V>(moments + length);
           m = m * u.adam.beta1 + g * (1.0f - u.adam.beta1);
           v = v * u.adam.beta2 + g * g * (1.0f - u.adam.beta2);
           store_short(moments, m);
           store_short(moments + length, v);
-          const uint64_t index = node * length + at;
+          const uint64_t index = node * u.feature_stride + at;
           V p = u.features_fp32 != nullptr ? load_short<V>(u.features_fp32 + index)
                                            : load_short<V>(u.features_fp16 + index);
           p -= m * step.step / (sqrt_short<V>(v) + step.epsilon);
@@ -74,11 +74,12 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
   return usable;
 }
 
-GATELIGHT_INLINE void prefetch_node(const KernelFeatureUpdate& u, uint64_t node, uint32_t length) {
-  if (u.features_fp32 != nullptr) prefetch(u.features_fp32 + node * length);
-  prefetch(u.moments + node * 2 * length);
-  if (u.averages != nullptr) prefetch(u.averages + node * length);
-  if (u.node_steps != nullptr) prefetch(u.node_steps + node);
+GATELIGHT_INLINE void prefetch_node(const KernelFeatureUpdate& u, uint64_t node) {
+  if (u.features_fp32 != nullptr) prefetch(u.features_fp32 + node * u.feature_stride);
+  if (u.features_fp16 != nullptr) prefetch(u.features_fp16 + node * u.feature_stride);
+  if (u.averages != nullptr && u.feature_stride == u.features) prefetch(u.averages + node * u.feature_stride);
+  prefetch(u.moments + node * u.moment_stride);
+  if (u.step_stride == 1) prefetch(u.node_steps + node);
 }
 
 template <uint32_t kLength>
@@ -119,13 +120,12 @@ void update_features_of(const KernelFeatureUpdate& u) {
         ++*u.skipped_count;
     return;
   }
-  for (uint32_t i = 0; i < count && i < kAhead; ++i)
-    prefetch_node(u, u.first_node + u.touched_list[i], length);
+  for (uint32_t i = 0; i < count && i < kAhead; ++i) prefetch_node(u, u.first_node + u.touched_list[i]);
   for (uint32_t i = 0; i < count; ++i) {
-    if (i + kAhead < count) prefetch_node(u, u.first_node + u.touched_list[i + kAhead], length);
+    if (i + kAhead < count) prefetch_node(u, u.first_node + u.touched_list[i + kAhead]);
     const uint32_t local = u.touched_list[i];
     const uint64_t node = u.first_node + local;
-    uint32_t t = u.node_steps[node];
+    uint32_t t = u.node_steps[node * u.step_stride];
     if (u.record_steps != nullptr) {
       t = u.step_scratch[local];
       u.step_scratch[local] = 0;
@@ -134,7 +134,7 @@ void update_features_of(const KernelFeatureUpdate& u) {
     }
     const KernelAdamStep step = t <= u.step_count ? u.steps[t] : u.late_step(u.late_context, t);
     if (update_node(u, node, length, u.sums + uint64_t{local} * length, step))
-      u.node_steps[node] = t;
+      u.node_steps[node * u.step_stride] = t;
     else
       ++*u.skipped_count;
   }

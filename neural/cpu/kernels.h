@@ -62,7 +62,8 @@ struct KernelEncoder {
   float inverse_extent;
   KernelAuxiliary auxiliary[kMaxAuxiliary];
   uint32_t auxiliary_count;
-  // Feature vectors: floats, or halves where `half_features` is given.
+  // Feature vectors: floats, or halves where `half_features` is given; node n's begin at n * feature_stride.
+  uint32_t feature_stride;
   const float* float_features;
   const uint16_t* half_features;
 };
@@ -169,7 +170,9 @@ struct KernelFeatureUpdate {
   KernelAdamStep (*late_step)(const void* context, uint64_t t);  // for t beyond the table
   const void* late_context;
   KernelAdamStep dense_step;
-  // State. Moments: [node][m of L, v of L].
+  // State. Node n's features and averages begin at n * feature_stride, its moments (m of L, v of L) at n *
+  // moment_stride, and its step count is at n * step_stride.
+  uint32_t feature_stride, moment_stride, step_stride;
   float* features_fp32;     // parameters or masters; null in fp16 without masters
   uint16_t* features_fp16;  // null in fp32
   float* averages;          // null without
