@@ -8,7 +8,35 @@ namespace {
 
 typedef float Float8 __attribute__((vector_size(32)));
 typedef float Float4 __attribute__((vector_size(16)));
-typedef float Float2 __attribute__((vector_size(8)));
+
+// Two floats in the lower half of four: gcc 12 takes vectors of eight bytes through memory.
+struct Float2 {
+  Float4 v;
+};
+GATELIGHT_INLINE Float2 operator+(Float2 a, Float2 b) {
+  return {a.v + b.v};
+}
+GATELIGHT_INLINE Float2 operator-(Float2 a, Float2 b) {
+  return {a.v - b.v};
+}
+GATELIGHT_INLINE Float2 operator*(Float2 a, Float2 b) {
+  return {a.v * b.v};
+}
+GATELIGHT_INLINE Float2 operator/(Float2 a, Float2 b) {
+  return {a.v / b.v};
+}
+GATELIGHT_INLINE Float2 operator*(Float2 a, float b) {
+  return {a.v * b};
+}
+GATELIGHT_INLINE Float2 operator+(Float2 a, float b) {
+  return {a.v + b};
+}
+GATELIGHT_INLINE Float2& operator+=(Float2& a, Float2 b) {
+  return a = a + b;
+}
+GATELIGHT_INLINE Float2& operator-=(Float2& a, Float2 b) {
+  return a = a - b;
+}
 
 template <uint32_t kCount>
 struct Short;
@@ -29,15 +57,44 @@ struct Short<1> {
   using Type = float;
 };
 
+/// Floats in a V.
+template <class V>
+constexpr uint32_t kShort = sizeof(V) / 4;
+template <>
+constexpr uint32_t kShort<Float2> = 2;
+
 template <class V>
 GATELIGHT_INLINE V load_short(const float* p) {
   V v;
-  __builtin_memcpy(&v, p, sizeof v);
+  if constexpr (__is_same(V, Float2)) {
+    typedef long long Pair __attribute__((vector_size(16)));
+    long long both_floats;
+    __builtin_memcpy(&both_floats, p, 8);
+    v.v = (Float4)Pair{both_floats, 0};
+  } else {
+    __builtin_memcpy(&v, p, sizeof v);
+  }
   return v;
 }
 template <class V>
 GATELIGHT_INLINE void store_short(float* p, V v) {
-  __builtin_memcpy(p, &v, sizeof v);
+  if constexpr (__is_same(V, Float2)) {
+    typedef long long Pair __attribute__((vector_size(16)));
+    const long long both_floats = ((Pair)v.v)[0];
+    __builtin_memcpy(p, &both_floats, 8);
+  } else {
+    __builtin_memcpy(p, &v, sizeof v);
+  }
+}
+/// Lane i.
+template <class V>
+GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
+  if constexpr (__is_same(V, Float2))
+    return v.v[i];
+  else if constexpr (__is_same(V, float))
+    return v;
+  else
+    return v[i];
 }
 
 #if defined(GATELIGHT_ISA_SCALAR)
@@ -70,21 +127,18 @@ GATELIGHT_INLINE uint16_t half_of_float(float value) {
 }
 template <class V>
 GATELIGHT_INLINE V load_short(const uint16_t* p) {
-  float lanes[sizeof(V) / 4];
-  for (uint32_t i = 0; i < sizeof(V) / 4; ++i) lanes[i] = float_of_half(p[i]);
+  float lanes[kShort<V>];
+  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = float_of_half(p[i]);
   return load_short<V>(lanes);
 }
 template <class V>
 GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
-  float lanes[sizeof(V) / 4];
-  __builtin_memcpy(lanes, &v, sizeof v);
-  for (uint32_t i = 0; i < sizeof(V) / 4; ++i) p[i] = half_of_float(lanes[i]);
+  for (uint32_t i = 0; i < kShort<V>; ++i) p[i] = half_of_float(lane_of(v, i));
 }
 template <class V>
 GATELIGHT_INLINE V sqrt_short(V v) {
-  float lanes[sizeof(V) / 4];
-  __builtin_memcpy(lanes, &v, sizeof v);
-  for (float& x : lanes) x = __builtin_sqrtf(x);
+  float lanes[kShort<V>];
+  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = __builtin_sqrtf(lane_of(v, i));
   return load_short<V>(lanes);
 }
 
@@ -98,7 +152,7 @@ GATELIGHT_INLINE V load_short(const uint16_t* p) {
     __builtin_memcpy(&v, &x, sizeof v);
   } else {
     long long word = 0;
-    __builtin_memcpy(&word, p, sizeof(V) / 2);
+    __builtin_memcpy(&word, p, 2 * kShort<V>);
     const __m128 x = _mm_cvtph_ps(_mm_cvtsi64_si128(word));
     __builtin_memcpy(&v, &x, sizeof v);
   }
@@ -114,7 +168,7 @@ GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
     __m128 x = _mm_setzero_ps();
     __builtin_memcpy(&x, &v, sizeof v);
     const long long word = _mm_cvtsi128_si64(_mm_cvtps_ph(x, _MM_FROUND_TO_NEAREST_INT));
-    __builtin_memcpy(p, &word, sizeof(V) / 2);
+    __builtin_memcpy(p, &word, 2 * kShort<V>);
   }
 }
 template <class V>

@@ -13,11 +13,19 @@ constexpr float kMaxHalf = 65504.0f;
 template <class V>
 GATELIGHT_INLINE bool finite_short(V v) {
   const V difference = v - v;
-  float lanes[sizeof(V) / 4];
-  __builtin_memcpy(lanes, &difference, sizeof v);
   float total = 0.0f;
-  for (float x : lanes) total += x;
+  for (uint32_t i = 0; i < kShort<V>; ++i) total += lane_of(difference, i);
   return total == 0.0f;
+}
+
+template <class V>
+GATELIGHT_INLINE V clamp_to_half(V v) {
+  float lanes[kShort<V>];
+  for (uint32_t i = 0; i < kShort<V>; ++i) {
+    const float x = lane_of(v, i);
+    lanes[i] = x > kMaxHalf ? kMaxHalf : x < -kMaxHalf ? -kMaxHalf : x;
+  }
+  return load_short<V>(lanes);
 }
 
 // One node. Returns false, and changes nothing but the sums, where the gradient is not finite.
@@ -47,10 +55,7 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
                                            : load_short<V>(u.features_fp16 + index);
           p -= m * step.step / (sqrt_short<V>(v) + step.epsilon);
           if (u.features_fp16 != nullptr) {
-            for (uint32_t i = 0; i < decltype(part)::value; ++i) {
-              float& x = reinterpret_cast<float*>(&p)[i];
-              x = x > kMaxHalf ? kMaxHalf : x < -kMaxHalf ? -kMaxHalf : x;
-            }
+            p = clamp_to_half(p);
             store_short(u.features_fp16 + index, p);
           }
           if (u.features_fp32 != nullptr)
@@ -83,7 +88,8 @@ GATELIGHT_INLINE void prefetch_node(const KernelFeatureUpdate& u, uint64_t node)
 }
 
 template <uint32_t kLength>
-void update_features_of(const KernelFeatureUpdate& u) {
+void update_features_of(const KernelFeatureUpdate& given) {
+  const KernelFeatureUpdate u = given;  // a copy that stores through its pointers cannot change
   const uint32_t length = kLength != 0 ? kLength : u.features;
   constexpr uint32_t kAhead = 32;
 
