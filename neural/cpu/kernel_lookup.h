@@ -293,7 +293,7 @@ GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints&
     if (surface >= surface_count) continue;
     const GateSurface& s = surfaces[surface];
     if (triangle < s.triangle_count)
-      prefetch(topology + s.topology_offset + uint64_t{triangle} * s.topology_stride);
+      prefetch_far(topology + s.topology_offset + uint64_t{triangle} * s.topology_stride);
   }
 }
 

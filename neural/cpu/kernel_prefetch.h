@@ -20,10 +20,10 @@ struct Prefetcher {
 
   __attribute__((always_inline)) void some() {
     const uint32_t end = next + step < count ? next + step : count;
-    for (; next < end; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+    for (; next < end; ++next) prefetch_far(base + uint64_t{nodes[next]} * bytes);
   }
   __attribute__((always_inline)) void rest() {
-    for (; next < count; ++next) prefetch(base + uint64_t{nodes[next]} * bytes);
+    for (; next < count; ++next) prefetch_far(base + uint64_t{nodes[next]} * bytes);
   }
 };
 

@@ -608,8 +608,12 @@ GATELIGHT_INLINE Float round_to_bf16(Float a) {
   return float_of(and_int(add_int(word, add_int(odd, broadcast_int(0x7fffu))), broadcast_int(0xffff0000u)));
 }
 
-/// Into the second level of the cache.
+/// Into the first level of the cache: what is read soon.
 GATELIGHT_INLINE void prefetch(const void* p) {
+  __builtin_prefetch(p, 0, 3);
+}
+/// Into the second level: what a tile's arithmetic comes before.
+GATELIGHT_INLINE void prefetch_far(const void* p) {
   __builtin_prefetch(p, 0, 2);
 }
 
