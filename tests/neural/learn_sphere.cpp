@@ -30,13 +30,19 @@ constexpr double kGateBound = 0.08;
 constexpr double kHashGridBound = 0.09;
 constexpr std::uint64_t kBoundAfter = 512;
 
-constexpr const char* kHelp = R"(gatelight-learn-sphere [--isa scalar|avx2|avx512] [--steps N]
+constexpr const char* kHelp =
+    R"(gatelight-learn-sphere [--isa scalar|avx2|avx512] [--steps N] [--features PRECISION]
+                       [--answers fp32|bf16]
 
 Trains a GATE cache and a hash grid of the same size on the radiance of a sphere and prints loss and relative error
 as they fall, for one instruction set or for all that this machine has.
 
   --isa NAME   only this instruction set (default: each)
   --steps N    training steps of 1024 records (default: 512)
+  --features fp32|fp16-masters|fp16
+               how features are stored (default: fp32)
+  --answers fp32|bf16
+               arithmetic of the answers that are measured (default: fp32)
   --help       this text
 
 The error is the root of the mean squared error over that of the radiance. Ends with 1 where it rises by more than
@@ -163,9 +169,9 @@ Records make_records(const Sphere& sphere, std::size_t count, std::uint64_t seed
 // ---- learning
 
 /// Root of the mean squared error over that of the radiance.
-double relative_error(const Trainer& trainer, const Records& records) {
+double relative_error(const Trainer& trainer, const Records& records, QueryPrecision precision) {
   std::vector<float> answers(records.targets.size());
-  trainer.query(records.points(), {}, answers);
+  trainer.query(records.points(), {.precision = precision}, answers);
   double error = 0, signal = 0;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     error += std::pow(static_cast<double>(answers[i]) - records.targets[i], 2);
@@ -197,18 +203,29 @@ Models make_models(const Sphere& sphere) {
   return models;
 }
 
+struct Arguments {
+  std::vector<cpu::Isa> isas = cpu::available_isas();
+  std::uint64_t steps = 512;
+  FeaturePrecision features = FeaturePrecision::fp32;
+  QueryPrecision answers = QueryPrecision::fp32;
+  bool help = false;
+};
+
 /// Prints a table for one instruction set. Returns whether all errors fell as they should.
-bool learn(const Models& models, const Sphere& sphere, cpu::Isa isa, std::uint64_t steps) {
-  const TrainingOptions options;
+bool learn(const Models& models, const Sphere& sphere, cpu::Isa isa, const Arguments& arguments) {
+  const std::uint64_t steps = arguments.steps;
+  TrainingOptions options;
+  options.precision = arguments.features;
   Trainer gate(models.gate, options, cpu::make_cpu_backend(models.gate, options, isa));
   Trainer hash_grid(models.hash_grid, options, cpu::make_cpu_backend(models.hash_grid, options, isa));
   const Records test = make_records(sphere, kTestPoints, 1);
   fmt::print("\n{}\n{:>6}  {:>10} {:>10}  {:>10} {:>10}\n", isa_name(isa), "step", "GATE loss", "error",
              "grid loss", "error");
-  double gate_error = relative_error(gate, test), hash_grid_error = relative_error(hash_grid, test);
+  double gate_error = relative_error(gate, test, arguments.answers);
+  double hash_grid_error = relative_error(hash_grid, test, arguments.answers);
   bool fell = true;
   const auto measure = [&](const Trainer& trainer, double& error) {
-    const double now = relative_error(trainer, test);
+    const double now = relative_error(trainer, test, arguments.answers);
     fell = fell && now < 1.1 * error;  // false for NaN
     error = now;
   };
@@ -229,12 +246,6 @@ bool learn(const Models& models, const Sphere& sphere, cpu::Isa isa, std::uint64
 
 // ---- command line
 
-struct Arguments {
-  std::vector<cpu::Isa> isas = cpu::available_isas();
-  std::uint64_t steps = 512;
-  bool help = false;
-};
-
 /// Nothing for wrong usage, which `complaint` then tells.
 std::optional<Arguments> parse(int count, char** words, std::string& complaint) {
   Arguments arguments;
@@ -244,8 +255,9 @@ std::optional<Arguments> parse(int count, char** words, std::string& complaint) 
       arguments.help = true;
       return arguments;
     }
-    if (flag != "--isa" && flag != "--steps") {
-      complaint = fmt::format("unknown flag {}, expected --isa, --steps or --help", flag);
+    if (flag != "--isa" && flag != "--steps" && flag != "--features" && flag != "--answers") {
+      complaint =
+          fmt::format("unknown flag {}, expected --isa, --steps, --features, --answers or --help", flag);
       return {};
     }
     if (++i == count) {
@@ -260,6 +272,20 @@ std::optional<Arguments> parse(int count, char** words, std::string& complaint) 
         return {};
       }
       arguments.isas = {*isa};
+    } else if (flag == "--features") {
+      const std::array<std::string_view, 3> names = {"fp32", "fp16-masters", "fp16"};
+      const auto found = std::find(names.begin(), names.end(), value);
+      if (found == names.end()) {
+        complaint = fmt::format("--features {}: expected fp32, fp16-masters or fp16", value);
+        return {};
+      }
+      arguments.features = static_cast<FeaturePrecision>(found - names.begin());
+    } else if (flag == "--answers") {
+      if (value != "fp32" && value != "bf16") {
+        complaint = fmt::format("--answers {}: expected fp32 or bf16", value);
+        return {};
+      }
+      arguments.answers = value == "bf16" ? QueryPrecision::bf16 : QueryPrecision::fp32;
     } else {
       const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), arguments.steps);
       if (error != std::errc{} || end != value.data() + value.size() || arguments.steps == 0) {
@@ -279,7 +305,7 @@ int run(const Arguments& arguments) {
              models.gate->parameters.node_count, models.gate->parameters.features,
              models.hash_grid->parameters.node_count, models.hash_grid->parameters.features);
   bool good = true;
-  for (const cpu::Isa isa : arguments.isas) good = learn(models, sphere, isa, arguments.steps) && good;
+  for (const cpu::Isa isa : arguments.isas) good = learn(models, sphere, isa, arguments) && good;
   if (!good) fmt::print(stderr, "gatelight-learn-sphere: an error did not fall as it should\n");
   return good ? 0 : 1;
 }
