@@ -13,6 +13,8 @@
 
 namespace {
 
+static_assert(kTile % kLanes == 0 && kTile % kBlockRows == 0);
+
 // The first of them are the rows of inputs.
 GATELIGHT_INLINE TileBuffers tile_buffers(const KernelNetwork& n, float* scratch) {
   TileBuffers b;
@@ -56,7 +58,6 @@ void train(const KernelTraining& t) {
   TilePoints points[2];
   KernelChunkStatistics statistics = {};
   __builtin_memset(inputs, 0, kTile * n.input_stride * sizeof(float));
-
   __builtin_memset(b.outputs, 0, kTile * kOutputStride * sizeof(float));
 
   const auto prepare = [&](uint64_t k) {
