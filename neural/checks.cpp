@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "neural/errors.h"
 
@@ -20,6 +22,14 @@ void check_span(const char* what, std::size_t size, std::size_t points, bool req
 
 void require(bool holds, const char* what, double value, const char* expected) {
   if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
+}
+
+void check_numbers(const char* what, const std::vector<float>& values, float least, const char* expected) {
+  const auto bad =
+      std::find_if(values.begin(), values.end(), [&](float x) { return !(std::isfinite(x) && x >= least); });
+  if (bad != values.end())
+    throw BadConfiguration(
+        fmt::format("{}, number {}: {}, expected {}", what, bad - values.begin(), *bad, expected));
 }
 
 }  // namespace
@@ -86,6 +96,16 @@ void check_state(const Model& model, const TrainingOptions& options, const Model
   check_size("node steps of the state", state.node_steps.size(), sparse ? layout.node_count : 0);
   check_size("triangle steps of the state", state.triangle_steps.size(),
              triangles ? model.gate.triangle_count : 0);
+  if (state.steps >> 63 != 0)
+    throw BadConfiguration(fmt::format("steps of the state: {}, expected less than 2^63", state.steps));
+}
+
+void check_state_numbers(const ModelState& state) {
+  constexpr float kAny = std::numeric_limits<float>::lowest();
+  check_numbers("parameters of the state", state.parameters, kAny, "finite numbers");
+  check_numbers("averages of the state", state.averages, kAny, "finite numbers");
+  check_numbers("first moments of the state", state.first_moments, kAny, "finite numbers");
+  check_numbers("second moments of the state", state.second_moments, 0.0f, "finite numbers from 0 on");
 }
 
 }  // namespace gatelight::neural

@@ -100,7 +100,7 @@ void write_table(const TopologyTable& table, const MeshTopology& mesh,
 
 void write_topology(const PlanScene& scene, const LayoutPlan& plan, const TopologyTables& tables,
                     std::vector<std::uint32_t>& topology) {
-  topology.resize(tables.words == 0 ? 0 : tables.words + kTopologyPadding, 0);
+  topology.resize(tables.words == 0 ? 0 : std::size_t{tables.words} + kTopologyPadding, 0);
   const ClusterGrid grid = cluster_grid(plan.density);
   std::optional<ClusterTable> scene_numbers;
   if (plan.scene_clusters > 0) {

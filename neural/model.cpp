@@ -90,6 +90,8 @@ std::uint32_t Model::nodes_per_point() const {
 
 std::shared_ptr<const Model> make_model(const ModelConfig& config, const SurfaceLayout& surfaces) {
   check_mlp(config.mlp);
+  require(config.auxiliary.size() <= kMaxAuxiliaryInputs, "auxiliary inputs", config.auxiliary.size(),
+          "at most 16");
   auto model = std::make_shared<Model>();
   model->config = config;
   ParameterLayout& layout = model->parameters;

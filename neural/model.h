@@ -54,13 +54,14 @@ struct MlpOptions {
 };
 
 inline constexpr std::uint32_t kMaxInputs = 256;
+inline constexpr std::uint32_t kMaxAuxiliaryInputs = 16;
 inline constexpr std::uint32_t kMaxLayers = 6;
 
 struct ModelConfig {
   FeatureEncoding encoding = FeatureEncoding::gate;
   GateOptions gate;
   HashGridOptions hash_grid;
-  std::vector<AuxiliaryInput> auxiliary;  ///< follow the features, in this order
+  std::vector<AuxiliaryInput> auxiliary;  ///< follow the features, in this order; kMaxAuxiliaryInputs at most
   MlpOptions mlp;
 };
 

@@ -226,6 +226,8 @@ ModelState read_model_file(const std::filesystem::path& path, const Model& model
   read_counts("triangle_steps", state.triangle_steps);
   const std::uint64_t one[] = {1};
   file.read("steps", TensorType::u64, one, std::as_writable_bytes(std::span(&state.steps, 1)));
+  if (state.steps >> 63 != 0)
+    file.fail(fmt::format("tensor 'steps': {}, expected less than 2^63", state.steps));
   expect_no_other_tensors(file, expected);
   return state;
 }

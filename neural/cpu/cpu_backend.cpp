@@ -255,12 +255,10 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
   tbb::parallel_for(0u, buckets_.count, [&](std::uint32_t bucket) {
     if (references_.size(bucket) == 0 && !dense) return;
     BucketScratch& mine = bucket_scratch_.local();
-    if (mine.sums.empty()) {
-      mine.sums = HugeBuffer<float>(bucket_nodes * layout_.features);
-      mine.touched = HugeBuffer<std::uint64_t>(bucket_nodes / 64 + 1);
-      mine.touched_list = HugeBuffer<std::uint32_t>(bucket_nodes);
-      mine.steps = HugeBuffer<std::uint32_t>(bucket_nodes);
-    }
+    if (mine.sums.empty())
+      mine = {HugeBuffer<float>(bucket_nodes * layout_.features),
+              HugeBuffer<std::uint64_t>(bucket_nodes / 64 + 1), HugeBuffer<std::uint32_t>(bucket_nodes),
+              HugeBuffer<std::uint32_t>(bucket_nodes)};
     KernelFeatureUpdate u = {};
     u.references = references_.begin(bucket);
     u.reference_count = references_.size(bucket);
@@ -296,7 +294,9 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
 
 StepStatistics CpuBackend::train(const TrainingBatch& batch) {
   check_batch(*model_, batch);
-  const std::uint64_t most = std::numeric_limits<std::uint32_t>::max() / std::max(1u, layout_.inputs) / 4;
+  // References and places of gradients are numbered with 32 bits.
+  const std::uint64_t most =
+      std::numeric_limits<std::uint32_t>::max() / std::max(4 * layout_.inputs, model_->nodes_per_point());
   if (batch.points.size > most)
     throw BadConfiguration(fmt::format("batch: {} records, expected at most {}", batch.points.size, most));
   const Clock::time_point start = Clock::now();
@@ -377,16 +377,22 @@ ModelState CpuBackend::export_state() const {
 
 void CpuBackend::import_state(const ModelState& state) {
   check_state(*model_, options_, state);
-  features_.import_from(state);
+  check_state_numbers(state);
   const auto take = [&](const std::vector<float>& from) {
     return std::vector<float>(from.begin() + static_cast<std::ptrdiff_t>(layout_.network), from.end());
   };
-  network_ = take(state.parameters);
-  network_average_ = take(state.averages);
-  network_m_ = take(state.first_moments);
-  network_v_ = take(state.second_moments);
-  triangle_steps_ = state.triangle_steps;
-  triangle_stamps_.assign(triangle_steps_.size(), 0);
+  // What needs memory comes first: nothing is changed where there is none.
+  std::vector<float> network = take(state.parameters), average = take(state.averages),
+                     m = take(state.first_moments), v = take(state.second_moments);
+  std::vector<std::uint32_t> triangle_steps = state.triangle_steps;
+  std::vector<std::uint64_t> stamps(triangle_steps.size(), 0);
+  network_ = std::move(network);
+  network_average_ = std::move(average);
+  network_m_ = std::move(m);
+  network_v_ = std::move(v);
+  triangle_steps_ = std::move(triangle_steps);
+  triangle_stamps_ = std::move(stamps);
+  features_.import_from(state);
   steps_ = state.steps;
   raw_.pack(network_);
   averaged_packed_ = false;
@@ -397,6 +403,11 @@ void CpuBackend::import_state(const ModelState& state) {
 std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, const TrainingOptions& options,
                                           std::optional<Isa> isa) {
   check_options(*model, options);
+  // Kernels gather the words of levels with signed 32-bit offsets.
+  constexpr std::size_t kMostLevels = std::size_t{1} << 29;
+  if (model->gate.levels.size() >= kMostLevels)
+    throw BadConfiguration(fmt::format("levels of all surfaces: {}, expected less than {}",
+                                       model->gate.levels.size(), kMostLevels));
   return std::make_unique<CpuBackend>(std::move(model), options, select_isa(isa));
 }
 

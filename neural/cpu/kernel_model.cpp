@@ -6,7 +6,8 @@ namespace gatelight::neural::cpu {
 
 namespace {
 
-static_assert(kMaxHashLevels == kMaxKernelLevels && kMaxLayers == kMaxKernelLayers);
+static_assert(kMaxHashLevels == kMaxKernelLevels && kMaxLayers == kMaxKernelLayers &&
+              kMaxAuxiliaryInputs == kMaxAuxiliary);
 
 KernelHashLevel kernel_level(const HashGridLevel& level) {
   KernelHashLevel k{level.scale, level.resolution, level.entries, level.first_node, level.dense, 0, 0};

@@ -105,7 +105,7 @@ void train(const KernelTraining& t) {
       b.inputs = count < kTile ? inputs : given;
     } else {
       if (slots > 0) interpolate(e, nodes, weights, inputs, n.input_stride);
-      encode_auxiliary(e, t.points, begin, count, k + 1 == tiles, tile.finite, inputs, n.input_stride);
+      encode_auxiliary(e, t.points, begin, count, k + 1 == tiles, tile.valid, inputs, n.input_stride);
     }
     forward<false>(n, b, rows, between);
     statistics.loss += loss(n.outputs, t.relative_loss != 0, t.max_target, t.targets + begin * n.outputs,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "neural/errors.h"
 #include "tests/neural/parity.h"
 
 namespace gatelight::neural {
@@ -324,6 +325,49 @@ TEST(Extremes, VanishingGradientsLeaveWeightsFinite) {
       }
     });
   }
+}
+
+TEST(Extremes, AnUnstoredRecordWithHugeInputsStopsNoWeight) {
+  ModelConfig config = find_model_case("nrc").model->config;
+  config.auxiliary = {{InputSource::albedo, InputEncoding::identity, 0},
+                      {InputSource::normal, InputEncoding::identity, 0}};
+  const auto surfaces = make_small_surfaces();
+  const ModelCase c{"huge_inputs", make_model(config, surfaces->layout())};
+  for_every_backend(c, {}, [&](Backend& backend) {
+    OwnedBatch batch = make_batch(*c.model, 100, 1);
+    batch.surfaces[40] = 0xffffffffu;
+    batch.albedos[40] = {kGreatest, -kGreatest, kGreatest};
+    batch.normals[40] = {kGreatest, kGreatest, -kGreatest};
+    const StepStatistics statistics = backend.train(batch.training());
+    EXPECT_EQ(statistics.unstored, 1u);
+    EXPECT_EQ(statistics.skipped_updates, 0u);
+  });
+}
+
+TEST(Extremes, AStateThatNoTrainingMakesIsRefusedAndChangesNothing) {
+  const ModelCase c = find_model_case("nrc");
+  const auto backend = cpu::make_cpu_backend(c.model, {});
+  const ModelState start = backend->export_state();
+  const auto refused = [&](const std::function<void(ModelState&)>& spoil) {
+    ModelState state = start;
+    spoil(state);
+    EXPECT_THROW(backend->import_state(state), BadConfiguration);
+    EXPECT_TRUE(backend->export_state() == start);
+  };
+  refused([](ModelState& s) { s.parameters.front() = std::nanf(""); });
+  refused([](ModelState& s) { s.averages.back() = HUGE_VALF; });
+  refused([](ModelState& s) { s.first_moments[7] = -HUGE_VALF; });
+  refused([](ModelState& s) { s.second_moments[7] = -1e-30f; });
+  refused([](ModelState& s) { s.steps = ~std::uint64_t{0}; });
+}
+
+TEST(Extremes, MoreAuxiliaryInputsThanKernelsHoldAreRefused) {
+  ModelConfig config;
+  config.encoding = FeatureEncoding::none;
+  config.auxiliary.assign(kMaxAuxiliaryInputs, {InputSource::roughness, InputEncoding::identity, 0});
+  EXPECT_NO_THROW(make_model(config));
+  config.auxiliary.push_back(config.auxiliary.back());
+  EXPECT_THROW(make_model(config), BadConfiguration);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ inline ModelState any_state(const Model& model, const TrainingOptions& options, 
   std::uint64_t i = 0;
   for (std::uint32_t& steps : state.node_steps) steps = static_cast<std::uint32_t>(mix_bits(seed + ++i));
   for (std::uint32_t& steps : state.triangle_steps) steps = static_cast<std::uint32_t>(mix_bits(seed + ++i));
-  state.steps = mix_bits(seed);
+  state.steps = mix_bits(seed) >> 1;
   return state;
 }
 
