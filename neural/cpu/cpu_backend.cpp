@@ -269,7 +269,7 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
     u.feature_gradients = feature_gradients_.data();
     u.record_steps = per_triangle ? record_steps.data() : nullptr;
     u.dense = dense ? 1 : 0;
-    u.adam = {options_.adam.beta1, options_.adam.beta2, 0.0f, static_cast<float>(scale)};
+    u.adam = {options_.adam.beta1, options_.adam.beta2, static_cast<float>(scale)};
     u.steps = adam_table_.data();
     u.step_count = kAdamTableSteps;
     u.late_step = [](const void* context, std::uint64_t t) {

@@ -222,6 +222,6 @@ uint64_t scratch_floats(const KernelEncoder& e, const KernelNetwork& n) {
 namespace gatelight::neural::cpu {
 
 extern const KernelTable GATELIGHT_KERNEL_TABLE;
-const KernelTable GATELIGHT_KERNEL_TABLE = {kLanes, scratch_floats, train, query, update_features};
+const KernelTable GATELIGHT_KERNEL_TABLE = {scratch_floats, train, query, update_features};
 
 }  // namespace gatelight::neural::cpu

@@ -150,7 +150,6 @@ struct KernelAdamStep {
 
 struct KernelAdam {
   float beta1, beta2;
-  float l2;
   float gradient_scale;
 };
 
@@ -191,7 +190,6 @@ struct KernelFeatureUpdate {
 };
 
 struct KernelTable {
-  uint32_t lanes;
   /// Floats of scratch that train and query need.
   uint64_t (*scratch_floats)(const KernelEncoder&, const KernelNetwork&);
   void (*train)(const KernelTraining&);
