@@ -25,6 +25,13 @@ struct FirstHit {
   float depth = 0.0f;  ///< metres from the eye along the ray
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
+  // Of the cache, where it was first asked.
+  bool asked = false;
+  Color answer{0.0f, 0.0f, 0.0f};
+  Color node{0.0f, 0.0f, 0.0f};
+  float error = 0.0f;
+  float training_count = 0.0f;
+  float resolution = 0.0f;
 };
 
 struct SampleResult {

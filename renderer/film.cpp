@@ -36,6 +36,16 @@ const char* aov_name(Aov aov) {
       return "samples";
     case Aov::variance:
       return "variance";
+    case Aov::cache_answer:
+      return "cache-answer";
+    case Aov::cache_error:
+      return "cache-error";
+    case Aov::training_count:
+      return "training-count";
+    case Aov::resolution:
+      return "resolution";
+    case Aov::nearest_node:
+      return "nearest-node";
   }
   return "";
 }
@@ -75,12 +85,20 @@ void Film::add(int x, int y, const FirstHit& first) {
   accumulate(p.position, first.position);
   p.depth += static_cast<double>(first.depth);
   ++p.hits;
+  if (!first.asked) return;
+  accumulate(p.answer, first.answer.matrix());
+  accumulate(p.node, first.node.matrix());
+  p.error += static_cast<double>(first.error);
+  p.training_count += static_cast<double>(first.training_count);
+  p.resolution += static_cast<double>(first.resolution);
+  ++p.asked;
 }
 
 Layer Film::layer(Aov aov) const {
   Layer layer;
   layer.name = aov_name(aov);
-  layer.full_precision = aov != Aov::albedo && aov != Aov::normal;
+  layer.full_precision =
+      aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
   const auto fill = [&](std::vector<std::string> channels, const auto& values, auto&& value) {
     const std::size_t n = channels.size();
     layer.channels = std::move(channels);
@@ -90,6 +108,7 @@ Layer Film::layer(Aov aov) const {
     }
   };
   const auto over_hits = [](double sum, const First& p) { return p.hits > 0 ? sum / p.hits : 0.0; };
+  const auto over_asked = [](double sum, const First& p) { return p.asked > 0 ? sum / p.asked : 0.0; };
   switch (aov) {
     case Aov::albedo:
       // Background weighs in as black, as in the beauty layer: edges stay soft.
@@ -112,6 +131,23 @@ Layer Film::layer(Aov aov) const {
       break;
     case Aov::instance_id:
       fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
+      break;
+    case Aov::cache_answer:
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.answer[i] / p.count : 0.0; });
+      break;
+    case Aov::nearest_node:
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.node[i] / p.count : 0.0; });
+      break;
+    case Aov::cache_error:
+      fill({"error"}, first_, [&](const First& p, std::size_t) { return over_asked(p.error, p); });
+      break;
+    case Aov::training_count:
+      fill({"count"}, first_, [&](const First& p, std::size_t) { return over_asked(p.training_count, p); });
+      break;
+    case Aov::resolution:
+      fill({"R"}, first_, [&](const First& p, std::size_t) { return over_asked(p.resolution, p); });
       break;
     case Aov::sample_count:
       fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });

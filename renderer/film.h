@@ -50,8 +50,14 @@ class Film {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
     std::array<double, 3> position{};
+    std::array<double, 3> answer{};
+    std::array<double, 3> node{};
     double depth = 0.0;
+    double error = 0.0;
+    double training_count = 0.0;
+    double resolution = 0.0;
     std::uint32_t count = 0;  ///< of samples
+    std::uint32_t asked = 0;
     std::uint32_t hits = 0;
     float instance = -1.0f;
     float primitive = -1.0f;

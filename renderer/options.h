@@ -7,13 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "renderer/cache/cache_options.h"
 #include "renderer/environment.h"
 #include "renderer/lights.h"
 #include "renderer/sampler.h"
 
 namespace gatelight::renderer {
 
-enum class Integrator : std::uint8_t { path, ao };
+enum class Integrator : std::uint8_t {
+  path,  ///< unbiased reference
+  ao,    ///< ambient occlusion, reference
+  nao,   ///< ambient occlusion answered by the cache
+  nrc,   ///< radiance answered by the cache
+};
+/// Whether it learns.
+constexpr bool uses_cache(Integrator integrator) {
+  return integrator == Integrator::nao || integrator == Integrator::nrc;
+}
 enum class MisHeuristic : std::uint8_t { balance, power };
 enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< nee and bsdf alone are for tests and teaching
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
@@ -27,7 +37,20 @@ enum class Aov : std::uint8_t {
   primitive_id,
   instance_id,
   sample_count,
-  variance
+  variance,
+  // Of the cache, at the vertex where it is first asked; black without one.
+  cache_answer,    ///< what it says, before reflectance
+  cache_error,     ///< squared relative error of the answer against one record traced there: the loss's heat
+  training_count,  ///< steps that trained the triangle
+  resolution,      ///< R of the instance's first level
+  nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
+};
+
+/// A file that holds all that is needed to go on with a picture, bit for bit, after the program was ended.
+struct CheckpointOptions {
+  std::string file;  ///< empty: none
+  double every_seconds = 60.0;
+  bool resume = false;  ///< go on with `file` where it is there
 };
 
 /// A view given by hand; replaces the file's cameras.
@@ -68,6 +91,8 @@ struct RenderOptions {
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512
   CameraOptions camera;
   EnvironmentOptions environment;
+  CacheOptions cache;  ///< of nao and nrc
+  CheckpointOptions checkpoint;
 };
 
 }  // namespace gatelight::renderer

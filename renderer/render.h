@@ -12,7 +12,13 @@
 
 namespace gatelight::renderer {
 
+enum class Phase : std::uint8_t { scout, train, render };
+
 struct Progress {
+  Phase phase = Phase::render;
+  int steps_done = 0;  ///< of training
+  int steps = 0;
+  double loss = 0.0;
   int spp_done = 0;
   int spp = 0;
   double fraction = 0.0;  ///< of the work, in [0, 1]

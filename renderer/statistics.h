@@ -22,6 +22,40 @@ struct RayCounts {
   double seconds = 0.0;  ///< spent tracing them, summed over threads
 };
 
+/// What the cache learned and answered; zero for integrators without one. Seconds are wall time.
+struct CacheStatistics {
+  int steps = 0;  ///< trained, those of an earlier run and of a loaded file not counted
+  int steps_wanted = 0;
+  bool steps_chosen = false;   ///< by the picture's pixels and samples, not by the caller
+  std::uint64_t records = 0;   ///< learned
+  std::uint64_t rejected = 0;  ///< not finite
+  std::uint64_t unstored = 0;  ///< on surfaces without storage
+  std::uint64_t training_paths = 0;
+  std::uint64_t touched_nodes = 0;  ///< by the last step
+  double loss = 0.0;                ///< mean of the last steps (at most 16)
+  double scout_seconds = 0.0;
+  double train_seconds = 0.0;  ///< the whole phase, scouting not counted
+  double train_trace_seconds = 0.0;
+  double train_query_seconds = 0.0;  ///< answers at the ends of training paths
+  double train_step_seconds = 0.0;
+  double render_trace_seconds = 0.0;
+  double render_query_seconds = 0.0;
+  std::uint64_t queries = 0;           ///< of the rendering phase
+  std::uint64_t negative_answers = 0;  ///< clamped to zero: points with a negative channel
+  std::uint64_t unstored_hits = 0;     ///< vertices without storage where the path was traced on
+  std::uint64_t nodes = 0;
+  std::uint64_t surfaces_stored = 0;                ///< sides of instances with storage
+  std::uint64_t surfaces_possible = 0;              ///< with two sides where materials show two
+  float node_spacing = 0.0f;                        ///< metres, resolved
+  float target_scale = 1.0f;                        ///< targets are radiance times this
+  double records_per_path = 0.0;                    ///< that scouting found
+  std::vector<std::uint64_t> resolution_histogram;  ///< instances by R
+  std::size_t parameter_bytes = 0;
+  std::size_t optimizer_bytes = 0;
+  std::size_t layout_bytes = 0;
+  std::string backend;
+};
+
 struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
@@ -39,6 +73,7 @@ struct RenderStatistics {
   std::uint64_t nonfinite = 0;
   std::vector<NonFiniteSample> nonfinite_samples;  ///< the first 16, in the order of (y, x, sample)
   std::uint64_t clamped = 0;
+  CacheStatistics cache;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
 };
 
