@@ -254,7 +254,10 @@ Picture Renderer::render(const Callbacks& callbacks) {
     const double now = seconds_since(start);
     if (!lock || now - last_progress < 0.1) return;
     last_progress = now;
-    callbacks.progress({done, options.spp, (done + of_pass * pass_spp) / options.spp, now});
+    callbacks.progress({.spp_done = done,
+                        .spp = options.spp,
+                        .fraction = (done + of_pass * pass_spp) / options.spp,
+                        .seconds = now});
   };
 
   int done = 0;
@@ -324,7 +327,9 @@ Picture Renderer::render(const Callbacks& callbacks) {
                                         w.located.end());
   }
   keep_first(statistics.nonfinite_samples);
-  if (callbacks.progress) callbacks.progress({done, options.spp, 1.0, statistics.render_seconds});
+  if (callbacks.progress)
+    callbacks.progress(
+        {.spp_done = done, .spp = options.spp, .fraction = 1.0, .seconds = statistics.render_seconds});
   return film.resolve();
 }
 
