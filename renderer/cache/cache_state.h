@@ -1,0 +1,32 @@
+#pragma once
+// All of a cache that is not an option: what was decided before the first step, and what training has
+// changed. Checkpoints and cache files hold it.
+
+#include <cstdint>
+#include <vector>
+
+#include "neural/state.h"
+#include "neural/surface_layout.h"
+
+namespace gatelight::renderer {
+
+/// Found by the scouting paths; decides the layout of the features and the scale of targets.
+struct CacheSetup {
+  std::vector<neural::Sides> sides;     ///< which sides of each instance of the scene have storage
+  float node_spacing = 0.1f;            ///< metres; of the layout before any memory budget
+  float target_scale = 1.0f;            ///< targets are radiance times this
+  float records_per_path = 1.0f;        ///< of paths that run to their end
+  float records_per_short_path = 1.0f;  ///< of paths that end in the cache's answer
+};
+
+struct CacheState {
+  CacheSetup setup;
+  neural::ModelState model;
+  std::uint64_t steps = 0;  ///< of this training: keys of the next step's random numbers
+  std::vector<std::uint32_t>
+      triangle_counts;        ///< steps that trained each triangle with storage; empty unless counted
+  double loss_average = 0.0;  ///< of the divergence guard
+  double loss_least = 0.0;
+};
+
+}  // namespace gatelight::renderer
