@@ -64,6 +64,10 @@ Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, cons
   albedo_ = albedo_.max(0.0f).min(1.0f);
   // Whatever has a value must have a chance, however small its albedo came out.
   p_microfacet_ = std::max(p_microfacet_, 1e-3f * f90_ * base_scale_);
+  normalize_chances();
+}
+
+void Bsdf::normalize_chances() {
   float* const probabilities[] = {&p_microfacet_,    &p_diffuse_, &p_clear_, &p_loss_reflect_,
                                   &p_loss_transmit_, &p_coat_,    &p_sheen_};
   float total = 0.0f;
@@ -215,7 +219,8 @@ void Bsdf::set_up_layers(const SurfaceMaterial& material) {
     const float roughness = std::clamp(material.clearcoat_roughness, 0.0f, 1.0f);
     coat_ = GgxLobe(roughness * roughness, std::max(wo_.dot(nc_), kMinCosine));
     const GgxTables::Row row = coat_.delta ? GgxTables::Row() : GgxTables::get().row(roughness);
-    p_coat_ = coat_weight_ * row.at(coat_.cos_o).reflect(kCoatF0, 1.0f);
+    coat_albedo_ = coat_weight_ * row.at(coat_.cos_o).reflect(kCoatF0, 1.0f);
+    p_coat_ = coat_albedo_;
     coat_scale = 1.0f - p_coat_;
     albedo_ = albedo_ * coat_scale + p_coat_;
     base_scale_ *= coat_scale;

@@ -85,6 +85,17 @@ class Bsdf {
   /// All lobes are deltas: next-event estimation is of no use.
   bool is_delta() const { return is_delta_; }
 
+  /// Whether some lobe is narrower than this perceptual roughness: a delta (whatever the number, so that 0
+  /// means deltas alone), or microfacets or clearcoat below it.
+  bool has_narrow(float roughness) const;
+  /// Whether some lobe is not.
+  bool has_wide(float roughness) const;
+  /// The lobes that are not narrow, and those that are: two surfaces whose values and albedos add up to this
+  /// one's. Each lobe is as it is here, between the same layers; each part samples its own lobes alone, and
+  /// transmits only if one of them does. A part without lobes is black.
+  Bsdf wide_part(float roughness) const { return part(roughness, false); }
+  Bsdf narrow_part(float roughness) const { return part(roughness, true); }
+
  private:
   enum class Glass : std::uint8_t {
     none,
@@ -105,6 +116,13 @@ class Bsdf {
   void set_up_base(const SurfaceMaterial& material, bool front);
   void set_up_refraction(float roughness, float ior_f0);
   void set_up_layers(const SurfaceMaterial& material);
+  /// Makes the chances of the lobes add up to one; knows then whether all are deltas.
+  void normalize_chances();
+
+  Bsdf part(float roughness, bool narrow) const;
+  /// What each kind of lobe has of albedo_. Microfacets have what these leave.
+  Color diffuse_albedo() const;
+  Color sheen_albedo() const;
 
   /// Power that the dielectric layer lets through.
   float passed(const GgxAlbedo& albedo) const {
@@ -155,7 +173,7 @@ class Bsdf {
   float base_scale_ = 1.0f;  ///< what clearcoat and sheen let through to everything above
   Vec3 nc_;
   GgxLobe coat_;
-  float coat_weight_;
+  float coat_weight_, coat_albedo_;
   Color sheen_color_;
   SheenLobe sheen_;
 

@@ -5,43 +5,13 @@
 
 #include "renderer/bsdf_fresnel.h"
 #include "tests/renderer/bsdf_cases.h"
+#include "tests/renderer/bsdf_measures.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
 using testing::Random;
-
-struct Furnace {
-  std::array<double, 3> mean{};
-  double error = 0.0;  ///< standard error of the red channel; an overestimate, as the samples are stratified
-};
-
-/// Power that comes back from a uniform surrounding.
-Furnace furnace(const Bsdf& bsdf, Random& random, int strata = 40) {
-  constexpr int kLobes = 8;
-  testing::Moments red;
-  Furnace result;
-  const auto jittered = [&](int i, int count) {
-    return std::min((static_cast<float>(i) + random.uniform_float()) / static_cast<float>(count),
-                    1.0f - 0x1p-24f);
-  };
-  for (int k = 0; k < kLobes; ++k) {
-    for (int i = 0; i < strata; ++i) {
-      for (int j = 0; j < strata; ++j) {
-        const BsdfSample sample =
-            bsdf.sample(jittered(k, kLobes), {jittered(i, strata), jittered(j, strata)});
-        const Color power = sample.weight / sample.radiance_scale;
-        red.add(static_cast<double>(power.x()));
-        for (int channel = 0; channel < 3; ++channel) {
-          result.mean[channel] += static_cast<double>(power[channel]) / (kLobes * strata * strata);
-        }
-      }
-    }
-  }
-  result.error = red.standard_error();
-  return result;
-}
 
 constexpr std::array<float, 7> kRoughnesses{0.0f, 0.05f, 0.15f, 0.3f, 0.5f, 0.75f, 1.0f};
 constexpr std::array<float, 6> kCosines{1.0f, 0.7f, 0.4f, 0.15f, 0.05f, 0.02f};

@@ -160,7 +160,10 @@ TEST(BsdfProperties, NothingIsEverNotANumber) {
     if (wo.dot(ng) < 0.0f) wo = (wo - 2.0f * wo.dot(ng) * ng).normalized();
     if (ns.dot(ng) < 0.0f) ns = -ns;
     if (nc.dot(ng) < 0.0f) nc = -nc;
-    const Bsdf bsdf(material, ng, ns, nc, wo, random.uniform() < 0.5);
+    const Bsdf whole(material, ng, ns, nc, wo, random.uniform() < 0.5);
+    const double kept = random.uniform();
+    const float split = random.uniform_float();
+    const Bsdf bsdf = kept < 0.5 ? whole : kept < 0.75 ? whole.wide_part(split) : whole.narrow_part(split);
     ASSERT_TRUE(finite(bsdf.albedo())) << bsdf.albedo();
     ASSERT_GE(bsdf.albedo().minCoeff(), 0.0f);
     ASSERT_LE(bsdf.albedo().maxCoeff(), 1.0f);
