@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/cache_recipe.h"
 #include "apps/text.h"
 #include "apps/version.h"
 
@@ -76,10 +77,16 @@ ordered_json resolved_options(const RenderSettings& settings) {
   json["exposure"] = settings.image.exposure;
   json["tonemap"] = name_of(tonemap_choices(), settings.image.tonemap);
   json["exr"] = settings.image.exr_float ? "float" : "half";
+  if (renderer::uses_cache(o.integrator)) json.update(resolved_cache_options(settings));
   if (settings.reproducible) return json;
   json["threads"] = o.threads;
   json["memory-limit"] = o.memory_limit_bytes >> 20;
   json["output"] = settings.outputs;
+  if (!o.checkpoint.file.empty()) {
+    json["checkpoint"] = o.checkpoint.file;
+    json["checkpoint-every"] = o.checkpoint.every_seconds;
+    json["resume"] = o.checkpoint.resume;
+  }
   return json;
 }
 

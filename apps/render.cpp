@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/cache_flags.h"
 #include "apps/render_flags.h"
 #include "apps/render_run.h"
 #include "apps/render_settings.h"
@@ -18,6 +19,8 @@ Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
   gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
   gatelight render car.gltf -o car.exr --eye 4,1.5,4 --target 0,0.5,0 --fov 30 --aov albedo,normal,depth
+  gatelight render room.glb -o room.exr -o room.png --integrator nrc --train-steps 1024
+  gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json)";
 
 }  // namespace
@@ -27,7 +30,10 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
   app->footer(kFooter);
   const auto settings = std::make_shared<RenderSettings>();
   add_render_flags(*app, *settings);
-  return {app, [settings, command] { return run_render(*settings, command); }};
+  return {app, [app, settings, command] {
+            finish_flags(*app, *settings);
+            return run_render(*settings, command);
+          }};
 }
 
 }  // namespace gatelight::apps

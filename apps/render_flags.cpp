@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/cache_flags.h"
 #include "apps/flags.h"
 #include "apps/render_settings.h"
 
@@ -43,11 +44,13 @@ void set_environment(renderer::EnvironmentOptions& environment, const std::strin
   }
 }
 
-void set_aovs(std::vector<renderer::Aov>& aovs, const std::string& text) {
+void set_aovs(RenderSettings& s, const std::string& text) {
+  std::vector<renderer::Aov>& aovs = s.render.aovs;
   aovs.clear();
+  s.all_aovs = false;
   for (const std::string& word : split_list("--aov", text)) {
     if (word == "all") {
-      for (const Choice<renderer::Aov>& choice : aov_choices()) aovs.push_back(choice.value);
+      s.all_aovs = true;
     } else {
       aovs.push_back(parse_choice("--aov", word, aov_choices()));
     }
@@ -56,13 +59,19 @@ void set_aovs(std::vector<renderer::Aov>& aovs, const std::string& text) {
   aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
 }
 
+void add_size_flag(CLI::App& app, RenderSettings& s) {
+  add_word(app, "--size", "WxH", "Size of the picture in pixels", "960x540",
+           [&o = s.render](const std::string& text) {
+             const auto [width, height] = parse_size("--size", text);
+             o.width = width;
+             o.height = height;
+           })
+      ->group("Picture");
+}
+
 void add_picture_flags(CLI::App& app, RenderSettings& s) {
   renderer::RenderOptions& o = s.render;
-  add_word(app, "--size", "WxH", "Size of the picture in pixels", "960x540", [&o](const std::string& text) {
-    const auto [width, height] = parse_size("--size", text);
-    o.width = width;
-    o.height = height;
-  });
+  add_size_flag(app, s);
   add_word(app, "--region", "x0,y0,x1,y1", "Render this part only, in pixels; x1 and y1 are excluded", "",
            [&o](const std::string& text) { o.region = parse_region("--region", text); });
   add_integer(app, "--spp", o.spp, kSamplesPerPixel, "N", "Samples per pixel");
@@ -75,18 +84,28 @@ void add_picture_flags(CLI::App& app, RenderSettings& s) {
            "Full width of the pixel filter; 0: the filter's own", "0");
   add_word(app, "--aov", "LIST",
            "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-           "instance, samples, variance, or all",
-           "", [&o](const std::string& text) { set_aovs(o.aovs, text); });
+           "instance, samples, variance; of a cache cache-answer, cache-error, training-count, resolution, "
+           "nearest-node; or all",
+           "", [&s](const std::string& text) { set_aovs(s, text); });
   for (CLI::Option* option : app.get_options()) {
     const bool grouped = option->get_group() != "Options" || option->get_positional();
     if (!grouped && option != app.get_help_ptr()) option->group("Picture");
   }
 }
 
+void add_integrator_flags(CLI::App& app, RenderSettings& s) {
+  add_choice(
+      app, "--integrator", s.render.integrator, integrator_choices(),
+      "What a pixel is: radiance (path) or ambient occlusion (ao) by sampling alone, or what a cache learned "
+      "of them answers (nrc, nao)")
+      ->group("Light transport");
+  add_preset_flag(app, s);
+}
+
 void add_light_flags(CLI::App& app, RenderSettings& s) {
   renderer::RenderOptions& o = s.render;
   const std::string group = "Light transport";
-  add_choice(app, "--integrator", o.integrator, integrator_choices(), "What a pixel is")->group(group);
+  add_integrator_flags(app, s);
   add_integer(app, "--max-depth", o.max_depth, kDepth, "N",
               "Largest number of scattering events; 1: emission and direct light")
       ->group(group);
@@ -167,21 +186,45 @@ void add_output_flags(CLI::App& app, RenderSettings& s) {
              "Progress on stderr; auto: a bar on a terminal")
       ->group(group);
   app.add_flag("--quiet", s.quiet, "Say nothing but errors")->group(group);
-  app.add_flag("--verbose", s.verbose, "Say more")->group(group);
+  app.add_flag("--verbose", s.verbose, "Say more: what was loaded, the memory needed, all options")
+      ->group(group);
+}
+
+void add_file_flags(CLI::App& app, RenderSettings& s) {
+  const std::string group = "Files";
+  renderer::CheckpointOptions& checkpoint = s.render.checkpoint;
+  app.add_option("--checkpoint", checkpoint.file,
+                 "Keep all that is needed to go on after the program was ended in this file")
+      ->type_name("FILE")
+      ->group(group);
+  add_word(app, "--checkpoint-every", "SECONDS", "Time between two writes of it", "60",
+           [&s](const std::string& text) {
+             s.checkpoint_every = parse_real("--checkpoint-every", text, kNotNegative);
+           })
+      ->group(group);
+  app.add_flag("--resume", checkpoint.resume,
+               "Go on with the checkpoint where it is there: the same picture as without the break")
+      ->group(group);
+  add_cache_file_flags(app, s);
+}
+
+void add_threads_flag(CLI::App& app, RenderSettings& s) {
+  add_integer(app, "--threads", s.render.threads, kThreads, "N",
+              "0: all that the machine and the control group allow")
+      ->group("Machine");
 }
 
 void add_machine_flags(CLI::App& app, RenderSettings& s) {
   const std::string group = "Machine";
-  add_integer(app, "--threads", s.render.threads, kThreads, "N",
-              "0: all that the machine and the control group allow")
-      ->group(group);
+  add_threads_flag(app, s);
   add_word(app, "--memory-limit", "MIB", "Refuse to need more memory than this, in MiB; 0: no limit", "0",
            [&s](const std::string& text) {
              s.render.memory_limit_bytes =
                  static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
            })
       ->group(group);
-  add_word(app, "--isa", choice_names(Choices<const char*>(kIsa)), "Instruction set of ray tracing", "auto",
+  add_word(app, "--isa", choice_names(Choices<const char*>(kIsa)),
+           "Instruction set of ray tracing and of the cache", "auto",
            [&s](const std::string& text) {
              s.render.isa = parse_choice("--isa", text, Choices<const char*>(kIsa));
            })
@@ -193,10 +236,20 @@ void add_machine_flags(CLI::App& app, RenderSettings& s) {
 void add_render_flags(CLI::App& app, RenderSettings& settings) {
   app.add_option("SCENE", settings.scene, "Scene, .gltf or .glb")->required()->type_name("");
   add_output_flags(app, settings);
+  add_file_flags(app, settings);
   add_picture_flags(app, settings);
   add_view_flags(app, settings);
   add_light_flags(app, settings);
+  add_cache_flags(app, settings);
   add_machine_flags(app, settings);
+}
+
+void add_cache_report_flags(CLI::App& app, RenderSettings& settings) {
+  add_integrator_flags(app, settings);
+  add_size_flag(app, settings);
+  add_view_flags(app, settings);
+  add_cache_flags(app, settings);
+  add_threads_flag(app, settings);
 }
 
 }  // namespace gatelight::apps

@@ -8,7 +8,9 @@ namespace gatelight::apps {
 
 struct RenderSettings;
 
-/// Binds the flags of `render`. The settings must outlive the parsing.
+/// Binds the flags of `render`. The settings must outlive the parsing; finish_flags() comes after it.
 void add_render_flags(CLI::App& app, RenderSettings& settings);
+/// Those of them that decide what the cache of a scene is, for `info`.
+void add_cache_report_flags(CLI::App& app, RenderSettings& settings);
 
 }  // namespace gatelight::apps

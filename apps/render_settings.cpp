@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 #include "apps/errors.h"
 #include "renderer/threads.h"
@@ -17,7 +19,8 @@ using namespace renderer;
 /// 16384 x 16384: beyond it the film alone needs more than 4 GiB.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 
-constexpr Choice<Integrator> kIntegrators[] = {{"path", Integrator::path}, {"ao", Integrator::ao}};
+constexpr Choice<Integrator> kIntegrators[] = {
+    {"path", Integrator::path}, {"ao", Integrator::ao}, {"nao", Integrator::nao}, {"nrc", Integrator::nrc}};
 constexpr Choice<SamplerKind> kSamplers[] = {{"sobol", SamplerKind::sobol},
                                              {"independent", SamplerKind::independent}};
 constexpr Choice<PixelFilter> kFilters[] = {{"box", PixelFilter::box},
@@ -30,10 +33,19 @@ constexpr Choice<DirectLight> kDirect[] = {
 constexpr Choice<LightSelection> kLightSelections[] = {{"tree", LightSelection::tree},
                                                        {"power", LightSelection::power}};
 constexpr Choice<NanPolicy> kNan[] = {{"drop", NanPolicy::drop}, {"error", NanPolicy::error}};
-constexpr Choice<Aov> kAovs[] = {
-    {"albedo", Aov::albedo},        {"normal", Aov::normal},          {"depth", Aov::depth},
-    {"position", Aov::position},    {"primitive", Aov::primitive_id}, {"instance", Aov::instance_id},
-    {"samples", Aov::sample_count}, {"variance", Aov::variance}};
+constexpr Choice<Aov> kAovs[] = {{"albedo", Aov::albedo},
+                                 {"normal", Aov::normal},
+                                 {"depth", Aov::depth},
+                                 {"position", Aov::position},
+                                 {"primitive", Aov::primitive_id},
+                                 {"instance", Aov::instance_id},
+                                 {"samples", Aov::sample_count},
+                                 {"variance", Aov::variance},
+                                 {"cache-answer", Aov::cache_answer},
+                                 {"cache-error", Aov::cache_error},
+                                 {"training-count", Aov::training_count},
+                                 {"resolution", Aov::resolution},
+                                 {"nearest-node", Aov::nearest_node}};
 constexpr Choice<Tonemap> kTonemaps[] = {{"none", Tonemap::none}, {"filmic", Tonemap::filmic}};
 constexpr Choice<ProgressMode> kProgress[] = {{"auto", ProgressMode::automatic},
                                               {"bar", ProgressMode::bar},
@@ -94,11 +106,87 @@ void check_output_names(const RenderSettings& settings) {
   std::set<fs::path> seen;
   std::vector<std::string> names = settings.outputs;
   if (!settings.stats.empty() && settings.stats != "-") names.push_back(settings.stats);
+  for (const std::string& file : {settings.render.cache.cache_out, settings.render.checkpoint.file}) {
+    if (!file.empty()) names.push_back(file);
+  }
   for (const std::string& name : names) {
     if (!seen.insert(fs::absolute(name).lexically_normal()).second) {
       throw UsageError(fmt::format("--output: '{}' is named twice, expected different files", name));
     }
   }
+}
+
+/// Flags of one encoding or rule, which another would silently ignore.
+struct Condition {
+  bool holds = true;
+  std::string_view expected;
+  std::vector<std::string_view> flags;
+};
+
+std::vector<Condition> cache_conditions(const CacheOptions& o) {
+  const bool gate = o.encoding == neural::FeatureEncoding::gate;
+  return {
+      {gate,
+       "--encoding gate",
+       {"--features", "--stack", "--resolution", "--resolution-scale", "--node-spacing", "--max-resolution",
+        "--cluster", "--storage", "--feature-step"}},
+      {!gate,
+       "--encoding hashgrid",
+       {"--hash-levels", "--hash-features", "--hash-log2-size", "--hash-base", "--hash-growth"}},
+      {o.gate.rule == neural::ResolutionRule::paper, "--resolution paper", {"--resolution-scale"}},
+      {o.gate.rule == neural::ResolutionRule::uniform, "--resolution uniform", {"--node-spacing"}},
+  };
+}
+
+void complete_cache(RenderSettings& settings) {
+  const RenderOptions& o = settings.render;
+  if (!uses_cache(o.integrator)) {
+    for (const std::string& flag : settings.cache_flags) {
+      if (settings.given.contains(flag)) {
+        throw UsageError(fmt::format("{}: the integrator '{}' has no cache, expected --integrator nao or nrc",
+                                     flag, name_of(integrator_choices(), o.integrator)));
+      }
+    }
+    return;
+  }
+  for (const Condition& condition : cache_conditions(o.cache)) {
+    for (const std::string_view flag : condition.flags) {
+      if (!condition.holds && settings.given.contains(std::string(flag))) {
+        throw UsageError(
+            fmt::format("{}: it has no effect here, expected it with {}", flag, condition.expected));
+      }
+    }
+  }
+}
+
+void complete_aovs(RenderSettings& settings) {
+  RenderOptions& o = settings.render;
+  const bool cache = uses_cache(o.integrator);
+  if (settings.all_aovs) {
+    o.aovs.clear();
+    for (const Choice<Aov>& choice : aov_choices()) {
+      if (cache || !shows_cache(choice.value)) o.aovs.push_back(choice.value);
+    }
+  }
+  for (const Aov aov : o.aovs) {
+    if (!cache && shows_cache(aov)) {
+      throw UsageError(
+          fmt::format("--aov: '{}' shows a cache, which the integrator '{}' has not, expected "
+                      "--integrator nao or nrc",
+                      name_of(aov_choices(), aov), name_of(integrator_choices(), o.integrator)));
+    }
+  }
+}
+
+void complete_checkpoint(RenderSettings& settings) {
+  CheckpointOptions& checkpoint = settings.render.checkpoint;
+  if (checkpoint.file.empty() && checkpoint.resume) {
+    throw UsageError("--resume: there is nothing to go on with, expected --checkpoint FILE with it");
+  }
+  if (checkpoint.file.empty() && settings.checkpoint_every) {
+    throw UsageError("--checkpoint-every: there is nothing to write, expected --checkpoint FILE with it");
+  }
+  if (settings.checkpoint_every) checkpoint.every_seconds = *settings.checkpoint_every;
 }
 
 void require_file(const std::string& what, const std::string& path) {
@@ -148,6 +236,9 @@ void complete_settings(RenderSettings& settings) {
     throw UsageError("--quiet and --verbose exclude each other, expected one");
   complete_view(settings);
   check_picture(settings.render);
+  complete_cache(settings);
+  complete_aovs(settings);
+  complete_checkpoint(settings);
   check_output_names(settings);
   if (settings.render.threads == 0) settings.render.threads = available_threads();
 }
@@ -159,6 +250,10 @@ void check_files(const RenderSettings& settings) {
   }
   for (const std::string& output : settings.outputs) check_image_output(output);
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
+  const CacheOptions& cache = settings.render.cache;
+  if (!cache.cache_in.empty()) require_file("the cache", cache.cache_in);
+  if (!cache.cache_out.empty()) check_writable(cache.cache_out);
+  if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
 }
 
 }  // namespace gatelight::apps

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/progress.h"
 #include "apps/values.h"
+#include "renderer/cache/presets.h"
 #include "renderer/image_write.h"
 #include "renderer/options.h"
 #include "scene/gltf.h"
@@ -28,6 +30,11 @@ struct RenderSettings {
   bool reproducible = false;
   bool quiet = false;
   bool verbose = false;
+  bool all_aovs = false;                   ///< --aov all: those that the integrator has
+  std::optional<double> checkpoint_every;  ///< seconds; becomes render.checkpoint.every_seconds
+  std::optional<renderer::CachePreset> preset;
+  std::set<std::string> given;        ///< flags on the command line or in --config, with their dashes
+  std::set<std::string> cache_flags;  ///< that mean nothing without a cache
 };
 
 /// The words that stand for the enumerations, in help, parsing and recipes.
@@ -41,6 +48,10 @@ Choices<renderer::NanPolicy> nan_choices();
 Choices<renderer::Aov> aov_choices();
 Choices<renderer::Tonemap> tonemap_choices();
 Choices<ProgressMode> progress_choices();
+
+constexpr bool shows_cache(renderer::Aov aov) {
+  return aov >= renderer::Aov::cache_answer;
+}
 
 /// Checks what single flags cannot know (does the region lie in the picture?) and fills in what follows from
 /// the flags: the view by hand, the number of threads. Throws UsageError.

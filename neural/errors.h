@@ -20,4 +20,9 @@ struct CacheFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A cache file that cannot be written.
+struct CacheWriteError : CacheFileError {
+  using CacheFileError::CacheFileError;
+};
+
 }  // namespace gatelight::neural

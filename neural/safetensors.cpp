@@ -50,7 +50,7 @@ std::string shape_text(std::span<const std::uint64_t> shape) {
 }
 
 [[noreturn]] void refuse_to_write(const fs::path& path, const std::string& reason) {
-  throw CacheFileError(fmt::format("cannot write '{}': {}", path.string(), reason));
+  throw CacheWriteError(fmt::format("cannot write '{}': {}", path.string(), reason));
 }
 
 std::string describe(int error) {

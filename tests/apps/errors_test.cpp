@@ -5,6 +5,7 @@
 
 #include <new>
 
+#include "neural/errors.h"
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
 #include "renderer/render.h"
@@ -35,6 +36,10 @@ TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
   EXPECT_EQ(failure_of(std::bad_alloc()).code, 4);
   EXPECT_EQ(failure_of(std::bad_array_new_length()).code, 4);
   EXPECT_EQ(failure_of(renderer::Unavailable("m")).code, 5);
+  EXPECT_EQ(failure_of(neural::BadConfiguration("m")).code, 1);
+  EXPECT_EQ(failure_of(neural::CacheFileError("m")).code, 2);
+  EXPECT_EQ(failure_of(neural::CacheWriteError("m")).code, 3);
+  EXPECT_EQ(failure_of(neural::Unavailable("m")).code, 5);
   EXPECT_EQ(failure_of(renderer::NumericalError("m")).code, 6);
 }
 

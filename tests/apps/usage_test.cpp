@@ -45,7 +45,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   EXPECT_EQ(render.exit_code, 0);
   EXPECT_THAT(render.out, StartsWith("Render a scene"));
   for (const char* word : {"Usage: gatelight render",
-                           "--integrator path|ao",
+                           "--integrator path|ao|nao|nrc",
                            "--spp N",
                            "[64]",
                            "--time-limit SECONDS",
@@ -74,6 +74,13 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
                            "--verbose",
                            "--isa auto|scalar|avx2|avx512",
                            "--memory-limit MIB",
+                           "--preset preview|final|paper-nao|paper-nrc",
+                           "--train-steps N|auto",
+                           "--stack LIST",
+                           "[adaptive,1]",
+                           "--cache-memory MIB",
+                           "--query-at primary|gather|spread|none",
+                           "--checkpoint FILE",
                            "--tonemap none|filmic",
                            "--exr half|float",
                            "--ao-distance METRES",
@@ -104,7 +111,7 @@ TEST_F(Usage, AMissingOrUnknownSubcommandIsCode1) {
 }
 
 TEST_F(Usage, UnknownFlagsAreRefusedByName) {
-  for (const char* flag : {"--frob", "--checkpoint", "--ssp=4", "-z"}) {
+  for (const char* flag : {"--frob", "--check", "--ssp=4", "-z"}) {
     const Output output = refused({flag});
     EXPECT_EQ(output.exit_code, 1) << flag;
     EXPECT_THAT(output.last_error_line(), HasSubstr(flag));
@@ -148,6 +155,33 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
       {{"--camera", "none such"}, "camera", "none such", "front"},
       {{"--progress", "loud"}, "--progress", "'loud'", "auto|bar|json|none"},
       {{"--quiet", "--verbose"}, "--quiet", "--verbose", "exclude"},
+      {{"--train-steps", "-1"}, "--train-steps", "'-1'", "from 0"},
+      {{"--train-steps", "many"}, "--train-steps", "'many'", "integer"},
+      {{"--batch", "0"}, "--batch", "'0'", "from 1"},
+      {{"--self-training", "on"}, "--self-training", "'on'", "integer"},
+      {{"--self-training-full", "1.5"}, "--self-training-full", "'1.5'", "at most 1"},
+      {{"--features", "17"}, "--features", "'17'", "from 1 to 16"},
+      {{"--stack", "adaptive,65"}, "--stack", "'65'", "from 1 to 64"},
+      {{"--stack", "1,2,3,4,5"}, "--stack", "'1,2,3,4,5'", "at most 4"},
+      {{"--stack", "adaptive,"}, "--stack", "'adaptive,'", "list"},
+      {{"--resolution", "fixed:0"}, "--resolution", "'0'", "from 1 to 64"},
+      {{"--resolution", "fixed"}, "--resolution", "'fixed'", "uniform|paper|fixed:R"},
+      {{"--node-spacing", "0"}, "--node-spacing", "'0'", "above 0"},
+      {{"--cache-memory", "-1"}, "--cache-memory", "'-1'", "at least 0"},
+      {{"--hash-log2-size", "32"}, "--hash-log2-size", "'32'", "from 3 to 31"},
+      {{"--hash-growth", "0.5"}, "--hash-growth", "'0.5'", "at least 1"},
+      {{"--hidden", "48"}, "--hidden", "'48'", "16|32|64|128"},
+      {{"--layers", "6"}, "--layers", "'6'", "from 1 to 5"},
+      {{"--bias", "yes"}, "--bias", "'yes'", "on|off"},
+      {{"--learning-rate", "nan"}, "--learning-rate", "'nan'", "at least 0"},
+      {{"--cache-roughness", "2"}, "--cache-roughness", "'2'", "at most 1"},
+      {{"--device", "gpu"}, "--device", "'gpu'", "cpu|vulkan"},
+      {{"--device", "vulkan:"}, "--device", "'vulkan:'", "vulkan:INDEX"},
+      {{"--preset", "fast"}, "--preset", "'fast'", "preview|final|paper-nao|paper-nrc"},
+      {{"--checkpoint-every", "-1"}, "--checkpoint-every", "'-1'", "at least 0"},
+      {{"--query-at", "gather"}, "--query-at", "'path'", "nao or nrc"},
+      {{"--aov", "resolution"}, "--aov", "'resolution'", "nao or nrc"},
+      {{"--resume"}, "--resume", "", "--checkpoint FILE"},
       {{"--spp"}, "--spp", "", "required"},
       {{"--spp", "1", "--spp", "2"}, "--spp", "2", ""},
   };
@@ -183,6 +217,9 @@ TEST_F(Usage, UnusableInputsAreCode2AndNamed) {
     EXPECT_EQ(output.exit_code, 2) << output.err;
     EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
   }
+  const Output cache = refused({"--integrator", "nrc", "--cache-in", path("missing.safetensors")});
+  EXPECT_EQ(cache.exit_code, 2) << cache.err;
+  EXPECT_THAT(cache.last_error_line(), HasSubstr(path("missing.safetensors")));
 }
 
 TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
@@ -195,6 +232,8 @@ TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
     EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
   }
   EXPECT_EQ(refused({"--stats", path("missing/s.json")}).exit_code, 3);
+  EXPECT_EQ(refused({"--checkpoint", path("missing/c")}).exit_code, 3);
+  EXPECT_EQ(refused({"--integrator", "nrc", "--cache-out", path("missing/c")}).exit_code, 3);
   EXPECT_EQ(read_file(path("file")), "x");
 }
 
