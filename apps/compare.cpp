@@ -2,109 +2,86 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 
+#include "apps/compare_report.h"
 #include "apps/errors.h"
+#include "apps/flags.h"
 #include "apps/log.h"
+#include "apps/render_settings.h"
 #include "apps/results.h"
 #include "apps/subcommand.h"
-#include "apps/values.h"
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
+#include "renderer/merge.h"
 
 namespace gatelight::apps {
 namespace {
 
-using renderer::ErrorMetrics;
+using renderer::NamedPicture;
+using renderer::Picture;
 
 constexpr const char* kFooter = R"(Over the red, green and blue of the beauty layers:
-  mse      mean squared error
-  rel_mse  mean of the squared error over (squared reference + 0.01)
-  psnr     peak signal to noise ratio in dB, for a peak of 1
-  mean     mean of the absolute difference, and of the signed one (test minus reference)
-  max      largest absolute difference
-Pixels that are not finite in one of the pictures are counted and left out. PNG files are made linear first.
+  mse       mean squared error
+  rel_mse   mean of the squared error over (squared reference + 0.01)
+  psnr      peak signal to noise ratio in dB, for a peak of 1
+  mean      mean of the absolute difference, and of the signed one (test minus reference)
+  max       largest absolute difference
+  flip      LDR-FLIP (2020), what the eye sees when the pictures alternate: mean, quartiles weighted by the
+            error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
+  hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
+Pixels that are not finite in one of the pictures are counted and left out; FLIP, which cannot leave them out, is
+left out itself, and refused where --metric or --map names it. PNG files are made linear first.
+
+With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
+and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
+of (TEST - REFERENCE)(TEST2 - REF2) over (squared reference + 0.01). Each must have a seed of its own.
 
 Examples:
   gatelight compare reference.exr test.exr
-  gatelight compare reference.exr test.exr --metric rel_mse --json - --error-map error.png)";
+  gatelight compare reference.exr test.exr --metric rel_mse,flip --json - --error-map flip.png
+  gatelight compare reference-a.exr test-1.exr --halves reference-b.exr test-2.exr)";
+
+enum class Map : std::uint8_t { flip, hdr_flip, relative };
+constexpr std::array<Choice<Map>, 3> kMaps{
+    {{"flip", Map::flip}, {"hdr_flip", Map::hdr_flip}, {"relative", Map::relative}}};
 
 struct CompareSettings {
   std::string reference;
   std::string test;
+  std::vector<std::string> halves;  ///< none, or the second reference and the second test
   std::string metrics;
   std::string json;
   std::string error_map;
+  Map map = Map::flip;
+  renderer::FlipOptions flip;
 };
 
-struct Metric {
-  std::string_view name;                                               ///< in --metric
-  std::vector<std::pair<const char*, double ErrorMetrics::*>> values;  ///< by their keys in the JSON
-};
-
-const std::vector<Metric>& all_metrics() {
-  static const std::vector<Metric> metrics = {
-      {"mse", {{"mse", &ErrorMetrics::mse}}},
-      {"rel_mse", {{"rel_mse", &ErrorMetrics::rel_mse}}},
-      {"psnr", {{"psnr", &ErrorMetrics::psnr}}},
-      {"mean",
-       {{"mean_error", &ErrorMetrics::mean_error}, {"mean_difference", &ErrorMetrics::mean_difference}}},
-      {"max", {{"max_error", &ErrorMetrics::max_error}}},
-  };
-  return metrics;
-}
-
-std::vector<const Metric*> choose_metrics(const std::string& list) {
-  std::vector<const Metric*> chosen;
-  std::vector<std::string_view> names;
-  for (const Metric& metric : all_metrics()) {
-    names.push_back(metric.name);
-    if (list.empty()) chosen.push_back(&metric);
+std::vector<Metric> choose_metrics(const std::string& list) {
+  std::vector<Metric> chosen;
+  if (list.empty()) {
+    for (const Choice<Metric>& choice : metric_choices()) chosen.push_back(choice.value);
+    return chosen;
   }
-  if (list.empty()) return chosen;
   for (const std::string& word : split_list("--metric", list)) {
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_choice("--metric", word, join_names(names));
-    chosen.push_back(&all_metrics()[static_cast<std::size_t>(found - names.begin())]);
+    const Metric metric = parse_choice("--metric", word, metric_choices());
+    if (std::find(chosen.begin(), chosen.end(), metric) == chosen.end()) chosen.push_back(metric);
   }
   return chosen;
 }
 
-std::string as_json(const CompareSettings& settings, const std::vector<const Metric*>& metrics,
-                    const renderer::Picture& reference, const ErrorMetrics& result) {
-  nlohmann::ordered_json json = {
-      {"schema", 1},
-      {"reference", settings.reference},
-      {"test", settings.test},
-      {"width", reference.width},
-      {"height", reference.height},
-      {"pixels", result.pixels},
-      {"nonfinite", {{"reference", result.nonfinite_reference}, {"test", result.nonfinite_test}}}};
-  for (const Metric* metric : metrics) {
-    for (const auto& [key, member] : metric->values) {
-      // Equal pictures have an infinite PSNR, which JSON cannot say: null.
-      json[key] = std::isfinite(result.*member) ? nlohmann::ordered_json(result.*member) : nullptr;
-    }
-    if (metric->name == "psnr") json["psnr_peak"] = renderer::kPsnrPeak;
-  }
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+/// One file, or the mean of two; `halves` holds what was read.
+Picture read_pictures(const std::vector<std::string>& files, std::vector<Picture>& halves) {
+  Picture first = renderer::read_image(files.front());
+  if (files.size() == 1) return first;
+  halves.push_back(std::move(first));
+  halves.push_back(renderer::read_image(files.back()));
+  return renderer::merge_pictures({{halves.front(), files.front()}, {halves.back(), files.back()}});
 }
 
-std::string as_text(const std::vector<const Metric*>& metrics, const ErrorMetrics& result) {
-  std::string text;
-  for (const Metric* metric : metrics) {
-    for (const auto& [key, member] : metric->values) {
-      text += fmt::format("{:<16} {:.6g}{}\n", key, result.*member, metric->name == "psnr" ? " dB" : "");
-    }
-  }
-  return text;
-}
-
-int run_compare(const CompareSettings& settings) {
-  const std::vector<const Metric*> metrics = choose_metrics(settings.metrics);
+void check_outputs(const CompareSettings& settings) {
   if (!settings.error_map.empty()) {
     if (std::filesystem::path(settings.error_map).extension() != ".png") {
       throw UsageError(fmt::format("--error-map: '{}' is not a .png file", settings.error_map));
@@ -112,23 +89,69 @@ int run_compare(const CompareSettings& settings) {
     renderer::check_image_output(settings.error_map);
   }
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
+}
 
-  const renderer::Picture reference = renderer::read_image(settings.reference);
-  const renderer::Picture test = renderer::read_image(settings.test);
-  const renderer::NamedPicture named_reference{reference, settings.reference};
-  const renderer::NamedPicture named_test{test, settings.test};
-  const ErrorMetrics result = renderer::compare_pictures(named_reference, named_test);
-  if (result.nonfinite_reference + result.nonfinite_test > 0) {
+void measure_flip(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
+                  bool by_name) {
+  if (!by_name && report.errors.nonfinite_reference + report.errors.nonfinite_test > 0) {
+    log_warning("FLIP is left out: it is defined for finite pixels");
+    return;
+  }
+  for (const Metric metric : report.metrics) {
+    if (metric == Metric::flip) report.flip = ldr_flip(reference, test, report.flip_options);
+    if (metric == Metric::hdr_flip) report.hdr_flip = hdr_flip(reference, test, report.flip_options);
+  }
+}
+
+Picture make_map(const CompareSettings& settings, const CompareReport& report, const NamedPicture& reference,
+                 const NamedPicture& test) {
+  switch (settings.map) {
+    case Map::relative:
+      return renderer::error_map(reference, test);
+    case Map::hdr_flip:
+      return flip_map(report.hdr_flip ? *report.hdr_flip : hdr_flip(reference, test, settings.flip));
+    case Map::flip:
+      break;
+  }
+  return flip_map(report.flip ? *report.flip : ldr_flip(reference, test, settings.flip));
+}
+
+int run_compare(const CompareSettings& settings) {
+  CompareReport report{.references = {settings.reference},
+                       .tests = {settings.test},
+                       .metrics = choose_metrics(settings.metrics),
+                       .flip_options = settings.flip};
+  check_outputs(settings);
+  if (!settings.halves.empty()) {
+    report.references.push_back(settings.halves.front());
+    report.tests.push_back(settings.halves.back());
+  }
+  std::vector<Picture> references;
+  std::vector<Picture> tests;
+  const Picture reference_picture = read_pictures(report.references, references);
+  const Picture test_picture = read_pictures(report.tests, tests);
+  const NamedPicture reference{reference_picture, settings.reference};
+  const NamedPicture test{test_picture, settings.test};
+  report.width = reference_picture.width;
+  report.height = reference_picture.height;
+  report.errors = renderer::compare_pictures(reference, test);
+  if (report.errors.nonfinite_reference + report.errors.nonfinite_test > 0) {
     log_warning(fmt::format("pixels that are not finite: {} in '{}', {} in '{}'; they are left out",
-                            result.nonfinite_reference, settings.reference, result.nonfinite_test,
-                            settings.test));
+                            report.errors.nonfinite_reference, settings.reference,
+                            report.errors.nonfinite_test, settings.test));
   }
+  if (!settings.halves.empty()) {
+    report.bias_rel_mse = renderer::squared_bias(
+        {{references.front(), report.references.front()}, {references.back(), report.references.back()}},
+        {{tests.front(), report.tests.front()}, {tests.back(), report.tests.back()}});
+  }
+  measure_flip(report, reference, test, !settings.metrics.empty());
   if (!settings.error_map.empty()) {
-    renderer::write_image(renderer::error_map(named_reference, named_test), settings.error_map);
+    renderer::write_image(make_map(settings, report, reference, test), settings.error_map);
   }
-  if (!settings.json.empty()) write_text(settings.json, as_json(settings, metrics, reference, result));
+  if (!settings.json.empty()) write_text(settings.json, compare_json(report));
   // JSON on stdout stands alone, so that it can be parsed.
-  if (settings.json != "-") write_text("-", as_text(metrics, result));
+  if (settings.json != "-") write_text("-", compare_text(report));
   return kDone;
 }
 
@@ -142,14 +165,30 @@ Subcommand add_compare_command(CLI::App& root) {
       ->required()
       ->type_name("");
   app->add_option("TEST", settings->test, "Picture to be judged")->required()->type_name("");
+  app->add_option("--halves", settings->halves,
+                  "Second halves of reference and test: also estimates the bias without noise")
+      ->type_name("REF2 TEST2")
+      ->expected(2);
   app->add_option("--metric", settings->metrics,
-                  "Which, separated by commas: mse,rel_mse,psnr,mean,max (default: all)")
+                  "Which, separated by commas: mse,rel_mse,psnr,mean,max,flip,hdr_flip (default: all)")
       ->type_name("LIST");
   app->add_option("--json", settings->json, "Result as JSON; - is stdout")->type_name("FILE|-");
-  app->add_option("--error-map", settings->error_map,
-                  "Picture of the relative error: black 0, violet 0.1, red 0.25, yellow 0.5, white 1 and "
-                  "more, green not finite")
+  app->add_option(
+         "--error-map", settings->error_map,
+         "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "
+         "0, violet 0.1, red 0.25, yellow 0.5, white 1 and more, green not finite")
       ->type_name("FILE.png");
+  add_choice(*app, "--map", settings->map, Choices<Map>(kMaps), "Which errors --error-map shows");
+  constexpr RealRange kPixelsPerDegree{renderer::kMinPixelsPerDegree, renderer::kMaxPixelsPerDegree};
+  add_real(
+      *app, "--pixels-per-degree", settings->flip.pixels_per_degree, kPixelsPerDegree, "N",
+      "For FLIP: pixels of a degree of visual angle. The default is a monitor 0.7 m wide with 3840 pixels, "
+      "seen from 0.7 m",
+      "67.02");
+  constexpr RealRange kStops{-100.0, 100.0};
+  add_real(*app, "--exposure", settings->flip.exposure, kStops, "EV",
+           "For flip: stops by which pictures are brighter", "0");
+  add_choice(*app, "--tonemap", settings->flip.tonemap, tonemap_choices(), "For flip: curve of pictures");
   return {app, [settings] { return run_compare(*settings); }};
 }
 

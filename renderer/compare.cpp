@@ -1,66 +1,15 @@
 #include "renderer/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "renderer/beauty.h"
 #include "renderer/srgb.h"
 
 namespace gatelight::renderer {
 namespace {
-
-using Rgb = std::array<double, 3>;
-
-/// The colours of a picture, whatever the order of its channels.
-class Beauty {
- public:
-  explicit Beauty(const NamedPicture& named) {
-    if (named.picture.layers.empty() || named.picture.layers.front().channels.empty()) {
-      throw CompareError(fmt::format("'{}' has no layer to compare", named.name));
-    }
-    layer_ = &named.picture.layers.front();
-    const std::vector<std::string>& channels = layer_->channels;
-    const std::array<const char*, 3> names{"R", "G", "B"};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto found = std::find(channels.begin(), channels.end(), names[c]);
-      if (found != channels.end()) {
-        index_[c] = static_cast<std::size_t>(found - channels.begin());
-      } else if (channels.front() == "Y") {
-        index_[c] = 0;
-      } else {
-        throw CompareError(
-            fmt::format("'{}' has no beauty layer: channel {} is missing", named.name, names[c]));
-      }
-    }
-  }
-
-  Rgb at(std::size_t pixel) const {
-    const float* values = layer_->values.data() + pixel * layer_->channels.size();
-    return {values[index_[0]], values[index_[1]], values[index_[2]]};
-  }
-
- private:
-  const Layer* layer_ = nullptr;
-  std::array<std::size_t, 3> index_{};
-};
-
-bool finite(const Rgb& color) {
-  return std::isfinite(color[0]) && std::isfinite(color[1]) && std::isfinite(color[2]);
-}
-
-void require_same_size(const NamedPicture& a, const NamedPicture& b) {
-  if (a.picture.width == b.picture.width && a.picture.height == b.picture.height) return;
-  throw CompareError(fmt::format("the pictures differ in size: '{}' has {}x{} pixels, '{}' has {}x{}", a.name,
-                                 a.picture.width, a.picture.height, b.name, b.picture.width,
-                                 b.picture.height));
-}
-
-std::size_t pixel_count(const Picture& picture) {
-  return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-}
 
 double relative_squared(double reference, double difference) {
   return difference * difference / (reference * reference + kRelMseEpsilon);
@@ -125,6 +74,32 @@ ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture&
   metrics.psnr = metrics.mse > 0.0 ? 10.0 * std::log10(kPsnrPeak * kPsnrPeak / metrics.mse)
                                    : std::numeric_limits<double>::infinity();
   return metrics;
+}
+
+double squared_bias(const Halves& reference, const Halves& test) {
+  for (const NamedPicture* other : {&reference.second, &test.first, &test.second}) {
+    require_same_size(reference.first, *other);
+  }
+  const Beauty reference1(reference.first);
+  const Beauty reference2(reference.second);
+  const Beauty test1(test.first);
+  const Beauty test2(test.second);
+  double sum = 0.0;
+  std::uint64_t compared = 0;
+  const std::size_t pixels = pixel_count(reference.first.picture);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const Rgb r1 = reference1.at(p);
+    const Rgb r2 = reference2.at(p);
+    const Rgb t1 = test1.at(p);
+    const Rgb t2 = test2.at(p);
+    if (!finite(r1) || !finite(r2) || !finite(t1) || !finite(t2)) continue;
+    ++compared;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double r = 0.5 * (r1[c] + r2[c]);
+      sum += (t1[c] - r1[c]) * (t2[c] - r2[c]) / (r * r + kRelMseEpsilon);
+    }
+  }
+  return compared > 0 ? sum / (3.0 * static_cast<double>(compared)) : 0.0;
 }
 
 Picture error_map(const NamedPicture& reference, const NamedPicture& test) {

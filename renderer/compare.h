@@ -41,6 +41,19 @@ struct NamedPicture {
 /// or a picture has no beauty layer.
 ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture& test);
 
+/// Two pictures of the same with independent noise.
+struct Halves {
+  NamedPicture first;
+  NamedPicture second;
+};
+
+/// Mean of (t1 - r1)(t2 - r2) / (r^2 + 1e-2), r the mean of r1 and r2, over the pixels that are finite in all
+/// four: where the noise of each is independent of that of the others, this is the relative squared error
+/// that the test would keep with infinitely many samples. The rel_mse of a picture is this plus its variance.
+/// May be negative by chance. (r is noisy too, which enters in the fourth power of the references' noise
+/// only.) Throws CompareError as compare_pictures() does; 0 where no pixel is finite.
+double squared_bias(const Halves& reference, const Halves& test);
+
 /// Per pixel the square root of its relative squared error, as a colour: black 0, violet 0.1, red 0.25,
 /// yellow 0.5, white 1 and more; green where a value is not finite. Shows these colours when it is written as
 /// a PNG without exposure and curve.

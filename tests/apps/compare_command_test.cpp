@@ -60,41 +60,130 @@ TEST_F(CompareCommand, MetricsAreChosenByName) {
   EXPECT_FALSE(result.contains("mse"));
   const Output unknown = run_gatelight({"compare", reference, reference, "--metric", "ssim"});
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_THAT(unknown.last_error_line(), AllOf(HasSubstr("'ssim'"), HasSubstr("mse|rel_mse|psnr|mean|max")));
+  EXPECT_THAT(unknown.last_error_line(),
+              AllOf(HasSubstr("'ssim'"), HasSubstr("mse|rel_mse|psnr|mean|max|flip|hdr_flip")));
+}
+
+TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
+  // Even pictures: the same error everywhere.
+  const std::string reference = picture("r.exr", 4, 2, 0.5f);
+  const std::string test = picture("t.exr", 4, 2, 1.0f);
+  const Output text = run_gatelight_inside({"compare", reference, test});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("flip             0."), HasSubstr("hdr_flip         0."),
+                              HasSubstr("weighted quartiles 0.")));
+  const json result = json::parse(run_gatelight_inside({"compare", reference, test, "--json", "-"}).out);
+  for (const char* metric : {"flip", "hdr_flip"}) {
+    const double mean = result[metric]["mean"];
+    EXPECT_GT(mean, 0.1);
+    for (const char* key : {"weighted_median", "first_quartile", "third_quartile", "min", "max"}) {
+      EXPECT_NEAR(result[metric][key], mean, 1e-5) << metric << " " << key;
+    }
+    EXPECT_NEAR(result[metric]["pixels_per_degree"], 67.0206, 1e-4);
+  }
+  EXPECT_EQ(result["flip"]["tonemap"], "none");
+  EXPECT_EQ(result["hdr_flip"]["exposures"], 2);
+}
+
+TEST_F(CompareCommand, FlipFollowsExposureCurveAndPixelsPerDegree) {
+  const std::string reference = picture("r.exr", 4, 2, 4.0f);
+  const std::string test = picture("t.exr", 4, 2, 8.0f);
+  const auto flip = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"compare", reference, test, "--metric", "flip", "--json", "-"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Output output = run_gatelight_inside(arguments);
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return json::parse(output.out)["flip"];
+  };
+  EXPECT_EQ(flip({})["mean"], 0.0) << "both are white";
+  EXPECT_GT(flip({"--exposure", "-3"})["mean"], 0.1);
+  EXPECT_GT(flip({"--exposure", "-3", "--tonemap", "filmic"})["mean"], 0.05);
+  EXPECT_EQ(flip({"--exposure", "-3"})["exposure"], -3.0);
+  EXPECT_EQ(flip({"--pixels-per-degree", "20"})["pixels_per_degree"], 20.0);
+  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--pixels-per-degree", "0"}).exit_code, 1);
+}
+
+TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
+  // Means: 1 and 2. Products of the halves' differences: (2 - 0.5) (2 - 1.5).
+  const std::string r1 = picture("r1.exr", 2, 2, 0.5f);
+  const std::string r2 = picture("r2.exr", 2, 2, 1.5f);
+  const std::string test = picture("t.exr", 2, 2, 2.0f);
+  const Output output = run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--json", "-"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const json result = json::parse(output.out);
+  EXPECT_NEAR(result["bias_rel_mse"], 1.5 * 0.5 / 1.01, 1e-12);
+  EXPECT_NEAR(result["rel_mse"], 1.0 / 1.01, 1e-12);
+  EXPECT_EQ(result["halves"], json::array({r2, test}));
+  EXPECT_THAT(run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--metric", "max"}).out,
+              AllOf(HasSubstr("max_error        1\n"), HasSubstr("bias_rel_mse     0.742574\n")));
+  EXPECT_FALSE(json::parse(run_gatelight_inside({"compare", r1, test, "--json", "-"}).out).contains("bias_rel_mse"));
+  EXPECT_EQ(run_gatelight_inside({"compare", r1, test, "--halves", r2}).exit_code, 1);
+  const Output sizes = run_gatelight_inside({"compare", r1, test, "--halves", r2, picture("n.exr", 1, 2, 2.0f)});
+  EXPECT_EQ(sizes.exit_code, 2);
+  EXPECT_THAT(sizes.last_error_line(), HasSubstr("n.exr"));
 }
 
 TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
   const std::string reference = picture("r.exr", 5, 3, 1.0f);
   const std::string test = picture("t.exr", 5, 3, 9.0f);
-  ASSERT_EQ(run_gatelight({"compare", reference, test, "--error-map", path("e.png")}).exit_code, 0);
-  const renderer::Picture map = renderer::read_image(path("e.png"));
-  EXPECT_EQ(map.width, 5);
-  EXPECT_EQ(map.height, 3);
-  EXPECT_EQ(map.layers[0].values, std::vector<float>(45, 1.0f));
-  EXPECT_EQ(run_gatelight({"compare", reference, test, "--error-map", path("e.exr")}).exit_code, 1);
-  EXPECT_EQ(run_gatelight({"compare", reference, test, "--error-map", path("no/e.png")}).exit_code, 3);
+  ASSERT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"})
+                .exit_code,
+            0);
+  const renderer::Picture relative = renderer::read_image(path("e.png"));
+  EXPECT_EQ(relative.width, 5);
+  EXPECT_EQ(relative.height, 3);
+  EXPECT_EQ(relative.layers[0].values, std::vector<float>(45, 1.0f));
+  // Both are shown white, but not at the exposures of HDR-FLIP. The first colour of the map has no red.
+  const auto red = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"compare", reference,     test,         "--metric",
+                                          "mse",     "--error-map", path("f.png")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    EXPECT_EQ(run_gatelight_inside(arguments).exit_code, 0);
+    const renderer::Picture map = renderer::read_image(path("f.png"));
+    EXPECT_EQ(map.width * map.height, 15);
+    return map.layers[0].values.front();
+  };
+  EXPECT_EQ(red({}), 0.0f);
+  EXPECT_GT(red({"--map", "hdr_flip"}), 0.01f);
+  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("e.exr")}).exit_code, 1);
+  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("no/e.png")}).exit_code, 3);
 }
 
 TEST_F(CompareCommand, UnusablePicturesAreCode2) {
   const std::string reference = picture("r.exr", 2, 2, 1.0f);
-  const Output sizes = run_gatelight({"compare", reference, picture("t.exr", 2, 3, 1.0f)});
+  const Output sizes = run_gatelight_inside({"compare", reference, picture("t.exr", 2, 3, 1.0f)});
   EXPECT_EQ(sizes.exit_code, 2);
   EXPECT_EQ(sizes.out, "");
   EXPECT_THAT(sizes.last_error_line(), AllOf(HasSubstr("r.exr"), HasSubstr("t.exr"), HasSubstr("2x3")));
-  const Output missing = run_gatelight({"compare", reference, path("missing.exr")});
+  const Output missing = run_gatelight_inside({"compare", reference, path("missing.exr")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.exr"));
   folder.write("broken.png", "no picture");
-  EXPECT_EQ(run_gatelight({"compare", reference, path("broken.png")}).exit_code, 2);
+  EXPECT_EQ(run_gatelight_inside({"compare", reference, path("broken.png")}).exit_code, 2);
 }
 
 TEST_F(CompareCommand, NonFinitePixelsAreReported) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const Output output =
-      run_gatelight({"compare", reference, picture("t.exr", 2, 1, std::nanf("")), "--json", "-"});
+      run_gatelight_inside({"compare", reference, picture("t.exr", 2, 1, std::nanf("")), "--json", "-"});
   EXPECT_EQ(output.exit_code, 0);
   EXPECT_THAT(output.err, HasSubstr("2 in '" + path("t.exr") + "'"));
   EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 2);
+  EXPECT_TRUE(json::parse(output.out)["flip"].is_null()) << "FLIP cannot leave pixels out";
+}
+
+TEST_F(CompareCommand, FlipByNameRefusesNonFinitePixels) {
+  const std::string reference = picture("r.exr", 2, 1, 1.0f);
+  const std::string test = picture("t.exr", 2, 1, std::nanf(""));
+  for (const std::vector<std::string>& flags : {std::vector<std::string>{"--metric", "hdr_flip"},
+                                                {"--metric", "mse,flip"},
+                                                {"--error-map", path("e.png")}}) {
+    std::vector<std::string> arguments = {"compare", reference, test};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Output output = run_gatelight_inside(arguments);
+    EXPECT_EQ(output.exit_code, 2);
+    EXPECT_EQ(output.out, "");
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("t.exr"), HasSubstr("not finite")));
+  }
 }
 
 }  // namespace

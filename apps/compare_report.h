@@ -1,0 +1,34 @@
+#pragma once
+// What `compare` has measured, as text and as JSON.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/values.h"
+#include "renderer/compare.h"
+#include "renderer/flip.h"
+
+namespace gatelight::apps {
+
+enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, flip, hdr_flip };
+
+Choices<Metric> metric_choices();
+
+struct CompareReport {
+  std::vector<std::string> references;  ///< files: one, or two halves
+  std::vector<std::string> tests;
+  int width = 0;
+  int height = 0;
+  std::vector<Metric> metrics;  ///< that were asked for, in the order of the report
+  renderer::ErrorMetrics errors;
+  renderer::FlipOptions flip_options;
+  std::optional<renderer::FlipResult> flip;  ///< none: not asked for, or pixels are not finite
+  std::optional<renderer::FlipResult> hdr_flip;
+  std::optional<double> bias_rel_mse;  ///< of halves
+};
+
+std::string compare_text(const CompareReport& report);
+std::string compare_json(const CompareReport& report);
+
+}  // namespace gatelight::apps

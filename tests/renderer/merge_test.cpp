@@ -1,0 +1,105 @@
+#include "renderer/merge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace gatelight::renderer {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Metadata = std::map<std::string, std::string>;
+
+Picture picture(std::vector<float> values, Metadata metadata = {}) {
+  Picture p{.width = 1, .height = 1, .full_width = 1, .full_height = 1, .metadata = std::move(metadata)};
+  p.layers = {{.channels = {"R", "G", "B"}, .values = std::move(values)}};
+  return p;
+}
+
+Picture merge(const Picture& a, const Picture& b) {
+  return merge_pictures({{a, "a.exr"}, {b, "b.exr"}});
+}
+
+TEST(Merge, WeighsBySamplesPerPixel) {
+  const Picture m = merge(picture({1, 2, 3}, {{"spp", "1"}}), picture({5, 2, 7}, {{"spp", "3"}}));
+  EXPECT_THAT(m.layers[0].values, ElementsAre(4, 2, 6));
+  EXPECT_TRUE(m.layers[0].full_precision);
+  EXPECT_EQ(m.metadata.at("spp"), "4");
+}
+
+TEST(Merge, WithoutSamplesPerPixelEachCountsTheSame) {
+  const Picture m = merge(picture({1, 2, 3}), picture({5, 2, 7}));
+  EXPECT_THAT(m.layers[0].values, ElementsAre(3, 2, 5));
+  EXPECT_FALSE(m.metadata.contains("spp"));
+}
+
+TEST(Merge, MergesOfMergesEqualOneMerge) {
+  const Picture a = picture({1, 2, 3}, {{"spp", "8"}});
+  const Picture b = picture({5, 0, 7}, {{"spp", "8"}});
+  const Picture c = picture({0, 4, 1}, {{"spp", "16"}});
+  const Picture once = merge_pictures({{a, "a"}, {b, "b"}, {c, "c"}});
+  const Picture ab = merge(a, b);
+  const Picture twice = merge(ab, c);
+  EXPECT_EQ(once.layers[0].values, twice.layers[0].values);
+  EXPECT_EQ(once.metadata, twice.metadata);
+}
+
+TEST(Merge, LayersFollowTheirMeaning) {
+  Picture a = picture({0, 0, 0}, {{"spp", "1"}});
+  Picture b = picture({0, 0, 0}, {{"spp", "3"}});
+  a.layers.push_back({.name = "samples", .channels = {"count"}, .values = {1}});
+  b.layers.push_back({.name = "samples", .channels = {"count"}, .values = {3}});
+  a.layers.push_back({.name = "instance", .channels = {"id"}, .values = {7}});
+  b.layers.push_back({.name = "instance", .channels = {"id"}, .values = {9}});
+  a.layers.push_back({.name = "variance", .channels = {"R", "G", "B"}, .values = {16, 0, 0}});
+  b.layers.push_back({.name = "variance", .channels = {"R", "G", "B"}, .values = {0, 16, 16}});
+  a.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {4}});
+  b.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {8}});
+  const Picture m = merge(a, b);
+  EXPECT_THAT(m.find("samples")->values, ElementsAre(4));
+  EXPECT_THAT(m.find("instance")->values, ElementsAre(7));
+  EXPECT_THAT(m.find("variance")->values, ElementsAre(1, 9, 9)) << "of (a + 3 b) / 4";
+  EXPECT_THAT(m.find("depth")->values, ElementsAre(7));
+}
+
+TEST(Merge, MetadataKeepsWhatAllHaveInCommon) {
+  const Picture a = picture({1, 2, 3}, {{"spp", "1"}, {"seed", "1"}, {"scene", "x.glb"}, {"seconds", "1.0"}});
+  const Picture b = picture({1, 2, 3}, {{"spp", "1"}, {"seed", "2"}, {"scene", "x.glb"}, {"seconds", "2.0"}});
+  const Metadata expected = {{"spp", "2"}, {"seed", "1,2"}, {"scene", "x.glb"}};
+  EXPECT_EQ(merge(a, b).metadata, expected);
+  EXPECT_FALSE(merge(a, picture({1, 2, 3}, {{"spp", "1"}})).metadata.contains("seed"));
+}
+
+std::string refusal(const Picture& a, const Picture& b) {
+  try {
+    merge(a, b);
+  } catch (const CompareError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Merge, RefusesWhatDoesNotFitByName) {
+  const Picture a = picture({1, 2, 3}, {{"spp", "1"}});
+  Picture wide = a;
+  wide.width = 2;
+  wide.layers[0].values.resize(6);
+  EXPECT_THAT(refusal(a, wide), AllOf(HasSubstr("'a.exr' has 1x1"), HasSubstr("'b.exr' has 2x1")));
+  Picture elsewhere = a;
+  elsewhere.x0 = 4;
+  EXPECT_THAT(refusal(a, elsewhere), HasSubstr("at 4,0"));
+  Picture more = a;
+  more.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {1}});
+  EXPECT_THAT(refusal(a, more), HasSubstr("depth(Z)"));
+  EXPECT_THAT(refusal(a, picture({1, 2, 3})), HasSubstr("'b.exr' does not"));
+  EXPECT_THAT(refusal(picture({1, 2, 3}), a), HasSubstr("'a.exr' does not"));
+  for (const char* spp : {"0", "many", "-4", "4x"}) {
+    EXPECT_THAT(refusal(a, picture({1, 2, 3}, {{"spp", spp}})), AllOf(HasSubstr("'b.exr'"), HasSubstr(spp)));
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
