@@ -57,6 +57,23 @@ LightBounds bounds_of(const PunctualLight& light) {
   return bounds;
 }
 
+/// A number falls into one of several equal parts; what is left of it is a number again. Far down a tree
+/// the 24 bits of one number are used up: the lowest come from another, where they do no harm.
+struct Share {
+  float size = 0.0f;
+  int part = 0;
+  double rest = 0.0;
+
+  Share(int parts, float u_select, const Vec2& u) {
+    if (parts == 0) return;
+    const double scaled =
+        (static_cast<double>(u_select) + static_cast<double>(u.x()) * 0x1p-24) * static_cast<double>(parts);
+    size = 1.0f / static_cast<float>(parts);
+    part = std::min(static_cast<int>(scaled), parts - 1);
+    rest = std::clamp(scaled - part, 0.0, 0x1.fffffffffffffp-1);
+  }
+};
+
 bool shines(const PunctualLight& light) {
   return light.intensity.isFinite().all() && scene::luminance(light.intensity) > 0.0f;
 }
@@ -76,13 +93,36 @@ Lights::Lights(const scene::Scene& scene, const Textures& textures, const Enviro
     if (bounds.back().intensity > 0.0) ++emissive_count_;
   }
   for (const PunctualLight& light : placed_) bounds.push_back(bounds_of(light));
+  local_ = Local(bounds, selection);
+  bounds.erase(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(triangles_.size()));
+  local_placed_ = Local(bounds, selection);
+}
+
+Lights::Local::Local(const std::vector<LightBounds>& lights, LightSelection selection) {
   if (selection == LightSelection::tree) {
-    tree_ = LightTree(bounds);
+    tree = LightTree(lights);
   } else {
     std::vector<double> weights;
-    for (const LightBounds& b : bounds) weights.push_back(b.intensity);
-    table_ = AliasTable(weights);
+    for (const LightBounds& light : lights) weights.push_back(light.intensity);
+    table = AliasTable(weights);
   }
+}
+
+bool Lights::Local::reaches(const Vec3& p, const Vec3& n, LightTree::Weights& root) const {
+  if (tree.empty()) return !table.empty();
+  root = tree.weigh_root(p, n);
+  return root.sum > 0.0f;
+}
+
+LightTree::Choice Lights::Local::sample(const LightTree::Weights& root, const Vec3& p, const Vec3& n,
+                                        double u) const {
+  if (!tree.empty()) return tree.sample(root, p, n, u);
+  const std::uint32_t light = table.sample(u);
+  return {light, table.probability(light)};
+}
+
+float Lights::Local::probability(const Vec3& p, const Vec3& n, std::uint32_t light) const {
+  return tree.empty() ? table.probability(light) : tree.probability(p, n, light);
 }
 
 int Lights::count_distant(const Vec3& n) const {
@@ -99,45 +139,38 @@ bool Lights::samples_sky(int other_parts) const {
 
 LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
   LightTree::Weights root{};
-  bool local = has_local();
-  if (local && !tree_.empty()) {
-    root = tree_.weigh_root(p, n);
-    local = root.sum > 0.0f;
-  }
+  const bool local = local_.reaches(p, n, root);
   const int distant = count_distant(n);
   const bool sky = samples_sky((local ? 1 : 0) + distant);
-  const int parts = (local ? 1 : 0) + distant + (sky ? 1 : 0);
-  if (parts == 0) return {};
-
-  // Far down a tree the 24 bits of one number are used up. The lowest bits come from another, where they do
-  // no harm.
-  const double scaled =
-      (static_cast<double>(u_select) + static_cast<double>(u.x()) * 0x1p-24) * static_cast<double>(parts);
-  int part = std::min(static_cast<int>(scaled), parts - 1);
-  const double rest = std::clamp(scaled - part, 0.0, 0x1.fffffffffffffp-1);
-  const float share = 1.0f / static_cast<float>(parts);
-  if (local && part-- == 0) return sample_local(p, n, tree_.empty() ? nullptr : &root, share, rest, u);
-  if (sky && part == distant) return sample_environment(n, share, u);
-  for (const PunctualLight& light : distant_) {
-    if (n.dot(light.direction) > 0.0f || part-- > 0) continue;
-    return {-light.direction, scene::kInfinity, light.intensity, share, true};
+  const Share share((local ? 1 : 0) + distant + (sky ? 1 : 0), u_select, u);
+  if (local && share.part == 0) {
+    const LightTree::Choice choice = local_.sample(root, p, n, share.rest);
+    const float probability = choice.probability * share.size;
+    if (!(probability > 0.0f)) return {};
+    if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, probability, u);
+    return sample_placed(p, placed_[choice.light - triangles_.size()], probability);
   }
-  return {};
+  const int number = share.part - (local ? 1 : 0);
+  if (sky && number == distant) return sample_environment(n, share.size, u);
+  return sample_distant(n, share.size, number);
 }
 
-LightSample Lights::sample_local(const Vec3& p, const Vec3& n, const LightTree::Weights* root, float share,
-                                 double u_choice, const Vec2& u) const {
-  LightTree::Choice choice;
-  if (root) {
-    choice = tree_.sample(*root, p, n, u_choice);
-  } else {
-    choice.light = table_.sample(u_choice);
-    choice.probability = table_.probability(choice.light);
+LightSample Lights::sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
+  LightTree::Weights root{};
+  const bool local = local_placed_.reaches(p, n, root);
+  const Share share((local ? 1 : 0) + count_distant(n), u_select, u);
+  if (!local || share.part > 0) return sample_distant(n, share.size, share.part - (local ? 1 : 0));
+  const LightTree::Choice choice = local_placed_.sample(root, p, n, share.rest);
+  const float probability = choice.probability * share.size;
+  return probability > 0.0f ? sample_placed(p, placed_[choice.light], probability) : LightSample{};
+}
+
+LightSample Lights::sample_distant(const Vec3& n, float choice, int number) const {
+  for (const PunctualLight& light : distant_) {
+    if (n.dot(light.direction) > 0.0f || number-- > 0) continue;
+    return {-light.direction, scene::kInfinity, light.intensity, choice, true};
   }
-  choice.probability *= share;
-  if (!(choice.probability > 0.0f)) return {};
-  if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, choice.probability, u);
-  return sample_placed(p, placed_[choice.light - triangles_.size()], choice.probability);
+  return {};
 }
 
 LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const {
@@ -189,7 +222,7 @@ LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& 
 }
 
 float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const {
-  const float probability = tree_.empty() ? table_.probability(light) : tree_.probability(p, n, light);
+  const float probability = local_.probability(p, n, light);
   const int suns = count_distant(n);
   return probability / static_cast<float>(1 + suns + (samples_sky(1 + suns) ? 1 : 0));
 }
@@ -197,7 +230,7 @@ float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const
 float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
                            const Vec3& wi, float distance) const {
   const std::uint32_t light = triangles_.find(instance, primitive);
-  if (light == EmissiveTriangles::kNone || !has_local()) return 0.0f;
+  if (light == EmissiveTriangles::kNone || local_.empty()) return 0.0f;
   const EmissiveTriangle& triangle = triangles_[light];
   if (!(triangle.area > 0.0f)) return 0.0f;
   const float cosine = cos_emitted(triangle, wi);
@@ -209,8 +242,8 @@ float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance,
 }
 
 float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const {
-  const bool local = has_local() && (tree_.empty() || tree_.weigh_root(p, n).sum > 0.0f);
-  const int others = (local ? 1 : 0) + count_distant(n);
+  LightTree::Weights root{};
+  const int others = (local_.reaches(p, n, root) ? 1 : 0) + count_distant(n);
   if (!samples_sky(others)) return 0.0f;
   const float density =
       environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi);
@@ -218,7 +251,7 @@ float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) cons
 }
 
 std::size_t Lights::bytes() const {
-  return triangles_.bytes() + tree_.bytes() + table_.bytes() +
+  return triangles_.bytes() + local_.bytes() + local_placed_.bytes() +
          (placed_.size() + distant_.size()) * sizeof(PunctualLight);
 }
 

@@ -34,11 +34,16 @@ class Lights {
   Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
          LightSelection selection);
 
-  bool empty() const { return !has_local() && distant_.empty() && environment_.black(); }
+  bool empty() const { return local_.empty() && distant_.empty() && environment_.black(); }
 
   /// A direction towards some light. n is the shading normal on the side of the viewer, or zero where light
   /// may arrive from all sides (transmission).
   LightSample sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
+
+  /// Whether there are point, spot or directional lights.
+  bool has_delta() const { return !placed_.empty() || !distant_.empty(); }
+  /// As sample(), among those alone: what no direction of a BSDF ever finds. The density is the choice's.
+  LightSample sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
 
   /// Density with which sample(p, n) makes the direction wi that met this triangle at `distance`; 0 if it
   /// does not emit to that side. For multiple importance sampling.
@@ -52,15 +57,28 @@ class Lights {
   std::size_t bytes() const;
 
  private:
-  /// A light of the tree or table is a triangle below triangles_.size(), else one of placed_.
+  /// Lights with a position: one of the two is empty, or both if there is nothing to choose.
+  struct Local {
+    LightTree tree;
+    AliasTable table;
+
+    Local() = default;
+    Local(const std::vector<LightBounds>& lights, LightSelection selection);
+    bool empty() const { return tree.empty() && table.empty(); }
+    /// The tree's, whose sum is zero if none can shine at the point; false then.
+    bool reaches(const Vec3& p, const Vec3& n, LightTree::Weights& root) const;
+    LightTree::Choice sample(const LightTree::Weights& root, const Vec3& p, const Vec3& n, double u) const;
+    float probability(const Vec3& p, const Vec3& n, std::uint32_t light) const;
+    std::size_t bytes() const { return tree.bytes() + table.bytes(); }
+  };
+
   float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
-  LightSample sample_local(const Vec3& p, const Vec3& n, const LightTree::Weights* root, float share,
-                           double u_choice, const Vec2& u) const;
   LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const;
   LightSample sample_placed(const Vec3& p, const scene::PunctualLight& light, float choice) const;
+  /// The directional light with this number among those above the horizon of n.
+  LightSample sample_distant(const Vec3& n, float choice, int number) const;
   LightSample sample_environment(const Vec3& n, float choice, const Vec2& u) const;
 
-  bool has_local() const { return !tree_.empty() || !table_.empty(); }
   int count_distant(const Vec3& n) const;
   /// A constant sky is found by the BSDF's own directions as well as by any others: it takes no light samples
   /// from lamps and suns, and is sampled only where there are none.
@@ -70,8 +88,8 @@ class Lights {
   EmissiveTriangles triangles_;
   std::vector<scene::PunctualLight> placed_;   ///< point and spot lights
   std::vector<scene::PunctualLight> distant_;  ///< directional lights
-  LightTree tree_;
-  AliasTable table_;
+  Local local_;                                ///< the triangles and, numbered after them, placed_
+  Local local_placed_;                         ///< placed_ alone
   std::size_t emissive_count_ = 0;
 };
 

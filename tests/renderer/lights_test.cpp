@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -216,6 +217,101 @@ TEST(LightsTest, LightsBetweenTheStepsOfTheNumberAreStillChosen) {
   EXPECT_EQ(bright.radiance.x(), 1.0f);
   EXPECT_EQ(faint.radiance.x(), 1e-9f);
   EXPECT_GT(faint.pdf, 0.0f);
+}
+
+/// A point, a spot, one that misses the origin, three suns and a panel. Each has a colour of its own.
+scene::Scene delta_scene() {
+  scene::Scene scene;
+  add_light(scene, {kOverhead}, Color(9, 9, 9));
+  const auto add = [&](scene::LightType type, const Color& intensity, const Vec3& at, const Vec3& direction) {
+    scene::PunctualLight light;
+    light.type = type;
+    light.intensity = intensity;
+    light.position = at;
+    light.direction = direction.normalized();
+    light.cos_inner = 0.9f;
+    light.cos_outer = 0.8f;
+    scene.lights.push_back(light);
+  };
+  using scene::LightType;
+  add(LightType::point, Color(3, 1, 2), Vec3(0, 2, 0), Vec3::Zero());
+  add(LightType::point, Color(1, 5, 1), Vec3(3, 1, 0), Vec3::UnitX());
+  add(LightType::point, Color(8, 1, 3), Vec3(0, -1, 1), Vec3::UnitX());  // below the floor
+  add(LightType::spot, Color(4, 7, 1), Vec3(0, 4, 3), Vec3(0, -4, -3));
+  add(LightType::spot, Color(6, 6, 7), Vec3(0, 4, -3), Vec3(0, 1, 0));  // looks away
+  add(LightType::directional, Color(0.5f, 0.1f, 0.2f), Vec3::Zero(), Vec3(0, -1, 0));
+  add(LightType::directional, Color(0.1f, 0.7f, 0.3f), Vec3::Zero(), Vec3(1, -1, 0));
+  add(LightType::directional, Color(0.9f, 0.2f, 0.2f), Vec3::Zero(), Vec3(0, 1, 0));  // from below
+  return scene;
+}
+
+/// What they send to the origin in all, weighted by the cosine with n; by 1 where n is zero.
+Color delta_irradiance(const Vec3& n) {
+  const auto seen = [&](const Color& irradiance, const Vec3& to_light) -> Color {
+    return irradiance * (n.isZero(0.0f) ? 1.0f : std::max(0.0f, n.dot(to_light.normalized())));
+  };
+  Color sum = Color::Zero();
+  sum += seen(Color(3, 1, 2) / 4.0f, Vec3(0, 2, 0));
+  sum += seen(Color(1, 5, 1) / 10.0f, Vec3(3, 1, 0));
+  sum += seen(Color(8, 1, 3) / 2.0f, Vec3(0, -1, 1));
+  sum += seen(Color(4, 7, 1) / 25.0f, Vec3(0, 4, 3));
+  sum += seen(Color(0.5f, 0.1f, 0.2f), Vec3(0, 1, 0));
+  sum += seen(Color(0.1f, 0.7f, 0.3f), Vec3(-1, 1, 0));
+  sum += seen(Color(0.9f, 0.2f, 0.2f), Vec3(0, -1, 0));
+  return sum;
+}
+
+TEST(LightsTest, DeltaSamplesAddUpToAllDeltaLightsAndNothingElse) {
+  constexpr int kNumbers = 1 << 17;
+  for (const LightSelection selection : {LightSelection::tree, LightSelection::power}) {
+    const LitScene lit(delta_scene(), selection);
+    EXPECT_TRUE(lit.lights.has_delta());
+    for (const Vec3& n : {Vec3(0, 1, 0), Vec3(0, 0, 0), Vec3(0.6f, 0, 0.8f)}) {
+      Eigen::Array3d sum = Eigen::Array3d::Zero();
+      for (int i = 0; i < kNumbers; ++i) {
+        const float u_select = (static_cast<float>(i) + 0.5f) / kNumbers;
+        const LightSample sample = lit.lights.sample_delta(Vec3::Zero(), n, u_select, Vec2(0.5f, 0.5f));
+        if (!(sample.pdf > 0.0f)) continue;
+        ASSERT_TRUE(sample.delta);
+        ASSERT_NEAR(sample.wi.norm(), 1.0f, 1e-6f);
+        const float cosine = n.isZero(0.0f) ? 1.0f : std::max(0.0f, n.dot(sample.wi));
+        sum += (sample.radiance * (cosine / sample.pdf)).cast<double>();
+      }
+      // Each light's share of the numbers is met to within one of them.
+      for (int k = 0; k < 3; ++k) {
+        const double expected = static_cast<double>(delta_irradiance(n)[k]);
+        EXPECT_NEAR(sum[k] / kNumbers, expected, 1e-3 * expected) << n.transpose() << ", channel " << k;
+      }
+    }
+  }
+}
+
+TEST(LightsTest, DeltaSamplesLeaveOutWhatIsBelowTheHorizon) {
+  const LitScene lit(delta_scene());
+  for (int i = 0; i < 1000; ++i) {
+    const float u_select = (static_cast<float>(i) + 0.5f) / 1000.0f;
+    const LightSample up = lit.lights.sample_delta(Vec3::Zero(), Vec3::UnitY(), u_select, Vec2(0.5f, 0.5f));
+    ASSERT_GT(up.pdf, 0.0f);
+    ASSERT_GT(up.wi.y(), 0.0f);
+    const LightSample down =
+        lit.lights.sample_delta(Vec3::Zero(), -Vec3::UnitY(), u_select, Vec2(0.5f, 0.5f));
+    ASSERT_GT(down.pdf, 0.0f);
+    ASSERT_LT(down.wi.y(), 0.0f);
+  }
+}
+
+TEST(LightsTest, WithoutDeltaLightsNothingIsBuiltForThem) {
+  scene::Scene scene;
+  add_light(scene, {kOverhead}, Color(1, 1, 1));
+  scene.lights.emplace_back();
+  const LitScene both(scene);
+  scene.lights.clear();
+  const LitScene lit(std::move(scene));
+  EXPECT_FALSE(lit.lights.has_delta());
+  EXPECT_LT(lit.lights.bytes(), both.lights.bytes());
+  EXPECT_EQ(lit.lights.sample_delta(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.5f, 0.5f)).pdf, 0.0f);
+  // The lamp is none of them, the sky neither.
+  EXPECT_GT(lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.5f, 0.5f)).pdf, 0.0f);
 }
 
 }  // namespace
