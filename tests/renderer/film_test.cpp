@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <string>
+#include <vector>
+
 namespace gatelight::renderer {
 namespace {
 
@@ -40,6 +44,83 @@ TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
   EXPECT_FLOAT_EQ(picture.find("position")->values[2], 3.0f);
   EXPECT_FLOAT_EQ(picture.find("instance")->values[0], 7.0f);
   EXPECT_FLOAT_EQ(picture.find("primitive")->values[0], 123456.0f);
+}
+
+constexpr Aov kCacheAovs[] = {Aov::cache_answer, Aov::cache_error, Aov::training_count, Aov::resolution,
+                              Aov::nearest_node};
+
+FirstHit asked_hit(float answer, float error, float count, float resolution) {
+  FirstHit hit;
+  hit.hit = true;
+  hit.asked = true;
+  hit.answer = Color(answer, 2.0f * answer, 4.0f * answer);
+  hit.node = Color(0.5f, 0.25f, 1.0f);
+  hit.error = error;
+  hit.training_count = count;
+  hit.resolution = resolution;
+  return hit;
+}
+
+TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
+  Film film({0, 0, 1, 1}, 1, 1, kCacheAovs);
+  EXPECT_TRUE(film.needs_first_hits());
+  film.add(0, 0, asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
+  film.add(0, 0, asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
+  FirstHit silent = asked_hit(1e3f, 1e3f, 1e3f, 1e3f);
+  silent.asked = false;  // a hit where the cache was not asked: black, and no number
+  film.add(0, 0, silent);
+  film.add(0, 0, FirstHit{});
+  const Picture picture = film.resolve();
+  const auto values = [&](const char* name) { return picture.find(name)->values; };
+  EXPECT_EQ(values("cache-answer"), (std::vector<float>{2.0f, 4.0f, 8.0f}));
+  EXPECT_EQ(values("nearest-node"), (std::vector<float>{0.25f, 0.125f, 0.5f}));
+  EXPECT_EQ(values("cache-error"), std::vector<float>{1.0f});
+  EXPECT_EQ(values("training-count"), std::vector<float>{50005.5f});
+  EXPECT_EQ(values("resolution"), std::vector<float>{3.0f});
+}
+
+TEST(Film, CacheLayersAreBlackWhereNoCacheWasAsked) {
+  Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
+  FirstHit hit;
+  hit.hit = true;
+  film.add(0, 0, hit);
+  const Picture picture = film.resolve();
+  ASSERT_EQ(picture.layers.size(), 1 + std::size(kCacheAovs));
+  for (const Layer& layer : picture.layers) {
+    EXPECT_EQ(layer.values, std::vector<float>(2 * layer.channels.size(), 0.0f)) << layer.name;
+  }
+}
+
+TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
+  Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
+  film.add(1, 0, asked_hit(1.0f, 2.0f, 3.0f, 4.0f));
+  const Picture picture = film.resolve();
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  struct Expected {
+    const char* name;
+    std::vector<std::string> channels;
+    bool full_precision;
+    float value;  ///< of the second pixel's first channel
+  };
+  // Counts go beyond what a half float holds.
+  const Expected all[] = {{"cache-answer", rgb, false, 1.0f},
+                          {"cache-error", {"error"}, true, 2.0f},
+                          {"training-count", {"count"}, true, 3.0f},
+                          {"resolution", {"R"}, true, 4.0f},
+                          {"nearest-node", rgb, false, 0.5f}};
+  for (std::size_t i = 0; i < std::size(all); ++i) {
+    SCOPED_TRACE(all[i].name);
+    const Layer& layer = picture.layers[1 + i];  // as asked for, after the beauty
+    EXPECT_EQ(layer.name, all[i].name);
+    EXPECT_EQ(layer.channels, all[i].channels);
+    EXPECT_EQ(layer.full_precision, all[i].full_precision);
+    EXPECT_EQ(layer.values[0], 0.0f);
+    EXPECT_EQ(layer.values[layer.channels.size()], all[i].value);
+  }
+  // They come from the first hit, which costs memory; sample counts alone do not.
+  const Aov counts[] = {Aov::sample_count};
+  EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, counts).needs_first_hits());
+  EXPECT_GT(Film::bytes_per_pixel(kCacheAovs), Film::bytes_per_pixel(counts));
 }
 
 TEST(Film, AMillionSamplesDoNotDrift) {
