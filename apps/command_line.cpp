@@ -40,7 +40,7 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error) {
     const std::vector<std::string> rest = root.remaining();
     const std::string got =
         rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
-    return got + ", expected render, compare or info";
+    return got + ", expected render, compare, info or merge";
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
     return fmt::format("--config: {}, expected flags of '{}' and their values", error.what(),
@@ -82,6 +82,7 @@ int parse_and_run(int argc, const char* const* argv) {
       add_render_command(root, std::vector<std::string>(argv, argv + argc)),
       add_compare_command(root),
       add_info_command(root),
+      add_merge_command(root),
   };
   try {
     root.parse(argc, argv);

@@ -19,5 +19,6 @@ struct Subcommand {
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command);
 Subcommand add_compare_command(CLI::App& root);
 Subcommand add_info_command(CLI::App& root);
+Subcommand add_merge_command(CLI::App& root);
 
 }  // namespace gatelight::apps

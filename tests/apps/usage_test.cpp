@@ -38,7 +38,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   const Output root = run_gatelight({"--help"});
   EXPECT_EQ(root.exit_code, 0);
   EXPECT_EQ(root.err, "");
-  for (const char* word : {"render", "compare", "info", "--config", "Exit codes", "Examples"}) {
+  for (const char* word : {"render", "compare", "info", "merge", "--config", "Exit codes", "Examples"}) {
     EXPECT_THAT(root.out, HasSubstr(word));
   }
   const Output render = run_gatelight({"render", "--help"});
@@ -89,6 +89,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   }
   EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
   EXPECT_THAT(run_gatelight({"info", "--help"}).out, HasSubstr("Examples:"));
+  EXPECT_THAT(run_gatelight_inside({"merge", "--help"}).out, HasSubstr("Example:"));
 }
 
 TEST_F(Usage, VersionIsOneLineOnStdout) {

@@ -1,0 +1,93 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/image_read.h"
+#include "renderer/image_write.h"
+#include "tests/apps/process.h"
+#include "tests/apps/tiny_scene.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class MergeCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  std::string picture(const std::string& name, int width, float value,
+                      std::map<std::string, std::string> metadata = {}) const {
+    renderer::Picture picture{.width = width, .height = 1, .metadata = std::move(metadata)};
+    picture.layers = {{.channels = {"R", "G", "B"},
+                       .values = std::vector<float>(static_cast<std::size_t>(3 * width), value)}};
+    renderer::write_image(picture, folder / name, {.exr_float = true});
+    return path(name);
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
+  // 1 + 3/4096 needs more digits than half has.
+  const float fine = 1.0f + 1.0f / 1024.0f;
+  const std::string a = picture("a.exr", 2, 1.0f, {{"spp", "16"}, {"seed", "1"}});
+  const std::string b = picture("b.exr", 2, fine, {{"spp", "48"}, {"seed", "2"}});
+  const Output output = run_gatelight({"merge", "-o", path("m.exr"), a, b});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(output.out + output.err, "");
+  const renderer::Picture merged = renderer::read_image(path("m.exr"));
+  EXPECT_EQ(merged.layers[0].values, std::vector<float>(6, 1.0f + 3.0f / 4096.0f));
+  EXPECT_EQ(merged.metadata.at("spp"), "64");
+  EXPECT_EQ(merged.metadata.at("seed"), "1,2");
+}
+
+TEST_F(MergeCommand, MergesWhatRenderWrites) {
+  const std::string scene = folder.write("scene.gltf", tiny_scene());
+  for (const char* seed : {"1", "2"}) {
+    ASSERT_EQ(run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
+                                    "--spp", "2", "--seed", seed, "--aov", "variance,depth", "--quiet"})
+                  .exit_code,
+              0);
+  }
+  const Output output = run_gatelight_inside({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const renderer::Picture merged = renderer::read_image(path("m.exr"));
+  EXPECT_EQ(merged.layers.size(), 3u);
+  EXPECT_EQ(merged.metadata.at("spp"), "4");
+  EXPECT_EQ(merged.metadata.at("integrator"), "path");
+  EXPECT_FALSE(merged.metadata.contains("command"));
+}
+
+TEST_F(MergeCommand, EqualSeedsAreWarnedOf) {
+  const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
+  const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});
+  const Output output = run_gatelight({"merge", "-o", path("m.exr"), a, b});
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_THAT(output.err, AllOf(HasSubstr("a.exr"), HasSubstr("b.exr"), HasSubstr("same seed 7")));
+}
+
+TEST_F(MergeCommand, WrongFilesAreRefused) {
+  const std::string a = picture("a.exr", 1, 1.0f);
+  const auto code = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {"merge"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Output output = run_gatelight_inside(all);
+    EXPECT_EQ(output.out, "");
+    return output.exit_code;
+  };
+  EXPECT_EQ(code({"-o", path("m.png"), a, a}), 1);
+  EXPECT_EQ(code({"-o", path("m.exr"), a, path("b.png")}), 1);
+  EXPECT_EQ(code({"-o", path("m.exr")}), 1);
+  EXPECT_EQ(code({a, a}), 1);
+  EXPECT_EQ(code({"-o", path("no/m.exr"), a, a}), 3);
+  EXPECT_EQ(code({"-o", path("m.exr"), a, path("missing.exr")}), 2);
+  const Output sizes = run_gatelight_inside({"merge", "-o", path("m.exr"), a, picture("wide.exr", 2, 1.0f)});
+  EXPECT_EQ(sizes.exit_code, 2);
+  EXPECT_THAT(sizes.last_error_line(), AllOf(HasSubstr("a.exr"), HasSubstr("wide.exr"), HasSubstr("2x1")));
+  EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
