@@ -1,7 +1,7 @@
 #include "renderer/ao_integrator.h"
 
+#include "renderer/occlusion.h"
 #include "renderer/trace_timer.h"
-#include "renderer/warp.h"
 
 namespace gatelight::renderer {
 
@@ -40,16 +40,10 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
                        hit.primitive};
     }
     Ray ray;
-    ray.direction = Basis(surface.smooth_normal)
-                        .to_world(sample_cosine_hemisphere(
-                            samples[i].sampler.get_2d(dimension::kFirstVertex + dimension::kBsdfDirection)));
-    if (!(ray.direction.dot(surface.geometric_normal) > 0.0f)) {
+    if (!make_occlusion_ray(surface, samples[i], distance_, ray)) {
       results[i].radiance = Color::Zero();
       continue;
     }
-    ray.origin = surface.spawn(ray.direction);
-    ray.t_max = distance_;
-    ray.seed = hash(samples[i].seed + 1u);
     scratch.shadow_rays.push_back(ray);
     scratch.index.push_back(static_cast<std::uint32_t>(i));
   }

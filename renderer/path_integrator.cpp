@@ -9,27 +9,6 @@ namespace gatelight::renderer {
 
 namespace {
 
-/// How much a wholly diffuse bounce widens a ray's cone, radians. The next hit's textures are then read at a
-/// level that stays in the cache, and their detail is averaged by the hemisphere anyway.
-constexpr float kDiffuseSpread = 0.25f;
-
-/// Panes do not count as scattering events; after this many surfaces more than events a path ends.
-constexpr int kMaxPassed = 32;
-
-/// Distances below this fraction of the way to the light are its own surface.
-constexpr float kShadowEpsilon = 1e-4f;
-
-/// How many hits ahead of shading their data is asked for.
-constexpr std::size_t kTriangleAhead = 8;
-constexpr std::size_t kVerticesAhead = 4;
-
-Color absorption_of(const scene::Material& m) {
-  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
-  // Colour c after distance d: c = exp(-absorption d). A black channel absorbs within a thousandth of the
-  // distance.
-  return -m.attenuation_color.max(1e-30f).log() / m.attenuation_distance;
-}
-
 void append(std::vector<Ray>& log, const std::vector<Ray>& rays) {
   log.insert(log.end(), rays.begin(), rays.end());
 }
@@ -37,34 +16,7 @@ void append(std::vector<Ray>& log, const std::vector<Ray>& rays) {
 }  // namespace
 
 PathIntegrator::PathIntegrator(const World& world, const RenderOptions& options)
-    : world_(world), options_(options) {}
-
-float PathIntegrator::light_weight(float light_pdf, float bsdf_pdf) const {
-  switch (options_.direct) {
-    case DirectLight::nee:
-      return 1.0f;
-    case DirectLight::bsdf:
-      return 0.0f;
-    case DirectLight::mis:
-      break;
-  }
-  const float ratio = bsdf_pdf / light_pdf;
-  return options_.mis == MisHeuristic::balance ? 1.0f / (1.0f + ratio) : 1.0f / (1.0f + ratio * ratio);
-}
-
-float PathIntegrator::bsdf_weight(const Path& path, float light_pdf) const {
-  if (path.delta || light_pdf <= 0.0f) return 1.0f;
-  switch (options_.direct) {
-    case DirectLight::nee:
-      return 0.0f;
-    case DirectLight::bsdf:
-      return 1.0f;
-    case DirectLight::mis:
-      break;
-  }
-  const float ratio = light_pdf / path.pdf;
-  return options_.mis == MisHeuristic::balance ? 1.0f / (1.0f + ratio) : 1.0f / (1.0f + ratio * ratio);
-}
+    : world_(world), options_(options), mis_{options.direct, options.mis} {}
 
 void PathIntegrator::add_direct_light(const Path& path, const Surface& surface, const Bsdf& bsdf,
                                       const Vec3& normal, Scratch& scratch) const {
@@ -74,16 +26,10 @@ void PathIntegrator::add_direct_light(const Path& path, const Surface& surface, 
                            path.sampler.get_2d(base + dimension::kLightPoint));
   if (!(light.pdf > 0.0f)) return;
   const BsdfValue value = bsdf.evaluate(light.wi);
-  const float weight = light.delta ? 1.0f : light_weight(light.pdf, value.pdf);
+  const float weight = light.delta ? 1.0f : mis_.light_weight(light.pdf, value.pdf);
   const Color contribution = path.throughput * value.value * light.radiance * (weight / light.pdf);
   if (!(contribution > 0.0f).any()) return;
-  Ray ray;
-  ray.origin = surface.spawn(light.wi);
-  ray.direction = light.wi;
-  ray.t_max = light.distance * (1.0f - kShadowEpsilon) - 2.0f * surface.offset;
-  ray.seed = hash(path.seed ^ 0x5bd1e995u);
-  if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
-  scratch.shadow_rays.push_back(ray);
+  scratch.shadow_rays.push_back(shadow_ray(surface, light, path.seed));
   scratch.pending.push_back({contribution, path.index});
 }
 
@@ -94,17 +40,14 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   if (!hit) {
     const Color sky = world_.environment.radiance(direction);
     if ((sky > 0.0f).any()) {
-      const float pdf =
-          path.delta ? 0.0f : world_.lights.pdf_environment(path.previous, path.previous_normal, direction);
-      radiance += path.throughput * sky * bsdf_weight(path, pdf);
+      radiance += path.throughput * sky * sky_weight(world_, mis_, path.departure, direction);
     }
     return false;
   }
   if ((path.absorption > 0.0f).any()) path.throughput *= (-path.absorption * hit.t).exp();
 
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
-  const Surface surface =
-      world_.surfaces.at(hit, direction, cone_width, sampling::to_unit_float(hash(path.seed ^ 0x2545f491u)));
+  const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
   const bool record = path.vertex == 0 && !first_hits.empty();
   if (record) {
     FirstHit& first = first_hits[path.index];
@@ -117,11 +60,8 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
     first.albedo = surface.material.base_color;
   }
   if ((surface.emission > 0.0f).any()) {
-    const float pdf = path.delta || surface.unlit
-                          ? 0.0f
-                          : world_.lights.pdf_triangle(path.previous, path.previous_normal, hit.instance,
-                                                       hit.primitive, direction, path.travelled + hit.t);
-    radiance += path.throughput * surface.emission * bsdf_weight(path, pdf);
+    radiance += path.throughput * surface.emission *
+                emission_weight(world_, mis_, path.departure, hit, surface, direction);
   }
   if (surface.unlit || path.depth >= options_.max_depth) return false;
 
@@ -140,14 +80,10 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   path.radiance_scale *= sample.radiance_scale;
   const bool through_pane = sample.delta && sample.transmitted && surface.material.thin_walled;
   if (through_pane) {
-    path.travelled += hit.t;
+    path.departure.travelled += hit.t;
   } else {
     path.depth += 1;
-    path.previous = surface.position;
-    path.previous_normal = light_normal;
-    path.travelled = 0.0f;
-    path.pdf = sample.pdf;
-    path.delta = sample.delta;
+    path.departure = {surface.position, light_normal, 0.0f, sample.pdf, sample.delta};
     if (sample.transmitted && !surface.material.thin_walled) {
       path.absorption =
           surface.front ? absorption_of(world_.surfaces.material(hit.instance)) : Color(0.0f, 0.0f, 0.0f);
@@ -155,13 +91,11 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   }
   path.vertex += 1;
   if (path.vertex > path.depth + kMaxPassed) return false;
-  path.seed = hash(path.seed + 0x9e3779b9u);
+  path.seed = next_seed(path.seed);
 
   if (path.depth >= options_.min_depth) {
-    // The root of what is left: in bright rooms, where long paths carry much, roulette by the throughput
-    // itself costs more noise than it saves time (Country Kitchen: a tenth more noise in the same time).
-    const float survival = std::min(0.95f, std::sqrt(path.throughput.maxCoeff() / path.radiance_scale));
-    if (sampling::to_unit_float(hash(path.seed ^ 0x68bc21ebu)) >= survival) return false;
+    const float survival = survival_probability(path.throughput, path.radiance_scale);
+    if (roulette_number(path.seed) >= survival) return false;
     path.throughput /= survival;
   }
   path.ray.origin = surface.spawn(sample.wi);
@@ -182,7 +116,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
     path.ray = samples[i].camera_ray.ray;
     path.ray.seed = samples[i].seed;
     path.cone = samples[i].camera_ray.cone;
-    path.previous = path.ray.origin;
+    path.departure.position = path.ray.origin;
     path.index = static_cast<std::uint32_t>(i);
     path.seed = samples[i].seed;
     path.sampler = samples[i].sampler;

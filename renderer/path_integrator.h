@@ -7,6 +7,7 @@
 
 #include "renderer/camera_sample.h"
 #include "renderer/options.h"
+#include "renderer/scattering.h"
 #include "renderer/statistics.h"
 #include "renderer/world.h"
 
@@ -30,27 +31,22 @@ class PathIntegrator {
                Scratch& scratch) const;
   void add_direct_light(const Path& path, const Surface& surface, const Bsdf& bsdf, const Vec3& normal,
                         Scratch& scratch) const;
-  float light_weight(float light_pdf, float bsdf_pdf) const;
-  float bsdf_weight(const Path& path, float light_pdf) const;
 
   const World& world_;
   const RenderOptions& options_;
+  MisRule mis_;
 };
 
 struct PathIntegrator::Path {
   Ray ray;
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};
-  Color absorption{0.0f, 0.0f, 0.0f};   ///< per metre, of the medium the ray travels in
-  Vec3 previous = Vec3::Zero();         ///< the vertex that chose the direction, panes not counted
-  Vec3 previous_normal = Vec3::Zero();  ///< as next-event estimation saw it there
-  float travelled = 0.0f;               ///< metres between `previous` and the ray's origin: through panes
-  float radiance_scale = 1.0f;          ///< product of BsdfSample::radiance_scale: not a loss of power
-  float pdf = 0.0f;                     ///< of the direction, per solid angle
-  bool delta = true;                    ///< the direction came from the camera or a delta lobe
-  std::uint16_t depth = 0;              ///< scattering events so far
-  std::uint16_t vertex = 0;             ///< surfaces met so far: the block of sampler dimensions
-  std::uint32_t index = 0;              ///< into samples and results
+  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
+  Departure departure;
+  float radiance_scale = 1.0f;  ///< product of BsdfSample::radiance_scale: not a loss of power
+  std::uint16_t depth = 0;      ///< scattering events so far
+  std::uint16_t vertex = 0;     ///< surfaces met so far: the block of sampler dimensions
+  std::uint32_t index = 0;      ///< into samples and results
   std::uint32_t seed = 0;
   Sampler sampler;
 };

@@ -1,10 +1,7 @@
 #include "renderer/render.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -13,15 +10,18 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
-#include <tuple>
+#include <utility>
 
-#include "renderer/ao_integrator.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/cache/cache_session.h"
+#include "renderer/cache/cached_pass.h"
 #include "renderer/camera.h"
 #include "renderer/film.h"
 #include "renderer/memory_estimate.h"
-#include "renderer/path_integrator.h"
 #include "renderer/pixel_filter.h"
+#include "renderer/reference_pass.h"
 #include "renderer/threads.h"
+#include "renderer/tiles.h"
 #include "renderer/world.h"
 
 namespace gatelight::renderer {
@@ -30,16 +30,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Pixels of a tile's side. The camera rays of a tile, one a pixel, are traced as one batch: at depth four
-/// there are still enough of them to fill packets of 16, and their paths (200 bytes each) stay in the
-/// second-level cache.
-constexpr int kTile = 16;
-
 /// A pass is as many samples as take about this long, so that time limits, signals and snapshots are served
 /// soon.
 constexpr double kPassSeconds = 0.7;
-
-constexpr std::size_t kNonFiniteKept = 16;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -66,46 +59,6 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
   return options.memory_limit_bytes - (need.total() - need.bvh);
 }
 
-/// Morton order within a tile keeps packets of 16 rays square.
-struct TileOrder {
-  std::array<std::uint8_t, kTile * kTile> x{};
-  std::array<std::uint8_t, kTile * kTile> y{};
-};
-constexpr TileOrder kTileOrder = [] {
-  TileOrder order;
-  for (unsigned i = 0; i < kTile * kTile; ++i) {
-    unsigned x = 0;
-    unsigned y = 0;
-    for (unsigned bit = 0; bit < 4; ++bit) {
-      x |= (i >> (2 * bit) & 1u) << bit;
-      y |= (i >> (2 * bit + 1) & 1u) << bit;
-    }
-    order.x[i] = static_cast<std::uint8_t>(x);
-    order.y[i] = static_cast<std::uint8_t>(y);
-  }
-  return order;
-}();
-
-/// What one thread needs to trace a tile.
-struct Worker {
-  std::vector<CameraSample> samples;
-  std::vector<SampleResult> results;
-  std::vector<FirstHit> first_hits;
-  PathIntegrator::Scratch path;
-  AoIntegrator::Scratch ao;
-  RayCounts rays;
-  std::uint64_t nonfinite = 0;
-  std::uint64_t clamped = 0;
-  std::vector<NonFiniteSample> located;
-};
-
-void keep_first(std::vector<NonFiniteSample>& samples) {
-  std::sort(samples.begin(), samples.end(), [](const NonFiniteSample& a, const NonFiniteSample& b) {
-    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
-  });
-  if (samples.size() > kNonFiniteKept) samples.resize(kNonFiniteKept);
-}
-
 }  // namespace
 
 struct Renderer::Implementation {
@@ -117,6 +70,7 @@ struct Renderer::Implementation {
         control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
         arena(threads),
         region(resolve_region(options)),
+        tiles(region),
         camera(choose_camera(scene, options.camera,
                              static_cast<float>(options.width) / static_cast<float>(options.height)),
                options.width, options.height),
@@ -132,8 +86,6 @@ struct Renderer::Implementation {
       lights.emplace(scene, *textures, *environment, options.light_selection);
     });
     world.emplace(World{scene, requirements, *textures, *surfaces, *accel, *environment, *lights});
-    path.emplace(*world, options);
-    ao.emplace(*world, resolve_ao_distance(options.ao_distance, scene.bounds));
     statistics.build_seconds = seconds_since(start);
     statistics.width = region.width();
     statistics.height = region.height();
@@ -145,8 +97,7 @@ struct Renderer::Implementation {
     statistics.light_bytes = lights->bytes();
   }
 
-  void render_tile(int tile_x, int tile_y, std::uint32_t first_sample, std::uint32_t end_sample, Film& film,
-                   Worker& worker) const;
+  std::unique_ptr<CacheSession> train(const Callbacks& callbacks);
 
   const scene::Scene& scene;
   RenderOptions options;
@@ -155,6 +106,7 @@ struct Renderer::Implementation {
   tbb::global_control control;
   tbb::task_arena arena;
   PixelRect region;
+  TileGrid tiles;
   Camera camera;
   FilterSampler filter;
   std::size_t budget;
@@ -165,60 +117,39 @@ struct Renderer::Implementation {
   std::optional<Accel> accel;
   std::optional<Lights> lights;
   std::optional<World> world;
-  std::optional<PathIntegrator> path;
-  std::optional<AoIntegrator> ao;
   RenderStatistics statistics;
 };
 
-void Renderer::Implementation::render_tile(int tile_x, int tile_y, std::uint32_t first_sample,
-                                           std::uint32_t end_sample, Film& film, Worker& worker) const {
-  for (std::uint32_t sample = first_sample; sample < end_sample; ++sample) {
-    worker.samples.clear();
-    for (std::size_t i = 0; i < kTile * kTile; ++i) {
-      const int x = tile_x * kTile + kTileOrder.x[i];
-      const int y = tile_y * kTile + kTileOrder.y[i];
-      if (x < region.x0 || x >= region.x1 || y < region.y0 || y >= region.y1) continue;
-      const auto ux = static_cast<std::uint32_t>(x);
-      const auto uy = static_cast<std::uint32_t>(y);
-      CameraSample s;
-      s.sampler = Sampler(options.sampler, options.seed, ux, uy, sample);
-      s.seed = hash(hash(hash(hash(options.seed) + ux) + uy) + sample);
-      const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
-      s.camera_ray =
-          camera.ray(static_cast<float>(x) + 0.5f + offset.x(), static_cast<float>(y) + 0.5f + offset.y());
-      worker.samples.push_back(s);
-    }
-    worker.results.resize(worker.samples.size());
-    if (film.needs_first_hits()) worker.first_hits.resize(worker.samples.size());
-    if (options.integrator == Integrator::path) {
-      path->trace(worker.samples, worker.results, worker.first_hits, worker.rays, worker.path);
-    } else {
-      ao->trace(worker.samples, worker.results, worker.first_hits, worker.rays, worker.ao);
-    }
-    std::size_t i = 0;
-    for (std::size_t k = 0; k < kTile * kTile; ++k) {
-      const int x = tile_x * kTile + kTileOrder.x[k];
-      const int y = tile_y * kTile + kTileOrder.y[k];
-      if (x < region.x0 || x >= region.x1 || y < region.y0 || y >= region.y1) continue;
-      Color radiance = worker.results[i].radiance;
-      if (film.needs_first_hits()) film.add(x, y, worker.first_hits[i]);
-      ++i;
-      if (!radiance.isFinite().all()) {
-        ++worker.nonfinite;
-        worker.located.push_back({x, y, sample, options.seed});
-        if (worker.located.size() > 16 * kNonFiniteKept) keep_first(worker.located);
-        continue;
-      }
-      if (options.clamp > 0.0f) {
-        const float l = scene::luminance(radiance);
-        if (l > options.clamp) {
-          radiance *= options.clamp / l;
-          ++worker.clamped;
-        }
-      }
-      film.add(x, y, radiance);
-    }
-  }
+std::unique_ptr<CacheSession> Renderer::Implementation::train(const Callbacks& callbacks) {
+  const Clock::time_point start = Clock::now();
+  const auto report = [&](Phase phase, int done, int steps, double loss) {
+    if (!callbacks.progress) return;
+    callbacks.progress({.phase = phase,
+                        .steps_done = done,
+                        .steps = steps,
+                        .loss = loss,
+                        .spp = options.spp,
+                        .fraction = steps > 0 ? static_cast<double>(done) / steps : 0.0,
+                        .seconds = seconds_since(start)});
+  };
+  std::unique_ptr<CacheSession> session;
+  report(Phase::scout, 0, 0, 0.0);
+  arena.execute([&] { session = std::make_unique<CacheSession>(*world, camera, region, options); });
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height());
+  statistics.cache.steps_chosen = !options.cache.train_steps;
+  statistics.cache.steps_wanted = options.cache.train_steps.value_or(choose_training_steps(options, pixels));
+  double reported = -1.0;
+  CacheSession::Watch watch;
+  watch.stop = callbacks.stop;
+  watch.progress = [&](int done, int steps, double loss) {
+    const double now = seconds_since(start);
+    if (done < steps && now - reported < 0.1) return;
+    reported = now;
+    report(Phase::train, done, steps, loss);
+  };
+  arena.execute([&] { session->train(static_cast<std::uint64_t>(statistics.cache.steps_wanted), watch); });
+  return session;
 }
 
 Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
@@ -235,14 +166,18 @@ Picture Renderer::render(const Callbacks& callbacks) {
   const RenderOptions& options = self.options;
   RenderStatistics& statistics = self.statistics;
   Film film(self.region, options.width, options.height, options.aovs);
-  tbb::enumerable_thread_specific<Worker> workers;
-
-  // Tiles lie on the grid of the full picture, so that a region sees the same batches as the whole.
-  const int first_x = self.region.x0 / kTile;
-  const int first_y = self.region.y0 / kTile;
-  const int tiles_x = (self.region.x1 + kTile - 1) / kTile - first_x;
-  const int tiles_y = (self.region.y1 + kTile - 1) / kTile - first_y;
-  const int tiles = tiles_x * tiles_y;
+  const PassContext context{self.tiles, options, self.camera, self.filter};
+  std::unique_ptr<CacheSession> session;
+  CachedPass* cached = nullptr;
+  std::unique_ptr<Pass> pass;
+  if (uses_cache(options.integrator)) {
+    session = self.train(callbacks);
+    auto made = std::make_unique<CachedPass>(*self.world, context, *session);
+    cached = made.get();
+    pass = std::move(made);
+  } else {
+    pass = std::make_unique<ReferencePass>(*self.world, context);
+  }
 
   const Clock::time_point start = Clock::now();
   std::atomic<bool> stop{false};
@@ -261,31 +196,21 @@ Picture Renderer::render(const Callbacks& callbacks) {
   };
 
   int done = 0;
-  int pass = 1;
+  int batch = 1;
   while (done < options.spp) {
-    pass = std::min(pass, options.spp - done);
+    batch = std::min(batch, options.spp - done);
     const double pass_start = seconds_since(start);
-    std::atomic<int> finished{0};
     self.arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<int>(0, tiles, 1),
-          [&](const tbb::blocked_range<int>& range) {
-            Worker& worker = workers.local();
-            for (int t = range.begin(); t < range.end(); ++t) {
-              self.render_tile(first_x + t % tiles_x, first_y + t / tiles_x, static_cast<std::uint32_t>(done),
-                               static_cast<std::uint32_t>(done + pass), film, worker);
-              if (callbacks.stop && callbacks.stop()) stop = true;
-              report(done, static_cast<double>(++finished) / tiles, pass);
-            }
-          },
-          tbb::simple_partitioner());
+      pass->run(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(done + batch), film,
+                [&](double fraction) {
+                  if (callbacks.stop && callbacks.stop()) stop = true;
+                  report(done, fraction, batch);
+                });
     });
-    done += pass;
+    done += batch;
     const double now = seconds_since(start);
     if (options.nan_policy == NanPolicy::error) {
-      std::vector<NonFiniteSample> located;
-      for (Worker& w : workers) located.insert(located.end(), w.located.begin(), w.located.end());
-      keep_first(located);
+      const std::vector<NonFiniteSample> located = pass->counts().located;
       if (!located.empty()) {
         throw NumericalError(fmt::format("sample {} of pixel {},{} (seed {}) is not finite",
                                          located[0].sample, located[0].x, located[0].y, located[0].seed));
@@ -302,31 +227,29 @@ Picture Renderer::render(const Callbacks& callbacks) {
       statistics.interrupted = true;
       break;
     }
-    const double per_sample = (now - pass_start) / pass;
+    const double per_sample = (now - pass_start) / batch;
     double budget = kPassSeconds;
     if (options.time_limit_seconds > 0.0) budget = std::min(budget, options.time_limit_seconds - now);
-    pass = std::max(1, std::min(2 * pass, static_cast<int>(budget / std::max(per_sample, 1e-9))));
+    batch = std::max(1, std::min(2 * batch, static_cast<int>(budget / std::max(per_sample, 1e-9))));
   }
 
   statistics.render_seconds = seconds_since(start);
   statistics.spp = done;
   statistics.samples = static_cast<std::uint64_t>(done) * static_cast<std::uint64_t>(self.region.width()) *
                        static_cast<std::uint64_t>(self.region.height());
-  statistics.rays = {};
-  statistics.nonfinite = 0;
-  statistics.clamped = 0;
-  statistics.nonfinite_samples.clear();
-  for (const Worker& w : workers) {
-    statistics.rays.camera += w.rays.camera;
-    statistics.rays.bounce += w.rays.bounce;
-    statistics.rays.shadow += w.rays.shadow;
-    statistics.rays.seconds += w.rays.seconds;
-    statistics.nonfinite += w.nonfinite;
-    statistics.clamped += w.clamped;
-    statistics.nonfinite_samples.insert(statistics.nonfinite_samples.end(), w.located.begin(),
-                                        w.located.end());
+  statistics.rays = pass->rays();
+  if (session) {
+    statistics.rays.add(session->rays());
+    CacheStatistics cache = session->statistics();
+    cache.steps_chosen = statistics.cache.steps_chosen;
+    cache.steps_wanted = statistics.cache.steps_wanted;
+    cached->add_to(cache);
+    statistics.cache = std::move(cache);
   }
-  keep_first(statistics.nonfinite_samples);
+  SampleCounts counts = pass->counts();
+  statistics.nonfinite = counts.nonfinite;
+  statistics.clamped = counts.clamped;
+  statistics.nonfinite_samples = std::move(counts.located);
   if (callbacks.progress)
     callbacks.progress(
         {.spp_done = done, .spp = options.spp, .fraction = 1.0, .seconds = statistics.render_seconds});

@@ -20,6 +20,13 @@ struct RayCounts {
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
   double seconds = 0.0;  ///< spent tracing them, summed over threads
+
+  void add(const RayCounts& other) {
+    camera += other.camera;
+    bounce += other.bounce;
+    shadow += other.shadow;
+    seconds += other.seconds;
+  }
 };
 
 /// What the cache learned and answered; zero for integrators without one. Seconds are wall time.

@@ -1,0 +1,85 @@
+#include "renderer/cache/cache_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "neural/cpu/cpu_backend.h"
+#include "neural/errors.h"
+#include "renderer/cache/surface_layout.h"
+#include "renderer/errors.h"
+
+namespace gatelight::renderer {
+
+neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options) {
+  const CacheOptions& cache = options.cache;
+  const bool hash_grid = cache.encoding == neural::FeatureEncoding::hash_grid;
+  neural::RequiredInputs required;
+  // Occlusion is the same from everywhere.
+  required.direction = cache.direction_input.value_or(options.integrator == Integrator::nrc &&
+                                                      world.requirements.view_dependent);
+  required.normal = cache.normal_input.value_or(hash_grid);
+  required.albedo = cache.albedo_input.value_or(hash_grid && options.integrator == Integrator::nrc);
+  return required;
+}
+
+std::shared_ptr<const neural::Model> make_cache_model(const World& world, const RenderOptions& options,
+                                                      const CacheSetup& setup) {
+  const CacheOptions& cache = options.cache;
+  neural::ModelConfig config;
+  config.encoding = cache.encoding;
+  config.gate = cache.gate;
+  config.gate.node_spacing = setup.node_spacing;
+  config.gate.memory_budget = cache.memory_bytes;
+  config.gate.bytes_per_feature = cache.training.precision == neural::FeaturePrecision::fp32 ? 4 : 2;
+  config.hash_grid = cache.hash_grid;
+  config.hash_grid.memory_target = cache.memory_bytes;
+  config.hash_grid.bytes_per_feature = config.gate.bytes_per_feature;
+  const scene::Box& bounds = world.scene.bounds;
+  if (!bounds.isEmpty()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      config.hash_grid.bounds_min[static_cast<std::size_t>(axis)] = bounds.min()[axis];
+      config.hash_grid.bounds_max[static_cast<std::size_t>(axis)] = bounds.max()[axis];
+    }
+  }
+  config.auxiliary = neural::composite_inputs(required_inputs(world, options));
+  config.mlp = cache.mlp;
+  config.mlp.outputs = options.integrator == Integrator::nao ? 1 : 3;
+  if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
+  const WeldedMeshes meshes(world.scene);
+  return neural::make_model(config, meshes.layout(world.scene, setup.sides));
+}
+
+neural::TrainingOptions training_options(const RenderOptions& options) {
+  neural::TrainingOptions training = options.cache.training;
+  training.seed = training.seed * 0x9e3779b97f4a7c15u + options.seed;
+  // One number alone is compared with itself: its loss needs no weight.
+  if (options.integrator == Integrator::nao) training.loss = neural::Loss::l2;
+  return training;
+}
+
+std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural::Model> model,
+                                                    const RenderOptions& options) {
+  if (options.cache.device != "cpu") {
+    throw Unavailable(fmt::format("--device {}: not in this build, expected cpu", options.cache.device));
+  }
+  std::optional<neural::cpu::Isa> isa;
+  if (options.isa != "auto") isa = neural::cpu::parse_isa(options.isa);
+  try {
+    return neural::cpu::make_cpu_backend(std::move(model), training_options(options), isa);
+  } catch (const neural::Unavailable& error) {
+    throw Unavailable(error.what());
+  }
+}
+
+int choose_training_steps(const RenderOptions& options, std::uint64_t pixels) {
+  const double samples = static_cast<double>(pixels) * options.spp;
+  const double batches = 16384.0 / options.cache.batch;
+  if (options.integrator == Integrator::nao)
+    return static_cast<int>(std::lround(128.0 * std::max(1.0, batches / 3.0)));
+  const double steps = 0.1 * std::sqrt(samples) * batches;
+  return static_cast<int>(std::lround(std::clamp(steps, 32.0 * batches, 2048.0 * batches)));
+}
+
+}  // namespace gatelight::renderer

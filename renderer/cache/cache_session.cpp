@@ -1,0 +1,260 @@
+#include "renderer/cache/cache_session.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "renderer/cache/cache_model.h"
+#include "renderer/cache/occlusion_records.h"
+#include "renderer/cache/radiance_records.h"
+#include "renderer/cache/surface_layout.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The reported loss is the mean of so many last steps.
+constexpr std::size_t kLossWindow = 16;
+
+// The divergence guard: a running mean of the loss that grows tenfold over its least value. Single bright
+// records raise one step's loss a hundredfold and more, so that the mean is slow.
+constexpr double kGuardDecay = 0.98;
+constexpr std::uint64_t kGuardFrom = 100;
+constexpr double kGuardFactor = 10.0;
+
+bool counts_needed(const RenderOptions& options) {
+  return options.cache.candidates > 1 ||
+         std::find(options.aovs.begin(), options.aovs.end(), Aov::training_count) != options.aovs.end();
+}
+
+}  // namespace
+
+CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
+                           const RenderOptions& options, const CacheSetup* setup)
+    : world_(world), options_(options) {
+  Clock::time_point start = Clock::now();
+  if (setup) {
+    setup_ = *setup;
+  } else {
+    ScoutReport report = scout(world, camera, region, options);
+    setup_ = std::move(report.setup);
+    scout_rays_ = report.rays;
+  }
+  statistics_.scout_seconds = seconds_since(start);
+
+  const std::shared_ptr<const neural::Model> cache_model = make_cache_model(world, options, setup_);
+  trainer_ = std::make_unique<neural::Trainer>(cache_model, training_options(options),
+                                               make_cache_backend(cache_model, options));
+  inputs_ = PointInputs(cache_model->config);
+  const bool gate = cache_model->config.encoding == neural::FeatureEncoding::gate;
+  if (gate) stored_ = StoredSurfaces(cache_model->gate);
+  std::vector<neural::Sides> sides = setup_.sides;
+  points_ = std::make_unique<TrainingPoints>(world, camera, region, options, sides,
+                                             gate ? &cache_model->gate : nullptr);
+  if (gate && counts_needed(options)) {
+    counts_.assign(cache_model->gate.triangle_count, 0);
+    counted_at_.assign(counts_.size(), 0);
+  }
+  paths_ = std::make_unique<CachedPaths>(world, options, stored_);
+  if (options.integrator == Integrator::nao) {
+    records_ = std::make_unique<OcclusionRecords>(
+        world, *points_, options, stored_, resolve_ao_distance(options.ao_distance, world.scene.bounds),
+        inputs_);
+  } else {
+    records_ = std::make_unique<RadianceRecords>(*paths_, *points_, options, inputs_);
+  }
+
+  for (std::size_t i = 0; i < setup_.sides.size(); ++i) {
+    const auto sides_of = [](neural::Sides s) -> std::uint64_t {
+      return s == neural::Sides::both ? 2 : s == neural::Sides::none ? 0 : 1;
+    };
+    statistics_.surfaces_stored += sides_of(setup_.sides[i]);
+    statistics_.surfaces_possible += sides_of(possible_sides(world.scene, world.scene.instances[i]));
+  }
+  statistics_.nodes = cache_model->parameters.node_count;
+  statistics_.node_spacing = gate ? cache_model->gate.report.node_spacing : 0.0f;
+  statistics_.target_scale = setup_.target_scale;
+  statistics_.records_per_path = static_cast<double>(setup_.records_per_path);
+  statistics_.resolution_histogram = cache_model->gate.report.resolution_histogram;
+  statistics_.layout_bytes = cache_model->gate.report.topology_bytes + cache_model->gate.report.table_bytes;
+  statistics_.parameter_bytes = trainer_->backend().parameter_bytes();
+  statistics_.optimizer_bytes = trainer_->backend().optimizer_bytes();
+  statistics_.backend = trainer_->backend().name();
+}
+
+CacheSession::~CacheSession() = default;
+
+RecordRequest CacheSession::request(std::uint64_t step) const {
+  const SelfTrainingOptions& self = options_.cache.self_training;
+  RecordRequest request;
+  request.step = step;
+  request.self_training = options_.integrator == Integrator::nrc && self.start_step >= 0 &&
+                          step >= static_cast<std::uint64_t>(self.start_step);
+  const double per_point =
+      static_cast<double>(request.self_training ? setup_.records_per_short_path : setup_.records_per_path);
+  // A few points more than enough: the number of records varies, and what is too much is left out.
+  const double slack = options_.integrator == Integrator::nrc ? 1.03 : 1.0;
+  request.points =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(slack * options_.cache.batch / per_point)));
+  request.most_records = options_.cache.batch;
+  request.target_scale = options_.integrator == Integrator::nrc ? setup_.target_scale : 1.0f;
+  if (options_.cache.candidates > 1) request.counts = counts_;
+  return request;
+}
+
+void CacheSession::count_triangles(const SurfacePoints& records) {
+  if (counts_.empty()) return;
+  const neural::GateLayout& layout = model().gate;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const neural::GateSurface& surface = layout.surfaces[records.surface(i)];
+    if (surface.triangle_count == 0) continue;
+    const std::size_t triangle = surface.first_triangle + records.triangle(i);
+    // Once a step, however many records lie on it.
+    if (counted_at_[triangle] == steps_ + 1) continue;
+    counted_at_[triangle] = steps_ + 1;
+    if (counts_[triangle] != ~0u) ++counts_[triangle];
+  }
+}
+
+void CacheSession::guard(double loss) {
+  const double weight = 1.0 - kGuardDecay;
+  loss_average_ = steps_ <= 1 ? loss : loss_average_ + weight * (loss - loss_average_);
+  if (!std::isfinite(loss)) {
+    throw NumericalError(
+        fmt::format("training step {}: the loss is not finite; lower --learning-rate", steps_));
+  }
+  if (steps_ < kGuardFrom) {
+    loss_least_ = loss_average_;
+    return;
+  }
+  loss_least_ = std::min(loss_least_, loss_average_);
+  if (loss_average_ > kGuardFactor * loss_least_ && loss_least_ > 0.0) {
+    throw NumericalError(
+        fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}; lower --learning-rate or "
+                    "--self-training-attenuation",
+                    steps_, loss_least_, loss_average_));
+  }
+}
+
+void CacheSession::train(std::uint64_t steps, const Watch& watch) {
+  const Clock::time_point start = Clock::now();
+  const auto wanted = static_cast<int>(steps);
+  RecordBatch batch;
+  RecordBatch next;
+  const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
+    const Clock::time_point begin = Clock::now();
+    const std::uint64_t negative = statistics_.negative_answers;
+    answer(points, answers);
+    statistics_.negative_answers = negative;
+    statistics_.train_query_seconds += seconds_since(begin);
+  };
+  const auto trace = [&](std::uint64_t step, RecordBatch& into) {
+    const Clock::time_point begin = Clock::now();
+    records_->trace(request(step), into);
+    statistics_.train_trace_seconds += seconds_since(begin);
+  };
+  if (steps_ < steps) trace(steps_, batch);
+  while (steps_ < steps) {
+    Clock::time_point begin = Clock::now();
+    const double queried = statistics_.train_query_seconds;
+    records_->finish(request(steps_), answer_tail, batch);
+    statistics_.train_trace_seconds += seconds_since(begin) - (statistics_.train_query_seconds - queried);
+    count_triangles(batch.records);
+
+    begin = Clock::now();
+    const neural::StepStatistics step = trainer_->train(batch.batch());
+    statistics_.train_step_seconds += seconds_since(begin);
+    ++steps_;
+    statistics_.steps += 1;
+    statistics_.records += step.records;
+    statistics_.rejected += step.rejected;
+    statistics_.unstored += step.unstored;
+    statistics_.training_paths += batch.paths_traced;
+    statistics_.touched_nodes = step.touched_nodes;
+    last_losses_.push_back(step.loss);
+    if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
+    guard(step.loss);
+    const double mean_loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
+                             static_cast<double>(last_losses_.size());
+    statistics_.loss = mean_loss;
+
+    if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, mean_loss);
+    if (watch.after_step) watch.after_step();
+    const double limit = options_.cache.train_seconds;
+    if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
+    if (steps_ < steps) trace(steps_, next);
+    std::swap(batch, next);
+  }
+  statistics_.train_seconds += seconds_since(start);
+}
+
+void CacheSession::answer(const SurfacePoints& points, std::span<float> answers) {
+  const bool occlusion = options_.integrator == Integrator::nao;
+  neural::QueryOptions query;
+  query.precision = options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32;
+  query.range = neural::OutputRange::raw;
+  trainer_->query(points.batch(), query, answers);
+  const float scale = 1.0f / setup_.target_scale;
+  const std::size_t outputs = this->outputs();
+  statistics_.negative_answers += tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), 4096), std::uint64_t{0},
+      [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t negative) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          bool below = false;
+          for (float& a : answers.subspan(outputs * i, outputs)) {
+            if (!(a >= 0.0f)) {
+              below = true;
+              a = 0.0f;
+            }
+            a = occlusion ? std::min(a, 1.0f) : std::min(a * scale, std::numeric_limits<float>::max());
+          }
+          if (below) ++negative;
+        }
+        return negative;
+      },
+      std::plus<>());
+}
+
+CacheState CacheSession::export_state() const {
+  CacheState state;
+  state.setup = setup_;
+  state.model = trainer_->backend().export_state();
+  state.steps = steps_;
+  state.triangle_counts = counts_;
+  state.loss_average = loss_average_;
+  state.loss_least = loss_least_;
+  return state;
+}
+
+void CacheSession::import_state(const CacheState& state) {
+  trainer_->backend().import_state(state.model);
+  steps_ = state.steps;
+  if (state.triangle_counts.size() == counts_.size()) counts_ = state.triangle_counts;
+  std::fill(counted_at_.begin(), counted_at_.end(), 0);
+  loss_average_ = state.loss_average;
+  loss_least_ = state.loss_least;
+}
+
+RayCounts CacheSession::rays() const {
+  RayCounts sum = scout_rays_;
+  sum.add(records_->rays());
+  return sum;
+}
+
+CacheStatistics CacheSession::statistics() const {
+  return statistics_;
+}
+
+}  // namespace gatelight::renderer

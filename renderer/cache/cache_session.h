@@ -1,0 +1,78 @@
+#pragma once
+// A cache in a renderer: set up for a scene, trained, asked.
+
+#include <functional>
+#include <memory>
+
+#include "neural/trainer.h"
+#include "renderer/cache/cache_state.h"
+#include "renderer/cache/cached_paths.h"
+#include "renderer/cache/record_batch.h"
+#include "renderer/cache/scouting.h"
+#include "renderer/render.h"
+
+namespace gatelight::renderer {
+
+class CacheSession {
+ public:
+  /// Scouts unless a setup is given, and builds the model. World, camera and options outlive it. Runs in the
+  /// caller's arena, as all that follows. Throws neural::BadConfiguration, Unavailable.
+  CacheSession(const World& world, const Camera& camera, const PixelRect& region,
+               const RenderOptions& options, const CacheSetup* setup = nullptr);
+  ~CacheSession();
+
+  /// What training may be told and asked between steps.
+  struct Watch {
+    std::function<void(int done, int steps, double loss)> progress;
+    std::function<bool()> stop;
+    std::function<void()> after_step;  ///< export_state() is consistent here
+  };
+  /// Learns until `state.steps` reaches `steps`, or until stopped or out of time. The same bits for any
+  /// number of threads. Throws NumericalError when the loss grows without end.
+  void train(std::uint64_t steps, const Watch& watch);
+  std::uint64_t steps() const { return steps_; }
+
+  /// Answers in the picture's units: radiance over reflectance (3 floats a point) or openness (1). Not finite
+  /// or negative ones become zero and are counted. One thread at a time.
+  void answer(const SurfacePoints& points, std::span<float> answers);
+
+  CacheState export_state() const;
+  /// The setup must be this session's.
+  void import_state(const CacheState& state);
+
+  const neural::Model& model() const { return trainer_->model(); }
+  const StoredSurfaces& stored() const { return stored_; }
+  const PointInputs& inputs() const { return inputs_; }
+  const CacheSetup& setup() const { return setup_; }
+  std::span<const std::uint32_t> triangle_counts() const { return counts_; }
+  std::uint64_t outputs() const { return model().config.mlp.outputs; }
+  /// Of scouting and training.
+  RayCounts rays() const;
+  /// Everything about the cache but what rendering adds.
+  CacheStatistics statistics() const;
+
+ private:
+  RecordRequest request(std::uint64_t step) const;
+  void count_triangles(const SurfacePoints& records);
+  void guard(double loss);
+
+  const World& world_;
+  const RenderOptions& options_;
+  CacheSetup setup_;
+  std::unique_ptr<neural::Trainer> trainer_;
+  PointInputs inputs_;
+  StoredSurfaces stored_;
+  std::unique_ptr<TrainingPoints> points_;
+  std::unique_ptr<CachedPaths> paths_;
+  std::unique_ptr<RecordSource> records_;
+  std::uint64_t steps_ = 0;
+  std::vector<std::uint32_t> counts_;
+  std::vector<std::uint64_t> counted_at_;  ///< step after which a triangle was counted last
+  double loss_average_ = 0.0;
+  double loss_least_ = 0.0;
+  std::vector<double> last_losses_;
+  RayCounts scout_rays_;
+  CacheStatistics statistics_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,295 @@
+#include "renderer/cache/cached_pass.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "neural/mesh_colors.h"
+#include "renderer/ao_integrator.h"
+#include "renderer/occlusion.h"
+#include "renderer/trace_timer.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Tiles that are asked for together: some ten thousand points, enough for the kernels' threads and for a
+/// device that wants them by the thousand, few enough to stay in the last-level cache.
+constexpr int kTilesTogether = 256;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A colour that stands for a number.
+Color color_of(std::uint32_t number) {
+  const std::uint32_t h = hash(number + 1u);
+  return Color(static_cast<float>(h & 255u), static_cast<float>(h >> 8 & 255u),
+               static_cast<float>(h >> 16 & 255u)) /
+         255.0f;
+}
+
+template <typename Function>
+void for_each_tile(std::size_t count, Function function) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t t = range.begin(); t < range.end(); ++t) function(t);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace
+
+CachedPass::CachedPass(const World& world, const PassContext& context, CacheSession& session)
+    : world_(world),
+      context_(context),
+      session_(session),
+      // The cache's own picture shows what it says everywhere, even where it never learned.
+      stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
+      paths_(world, context.options, stored_),
+      ao_distance_(resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
+      needs_error_(std::find(context.options.aovs.begin(), context.options.aovs.end(), Aov::cache_error) !=
+                   context.options.aovs.end()),
+      queries_(session.inputs()) {
+  plan_.query_at = context.options.cache.query_at;
+  plan_.max_depth = context.options.max_depth;
+  plan_.min_depth = context.options.min_depth;
+  if (context.options.cache.view == CacheView::cache) {
+    if (plan_.query_at != QueryAt::none) plan_.query_at = QueryAt::primary;
+    plan_.records = plan_.query_at == QueryAt::none;
+  }
+}
+
+void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
+                     const std::function<void(double)>& report) {
+  const auto& [grid, options, camera, filter] = context_;
+  const bool occlusion = options.integrator == Integrator::nao;
+  const std::size_t outputs = session_.outputs();
+  const int chunks = (grid.count() + kTilesTogether - 1) / kTilesTogether;
+  const double all = static_cast<double>(end - first) * chunks;
+  int done = 0;
+  for (std::uint32_t sample = first; sample < end; ++sample) {
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      const int first_tile = chunk * kTilesTogether;
+      const auto count = static_cast<std::size_t>(std::min(kTilesTogether, grid.count() - first_tile));
+      tiles_.resize(std::max(tiles_.size(), count));
+      Clock::time_point start = Clock::now();
+      for_each_tile(count, [&](std::size_t t) {
+        Tile& tile = tiles_[t];
+        if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
+        grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
+        make_camera_samples(tile.pixels, sample, options, camera, filter, tile.samples);
+        tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
+        tile.results.resize(tile.pixels.size());
+        Worker& worker = workers_.local();
+        occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
+      });
+      std::size_t asked = 0;
+      for (std::size_t t = 0; t < count; ++t) {
+        tiles_[t].first_query = asked;
+        asked += tiles_[t].paths.queries.size();
+      }
+      queries_.resize(asked);
+      for_each_tile(count, [&](std::size_t t) {
+        const SurfacePoints& points = tiles_[t].paths.queries;
+        queries_.copy(points, 0, points.size(), tiles_[t].first_query);
+      });
+      answers_.resize(outputs * asked);
+      statistics_.render_trace_seconds += seconds_since(start);
+
+      start = Clock::now();
+      const std::uint64_t negative = session_.statistics().negative_answers;
+      if (asked > 0) session_.answer(queries_, answers_);
+      statistics_.negative_answers += session_.statistics().negative_answers - negative;
+      statistics_.render_query_seconds += seconds_since(start);
+      statistics_.queries += asked;
+
+      start = Clock::now();
+      for_each_tile(count, [&](std::size_t t) {
+        Tile& tile = tiles_[t];
+        Worker& worker = workers_.local();
+        occlusion ? finish_occlusion(tile) : finish_paths(tile, worker);
+        if (!tile.first_hits.empty()) describe_answers(tile, worker);
+        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.samples);
+      });
+      for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
+      statistics_.render_trace_seconds += seconds_since(start);
+      report(++done / all);
+    }
+  }
+}
+
+void CachedPass::trace_paths(Tile& tile, Worker& worker) const {
+  tile.starts.resize(tile.samples.size());
+  for (std::size_t i = 0; i < tile.samples.size(); ++i) tile.starts[i].sample = tile.samples[i];
+  paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.counts, worker.scratch);
+}
+
+void CachedPass::finish_paths(Tile& tile, Worker& /*worker*/) const {
+  tile.radiance.resize(tile.samples.size());
+  const std::span<const float> answers =
+      std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
+  tile.paths.resolve(answers, tile.radiance);
+  if (context_.options.cache.view == CacheView::cache) {
+    // Without a record's or an answer's point there is nothing that the cache would show.
+    const bool traced = plan_.query_at == QueryAt::none;
+    const std::vector<std::int32_t>& at = traced ? tile.paths.first_records : tile.paths.first_queries;
+    const float* const values = traced ? tile.paths.targets.data() : answers.data();
+    for (std::size_t i = 0; i < tile.radiance.size(); ++i) {
+      tile.radiance[i] = at[i] == kNone
+                             ? Color(Color::Zero())
+                             : Color(Eigen::Map<const Color>(values + 3 * static_cast<std::size_t>(at[i])));
+    }
+  }
+  for (std::size_t i = 0; i < tile.radiance.size(); ++i) tile.results[i].radiance = tile.radiance[i];
+}
+
+void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
+  const std::size_t size = tile.samples.size();
+  worker.rays.resize(size);
+  worker.hits.resize(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    worker.rays[i] = tile.samples[i].camera_ray.ray;
+    worker.rays[i].seed = tile.samples[i].seed;
+  }
+  worker.counts.camera += size;
+  {
+    const TraceTimer timer(worker.counts);
+    world_.accel.intersect(worker.rays, worker.hits, true);
+  }
+  tile.paths.queries.clear();
+  tile.paths.first_queries.assign(size, kNone);
+  tile.paths.unstored_hits = 0;
+  worker.occlusion_rays.clear();
+  worker.occlusion_index.clear();
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i + kTriangleAhead < size) world_.surfaces.prefetch_triangle(worker.hits[i + kTriangleAhead]);
+    if (i + kVerticesAhead < size) world_.surfaces.prefetch_vertices(worker.hits[i + kVerticesAhead]);
+    tile.results[i].radiance = Color::Ones();
+    if (!tile.first_hits.empty()) tile.first_hits[i] = {};
+    const Hit& hit = worker.hits[i];
+    if (!hit) continue;
+    const Ray& ray = worker.rays[i];
+    const RayCone& cone = tile.samples[i].camera_ray.cone;
+    const Surface surface = world_.surfaces.at(hit, ray.direction, cone.width + cone.spread * hit.t, 0.5f);
+    if (!tile.first_hits.empty()) {
+      FirstHit& first = tile.first_hits[i];
+      first.hit = true;
+      first.albedo = surface.material.base_color;
+      first.normal = surface.shading_normal;
+      first.position = surface.position;
+      first.depth = hit.t;
+      first.instance = hit.instance;
+      first.primitive = hit.primitive;
+    }
+    const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
+    if (stored_(neural::surface_index(hit.instance, side))) {
+      tile.paths.first_queries[i] = static_cast<std::int32_t>(tile.paths.queries.size());
+      tile.paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
+      continue;
+    }
+    // Where the cache has no storage one ray is traced, as the reference does.
+    ++tile.paths.unstored_hits;
+    Ray occlusion_ray;
+    if (make_occlusion_ray(surface, tile.samples[i], ao_distance_, occlusion_ray)) {
+      worker.occlusion_rays.push_back(occlusion_ray);
+      worker.occlusion_index.push_back(static_cast<std::uint32_t>(i));
+    } else {
+      tile.results[i].radiance = Color::Zero();
+    }
+  }
+  if (worker.occlusion_rays.empty()) return;
+  worker.counts.shadow += worker.occlusion_rays.size();
+  worker.transmittance.resize(worker.occlusion_rays.size());
+  {
+    const TraceTimer timer(worker.counts);
+    world_.accel.transmittance(worker.occlusion_rays, worker.transmittance);
+  }
+  for (std::size_t i = 0; i < worker.occlusion_index.size(); ++i)
+    tile.results[worker.occlusion_index[i]].radiance = worker.transmittance[i];
+}
+
+void CachedPass::finish_occlusion(Tile& tile) const {
+  for (std::size_t i = 0; i < tile.results.size(); ++i) {
+    const std::int32_t query = tile.paths.first_queries[i];
+    if (query == kNone) continue;
+    tile.results[i].radiance.setConstant(answers_[tile.first_query + static_cast<std::size_t>(query)]);
+  }
+}
+
+void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
+  const std::size_t outputs = session_.outputs();
+  const neural::Model& model = session_.model();
+  const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
+  const bool errors = needs_error_ && context_.options.integrator == Integrator::nrc;
+  if (errors) {
+    if (worker.check.queries.inputs() != session_.inputs()) worker.check = PathBatch(session_.inputs());
+    PathPlan plan = plan_;
+    plan.query_at = QueryAt::none;
+    plan.records = true;
+    paths_.trace(tile.starts, {}, plan, worker.check, {}, worker.counts, worker.scratch);
+    worker.check.resolve({}, {});
+  }
+  for (std::size_t i = 0; i < tile.first_hits.size(); ++i) {
+    if (tile.paths.first_queries[i] == kNone) continue;
+    const auto query = static_cast<std::size_t>(tile.paths.first_queries[i]);
+    FirstHit& first = tile.first_hits[i];
+    first.asked = true;
+    const float* const answer = &answers_[outputs * (tile.first_query + query)];
+    for (int c = 0; c < 3; ++c) first.answer[c] = answer[outputs == 3 ? c : 0];
+    if (errors && worker.check.first_records[i] != kNone) {
+      const float scale = session_.setup().target_scale;
+      const Color y = first.answer * scale;
+      const Color target =
+          Eigen::Map<const Color>(
+              &worker.check.targets[3 * static_cast<std::size_t>(worker.check.first_records[i])]) *
+          scale;
+      const float luminance = scene::luminance(y);
+      first.error = (y - target).square().mean() /
+                    (luminance * luminance + static_cast<float>(neural::kRelativeLossEpsilon));
+    }
+    if (!gate) continue;
+    const std::uint32_t surface = tile.paths.queries.surface(query);
+    const std::uint32_t triangle = tile.paths.queries.triangle(query);
+    const neural::GateSurface& s = model.gate.surfaces[surface];
+    if (!session_.triangle_counts().empty() && s.triangle_count > 0)
+      first.training_count = static_cast<float>(session_.triangle_counts()[s.first_triangle + triangle]);
+    first.resolution =
+        static_cast<float>(model.gate.levels[std::size_t{surface} * model.gate.stack].resolution);
+    const neural::Float2& b = tile.paths.queries.barycentrics(query);
+    const auto nodes =
+        neural::gate_lookup<float>(model.gate, surface, 0, triangle, {1.0f - b[0] - b[1], b[0], b[1]});
+    if (nodes) {
+      const auto nearest = static_cast<std::size_t>(
+          std::max_element(nodes->weights.begin(), nodes->weights.end()) - nodes->weights.begin());
+      first.node = color_of(nodes->nodes[nearest]);
+    }
+  }
+}
+
+SampleCounts CachedPass::counts() const {
+  SampleCounts sum;
+  for (const Worker& w : workers_) sum.add(w.samples);
+  keep_first(sum.located);
+  return sum;
+}
+
+RayCounts CachedPass::rays() const {
+  RayCounts sum;
+  for (const Worker& w : workers_) sum.add(w.counts);
+  return sum;
+}
+
+void CachedPass::add_to(CacheStatistics& statistics) const {
+  statistics.render_trace_seconds += statistics_.render_trace_seconds;
+  statistics.render_query_seconds += statistics_.render_query_seconds;
+  statistics.queries += statistics_.queries;
+  statistics.negative_answers = statistics_.negative_answers;
+  statistics.unstored_hits += statistics_.unstored_hits;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,71 @@
+#pragma once
+// Passes of the integrators with a cache: many tiles are traced up to where they ask, asked together, and
+// finished.
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "renderer/cache/cache_session.h"
+#include "renderer/cache/cached_paths.h"
+#include "renderer/cache/cached_paths_scratch.h"
+#include "renderer/pass.h"
+
+namespace gatelight::renderer {
+
+class CachedPass : public Pass {
+ public:
+  /// options.integrator is nao or nrc. The session outlives it and is asked by nobody else meanwhile.
+  CachedPass(const World& world, const PassContext& context, CacheSession& session);
+
+  void run(std::uint32_t first, std::uint32_t end, Film& film,
+           const std::function<void(double)>& report) override;
+  SampleCounts counts() const override;
+  RayCounts rays() const override;
+  /// Adds what rendering asked.
+  void add_to(CacheStatistics& statistics) const;
+
+ private:
+  /// A tile between its tracing and its answers.
+  struct Tile {
+    std::vector<Pixel> pixels;
+    std::vector<CameraSample> samples;
+    std::vector<PathStart> starts;
+    std::vector<SampleResult> results;
+    std::vector<FirstHit> first_hits;
+    std::vector<Color> radiance;
+    PathBatch paths;
+    std::size_t first_query = 0;
+  };
+  struct Worker {
+    CachedPaths::Scratch scratch;
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<Ray> occlusion_rays;
+    std::vector<std::uint32_t> occlusion_index;
+    std::vector<Color> transmittance;
+    PathBatch check;  ///< of the error variable
+    RayCounts counts;
+    SampleCounts samples;
+  };
+
+  void trace_paths(Tile& tile, Worker& worker) const;
+  void trace_occlusion(Tile& tile, Worker& worker) const;
+  void finish_paths(Tile& tile, Worker& worker) const;
+  void finish_occlusion(Tile& tile) const;
+  void describe_answers(Tile& tile, Worker& worker) const;
+
+  const World& world_;
+  PassContext context_;
+  CacheSession& session_;
+  StoredSurfaces stored_;
+  CachedPaths paths_;
+  PathPlan plan_;
+  float ao_distance_;
+  bool needs_error_;
+  std::vector<Tile> tiles_;
+  SurfacePoints queries_;
+  std::vector<float> answers_;
+  tbb::enumerable_thread_specific<Worker> workers_;
+  CacheStatistics statistics_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,368 @@
+#include "renderer/cache/cached_paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/cache/cached_paths_scratch.h"
+#include "renderer/trace_timer.h"
+
+namespace gatelight::renderer {
+
+StoredSurfaces::StoredSurfaces(const neural::GateLayout& layout)
+    : all_(false), stored_(layout.surfaces.size()) {
+  for (std::size_t i = 0; i < stored_.size(); ++i) stored_[i] = layout.surfaces[i].triangle_count > 0 ? 1 : 0;
+}
+
+CachedPaths::CachedPaths(const World& world, const RenderOptions& options, const StoredSurfaces& stored)
+    : world_(world),
+      options_(options),
+      stored_(stored),
+      held_{options.cache.holds},
+      mis_{options.direct, options.mis},
+      delta_lights_(world.lights.has_delta()) {}
+
+/// A path at a surface.
+struct CachedPaths::Meeting {
+  const Hit& hit;
+  const Surface& surface;
+  const Bsdf& bsdf;
+  Vec3 wo;
+  Vec3 light_normal;  ///< as light sampling takes it
+  std::uint32_t side = 0;
+  float cone_width = 0.0f;
+  std::uint32_t dimensions = 0;  ///< first of this vertex's
+
+  bool through_pane(const BsdfSample& sample) const {
+    return sample.delta && sample.transmitted && surface.material.thin_walled;
+  }
+};
+
+bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
+  if (plan.end_after_records != kNone) return !path.to_its_end && path.records >= plan.end_after_records;
+  switch (plan.query_at) {
+    case QueryAt::primary:
+      return true;
+    case QueryAt::gather:
+      return path.wide_events > 0;
+    case QueryAt::spread:
+      return path.spread * path.spread > options_.cache.spread_threshold * path.first_spread;
+    case QueryAt::none:
+      break;
+  }
+  return false;
+}
+
+bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, PathBatch& batch,
+                          std::span<FirstHit> first_hits, Scratch& scratch) const {
+  const Vec3& direction = path.ray.direction;
+  PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
+  if (!hit) {
+    const Color sky = world_.environment.radiance(direction);
+    if ((sky > 0.0f).any()) {
+      from.emission += path.passed * sky * sky_weight(world_, mis_, path.departure, direction);
+    }
+    return false;
+  }
+  if ((path.absorption > 0.0f).any()) {
+    const Color left = (-path.absorption * hit.t).exp();
+    path.passed *= left;
+    path.throughput *= left;
+  }
+  const float cone_width = path.cone.width + path.cone.spread * hit.t;
+  const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
+  FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
+  if (first) {
+    first->hit = true;
+    first->normal = surface.shading_normal;
+    first->position = surface.position;
+    first->depth = hit.t;
+    first->instance = hit.instance;
+    first->primitive = hit.primitive;
+    first->albedo = surface.material.base_color;
+  }
+  if ((surface.emission > 0.0f).any()) {
+    from.emission += path.passed * surface.emission *
+                     emission_weight(world_, mis_, path.departure, hit, surface, direction);
+  }
+  if (surface.unlit || path.depth >= plan.max_depth) return false;
+
+  if (plan.query_at == QueryAt::spread) {
+    // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
+    const float distance = path.departure.travelled + hit.t;
+    const float cosine = std::max(std::abs(surface.geometric_normal.dot(direction)), 1e-4f);
+    if (path.surfaces == 0) {
+      path.first_spread = distance * distance * kInvFourPi / cosine;
+    } else if (!path.departure.delta && path.departure.pdf > 0.0f) {
+      path.spread += distance / std::sqrt(path.departure.pdf * cosine);
+    }
+  }
+
+  const Bsdf bsdf(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal,
+                  -direction, surface.front);
+  if (first) first->albedo = bsdf.albedo();
+  const Meeting meeting{hit,
+                        surface,
+                        bsdf,
+                        -direction,
+                        bsdf.transmits() ? Vec3(Vec3::Zero()) : surface.shading_normal,
+                        side_of(surface.front, world_.scene.instances[hit.instance].mirrors),
+                        cone_width,
+                        dimension::kFirstVertex + dimension::kPerVertex * path.surfaces};
+  if (path.emission_only) {
+    const BsdfSample sample =
+        bsdf.sample(path.sampler.get_1d(meeting.dimensions + dimension::kBsdfLobe),
+                    path.sampler.get_2d(meeting.dimensions + dimension::kBsdfDirection));
+    return meeting.through_pane(sample) && (sample.weight > 0.0f).any() &&
+           advance(path, meeting, sample, sample.weight, kNone, batch);
+  }
+  const bool wide = bsdf.has_wide(options_.cache.min_roughness);
+  const bool ends = wide && ends_here(path, plan);
+  const bool stored =
+      (ends || (wide && plan.records)) && stored_(neural::surface_index(hit.instance, meeting.side));
+  if (ends && stored) return answer(path, meeting, batch, scratch);
+  if (ends) ++batch.unstored_hits;
+  return continue_from(path, meeting, plan.records && stored, plan, batch, scratch);
+}
+
+bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch& scratch) const {
+  const float roughness = options_.cache.min_roughness;
+  const bool has_narrow = m.bsdf.has_narrow(roughness);
+  const Bsdf wide = has_narrow ? m.bsdf.wide_part(roughness) : m.bsdf;
+  const auto index = static_cast<std::int32_t>(batch.vertices.size());
+  PathVertex& v = batch.vertices.emplace_back();
+  v.previous = path.vertex;
+  v.passed = path.passed;
+  if (worth_caching(wide.albedo())) {
+    v.reflectance = cache_reflectance(wide.albedo());
+    v.query = static_cast<std::int32_t>(batch.queries.size());
+    batch.queries.push_back(m.hit, m.side, m.wo, m.surface, wide.albedo());
+    if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
+  }
+
+  const float u_light = path.sampler.get_1d(m.dimensions + dimension::kLightChoice);
+  const Vec2 u_point = path.sampler.get_2d(m.dimensions + dimension::kLightPoint);
+  const float u_lobe = path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe);
+  const Vec2 u_direction = path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection);
+  const auto add_light = [&](const LightSample& light, const BsdfValue& value) {
+    if (!(light.pdf > 0.0f)) return;
+    const float weight = light.delta ? 1.0f : mis_.light_weight(light.pdf, value.pdf);
+    const Color contribution = value.value * light.radiance * (weight / light.pdf);
+    if (!(contribution > 0.0f).any()) return;
+    scratch.shadow_rays.push_back(shadow_ray(m.surface, light, path.seed));
+    scratch.pending.push_back({index, contribution, Color::Zero()});
+  };
+
+  if (!held_.emission()) {
+    // All direct light is sampled here, of all lobes; what the chosen direction brings from further on counts
+    // for the narrow ones alone.
+    if (!m.bsdf.is_delta() && !world_.lights.empty()) {
+      const LightSample light = world_.lights.sample(m.surface.position, m.light_normal, u_light, u_point);
+      add_light(light, m.bsdf.evaluate(light.wi));
+    }
+    const BsdfSample sample = m.bsdf.sample(u_lobe, u_direction);
+    if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
+    Color scattered = Color::Zero();
+    if (sample.delta) {
+      scattered = sample.weight;
+    } else if (has_narrow) {
+      scattered = m.bsdf.narrow_part(roughness).evaluate(sample.wi).value / sample.pdf;
+    }
+    v.emission_weight = sample.weight;
+    v.scattered_weight = scattered;
+    path.emission_only = !(scattered > 0.0f).any();
+    path.throughput *= sample.weight;
+    return advance(path, m, sample, sample.weight, index, batch);
+  }
+
+  if (delta_lights_ && !held_.light_sample(true)) {
+    const LightSample light =
+        world_.lights.sample_delta(m.surface.position, m.light_normal, u_light, u_point);
+    add_light(light, m.bsdf.evaluate(light.wi));
+  }
+  if (!has_narrow) return false;
+  const Bsdf narrow = m.bsdf.narrow_part(roughness);
+  if (!narrow.is_delta() && !world_.lights.empty()) {
+    const LightSample light = world_.lights.sample(m.surface.position, m.light_normal, u_light, u_point);
+    if (!light.delta || held_.light_sample(true)) add_light(light, narrow.evaluate(light.wi));
+  }
+  const BsdfSample sample = narrow.sample(u_lobe, u_direction);
+  if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
+  path.throughput *= sample.weight;
+  const float survival = survival_probability(path.throughput, path.radiance_scale * sample.radiance_scale);
+  if (roulette_number(next_seed(path.seed)) >= survival) return false;
+  path.throughput /= survival;
+  const Color weight = sample.weight / survival;
+  v.emission_weight = weight;
+  v.scattered_weight = weight;
+  return advance(path, m, sample, weight, index, batch);
+}
+
+bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const PathPlan& plan,
+                                PathBatch& batch, Scratch& scratch) const {
+  const float roughness = options_.cache.min_roughness;
+  const bool split = record && m.bsdf.has_narrow(roughness);
+  const Bsdf wide = split ? m.bsdf.wide_part(roughness) : m.bsdf;
+  record = record && worth_caching(wide.albedo());
+  const auto index = static_cast<std::int32_t>(batch.vertices.size());
+  const auto wide_value = [&](const Vec3& wi, const BsdfValue& whole) -> Color {
+    return split ? wide.evaluate(wi).value : whole.value;
+  };
+
+  PathVertex vertex;
+  vertex.previous = path.vertex;
+  vertex.passed = path.passed;
+  if (record) {
+    vertex.reflectance = cache_reflectance(wide.albedo());
+    vertex.record = static_cast<std::int32_t>(batch.records.size());
+    batch.records.push_back(m.hit, m.side, m.wo, m.surface, wide.albedo());
+    if (path.records == 0) batch.first_records[path.index] = vertex.record;
+    path.records += 1;
+  }
+  if (!m.bsdf.is_delta() && !world_.lights.empty()) {
+    const LightSample light = world_.lights.sample(
+        m.surface.position, m.light_normal, path.sampler.get_1d(m.dimensions + dimension::kLightChoice),
+        path.sampler.get_2d(m.dimensions + dimension::kLightPoint));
+    if (light.pdf > 0.0f) {
+      const BsdfValue value = m.bsdf.evaluate(light.wi);
+      const float weight = (light.delta ? 1.0f : mis_.light_weight(light.pdf, value.pdf)) / light.pdf;
+      const Color contribution = value.value * light.radiance * weight;
+      if ((contribution > 0.0f).any()) {
+        Color held = Color::Zero();
+        if (record && held_.light_sample(light.delta))
+          held = wide_value(light.wi, value) * light.radiance * weight;
+        scratch.shadow_rays.push_back(shadow_ray(m.surface, light, path.seed));
+        scratch.pending.push_back({index, contribution, held});
+      }
+    }
+  }
+  batch.vertices.push_back(vertex);
+
+  const BsdfSample sample = m.bsdf.sample(path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
+                                          path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
+  if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
+  path.throughput *= sample.weight;
+  if (!sample.delta && !(sample.spread < roughness * roughness)) path.wide_events += 1;
+
+  const int depth = path.depth + (m.through_pane(sample) ? 0 : 1);
+  float survival = 1.0f;
+  if (depth >= plan.min_depth) {
+    survival = survival_probability(path.throughput, path.radiance_scale * sample.radiance_scale);
+    if (roulette_number(next_seed(path.seed)) >= survival) return false;
+    path.throughput /= survival;
+  }
+  const Color weight = sample.weight / survival;
+  PathVertex& v = batch.vertices.back();
+  v.emission_weight = weight;
+  v.scattered_weight = weight;
+  if (record && !sample.delta) {
+    v.held_scattered_weight =
+        split ? Color(wide.evaluate(sample.wi).value / (sample.pdf * survival)) : weight;
+    if (held_.emission()) v.held_emission_weight = v.held_scattered_weight;
+  }
+  return advance(path, m, sample, weight, index, batch);
+}
+
+bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample, const Color& weight,
+                          std::int32_t vertex, PathBatch& batch) const {
+  path.radiance_scale *= sample.radiance_scale;
+  if (m.through_pane(sample)) {
+    // What is behind the pane belongs to the vertex before it, whose light samples saw it too.
+    if (vertex != kNone) {
+      PathVertex& v = batch.vertices[static_cast<std::size_t>(vertex)];
+      v.emission_weight = v.scattered_weight = Color::Zero();
+      v.held_emission_weight = v.held_scattered_weight = Color::Zero();
+    }
+    path.passed *= weight;
+    path.departure.travelled += m.hit.t;
+  } else {
+    path.vertex = vertex;
+    path.passed = Color::Ones();
+    path.depth += 1;
+    path.departure = {m.surface.position, m.light_normal, 0.0f, sample.pdf, sample.delta};
+    if (sample.transmitted && !m.surface.material.thin_walled) {
+      path.absorption =
+          m.surface.front ? absorption_of(world_.surfaces.material(m.hit.instance)) : Color(0.0f, 0.0f, 0.0f);
+    }
+  }
+  path.surfaces += 1;
+  if (path.surfaces > path.depth + kMaxPassed) return false;
+  path.seed = next_seed(path.seed);
+  path.ray.origin = m.surface.spawn(sample.wi);
+  path.ray.direction = sample.wi;
+  path.ray.t_max = scene::kInfinity;
+  path.ray.seed = path.seed;
+  path.cone.width = m.cone_width;
+  if (!m.through_pane(sample)) path.cone.spread += sample.spread * kDiffuseSpread;
+  return true;
+}
+
+void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,
+                        PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
+                        Scratch& scratch) const {
+  std::vector<Path>& paths = scratch.paths;
+  paths.resize(starts.size());
+  PathVertex root;
+  root.emission_weight = root.scattered_weight = Color::Ones();
+  batch.vertices.assign(starts.size(), root);
+  batch.queries.clear();
+  batch.records.clear();
+  batch.first_queries.assign(starts.size(), kNone);
+  batch.first_records.assign(starts.size(), kNone);
+  batch.unstored_hits = 0;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const CameraSample& s = starts[i].sample;
+    Path path;
+    path.ray = s.camera_ray.ray;
+    path.ray.seed = s.seed;
+    path.cone = s.camera_ray.cone;
+    path.departure.position = path.ray.origin;
+    path.index = static_cast<std::uint32_t>(i);
+    path.vertex = static_cast<std::int32_t>(i);
+    path.seed = s.seed;
+    path.sampler = s.sampler;
+    path.to_its_end = starts[i].to_its_end;
+    paths[i] = path;
+    if (!first_hits.empty()) first_hits[i] = {};
+  }
+  if (hits.empty()) counts.camera += starts.size();
+
+  for (bool start = true; !paths.empty(); start = false) {
+    scratch.hits.resize(paths.size());
+    if (start && !hits.empty()) {
+      std::copy(hits.begin(), hits.end(), scratch.hits.begin());
+    } else {
+      if (!start) counts.bounce += paths.size();
+      scratch.rays.resize(paths.size());
+      for (std::size_t i = 0; i < paths.size(); ++i) scratch.rays[i] = paths[i].ray;
+      const TraceTimer timer(counts);
+      world_.accel.intersect(scratch.rays, scratch.hits, start);
+    }
+    scratch.shadow_rays.clear();
+    scratch.pending.clear();
+    std::size_t alive = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (i + kTriangleAhead < paths.size())
+        world_.surfaces.prefetch_triangle(scratch.hits[i + kTriangleAhead]);
+      if (i + kVerticesAhead < paths.size())
+        world_.surfaces.prefetch_vertices(scratch.hits[i + kVerticesAhead]);
+      if (!scatter(paths[i], scratch.hits[i], plan, batch, first_hits, scratch)) continue;
+      if (alive != i) paths[alive] = paths[i];
+      ++alive;
+    }
+    paths.resize(alive);
+
+    counts.shadow += scratch.shadow_rays.size();
+    scratch.transmittance.resize(scratch.shadow_rays.size());
+    {
+      const TraceTimer timer(counts);
+      world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
+    }
+    for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
+      PathVertex& v = batch.vertices[static_cast<std::size_t>(scratch.pending[i].vertex)];
+      v.direct += scratch.pending[i].direct * scratch.transmittance[i];
+      v.held_direct += scratch.pending[i].held * scratch.transmittance[i];
+    }
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,79 @@
+#pragma once
+// Follows paths that may end in the cache: the path tracer's neighbour, with the same light sampling.
+
+#include <span>
+#include <vector>
+
+#include "neural/gate_layout.h"
+#include "renderer/cache/held_light.h"
+#include "renderer/cache/path_batch.h"
+#include "renderer/path_integrator.h"
+#include "renderer/scattering.h"
+#include "renderer/statistics.h"
+#include "renderer/world.h"
+
+namespace gatelight::renderer {
+
+/// Which surfaces have storage.
+class StoredSurfaces {
+ public:
+  /// All: what a hash grid has.
+  StoredSurfaces() = default;
+  explicit StoredSurfaces(const neural::GateLayout& layout);
+
+  bool operator()(std::uint32_t surface) const { return all_ || stored_[surface] != 0; }
+
+ private:
+  bool all_ = true;
+  std::vector<std::uint8_t> stored_;
+};
+
+/// Where paths end and what they leave.
+struct PathPlan {
+  QueryAt query_at = QueryAt::none;
+  bool records = false;  ///< every vertex of wide lobes that does not end in the cache becomes a record
+  int end_after_records = kNone;  ///< a path with so many ends in the cache; kNone: query_at decides
+  int max_depth = 8;              ///< scattering events
+  int min_depth = 2;              ///< before Russian roulette
+};
+
+/// Where a path begins: a camera ray, or any ray whose nearest hit is known already.
+struct PathStart {
+  CameraSample sample;
+  bool to_its_end = false;  ///< whatever end_after_records says
+};
+
+class CachedPaths {
+ public:
+  struct Scratch;
+
+  /// The world, the surfaces and the options outlive it. Of the options it reads direct, mis and the cache's
+  /// holds, min_roughness and spread_threshold.
+  CachedPaths(const World& world, const RenderOptions& options, const StoredSurfaces& stored);
+
+  /// Traces. `hits` is empty, or has the nearest hit of each start's ray. `first_hits` is empty or as long as
+  /// the starts. Afterwards batch.queries wait for answers and batch.resolve() for them. Thread-safe.
+  void trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,
+             PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
+
+ private:
+  struct Path;
+  struct Meeting;
+  bool scatter(Path& path, const Hit& hit, const PathPlan& plan, PathBatch& batch,
+               std::span<FirstHit> first_hits, Scratch& scratch) const;
+  bool ends_here(const Path& path, const PathPlan& plan) const;
+  bool answer(Path& path, const Meeting& meeting, PathBatch& batch, Scratch& scratch) const;
+  bool continue_from(Path& path, const Meeting& meeting, bool record, const PathPlan& plan, PathBatch& batch,
+                     Scratch& scratch) const;
+  bool advance(Path& path, const Meeting& meeting, const BsdfSample& sample, const Color& weight,
+               std::int32_t vertex, PathBatch& batch) const;
+
+  const World& world_;
+  const RenderOptions& options_;
+  const StoredSurfaces& stored_;
+  HeldLight held_;
+  MisRule mis_;
+  bool delta_lights_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,80 @@
+#include "renderer/cache/occlusion_records.h"
+
+#include <tbb/parallel_for.h>
+
+#include <mutex>
+
+#include "renderer/occlusion.h"
+#include "renderer/trace_timer.h"
+
+namespace gatelight::renderer {
+
+OcclusionRecords::OcclusionRecords(const World& world, const TrainingPoints& points,
+                                   const RenderOptions& options, const StoredSurfaces& stored, float distance,
+                                   const PointInputs& inputs)
+    : world_(world),
+      points_(points),
+      options_(options),
+      stored_(stored),
+      distance_(distance),
+      inputs_(inputs) {}
+
+void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
+  batch.step = request.step;
+  points_.choose(request.step, request.points, true, request.counts, batch.starts, rays_);
+  const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
+  const std::size_t blocks = batch.starts.blocks();
+  std::vector<SurfacePoints> records(blocks, SurfacePoints(inputs_));
+  std::vector<std::vector<float>> targets(blocks);
+  std::mutex mutex;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    RayCounts counts;
+    std::vector<Ray> rays;
+    std::vector<std::int32_t> record_of_ray;
+    for (std::size_t i = batch.starts.offsets[b]; i < batch.starts.offsets[b + 1]; ++i) {
+      const Hit& hit = batch.starts.hits[i];
+      if (!hit) continue;
+      const CameraSample& start = batch.starts.starts[i].sample;
+      const Vec3& direction = start.camera_ray.ray.direction;
+      const Surface surface = world_.surfaces.at(hit, direction, 0.0f, 0.5f);
+      const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
+      if (!stored_(neural::surface_index(hit.instance, side))) continue;
+      // The paths of one point stand in a row: the first makes the record.
+      if (i % times == 0) {
+        records[b].push_back(hit, side, -direction, surface, surface.material.base_color);
+        targets[b].push_back(0.0f);
+      }
+      Ray ray;
+      if (!make_occlusion_ray(surface, start, distance_, ray)) continue;
+      rays.push_back(ray);
+      record_of_ray.push_back(static_cast<std::int32_t>(targets[b].size()) - 1);
+    }
+    std::vector<Color> open(rays.size());
+    counts.shadow = rays.size();
+    {
+      const TraceTimer timer(counts);
+      world_.accel.transmittance(rays, open);
+    }
+    for (std::size_t r = 0; r < rays.size(); ++r)
+      targets[b][static_cast<std::size_t>(record_of_ray[r])] +=
+          scene::luminance(open[r]) / static_cast<float>(times);
+    const std::lock_guard lock(mutex);
+    rays_.add(counts);
+  });
+
+  std::size_t size = 0;
+  for (const SurfacePoints& r : records) size += r.size();
+  if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
+  batch.records.resize(size);
+  batch.targets.clear();
+  std::size_t at = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    batch.records.copy(records[b], 0, records[b].size(), at);
+    batch.targets.insert(batch.targets.end(), targets[b].begin(), targets[b].end());
+    at += records[b].size();
+  }
+  batch.paths_traced = batch.starts.starts.size();
+  batch.records_made = size;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,29 @@
+#pragma once
+// Ambient occlusion at training points as records: what AoIntegrator measures, one or more rays a point.
+
+#include "renderer/ao_integrator.h"
+#include "renderer/cache/record_batch.h"
+
+namespace gatelight::renderer {
+
+class OcclusionRecords : public RecordSource {
+ public:
+  /// All outlive it. distance: metres, may be infinite.
+  OcclusionRecords(const World& world, const TrainingPoints& points, const RenderOptions& options,
+                   const StoredSurfaces& stored, float distance, const PointInputs& inputs);
+
+  void trace(const RecordRequest& request, RecordBatch& batch) override;
+  void finish(const RecordRequest&, const AnswerPoints&, RecordBatch&) override {}
+  RayCounts rays() const override { return rays_; }
+
+ private:
+  const World& world_;
+  const TrainingPoints& points_;
+  const RenderOptions& options_;
+  const StoredSurfaces& stored_;
+  float distance_;
+  PointInputs inputs_;
+  RayCounts rays_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,67 @@
+#include "renderer/cache/path_batch.h"
+
+#include <algorithm>
+
+namespace gatelight::renderer {
+namespace {
+
+/// Three floats as a colour.
+Eigen::Map<Color> color_at(std::vector<float>& values, std::int32_t index) {
+  return Eigen::Map<Color>(&values[3 * static_cast<std::size_t>(index)]);
+}
+Eigen::Map<const Color> color_at(std::span<const float> values, std::int32_t index) {
+  return Eigen::Map<const Color>(&values[3 * static_cast<std::size_t>(index)]);
+}
+
+}  // namespace
+
+void PathBatch::resolve(std::span<const float> answers, std::span<Color> radiance) {
+  targets.resize(3 * records.size());
+  // A vertex is made after the one that looked at it.
+  for (std::size_t i = vertices.size(); i-- > 0;) {
+    PathVertex& v = vertices[i];
+    if (v.record != kNone) {
+      const Color held =
+          v.held_direct + v.held_emission_weight * v.emission + v.held_scattered_weight * v.scattered;
+      color_at(targets, v.record) = held / v.reflectance;
+    }
+    Color reflected = v.direct + v.emission_weight * v.emission + v.scattered_weight * v.scattered;
+    if (v.query != kNone) reflected += v.reflectance * color_at(answers, v.query);
+    if (v.previous != kNone) {
+      vertices[static_cast<std::size_t>(v.previous)].scattered += v.passed * reflected;
+    } else if (i < radiance.size()) {
+      radiance[i] = reflected;
+    }
+  }
+}
+
+void PathBatch::average_first_records(std::size_t times) {
+  const std::vector<std::int32_t>& first = first_records;
+  const std::size_t paths = first.size();
+  std::vector<bool> dropped(records.size(), false);
+  for (std::size_t begin = 0; begin < paths; begin += times) {
+    if (first[begin] == kNone) continue;
+    Color sum = Color::Zero();
+    float count = 0.0f;
+    for (std::size_t p = begin; p < begin + times; ++p) {
+      if (first[p] == kNone) continue;
+      sum += color_at(targets, first[p]);
+      count += 1.0f;
+      if (p > begin) dropped[static_cast<std::size_t>(first[p])] = true;
+    }
+    color_at(targets, first[begin]) = sum / count;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (dropped[i]) continue;
+    if (kept != i) {
+      records.copy(records, i, 1, kept);
+      std::copy_n(&targets[3 * i], 3, &targets[3 * kept]);
+    }
+    ++kept;
+  }
+  records.resize(kept);
+  targets.resize(3 * kept);
+}
+
+}  // namespace gatelight::renderer

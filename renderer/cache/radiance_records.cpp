@@ -1,0 +1,105 @@
+#include "renderer/cache/radiance_records.h"
+
+#include <tbb/parallel_for.h>
+
+#include <numeric>
+
+namespace gatelight::renderer {
+namespace {
+
+/// Where record j of n goes when `most` of them are kept evenly: whether it is kept, and as which.
+struct Thinning {
+  std::uint64_t n = 0;
+  std::uint64_t most = 0;
+  std::uint64_t kept_before(std::uint64_t j) const { return n <= most ? j : j * most / n; }
+  bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
+};
+
+template <typename Size>
+std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
+  std::vector<std::size_t> offsets(blocks.size() + 1, 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) offsets[b + 1] = offsets[b] + size(blocks[b]);
+  return offsets;
+}
+
+}  // namespace
+
+RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints& points,
+                                 const RenderOptions& options, const PointInputs& inputs)
+    : paths_(paths), points_(points), options_(options), inputs_(inputs) {}
+
+void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
+  batch.step = request.step;
+  points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_);
+  PathPlan plan;
+  plan.records = true;
+  plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
+  plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : options_.max_depth;
+  plan.min_depth = options_.min_depth;
+  while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
+  batch.paths.resize(batch.starts.blocks());
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    Worker& worker = workers_.local();
+    const std::size_t begin = batch.starts.offsets[b];
+    const std::size_t size = batch.starts.offsets[b + 1] - begin;
+    std::span<const Hit> hits;
+    if (!batch.starts.hits.empty()) hits = std::span<const Hit>(batch.starts.hits).subspan(begin, size);
+    paths_.trace(std::span<const PathStart>(batch.starts.starts).subspan(begin, size), hits, plan,
+                 batch.paths[b], {}, worker.rays, worker.scratch);
+  });
+}
+
+void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) {
+  const std::vector<std::size_t> query_offsets =
+      offsets_of(batch.paths, [](const PathBatch& p) { return p.queries.size(); });
+  batch.queries = SurfacePoints(inputs_);
+  batch.queries.resize(query_offsets.back());
+  batch.answers.resize(3 * query_offsets.back());
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    batch.queries.copy(batch.paths[b].queries, 0, batch.paths[b].queries.size(), query_offsets[b]);
+  });
+  if (!batch.answers.empty()) {
+    answer(batch.queries, batch.answers);
+    const float attenuation = options_.cache.self_training.attenuation;
+    if (attenuation != 1.0f) {
+      for (float& a : batch.answers) a *= attenuation;
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    const std::size_t begin = 3 * query_offsets[b];
+    batch.paths[b].resolve(
+        std::span<const float>(batch.answers).subspan(begin, 3 * query_offsets[b + 1] - begin), {});
+    const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
+    if (times > 1) batch.paths[b].average_first_records(times);
+  });
+
+  const std::vector<std::size_t> record_offsets =
+      offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
+  const Thinning thinning{record_offsets.back(),
+                          request.most_records > 0 ? request.most_records : record_offsets.back()};
+  const std::size_t kept = thinning.kept_before(record_offsets.back());
+  if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
+  batch.records.resize(kept);
+  batch.targets.resize(3 * kept);
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    const PathBatch& paths = batch.paths[b];
+    for (std::size_t i = 0; i < paths.records.size(); ++i) {
+      const std::size_t j = record_offsets[b] + i;
+      if (!thinning.keeps(j)) continue;
+      const std::size_t at = thinning.kept_before(j);
+      batch.records.copy(paths.records, i, 1, at);
+      for (std::size_t c = 0; c < 3; ++c)
+        batch.targets[3 * at + c] = paths.targets[3 * i + c] * request.target_scale;
+    }
+  });
+  batch.paths_traced = batch.starts.starts.size();
+  batch.records_made = record_offsets.back();
+}
+
+RayCounts RadianceRecords::rays() const {
+  RayCounts sum = start_rays_;
+  for (const Worker& w : workers_) sum.add(w.rays);
+  return sum;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,35 @@
+#pragma once
+// Path vertices as training records: the light that each reflects towards the one before it.
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "renderer/cache/cached_paths.h"
+#include "renderer/cache/cached_paths_scratch.h"
+#include "renderer/cache/record_batch.h"
+
+namespace gatelight::renderer {
+
+class RadianceRecords : public RecordSource {
+ public:
+  /// All outlive it.
+  RadianceRecords(const CachedPaths& paths, const TrainingPoints& points, const RenderOptions& options,
+                  const PointInputs& inputs);
+
+  void trace(const RecordRequest& request, RecordBatch& batch) override;
+  void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) override;
+  RayCounts rays() const override;
+
+ private:
+  const CachedPaths& paths_;
+  const TrainingPoints& points_;
+  const RenderOptions& options_;
+  PointInputs inputs_;
+  struct Worker {
+    CachedPaths::Scratch scratch;
+    RayCounts rays;
+  };
+  tbb::enumerable_thread_specific<Worker> workers_;
+  RayCounts start_rays_;
+};
+
+}  // namespace gatelight::renderer

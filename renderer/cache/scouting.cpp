@@ -1,0 +1,152 @@
+#include "renderer/cache/scouting.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "renderer/cache/radiance_records.h"
+#include "renderer/cache/surface_layout.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Paths that are followed to their end, and camera rays beside them: a thing of a thousandth of the picture
+/// is missed by the first with a probability of 1e-14.
+constexpr std::size_t kPaths = std::size_t{1} << 15;
+constexpr std::size_t kCameraRays = std::size_t{1} << 17;
+/// No step of training has this number: its random numbers are the scouts' own.
+constexpr std::uint64_t kStep = ~std::uint64_t{0};
+
+/// Node spacing over the extent of what is met (see README.md, "Node spacing").
+constexpr float kSpacing = 0.015f;
+
+/// Diagonal of the box between the 2nd and the 98th percentile of each coordinate: a glimpse of a far hill
+/// does not count.
+float extent_of(std::span<const neural::Float3> positions) {
+  if (positions.empty()) return 0.0f;
+  float squared = 0.0f;
+  std::vector<float> values(positions.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < positions.size(); ++i) values[i] = positions[i][axis];
+    const auto low = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 50);
+    const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / 50);
+    std::nth_element(values.begin(), low, values.end());
+    const float least = *low;
+    std::nth_element(values.begin(), high, values.end());
+    squared += (*high - least) * (*high - least);
+  }
+  return std::sqrt(squared);
+}
+
+/// Records that each path left.
+std::vector<int> records_by_path(const PathBatch& batch) {
+  const std::size_t paths = batch.first_queries.size();
+  std::vector<int> records(paths, 0);
+  std::vector<std::size_t> path_of(batch.vertices.size());
+  for (std::size_t i = 0; i < batch.vertices.size(); ++i) {
+    const PathVertex& v = batch.vertices[i];
+    path_of[i] = v.previous == kNone ? i : path_of[static_cast<std::size_t>(v.previous)];
+    if (v.record != kNone) ++records[path_of[i]];
+  }
+  return records;
+}
+
+void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
+  met[surface / 2] = static_cast<std::uint8_t>(met[surface / 2] | (1u << (surface % 2)));
+}
+
+}  // namespace
+
+ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
+                  const RenderOptions& options) {
+  ScoutReport report;
+  const scene::Scene& scene = world.scene;
+  RenderOptions plain = options;
+  plain.cache.source = TrainingSource::camera;
+  plain.cache.candidates = 1;
+  plain.cache.samples_per_point = 1;
+  const StoredSurfaces everything;
+  const TrainingPoints points(world, camera, region, plain, {}, nullptr);
+  std::vector<std::uint8_t> met(scene.instances.size(), 0);
+  std::vector<neural::Float3> positions;
+
+  TrainingStarts starts;
+  points.choose(kStep, kCameraRays, true, {}, starts, report.rays);
+  for (std::size_t i = 0; i < starts.starts.size(); ++i) {
+    const Hit& hit = starts.hits[i];
+    if (!hit) continue;
+    const Ray& ray = starts.starts[i].sample.camera_ray.ray;
+    const scene::Instance& instance = scene.instances[hit.instance];
+    const bool front = scene::world_normal(scene, instance, hit.primitive).dot(ray.direction) <= 0.0f;
+    mark(met, neural::surface_index(hit.instance, side_of(front, instance.mirrors)));
+    if (options.integrator != Integrator::nao) continue;
+    const Vec3 p = ray.origin + hit.t * ray.direction;
+    positions.push_back({p.x(), p.y(), p.z()});
+  }
+  report.paths = starts.starts.size();
+
+  if (options.integrator == Integrator::nrc) {
+    const CachedPaths paths(world, plain, everything);
+    PointInputs inputs;
+    inputs.positions = true;
+    RadianceRecords records(paths, points, plain, inputs);
+    RecordBatch batch;
+    const RecordRequest request{.step = kStep - 1, .points = kPaths};
+    records.trace(request, batch);
+    records.finish(request, {}, batch);
+    report.rays.add(records.rays());
+    report.paths += batch.paths_traced;
+
+    double all = 0.0;
+    double few = 0.0;
+    double light = 0.0;
+    std::uint64_t lit = 0;
+    for (const PathBatch& block : batch.paths) {
+      for (const int n : records_by_path(block)) {
+        all += n;
+        few += std::min(n, options.cache.self_training.vertices);
+      }
+    }
+    for (std::size_t i = 0; i < batch.records.size(); ++i) {
+      mark(met, batch.records.surface(i));
+      const Color target = Eigen::Map<const Color>(&batch.targets[3 * i]);
+      const double l = static_cast<double>(scene::luminance(target));
+      if (!std::isfinite(l)) continue;
+      light += l;
+      ++lit;
+    }
+    const std::span<const neural::Float3> where = batch.records.batch().positions;
+    positions.assign(where.begin(), where.end());
+    const double traced = static_cast<double>(batch.paths_traced);
+    const double full = static_cast<double>(options.cache.self_training.full_fraction);
+    report.setup.records_per_path = static_cast<float>(std::max(all / traced, 1e-3));
+    report.setup.records_per_short_path =
+        static_cast<float>(std::max((full * all + (1.0 - full) * few) / traced, 1e-3));
+    if (light > 0.0) report.setup.target_scale = static_cast<float>(static_cast<double>(lit) / light);
+  } else {
+    report.setup.records_per_path = static_cast<float>(std::max<double>(
+        static_cast<double>(positions.size()) / static_cast<double>(starts.starts.size()), 1e-3));
+    report.setup.records_per_short_path = report.setup.records_per_path;
+  }
+
+  report.setup.sides.resize(scene.instances.size());
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const auto possible = static_cast<unsigned>(possible_sides(scene, scene.instances[i]));
+    unsigned sides = possible;
+    if (options.cache.scout) {
+      sides = met[i] & possible;
+      // A back that materials do not tell apart from the front is stored with it.
+      if (met[i] != 0 && sides == 0) sides = possible;
+    }
+    report.setup.sides[i] = static_cast<neural::Sides>(sides);
+  }
+  const float extent = extent_of(positions);
+  const float fallback = scene.bounds.isEmpty() ? 1.0f : scene.bounds.diagonal().norm();
+  report.setup.node_spacing =
+      options.cache.node_spacing.value_or(kSpacing * (extent > 0.0f ? extent : std::max(fallback, 1e-30f)));
+  return report;
+}
+
+}  // namespace gatelight::renderer

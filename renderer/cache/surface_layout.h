@@ -1,0 +1,30 @@
+#pragma once
+// A scene as the cache knows it: welded meshes, instances, and the sides that have storage.
+
+#include <vector>
+
+#include "neural/surface_layout.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+/// The meshes of a scene with one vertex for each position. Spans of layouts point into it.
+class WeldedMeshes {
+ public:
+  explicit WeldedMeshes(const scene::Scene& scene);
+  /// sides: one for each instance.
+  neural::SurfaceLayout layout(const scene::Scene& scene, std::vector<neural::Sides> sides) const;
+
+ private:
+  std::vector<std::vector<neural::Float3>> positions_;
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles_;
+};
+
+/// Sides that a material lets light meet: both where it is double-sided or transmits, else the front.
+neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& instance);
+
+inline bool has_side(neural::Sides sides, std::uint32_t side) {
+  return ((static_cast<unsigned>(sides) >> side) & 1u) != 0;
+}
+
+}  // namespace gatelight::renderer

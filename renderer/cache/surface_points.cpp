@@ -1,0 +1,83 @@
+#include "renderer/cache/surface_points.h"
+
+#include <algorithm>
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::Float3;
+
+Float3 float3(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+template <typename T>
+void copy_range(const std::vector<T>& from, std::size_t begin, std::size_t count, std::vector<T>& to,
+                std::size_t at) {
+  if (!from.empty())
+    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(begin), count,
+                to.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+}  // namespace
+
+PointInputs::PointInputs(const neural::ModelConfig& config)
+    : gate(config.encoding == neural::FeatureEncoding::gate),
+      positions(neural::uses_input(config, neural::InputSource::position)),
+      directions(neural::uses_input(config, neural::InputSource::direction)),
+      normals(neural::uses_input(config, neural::InputSource::normal)),
+      albedos(neural::uses_input(config, neural::InputSource::albedo)),
+      roughnesses(neural::uses_input(config, neural::InputSource::roughness)) {}
+
+void SurfacePoints::resize(std::size_t size) {
+  size_ = size;
+  // Surfaces and triangles are kept whatever the encoding: counts and reports read them.
+  surfaces_.resize(size);
+  triangles_.resize(size);
+  barycentrics_.resize(size);
+  if (inputs_.positions) positions_.resize(size);
+  if (inputs_.directions) directions_.resize(size);
+  if (inputs_.normals) normals_.resize(size);
+  if (inputs_.albedos) albedos_.resize(size);
+  if (inputs_.roughnesses) roughnesses_.resize(size);
+}
+
+void SurfacePoints::push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
+                              const Color& albedo) {
+  ++size_;
+  surfaces_.push_back(neural::surface_index(hit.instance, side));
+  triangles_.push_back(hit.primitive);
+  barycentrics_.push_back({hit.u, hit.v});
+  if (inputs_.positions) positions_.push_back(float3(surface.position));
+  if (inputs_.directions) directions_.push_back(float3(wo));
+  if (inputs_.normals) normals_.push_back(float3(surface.shading_normal));
+  if (inputs_.albedos) albedos_.push_back({albedo.x(), albedo.y(), albedo.z()});
+  if (inputs_.roughnesses) roughnesses_.push_back(surface.material.roughness);
+}
+
+void SurfacePoints::copy(const SurfacePoints& from, std::size_t begin, std::size_t count, std::size_t at) {
+  copy_range(from.surfaces_, begin, count, surfaces_, at);
+  copy_range(from.triangles_, begin, count, triangles_, at);
+  copy_range(from.barycentrics_, begin, count, barycentrics_, at);
+  copy_range(from.positions_, begin, count, positions_, at);
+  copy_range(from.directions_, begin, count, directions_, at);
+  copy_range(from.normals_, begin, count, normals_, at);
+  copy_range(from.albedos_, begin, count, albedos_, at);
+  copy_range(from.roughnesses_, begin, count, roughnesses_, at);
+}
+
+neural::QueryBatch SurfacePoints::batch() const {
+  neural::QueryBatch batch;
+  batch.surfaces = surfaces_;
+  batch.triangles = triangles_;
+  batch.barycentrics = barycentrics_;
+  batch.positions = positions_;
+  batch.directions = directions_;
+  batch.normals = normals_;
+  batch.albedos = albedos_;
+  batch.roughnesses = roughnesses_;
+  batch.size = size_;
+  return batch;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,71 @@
+#pragma once
+// Points on surfaces as the cache takes them: growing arrays, of which a QueryBatch is a view.
+
+#include <cstddef>
+#include <vector>
+
+#include "neural/batch.h"
+#include "neural/model.h"
+#include "renderer/ray.h"
+#include "renderer/surface.h"
+
+namespace gatelight::renderer {
+
+/// The inputs that a model reads. Others are not stored.
+struct PointInputs {
+  bool gate = true;  ///< surface, triangle, barycentrics
+  bool positions = false;
+  bool directions = false;
+  bool normals = false;
+  bool albedos = false;
+  bool roughnesses = false;
+
+  PointInputs() = default;
+  explicit PointInputs(const neural::ModelConfig& config);
+  bool operator==(const PointInputs&) const = default;
+};
+
+/// Which side of its triangle a viewer sees: neural::surface_index's side.
+constexpr std::uint32_t side_of(bool front, bool mirrors) {
+  return front != mirrors ? 0u : 1u;
+}
+
+class SurfacePoints {
+ public:
+  SurfacePoints() = default;
+  explicit SurfacePoints(const PointInputs& inputs) : inputs_(inputs) {}
+
+  std::size_t size() const { return size_; }
+  const PointInputs& inputs() const { return inputs_; }
+  void clear() { resize(0); }
+  void resize(std::size_t size);
+
+  /// wo: unit, away from the surface, in the world. side: 0 or 1.
+  void push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
+                 const Color& albedo);
+
+  /// Copies `count` points of another with the same inputs: from its `begin` to our `at`. Ranges that do not
+  /// overlap may be copied at the same time.
+  void copy(const SurfacePoints& from, std::size_t begin, std::size_t count, std::size_t at);
+
+  std::uint32_t surface(std::size_t i) const { return surfaces_[i]; }
+  std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
+  const neural::Float2& barycentrics(std::size_t i) const { return barycentrics_[i]; }
+
+  /// Valid until the next change.
+  neural::QueryBatch batch() const;
+
+ private:
+  PointInputs inputs_;
+  std::size_t size_ = 0;
+  std::vector<std::uint32_t> surfaces_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<neural::Float2> barycentrics_;
+  std::vector<neural::Float3> positions_;
+  std::vector<neural::Float3> directions_;
+  std::vector<neural::Float3> normals_;
+  std::vector<neural::Float3> albedos_;
+  std::vector<float> roughnesses_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,218 @@
+#include "renderer/cache/training_points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "neural/training_counts.h"
+#include "renderer/cache/surface_layout.h"
+#include "renderer/tiles.h"
+#include "renderer/warp.h"
+
+namespace gatelight::renderer {
+namespace {
+
+// Purposes of the random numbers of a start that are not a path's.
+constexpr std::uint32_t kSurfaceChoice = 0xffff0000u;
+constexpr std::uint32_t kSurfacePoint = kSurfaceChoice + 1;
+constexpr std::uint32_t kSurfaceDirection = kSurfaceChoice + 2;
+constexpr std::uint32_t kCandidateChoice = kSurfaceChoice + 3;
+
+std::uint32_t step_seed(const RenderOptions& options, std::uint64_t step) {
+  const std::uint32_t seed = hash(hash(options.seed ^ 0x7a3f19c5u) + static_cast<std::uint32_t>(step));
+  return hash(seed + static_cast<std::uint32_t>(step >> 32));
+}
+
+/// Whether start `index` of a step is one of the fraction that run to their end: evenly spread, from another
+/// place each step.
+bool runs_to_its_end(std::size_t index, float fraction, std::uint32_t seed) {
+  const double offset = static_cast<double>(sampling::to_unit_float(hash(seed ^ 0x3c6ef372u)));
+  const double f = static_cast<double>(fraction);
+  return std::floor(static_cast<double>(index + 1) * f + offset) >
+         std::floor(static_cast<double>(index) * f + offset);
+}
+
+/// Stratified over the step.
+void key(const RenderOptions& options, std::uint32_t seed, std::size_t index, PathStart& start) {
+  const auto number = static_cast<std::uint32_t>(index);
+  start.sample.sampler = Sampler(options.sampler, seed, 0, 0, number);
+  start.sample.seed = hash(hash(seed) + number);
+  start.to_its_end = runs_to_its_end(index, options.cache.self_training.full_fraction, seed);
+}
+
+}  // namespace
+
+TrainingPoints::TrainingPoints(const World& world, const Camera& camera, const PixelRect& region,
+                               const RenderOptions& options, std::span<const neural::Sides> sides,
+                               const neural::GateLayout* layout)
+    : world_(world), camera_(camera), region_(region), options_(options), layout_(layout) {
+  if (options.cache.source != TrainingSource::surface) return;
+  const scene::Scene& scene = world.scene;
+  std::vector<double> areas;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const auto instance_sides = static_cast<std::uint8_t>(sides[i]);
+    if (instance_sides == 0) continue;
+    const double both = sides[i] == neural::Sides::both ? 2.0 : 1.0;
+    const auto count = static_cast<std::uint32_t>(scene.mesh_of(scene.instances[i]).triangles.size());
+    for (std::uint32_t t = 0; t < count; ++t) {
+      const double area = 0.5 * static_cast<double>(scene::world_normal(scene, scene.instances[i], t).norm());
+      if (!(area > 0.0) || !std::isfinite(area)) continue;
+      triangles_.push_back({i, t, instance_sides});
+      areas.push_back(area * both);
+    }
+  }
+  by_area_ = AliasTable(areas);
+}
+
+void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hits,
+                            std::span<const std::uint32_t> counts, TrainingStarts& result,
+                            RayCounts& rays) const {
+  result.hits.clear();
+  if (options_.cache.source == TrainingSource::surface && !by_area_.empty()) {
+    from_surfaces(step, count, result);
+  } else {
+    from_camera(step, count, result);
+    const bool compare = options_.cache.candidates > 1 && !counts.empty();
+    if (need_hits || compare || options_.cache.samples_per_point > 1) trace(result, rays);
+  }
+  if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
+  if (options_.cache.samples_per_point > 1) repeat(step, result);
+}
+
+void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const {
+  // A grid of about `count` cells over the region, one point in each.
+  const double aspect = static_cast<double>(region_.width()) / region_.height();
+  const int columns =
+      std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(count) * aspect))));
+  const int rows = std::max(1, static_cast<int>(std::lround(static_cast<double>(count) / columns)));
+  const float cell_width = static_cast<float>(region_.width()) / static_cast<float>(columns);
+  const float cell_height = static_cast<float>(region_.height()) / static_cast<float>(rows);
+  const TileGrid tiles({0, 0, columns, rows});
+  std::vector<std::vector<Pixel>> cells(static_cast<std::size_t>(tiles.count()));
+  result.offsets.assign(1, 0);
+  for (int t = 0; t < tiles.count(); ++t) {
+    tiles.pixels(t, cells[static_cast<std::size_t>(t)]);
+    result.offsets.push_back(result.offsets.back() + cells[static_cast<std::size_t>(t)].size());
+  }
+  result.starts.resize(result.offsets.back());
+  const std::uint32_t seed = step_seed(options_, step);
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t t) {
+    for (std::size_t i = 0; i < cells[t].size(); ++i) {
+      const std::size_t index = result.offsets[t] + i;
+      PathStart& start = result.starts[index];
+      key(options_, seed, index, start);
+      // Jitter by the pixel's own hash: neighbouring cells would line up in a low-discrepancy sequence.
+      const std::uint32_t jitter = hash(start.sample.seed ^ 0x1b873593u);
+      const float x = static_cast<float>(cells[t][i].x) + sampling::to_unit_float(jitter);
+      const float y = static_cast<float>(cells[t][i].y) + sampling::to_unit_float(hash(jitter));
+      start.sample.camera_ray = camera_.ray(static_cast<float>(region_.x0) + x * cell_width,
+                                            static_cast<float>(region_.y0) + y * cell_height);
+    }
+  });
+}
+
+void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, TrainingStarts& result) const {
+  const scene::Scene& scene = world_.scene;
+  result.starts.resize(count);
+  result.hits.resize(count);
+  result.offsets.assign(1, 0);
+  constexpr std::size_t kBlock = kTile * kTile;
+  for (std::size_t begin = 0; begin < count; begin += kBlock)
+    result.offsets.push_back(std::min(begin + kBlock, count));
+  const std::uint32_t seed = step_seed(options_, step);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t index) {
+    PathStart& start = result.starts[index];
+    key(options_, seed, index, start);
+    const Sampler& sampler = start.sample.sampler;
+    const double u = (static_cast<double>(index) + static_cast<double>(sampler.get_1d(kSurfaceChoice))) /
+                     static_cast<double>(count);
+    const Triangle& triangle = triangles_[by_area_.sample(std::min(u, 0x1.fffffffffffffp-1))];
+    const scene::Instance& instance = scene.instances[triangle.instance];
+    const Vec2 point = sample_uniform_triangle(sampler.get_2d(kSurfacePoint));
+    const std::array<Vec3, 3> corners = scene::world_triangle(scene, instance, triangle.primitive);
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const bool back = triangle.sides == 2 || (triangle.sides == 3 && (hash(start.sample.seed) & 1u) != 0);
+    const Vec3 wo = Basis(back ? Vec3(-normal) : normal)
+                        .to_world(sample_cosine_hemisphere(sampler.get_2d(kSurfaceDirection)));
+    Hit& hit = result.hits[index];
+    hit = {1.0f, point.x(), point.y(), triangle.instance, triangle.primitive};
+    CameraRay& ray = start.sample.camera_ray;
+    ray = {};
+    ray.ray.origin =
+        corners[0] + point.x() * (corners[1] - corners[0]) + point.y() * (corners[2] - corners[0]) + wo;
+    ray.ray.direction = -wo;
+  });
+}
+
+void TrainingPoints::trace(TrainingStarts& result, RayCounts& rays) const {
+  result.hits.resize(result.starts.size());
+  rays.camera += result.starts.size();
+  tbb::parallel_for(std::size_t{0}, result.blocks(), [&](std::size_t block) {
+    const std::size_t begin = result.offsets[block];
+    const std::size_t size = result.offsets[block + 1] - begin;
+    std::vector<Ray> traced(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      traced[i] = result.starts[begin + i].sample.camera_ray.ray;
+      traced[i].seed = result.starts[begin + i].sample.seed;
+    }
+    world_.accel.intersect(traced, std::span(result.hits).subspan(begin, size), true);
+  });
+}
+
+std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direction) const {
+  const scene::Scene& scene = world_.scene;
+  const scene::Instance& instance = scene.instances[hit.instance];
+  const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
+  const std::uint32_t surface = neural::surface_index(hit.instance, side_of(front, instance.mirrors));
+  const neural::GateSurface& s = layout_->surfaces[surface];
+  return s.triangle_count > 0 ? s.first_triangle + hit.primitive : ~0u;
+}
+
+void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint32_t> counts,
+                                   TrainingStarts& result) const {
+  const std::size_t size = result.starts.size();
+  const std::uint32_t seed = step_seed(options_, step);
+  std::vector<std::uint32_t> numbers(size, ~0u);
+  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
+    if (result.hits[i])
+      numbers[i] = triangle_number(result.hits[i], result.starts[i].sample.camera_ray.ray.direction);
+  });
+  const std::vector<PathStart> pool = result.starts;
+  const std::vector<Hit> hits = result.hits;
+  const auto most = static_cast<std::size_t>(options_.cache.candidates);
+  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
+    std::vector<std::uint32_t> candidates;
+    std::vector<std::size_t> places;
+    std::uint32_t random = hash(hash(seed ^ kCandidateChoice) + static_cast<std::uint32_t>(i));
+    for (std::size_t c = 0; c < most; ++c) {
+      random = hash(random + 0x9e3779b9u);
+      const auto place = static_cast<std::size_t>((std::uint64_t{random} * size) >> 32);
+      if (!hits[place]) continue;
+      candidates.push_back(numbers[place]);
+      places.push_back(place);
+    }
+    if (places.empty()) return;
+    const std::size_t chosen =
+        neural::choose_candidate(candidates, counts, sampling::to_unit_float(hash(random)));
+    result.starts[i].sample.camera_ray = pool[places[chosen]].sample.camera_ray;
+    result.hits[i] = hits[places[chosen]];
+  });
+}
+
+void TrainingPoints::repeat(std::uint64_t step, TrainingStarts& result) const {
+  const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
+  const std::uint32_t seed = step_seed(options_, step);
+  std::vector<PathStart> starts(result.starts.size() * times);
+  std::vector<Hit> hits(starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    starts[i] = result.starts[i / times];
+    key(options_, seed, i, starts[i]);
+    hits[i] = result.hits[i / times];
+  }
+  result.starts = std::move(starts);
+  result.hits = std::move(hits);
+  for (std::size_t& offset : result.offsets) offset *= times;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,65 @@
+#pragma once
+// Where training paths begin.
+
+#include <span>
+#include <vector>
+
+#include "neural/gate_layout.h"
+#include "renderer/alias_table.h"
+#include "renderer/cache/cached_paths.h"
+#include "renderer/camera.h"
+#include "renderer/film.h"
+
+namespace gatelight::renderer {
+
+/// The starts of one step, in blocks of neighbours: those of block b are starts[offsets[b]] to
+/// starts[offsets[b + 1]].
+struct TrainingStarts {
+  std::vector<PathStart> starts;
+  std::vector<Hit> hits;  ///< of the starts' rays; empty where these are still to be traced
+  std::vector<std::size_t> offsets;
+
+  std::size_t blocks() const { return offsets.size() - 1; }
+};
+
+/// Points of the picture, stratified anew each step, or points on surfaces. All numbers are keyed by (seed,
+/// step, start, dimension).
+class TrainingPoints {
+ public:
+  /// World, camera, options and layout outlive it. region: of the picture. sides: those of each instance that
+  /// have storage. layout: of the features; null for a hash grid.
+  TrainingPoints(const World& world, const Camera& camera, const PixelRect& region,
+                 const RenderOptions& options, std::span<const neural::Sides> sides,
+                 const neural::GateLayout* layout);
+
+  /// About `count` points, each of them options.cache.samples_per_point times in a row. need_hits: trace
+  /// camera rays now. counts: how often each triangle with storage was trained; empty unless candidates are
+  /// compared.
+  void choose(std::uint64_t step, std::size_t count, bool need_hits, std::span<const std::uint32_t> counts,
+              TrainingStarts& result, RayCounts& rays) const;
+
+ private:
+  void from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
+  void from_surfaces(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
+  void trace(TrainingStarts& result, RayCounts& rays) const;
+  void prefer_seldom(std::uint64_t step, std::span<const std::uint32_t> counts, TrainingStarts& result) const;
+  void repeat(std::uint64_t step, TrainingStarts& result) const;
+  /// Among all triangles with storage; ~0 without.
+  std::uint32_t triangle_number(const Hit& hit, const Vec3& direction) const;
+
+  const World& world_;
+  const Camera& camera_;
+  PixelRect region_;
+  const RenderOptions& options_;
+  const neural::GateLayout* layout_;
+  /// Triangles with storage by area, each side counted.
+  struct Triangle {
+    std::uint32_t instance;
+    std::uint32_t primitive;
+    std::uint8_t sides;  ///< neural::Sides
+  };
+  std::vector<Triangle> triangles_;
+  AliasTable by_area_;
+};
+
+}  // namespace gatelight::renderer
