@@ -90,14 +90,13 @@ TensorView view(const std::string& name, TensorType type, const std::vector<std:
   return {name, type, shape, std::as_bytes(values)};
 }
 
-std::vector<std::uint16_t> to_halves(std::span<const float> values, const std::filesystem::path& path) {
+std::vector<std::uint16_t> to_halves(std::span<const float> values) {
   std::vector<std::uint16_t> halves(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     halves[i] = float_to_half(values[i]);
     if (std::bit_cast<std::uint32_t>(half_to_float(halves[i])) != std::bit_cast<std::uint32_t>(values[i]))
-      throw CacheFileError(
-          fmt::format("cannot write '{}': features[{}] is {}, expected a number that fp16 holds",
-                      path.string(), i, values[i]));
+      throw BadConfiguration(
+          fmt::format("features[{}] is {}, expected a number that fp16 holds", i, values[i]));
   }
   return halves;
 }
@@ -111,18 +110,7 @@ ordered_json description(const SafetensorsReader& file, const std::string& key) 
   return value;
 }
 
-void expect_text(const SafetensorsReader& file, const std::string& key, const std::string& what,
-                 const std::string& expected) {
-  const auto found = file.metadata().find(key);
-  const std::string text = found == file.metadata().end() ? "nothing" : fmt::format("'{}'", found->second);
-  if (text != fmt::format("'{}'", expected))
-    file.fail(fmt::format("{}: file {}, expected '{}'", what, text, expected));
-}
-
-void expect_same_model(const SafetensorsReader& file, const Model& model, const TrainingOptions& options,
-                       const std::string& fingerprint) {
-  expect_text(file, "format", "format", kFormat);
-  expect_text(file, "version", "format version", fmt::format("{}", kVersion));
+void expect_same_model(const SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
   std::string differences = list_differences(description(file, "network"), describe_network(model));
   if (!differences.empty()) file.fail(fmt::format("it is of another configuration: {}", differences));
   differences = list_differences(description(file, "arrays"), describe_arrays(options));
@@ -134,7 +122,6 @@ void expect_same_model(const SafetensorsReader& file, const Model& model, const 
                                                              ? "the surfaces are others, under equal options"
                                                              : differences));
   }
-  expect_text(file, "fingerprint", "fingerprint", fingerprint);
 }
 
 void read_values(SafetensorsReader& file, const Array& array, const Part& part, bool half,
@@ -155,63 +142,67 @@ void read_values(SafetensorsReader& file, const Array& array, const Part& part, 
                     array.kind == ArrayKind::second_moments ? "no negative number" : "a finite number"));
 }
 
-void expect_no_other_tensors(const SafetensorsReader& file, const std::set<std::string>& expected) {
+}  // namespace
+
+void expect_text(const SafetensorsReader& file, const std::string& key, const std::string& what,
+                 const std::string& expected) {
+  const auto found = file.metadata().find(key);
+  const std::string text = found == file.metadata().end() ? "nothing" : fmt::format("'{}'", found->second);
+  if (text != fmt::format("'{}'", expected))
+    file.fail(fmt::format("{}: file {}, expected '{}'", what, text, expected));
+}
+
+void expect_no_other_tensors(const SafetensorsReader& file, const Model& model,
+                             const TrainingOptions& options, std::set<std::string> others) {
+  others.insert({"node_steps", "triangle_steps", "steps"});
+  for (const Array& array : kArrays) {
+    for (const Part& part : parts(model.parameters)) {
+      if (is_stored(array, part, options)) others.insert(tensor_name(array, part));
+    }
+  }
   for (const std::string& name : file.names()) {
-    if (!expected.contains(name)) file.fail(fmt::format("tensor '{}' is not of this model", name));
+    if (!others.contains(name)) file.fail(fmt::format("tensor '{}' is not of this model", name));
   }
 }
 
-}  // namespace
-
-void write_model_file(const std::filesystem::path& path, const Model& model, const TrainingOptions& options,
-                      const ModelState& state, const std::string& fingerprint) {
+ModelContent make_model_content(const Model& model, const TrainingOptions& options, const ModelState& state) {
   check_state(model, options, state);
-  std::vector<TensorView> tensors;
-  std::vector<std::uint16_t> halves;
+  ModelContent content;
   for (const Array& array : kArrays) {
     for (const Part& part : parts(model.parameters)) {
       if (!is_stored(array, part, options)) continue;
       const std::span values = std::span<const float>(state.*array.values).subspan(part.offset, part.count);
       const std::string name = tensor_name(array, part);
       if (is_half(array, part, options)) {
-        halves = to_halves(values, path);
-        tensors.push_back(view<std::uint16_t>(name, TensorType::f16, part.shape, halves));
+        content.halves = to_halves(values);
+        content.tensors.push_back(view<std::uint16_t>(name, TensorType::f16, part.shape, content.halves));
       } else {
-        tensors.push_back(view(name, TensorType::f32, part.shape, values));
+        content.tensors.push_back(view(name, TensorType::f32, part.shape, values));
       }
     }
   }
-  tensors.push_back(
+  content.tensors.push_back(
       view<std::uint32_t>("node_steps", TensorType::u32, {state.node_steps.size()}, state.node_steps));
-  tensors.push_back(view<std::uint32_t>("triangle_steps", TensorType::u32, {state.triangle_steps.size()},
-                                        state.triangle_steps));
-  tensors.push_back(view("steps", TensorType::u64, {1}, std::span(&state.steps, 1)));
-
-  Metadata metadata;
-  metadata["format"] = kFormat;
-  metadata["version"] = fmt::format("{}", kVersion);
-  metadata["network"] = describe_network(model).dump();
-  metadata["layout"] = describe_layout(model).dump();
-  metadata["layout_digest"] = layout_digest(model);
-  metadata["arrays"] = describe_arrays(options).dump();
-  metadata["training"] = describe_training(options).dump();
-  metadata["fingerprint"] = fingerprint;
-  write_safetensors(path, tensors, metadata);
+  content.tensors.push_back(view<std::uint32_t>("triangle_steps", TensorType::u32,
+                                                {state.triangle_steps.size()}, state.triangle_steps));
+  content.tensors.push_back(view("steps", TensorType::u64, {1}, std::span(&state.steps, 1)));
+  content.metadata["network"] = describe_network(model).dump();
+  content.metadata["layout"] = describe_layout(model).dump();
+  content.metadata["layout_digest"] = layout_digest(model);
+  content.metadata["arrays"] = describe_arrays(options).dump();
+  content.metadata["training"] = describe_training(options).dump();
+  return content;
 }
 
-ModelState read_model_file(const std::filesystem::path& path, const Model& model,
-                           const TrainingOptions& options, const std::string& fingerprint) {
-  SafetensorsReader file(path);
-  expect_same_model(file, model, options, fingerprint);
+ModelState read_model_content(SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
+  expect_same_model(file, model, options);
   // Of the right size everywhere, and averages that are not kept are set below.
   ModelState state = initial_state(model, options);
-  std::set<std::string> expected = {"node_steps", "triangle_steps", "steps"};
   for (const Array& array : kArrays) {
     for (const Part& part : parts(model.parameters)) {
       const std::span out = std::span(state.*array.values).subspan(part.offset, part.count);
       if (is_stored(array, part, options)) {
         read_values(file, array, part, is_half(array, part, options), out);
-        expected.insert(tensor_name(array, part));
       } else {
         const std::span values = std::span(state.parameters).subspan(part.offset, part.count);
         std::copy(values.begin(), values.end(), out.begin());
@@ -228,7 +219,26 @@ ModelState read_model_file(const std::filesystem::path& path, const Model& model
   file.read("steps", TensorType::u64, one, std::as_writable_bytes(std::span(&state.steps, 1)));
   if (state.steps >> 63 != 0)
     file.fail(fmt::format("tensor 'steps': {}, expected less than 2^63", state.steps));
-  expect_no_other_tensors(file, expected);
+  return state;
+}
+
+void write_model_file(const std::filesystem::path& path, const Model& model, const TrainingOptions& options,
+                      const ModelState& state, const std::string& fingerprint) {
+  ModelContent content = make_model_content(model, options, state);
+  content.metadata["format"] = kFormat;
+  content.metadata["version"] = fmt::format("{}", kVersion);
+  content.metadata["fingerprint"] = fingerprint;
+  write_safetensors(path, content.tensors, content.metadata);
+}
+
+ModelState read_model_file(const std::filesystem::path& path, const Model& model,
+                           const TrainingOptions& options, const std::string& fingerprint) {
+  SafetensorsReader file(path);
+  expect_text(file, "format", "format", kFormat);
+  expect_text(file, "version", "format version", fmt::format("{}", kVersion));
+  ModelState state = read_model_content(file, model, options);
+  expect_text(file, "fingerprint", "fingerprint", fingerprint);
+  expect_no_other_tensors(file, model, options);
   return state;
 }
 

@@ -29,8 +29,11 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 constexpr const char* kMetadataKey = "__metadata__";
 constexpr std::uint64_t kLengthBytes = 8;
 constexpr std::uint64_t kMaxHeaderBytes = 100'000'000;  // as in the format's first implementation
-constexpr std::array<std::pair<TensorType, std::string_view>, 4> kTypeNames = {
-    {{TensorType::f16, "F16"}, {TensorType::f32, "F32"}, {TensorType::u32, "U32"}, {TensorType::u64, "U64"}}};
+constexpr std::array<std::pair<TensorType, std::string_view>, 5> kTypeNames = {{{TensorType::f16, "F16"},
+                                                                                {TensorType::f32, "F32"},
+                                                                                {TensorType::f64, "F64"},
+                                                                                {TensorType::u32, "U32"},
+                                                                                {TensorType::u64, "U64"}}};
 
 std::string_view type_name(TensorType type) {
   return std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const auto& t) { return t.first == type; })
@@ -88,7 +91,6 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
 
   void write(std::span<const std::byte> bytes) {
-    if (bytes.empty()) return;  // fwrite takes no null pointer
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
       refuse_to_write(path_, describe(errno));
   }
@@ -152,13 +154,15 @@ std::size_t element_bytes(TensorType type) {
     case TensorType::f32:
     case TensorType::u32:
       return 4;
+    case TensorType::f64:
     case TensorType::u64:
       return 8;
   }
   return 0;
 }
 
-void write_safetensors(const fs::path& path, std::span<const TensorView> tensors, const Metadata& metadata) {
+void write_safetensors(const ByteSink& sink, const fs::path& path, std::span<const TensorView> tensors,
+                       const Metadata& metadata) {
   std::vector<TensorView> ordered(tensors.begin(), tensors.end());
   std::stable_sort(ordered.begin(), ordered.end(), [](const TensorView& a, const TensorView& b) {
     return element_bytes(a.type) > element_bytes(b.type);
@@ -169,10 +173,16 @@ void write_safetensors(const fs::path& path, std::span<const TensorView> tensors
   }
   const std::string header = header_text(ordered, metadata, path);
   const std::uint64_t length = header.size();
+  sink(std::as_bytes(std::span(&length, 1)));
+  sink(std::as_bytes(std::span(header)));
+  for (const TensorView& tensor : ordered) {
+    if (!tensor.data.empty()) sink(tensor.data);
+  }
+}
+
+void write_safetensors(const fs::path& path, std::span<const TensorView> tensors, const Metadata& metadata) {
   PendingFile file(path);
-  file.write(std::as_bytes(std::span(&length, 1)));
-  file.write(std::as_bytes(std::span(header)));
-  for (const TensorView& tensor : ordered) file.write(tensor.data);
+  write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes); }, path, tensors, metadata);
   file.commit();
 }
 
@@ -236,7 +246,7 @@ void SafetensorsReader::parse_header(const std::string& header, std::uint64_t da
     const auto type = std::find_if(kTypeNames.begin(), kTypeNames.end(),
                                    [&](const auto& t) { return word.is_string() && word == t.second; });
     if (type == kTypeNames.end())
-      fail(fmt::format("tensor '{}': dtype {}, expected F16, F32, U32 or U64", name, word.dump()));
+      fail(fmt::format("tensor '{}': dtype {}, expected F16, F32, F64, U32 or U64", name, word.dump()));
     entry.type = type->first;
     if (!read_unsigned_array(value["shape"], entry.shape))
       fail(fmt::format("tensor '{}': shape {}, expected a list of whole numbers", name,
@@ -275,11 +285,23 @@ std::vector<std::string> SafetensorsReader::names() const {
   return names;
 }
 
-void SafetensorsReader::read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
-                             std::span<std::byte> out) {
+const SafetensorsReader::Entry& SafetensorsReader::find(const std::string& name) const {
   const auto found = entries_.find(name);
   if (found == entries_.end()) fail(fmt::format("tensor '{}' is missing", name));
-  const Entry& entry = found->second;
+  return found->second;
+}
+
+std::uint64_t SafetensorsReader::length(const std::string& name, TensorType type) const {
+  const Entry& entry = find(name);
+  if (entry.type != type || entry.shape.size() != 1)
+    fail(fmt::format("tensor '{}': {} {}, expected {} [any]", name, type_name(entry.type),
+                     shape_text(entry.shape), type_name(type)));
+  return entry.shape[0];
+}
+
+void SafetensorsReader::read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
+                             std::span<std::byte> out) {
+  const Entry& entry = find(name);
   if (entry.type != type || !std::equal(shape.begin(), shape.end(), entry.shape.begin(), entry.shape.end()))
     fail(fmt::format("tensor '{}': {} {}, expected {} {}", name, type_name(entry.type),
                      shape_text(entry.shape), type_name(type), shape_text(shape)));
@@ -287,6 +309,19 @@ void SafetensorsReader::read(const std::string& name, TensorType type, std::span
   file_.seekg(static_cast<std::streamoff>(data_offset_ + entry.begin));
   if (!file_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size())))
     fail(fmt::format("reading tensor '{}' failed", name));
+}
+
+void SafetensorsReader::read_in_pieces(const std::string& name, const ByteSink& sink) {
+  const Entry& entry = find(name);
+  std::vector<std::byte> piece(std::min<std::uint64_t>(kPieceBytes, entry.end - entry.begin));
+  file_.seekg(static_cast<std::streamoff>(data_offset_ + entry.begin));
+  for (std::uint64_t left = entry.end - entry.begin; left > 0;) {
+    const std::span bytes = std::span(piece).first(std::min<std::uint64_t>(left, piece.size()));
+    if (!file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+      fail(fmt::format("reading tensor '{}' failed", name));
+    sink(bytes);
+    left -= bytes.size();
+  }
 }
 
 void SafetensorsReader::fail(const std::string& reason) const {

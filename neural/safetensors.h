@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -14,7 +15,7 @@
 
 namespace gatelight::neural {
 
-enum class TensorType : std::uint8_t { f16, f32, u32, u64 };
+enum class TensorType : std::uint8_t { f16, f32, f64, u32, u64 };
 
 std::size_t element_bytes(TensorType type);
 
@@ -28,9 +29,16 @@ struct TensorView {
 
 using Metadata = std::map<std::string, std::string>;
 
+/// Takes the bytes of a file, one piece after the other.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
 /// Wide elements come first, so that each tensor is aligned to its elements; else the order is kept. The same
-/// tensors and metadata give the same bytes. Written under a temporary name in the same folder and renamed:
-/// an old file stays whole until the new one is. Follows a symbolic link. Throws CacheFileError.
+/// tensors and metadata give the same bytes. `path` is for messages. Throws CacheFileError.
+void write_safetensors(const ByteSink& sink, const std::filesystem::path& path,
+                       std::span<const TensorView> tensors, const Metadata& metadata);
+
+/// The same into a file. Written under a temporary name in the same folder and renamed: an old file stays
+/// whole until the new one is. Follows a symbolic link.
 void write_safetensors(const std::filesystem::path& path, std::span<const TensorView> tensors,
                        const Metadata& metadata);
 
@@ -43,9 +51,16 @@ class SafetensorsReader {
 
   const Metadata& metadata() const { return metadata_; }
   std::vector<std::string> names() const;
+  /// For a tensor whose size the reader does not know beforehand: how many elements its one axis has. They
+  /// lie in the file. Throws CacheFileError where the tensor is missing or of another type or rank.
+  std::uint64_t length(const std::string& name, TensorType type) const;
   /// Throws CacheFileError where the tensor is missing or of another type or shape.
   void read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
             std::span<std::byte> out);
+
+  /// The bytes of a tensor in pieces of kPieceBytes, the last one shorter: for digests.
+  static constexpr std::size_t kPieceBytes = 1 << 20;
+  void read_in_pieces(const std::string& name, const ByteSink& sink);
 
   /// Throws CacheFileError about this file.
   [[noreturn]] void fail(const std::string& reason) const;
@@ -58,6 +73,7 @@ class SafetensorsReader {
     std::uint64_t end = 0;
   };
 
+  const Entry& find(const std::string& name) const;
   void parse_header(const std::string& header, std::uint64_t data_bytes);
 
   std::filesystem::path path_;

@@ -150,7 +150,8 @@ TEST(CacheFile, AFeatureThatHalvesDoNotHoldIsNotRounded) {
   ModelState state = state_of(trainer);
   state.parameters[5] = 0.1f;
   trainer.backend().import_state(state);
-  EXPECT_THAT(refusal([&] { trainer.save(folder / "a", kFingerprint); }), HasSubstr("features[5] is 0.1"));
+  EXPECT_THAT([&] { trainer.save(folder / "a", kFingerprint); },
+              ::testing::ThrowsMessage<BadConfiguration>(HasSubstr("features[5] is 0.1")));
   EXPECT_EQ(folder.count_files(), 0u);
 }
 

@@ -51,17 +51,19 @@ TEST(Safetensors, TensorsAndMetadataComeBack) {
   const std::array<float, 6> floats = {1.0f, -0.0f, 1e-42f, 3e38f, 0.1f, -7.0f};
   const std::array<std::uint16_t, 3> halves = {0x3c00, 0x8000, 0x7bff};
   const std::array<std::uint64_t, 1> count = {0xfedcba9876543210u};
+  const std::array<double, 2> sums = {0.1, -1e300};
   const std::vector<TensorView> tensors = {
       {"halves", TensorType::f16, {3}, std::as_bytes(std::span(halves))},
       {"floats \"quoted\"", TensorType::f32, {2, 3}, std::as_bytes(std::span(floats))},
       {"nothing", TensorType::u32, {0, 8}, {}},
-      {"count", TensorType::u64, {}, std::as_bytes(std::span(count))}};
+      {"count", TensorType::u64, {}, std::as_bytes(std::span(count))},
+      {"sums", TensorType::f64, {2}, std::as_bytes(std::span(sums))}};
   const Metadata metadata = {{"name", "caf\u00e9 {\"a\": 1}\n"}, {"empty", ""}};
   write_safetensors(folder / "a", tensors, metadata);
 
   SafetensorsReader reader(folder / "a");
   EXPECT_EQ(reader.metadata(), metadata);
-  EXPECT_THAT(reader.names(), ElementsAre("count", "floats \"quoted\"", "halves", "nothing"));
+  EXPECT_THAT(reader.names(), ElementsAre("count", "floats \"quoted\"", "halves", "nothing", "sums"));
   std::array<std::byte, 24> out;
   for (const TensorView& tensor : tensors) {
     reader.read(tensor.name, tensor.type, tensor.shape, std::span(out).first(tensor.data.size()));
@@ -73,6 +75,11 @@ TEST(Safetensors, TensorsAndMetadataComeBack) {
               HasSubstr("expected F16 [2, 3]"));
   EXPECT_THAT(refusal([&] { reader.read("other", TensorType::f32, {}, out); }),
               HasSubstr("'other' is missing"));
+  EXPECT_EQ(reader.length("sums", TensorType::f64), 2u);
+  EXPECT_THAT(refusal([&] { reader.length("sums", TensorType::u64); }),
+              HasSubstr("'sums': F64 [2], expected U64 [any]"));
+  EXPECT_THAT(refusal([&] { reader.length("count", TensorType::u64); }), HasSubstr("U64 [], expected U64"));
+  EXPECT_THAT(refusal([&] { reader.length("other", TensorType::u64); }), HasSubstr("'other' is missing"));
 }
 
 TEST(Safetensors, EachTensorIsAlignedToItsElements) {
@@ -133,7 +140,7 @@ TEST(Safetensors, BrokenHeadersAreRefused) {
       {R"({"__metadata__":"k"})", 0, "'__metadata__' is no object"},
       {R"({"__metadata__":{"k":"1","k":"2"}})", 0, "'k' twice"},
       {R"({"a":{"dtype":"F32","shape":[1]}})", 4, "expected dtype, shape and data_offsets"},
-      {entry("\"F64\"", "[1]", "[0,8]"), 8, "dtype \"F64\", expected F16"},
+      {entry("\"I64\"", "[1]", "[0,8]"), 8, "dtype \"I64\", expected F16"},
       {entry("7", "[1]", "[0,8]"), 8, "dtype 7"},
       {entry("\"F32\"", "2", "[0,8]"), 8, "shape 2"},
       {entry("\"F32\"", "[-2]", "[0,8]"), 8, "shape [-2]"},
