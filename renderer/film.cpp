@@ -1,6 +1,7 @@
 #include "renderer/film.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,43 @@ bool from_first_hit(Aov aov) {
 void accumulate(std::array<double, 3>& sum, const Eigen::Vector3f& v) {
   for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(v[i]);
 }
+
+// Each member of a pixel in turn, for both directions.
+template <class Radiance, class Take>
+void each_of_radiance(Radiance& p, Take&& take) {
+  for (auto* array : {&p.sum, &p.square}) {
+    for (auto& value : *array) take.sum(value);
+  }
+  take.count(p.count);
+}
+
+template <class First, class Take>
+void each_of_first(First& p, Take&& take) {
+  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.answer, &p.node}) {
+    for (auto& value : *array) take.sum(value);
+  }
+  for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits}) take.count(*value);
+  for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
+}
+
+struct Exporter {
+  std::vector<double>& sums;
+  std::vector<std::uint32_t>& counts;
+  std::vector<float>* ids = nullptr;
+  void sum(double value) { sums.push_back(value); }
+  void count(std::uint32_t value) { counts.push_back(value); }
+  void id(float value) { ids->push_back(value); }
+};
+
+struct Importer {
+  std::vector<double>::const_iterator sums;
+  std::vector<std::uint32_t>::const_iterator counts;
+  std::vector<float>::const_iterator ids;
+  void sum(double& value) { value = *sums++; }
+  void count(std::uint32_t& value) { value = *counts++; }
+  void id(float& value) { value = *ids++; }
+};
 
 }  // namespace
 
@@ -182,6 +220,28 @@ Picture Film::resolve() const {
   picture.layers.push_back(std::move(beauty));
   for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
   return picture;
+}
+
+FilmState Film::export_state() const {
+  FilmState state;
+  state.radiance.reserve(radiance_.size() * 6);
+  state.radiance_counts.reserve(radiance_.size());
+  state.first.reserve(first_.size() * 19);
+  state.first_counts.reserve(first_.size() * 3);
+  state.first_ids.reserve(first_.size() * 2);
+  Exporter radiance{state.radiance, state.radiance_counts};
+  for (const Radiance& p : radiance_) each_of_radiance(p, radiance);
+  Exporter first{state.first, state.first_counts, &state.first_ids};
+  for (const First& p : first_) each_of_first(p, first);
+  return state;
+}
+
+void Film::import_state(const FilmState& state) {
+  assert(state.radiance_counts.size() == radiance_.size() && state.first_ids.size() == 2 * first_.size());
+  Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
+  for (Radiance& p : radiance_) each_of_radiance(p, radiance);
+  Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
+  for (First& p : first_) each_of_first(p, first);
 }
 
 }  // namespace gatelight::renderer

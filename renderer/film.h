@@ -23,6 +23,15 @@ struct PixelRect {
   int height() const { return y1 - y0; }
 };
 
+/// A film's sums to the bit, pixel after pixel. Of the first hits empty where the film keeps none.
+struct FilmState {
+  std::vector<double> radiance;
+  std::vector<std::uint32_t> radiance_counts;
+  std::vector<double> first;
+  std::vector<std::uint32_t> first_counts;
+  std::vector<float> first_ids;
+};
+
 class Film {
  public:
   Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
@@ -37,6 +46,10 @@ class Film {
 
   /// Means so far. A pixel without samples is black.
   Picture resolve() const;
+
+  FilmState export_state() const;
+  /// Of a film of the same size and variables.
+  void import_state(const FilmState& state);
 
   static std::size_t bytes_per_pixel(std::span<const Aov> aovs);
 

@@ -1,0 +1,96 @@
+#include "renderer/cache/cache_content.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::SafetensorsReader;
+using neural::TensorType;
+
+constexpr const char* kSides = "renderer.sides";
+constexpr const char* kScales = "renderer.scales";
+constexpr const char* kTriangleCounts = "renderer.triangle_counts";
+constexpr const char* kSteps = "renderer.steps";
+constexpr const char* kLosses = "renderer.losses";
+
+template <class Values>
+void read_all(SafetensorsReader& file, const char* name, TensorType type, Values&& values) {
+  const std::uint64_t shape[] = {values.size()};
+  file.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+}
+
+}  // namespace
+
+void fill_cache_content(CacheContent& content, const neural::Model& model,
+                        const neural::TrainingOptions& options, const CacheState& state) {
+  content.model = neural::make_model_content(model, options, state.model);
+  const CacheSetup& setup = state.setup;
+  content.sides.clear();
+  for (const neural::Sides sides : setup.sides) content.sides.push_back(static_cast<std::uint32_t>(sides));
+  content.scales = {setup.node_spacing, setup.target_scale, setup.records_per_path,
+                    setup.records_per_short_path};
+  content.losses = {state.loss_average, state.loss_least};
+  content.tensors = content.model.tensors;
+  const auto add = [&](const char* name, TensorType type, const auto& values) {
+    content.tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
+  };
+  add(kSides, TensorType::u32, content.sides);
+  add(kScales, TensorType::f32, content.scales);
+  add(kTriangleCounts, TensorType::u32, state.triangle_counts);
+  add(kSteps, TensorType::u64, std::span(&state.steps, 1));
+  add(kLosses, TensorType::f64, content.losses);
+}
+
+CacheSetup read_cache_setup(SafetensorsReader& file) {
+  // As many as the file holds: an untrusted length takes no more memory than the file does.
+  std::vector<std::uint32_t> sides(file.length(kSides, TensorType::u32));
+  read_all(file, kSides, TensorType::u32, sides);
+  CacheSetup setup;
+  setup.sides.reserve(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] > static_cast<std::uint32_t>(neural::Sides::both))
+      file.fail(fmt::format("tensor '{}': element {} is {}, expected 0 to 3", kSides, i, sides[i]));
+    setup.sides.push_back(static_cast<neural::Sides>(sides[i]));
+  }
+  std::array<float, 4> scales{};
+  read_all(file, kScales, TensorType::f32, scales);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    if (!(scales[i] > 0.0f) || !std::isfinite(scales[i]))
+      file.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number above zero", kScales, i,
+                            scales[i]));
+  }
+  std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
+      std::tuple_cat(scales);
+  return setup;
+}
+
+CacheState read_cache_state(SafetensorsReader& file, const neural::Model& model,
+                            const neural::TrainingOptions& options, std::set<std::string> others) {
+  CacheState state;
+  state.setup = read_cache_setup(file);
+  state.model = neural::read_model_content(file, model, options);
+  state.triangle_counts.resize(file.length(kTriangleCounts, TensorType::u32));
+  read_all(file, kTriangleCounts, TensorType::u32, state.triangle_counts);
+  read_all(file, kSteps, TensorType::u64, std::span(&state.steps, 1));
+  if (state.steps >> 31 != 0)
+    file.fail(fmt::format("tensor '{}': {}, expected less than 2^31", kSteps, state.steps));
+  std::array<double, 2> losses{};
+  read_all(file, kLosses, TensorType::f64, losses);
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    if (std::isnan(losses[i]))
+      file.fail(fmt::format("tensor '{}': element {} is {}, expected a number", kLosses, i, losses[i]));
+  }
+  state.loss_average = losses[0];
+  state.loss_least = losses[1];
+  others.insert({kSides, kScales, kTriangleCounts, kSteps, kLosses});
+  neural::expect_no_other_tensors(file, model, options, std::move(others));
+  return state;
+}
+
+}  // namespace gatelight::renderer

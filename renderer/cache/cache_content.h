@@ -1,0 +1,36 @@
+#pragma once
+// A cache's part of a file: the model's tensors and metadata (neural/model_file.h) beside what the renderer
+// keeps with them.
+
+#include <array>
+#include <set>
+#include <string>
+
+#include "neural/model_file.h"
+#include "renderer/cache/cache_state.h"
+
+namespace gatelight::renderer {
+
+/// The views point into the state and into this struct.
+struct CacheContent {
+  neural::ModelContent model;
+  std::vector<std::uint32_t> sides;
+  std::array<float, 4> scales{};
+  std::array<double, 2> losses{};
+  std::vector<neural::TensorView> tensors;  ///< the model's and the renderer's
+};
+
+/// Fills `content`, which must stay where it is as long as its views are used. Throws
+/// neural::BadConfiguration for a state that is not the model's.
+void fill_cache_content(CacheContent& content, const neural::Model& model,
+                        const neural::TrainingOptions& options, const CacheState& state);
+
+/// What stands before the model is made. Throws neural::CacheFileError.
+CacheSetup read_cache_setup(neural::SafetensorsReader& file);
+
+/// The state of the model that was made after the setup. Throws neural::CacheFileError, and where the file
+/// holds tensors that are neither of the cache nor one of `others`.
+CacheState read_cache_state(neural::SafetensorsReader& file, const neural::Model& model,
+                            const neural::TrainingOptions& options, std::set<std::string> others = {});
+
+}  // namespace gatelight::renderer

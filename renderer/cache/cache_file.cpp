@@ -1,0 +1,86 @@
+#include "renderer/cache/cache_file.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "renderer/atomic_file.h"
+#include "renderer/cache/cache_content.h"
+#include "renderer/named_texts.h"
+#include "renderer/option_words.h"
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr const char* kFormat = "gatelight-scene-cache";
+constexpr int kVersion = 1;
+constexpr const char* kMeaning = "cache";
+
+NamedTexts texts_of(const CacheMeaning& meaning) {
+  NamedTexts texts = {{"integrator", word(meaning.integrator)}, {"encoding", word(meaning.encoding)}};
+  if (meaning.integrator == Integrator::nao) {
+    texts.push_back({"ao-distance", fmt::format("{}", meaning.ao_distance)});
+  } else {
+    texts.push_back({"cache-holds", word(meaning.holds)});
+    texts.push_back({"cache-roughness", fmt::format("{}", meaning.min_roughness)});
+  }
+  return texts;
+}
+
+}  // namespace
+
+CacheMeaning meaning_of(const RenderOptions& options, float ao_distance) {
+  const CacheOptions& cache = options.cache;
+  const bool spaced =
+      cache.encoding == neural::FeatureEncoding::gate && cache.gate.rule == neural::ResolutionRule::uniform;
+  return {.integrator = options.integrator,
+          .holds = cache.holds,
+          .min_roughness = cache.min_roughness,
+          .ao_distance = ao_distance,
+          .encoding = cache.encoding,
+          .node_spacing = spaced ? cache.node_spacing : std::nullopt};
+}
+
+void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
+                      const neural::TrainingOptions& options, const CacheMeaning& meaning,
+                      const SceneFingerprint& scene) {
+  CacheContent content;
+  fill_cache_content(content, model, options, state);
+  neural::Metadata& metadata = content.model.metadata;
+  metadata["format"] = kFormat;
+  metadata["version"] = fmt::format("{}", kVersion);
+  add_texts(metadata, kMeaning, texts_of(meaning));
+  add_scene(metadata, scene);
+  AtomicFile file(path);
+  neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
+                            path, content.tensors, metadata);
+  file.commit();
+}
+
+CacheFile::CacheFile(const std::filesystem::path& path) : file_(path) {
+  neural::expect_text(file_, "format", "format", kFormat);
+  neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
+  setup_ = read_cache_setup(file_);
+}
+
+void CacheFile::expect(const CacheMeaning& meaning, const SceneFingerprint& scene,
+                       std::size_t instances) const {
+  std::string differences = list_differences(file_.metadata(), kMeaning, texts_of(meaning));
+  if (meaning.node_spacing && *meaning.node_spacing != setup_.node_spacing) {
+    differences += fmt::format("{}node-spacing: file {}, expected {}", differences.empty() ? "" : "; ",
+                               setup_.node_spacing, *meaning.node_spacing);
+  }
+  if (!differences.empty()) file_.fail(fmt::format("it holds another cache: {}", differences));
+  const bool occlusion = meaning.integrator == Integrator::nao;
+  expect_scene(file_, scene,
+               occlusion ? std::vector<std::string>{"lights", "environment"} : std::vector<std::string>{});
+  if (setup_.sides.size() != instances)
+    file_.fail(fmt::format("sides of {} instances, expected {}", setup_.sides.size(), instances));
+}
+
+CacheState CacheFile::read_state(const neural::Model& model, const neural::TrainingOptions& options) {
+  return read_cache_state(file_, model, options);
+}
+
+}  // namespace gatelight::renderer

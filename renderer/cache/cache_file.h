@@ -1,0 +1,53 @@
+#pragma once
+// A trained cache in a file of its own (--cache-out, --cache-in): for another camera of the same scene. What
+// is refused and what is not stands in the README.
+
+#include <filesystem>
+#include <optional>
+
+#include "neural/model_file.h"
+#include "renderer/cache/cache_options.h"
+#include "renderer/cache/cache_state.h"
+#include "renderer/options.h"
+#include "renderer/scene_fingerprint.h"
+
+namespace gatelight::renderer {
+
+/// What the answers of a cache mean, beside what its network and layout say of themselves.
+struct CacheMeaning {
+  Integrator integrator = Integrator::nrc;
+  CacheHolds holds = CacheHolds::no_delta;  ///< of nrc
+  float min_roughness = 0.0f;               ///< of nrc
+  float ao_distance = 0.0f;                 ///< metres; of nao
+  neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
+  std::optional<float> node_spacing;  ///< asked for; none: any
+};
+
+/// `ao_distance` resolved, in metres.
+CacheMeaning meaning_of(const RenderOptions& options, float ao_distance);
+
+/// Written atomically and fsynced. Throws OutputError, neural::CacheFileError, and neural::BadConfiguration
+/// for a state that is not the model's.
+void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
+                      const neural::TrainingOptions& options, const CacheMeaning& meaning,
+                      const SceneFingerprint& scene);
+
+/// A file that is read in two stages, because the model is made after its setup. Trusts nothing: all members
+/// throw neural::CacheFileError with the file, the value and what was expected.
+class CacheFile {
+ public:
+  explicit CacheFile(const std::filesystem::path& path);
+
+  const CacheSetup& setup() const { return setup_; }
+  /// Refuses, naming every difference, a cache that means something else or is of another scene, or of
+  /// another number of instances. Of nao only what decides occlusion counts: lights and the environment may
+  /// differ.
+  void expect(const CacheMeaning& meaning, const SceneFingerprint& scene, std::size_t instances) const;
+  CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options);
+
+ private:
+  neural::SafetensorsReader file_;
+  CacheSetup setup_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,242 @@
+#include "renderer/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <set>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/atomic_file.h"
+#include "renderer/cache/cache_content.h"
+#include "renderer/digest.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::SafetensorsReader;
+using neural::TensorType;
+using neural::TensorView;
+
+constexpr const char* kFormat = "gatelight-checkpoint";
+constexpr int kVersion = 1;
+constexpr const char* kOptions = "option";
+constexpr const char* kStatistics = "statistics";
+constexpr const char* kPhase = "phase";
+constexpr const char* kSamples = "samples";
+constexpr const char* kHasCache = "cache";
+constexpr const char* kDigest = "digest";
+constexpr const char* kNonFinite = "nonfinite_samples";
+
+/// What adds up over the runs that make a picture, and the last values of what a later run may not count
+/// anew.
+template <class Statistics, class Visit>
+void each_accumulated(Statistics& s, Visit&& visit) {
+  visit("render-seconds", s.render_seconds);
+  visit("camera-rays", s.rays.camera);
+  visit("bounce-rays", s.rays.bounce);
+  visit("shadow-rays", s.rays.shadow);
+  visit("trace-seconds", s.rays.seconds);
+  visit("nonfinite", s.nonfinite);
+  visit("clamped", s.clamped);
+  visit("cache-steps", s.cache.steps);
+  visit("cache-records", s.cache.records);
+  visit("cache-rejected", s.cache.rejected);
+  visit("cache-unstored", s.cache.unstored);
+  visit("cache-training-paths", s.cache.training_paths);
+  visit("cache-touched-nodes", s.cache.touched_nodes);
+  visit("cache-loss", s.cache.loss);
+  visit("cache-scout-seconds", s.cache.scout_seconds);
+  visit("cache-train-seconds", s.cache.train_seconds);
+  visit("cache-train-trace-seconds", s.cache.train_trace_seconds);
+  visit("cache-train-query-seconds", s.cache.train_query_seconds);
+  visit("cache-train-step-seconds", s.cache.train_step_seconds);
+  visit("cache-render-trace-seconds", s.cache.render_trace_seconds);
+  visit("cache-render-query-seconds", s.cache.render_query_seconds);
+  visit("cache-queries", s.cache.queries);
+  visit("cache-negative-answers", s.cache.negative_answers);
+  visit("cache-unstored-hits", s.cache.unstored_hits);
+}
+
+/// The film's arrays and their names.
+template <class State, class Visit>
+void each_array(State& film, Visit&& visit) {
+  visit("film.radiance", TensorType::f64, film.radiance);
+  visit("film.radiance_counts", TensorType::u32, film.radiance_counts);
+  visit("film.first", TensorType::f64, film.first);
+  visit("film.first_counts", TensorType::u32, film.first_counts);
+  visit("film.first_ids", TensorType::f32, film.first_ids);
+}
+
+const char* phase_name(Phase phase) {
+  return phase == Phase::train ? "train" : "render";
+}
+
+const std::string& text_at(const SafetensorsReader& file, const std::string& key) {
+  const auto found = file.metadata().find(key);
+  if (found == file.metadata().end()) file.fail(fmt::format("metadata '{}' is missing", key));
+  return found->second;
+}
+
+template <class Number>
+Number number_at(const SafetensorsReader& file, const std::string& key) {
+  const std::string& text = text_at(file, key);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < Number{0})
+    file.fail(fmt::format("{}: '{}', expected a number, not negative", key, text));
+  return value;
+}
+
+/// Over names and bytes of all tensors and over the other metadata: a checkpoint is gone on with to the bit,
+/// or not at all.
+class ContentDigest {
+ public:
+  void add_tensor(const std::string& name) { record_.add_text(name); }
+  void add_bytes(std::span<const std::byte> piece) { record_.add(digest_of(piece)); }
+  std::string finish(const neural::Metadata& metadata) {
+    for (const auto& [key, text] : metadata) {
+      if (key == kDigest) continue;
+      record_.add_text(key);
+      record_.add_text(text);
+    }
+    return hexadecimal(record_.digest());
+  }
+
+ private:
+  DigestRecord record_;
+};
+
+std::string digest_of_content(std::vector<TensorView> tensors, const neural::Metadata& metadata) {
+  std::sort(tensors.begin(), tensors.end(),
+            [](const TensorView& a, const TensorView& b) { return a.name < b.name; });
+  ContentDigest digest;
+  for (const TensorView& tensor : tensors) {
+    digest.add_tensor(tensor.name);
+    for (std::size_t at = 0; at < tensor.data.size(); at += SafetensorsReader::kPieceBytes)
+      digest.add_bytes(
+          tensor.data.subspan(at, std::min(SafetensorsReader::kPieceBytes, tensor.data.size() - at)));
+  }
+  return digest.finish(metadata);
+}
+
+std::string digest_of_content(SafetensorsReader& file) {
+  ContentDigest digest;
+  for (const std::string& name : file.names()) {  // in the order of names
+    digest.add_tensor(name);
+    file.read_in_pieces(name, [&](std::span<const std::byte> piece) { digest.add_bytes(piece); });
+  }
+  return digest.finish(file.metadata());
+}
+
+std::vector<std::uint32_t> to_words(const std::vector<NonFiniteSample>& samples) {
+  std::vector<std::uint32_t> words;
+  for (const NonFiniteSample& s : samples) {
+    for (const std::uint32_t word :
+         {static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y), s.sample, s.seed})
+      words.push_back(word);
+  }
+  return words;
+}
+
+std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
+  std::vector<std::uint32_t> words(file.length(kNonFinite, TensorType::u32));
+  const std::uint64_t shape[] = {words.size()};
+  file.read(kNonFinite, TensorType::u32, shape, std::as_writable_bytes(std::span(words)));
+  if (words.size() % 4 != 0)
+    file.fail(fmt::format("tensor '{}': {} numbers, expected four a sample", kNonFinite, words.size()));
+  std::vector<NonFiniteSample> samples;
+  for (std::size_t i = 0; i < words.size(); i += 4)
+    samples.push_back(
+        {static_cast<int>(words[i]), static_cast<int>(words[i + 1]), words[i + 2], words[i + 3]});
+  return samples;
+}
+
+std::set<std::string> own_tensors() {
+  std::set<std::string> names = {kNonFinite};
+  const FilmState none;
+  each_array(none, [&](const char* name, TensorType, const auto&) { names.insert(name); });
+  return names;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentity& identity,
+                      const CheckpointProgress& progress, const RenderStatistics& statistics,
+                      const Film& film, const std::optional<CheckpointCache>& cache) {
+  CacheContent content;
+  if (cache) fill_cache_content(content, cache->model, cache->options, cache->state);
+  std::vector<TensorView> tensors = content.tensors;
+  FilmState sums;
+  if (progress.samples > 0) sums = film.export_state();
+  each_array(sums, [&](const char* name, TensorType type, const auto& values) {
+    tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
+  });
+  const std::vector<std::uint32_t> nonfinite = to_words(statistics.nonfinite_samples);
+  tensors.push_back({kNonFinite, TensorType::u32, {nonfinite.size()}, std::as_bytes(std::span(nonfinite))});
+
+  neural::Metadata metadata = content.model.metadata;
+  metadata["format"] = kFormat;
+  metadata["version"] = fmt::format("{}", kVersion);
+  metadata[kPhase] = phase_name(progress.phase);
+  metadata[kSamples] = fmt::format("{}", progress.samples);
+  metadata[kHasCache] = cache ? "yes" : "no";
+  add_texts(metadata, kOptions, identity.options);
+  add_scene(metadata, identity.scene);
+  each_accumulated(statistics, [&](const char* name, const auto& value) {
+    metadata[fmt::format("{}.{}", kStatistics, name)] = fmt::format("{}", value);
+  });
+  metadata[kDigest] = digest_of_content(tensors, metadata);
+
+  AtomicFile file(path);
+  neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
+                            path, tensors, metadata);
+  file.commit();
+}
+
+Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
+  neural::expect_text(file_, "format", "format", kFormat);
+  neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
+  if (text_at(file_, kDigest) != digest_of_content(file_)) file_.fail("it is damaged: its digest is another");
+  const std::string& phase = text_at(file_, kPhase);
+  if (phase != phase_name(Phase::train) && phase != phase_name(Phase::render))
+    file_.fail(fmt::format("phase: '{}', expected train or render", phase));
+  progress_.phase = phase == phase_name(Phase::train) ? Phase::train : Phase::render;
+  progress_.samples = number_at<int>(file_, kSamples);
+  if (text_at(file_, kHasCache) == "yes") cache_setup_ = read_cache_setup(file_);
+}
+
+void Checkpoint::expect(const CheckpointIdentity& identity, int spp) const {
+  const std::string differences = list_differences(file_.metadata(), kOptions, identity.options);
+  if (!differences.empty()) file_.fail(fmt::format("it is of other options: {}", differences));
+  expect_scene(file_, identity.scene);
+  if (progress_.samples > spp)
+    file_.fail(fmt::format("spp: file {}, expected at most {}", progress_.samples, spp));
+}
+
+void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
+  if (progress_.samples > 0) {
+    FilmState sums = film.export_state();  // of the sizes that are expected
+    each_array(sums, [&](const char* name, TensorType type, auto& values) {
+      const std::uint64_t shape[] = {values.size()};
+      file_.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+    });
+    film.import_state(sums);
+  }
+  each_accumulated(statistics, [&](const char* name, auto& value) {
+    value =
+        number_at<std::remove_reference_t<decltype(value)>>(file_, fmt::format("{}.{}", kStatistics, name));
+  });
+  statistics.nonfinite_samples = read_nonfinite(file_);
+  statistics.spp = progress_.samples;
+}
+
+CacheState Checkpoint::read_cache(const neural::Model& model, const neural::TrainingOptions& options) {
+  return read_cache_state(file_, model, options, own_tensors());
+}
+
+}  // namespace gatelight::renderer
