@@ -47,11 +47,19 @@ FilterSampler::FilterSampler(PixelFilter filter, float width)
     sum[i + 1] = sum[i] + std::max(0.0, profile(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));
   }
   for (std::size_t i = 0; i <= kBins; ++i) cumulative_[i] = static_cast<float>(sum[i] / sum[kBins]);
+  std::size_t edge = 1;
+  for (std::size_t i = 0; i <= kGuides; ++i) {
+    while (edge < kBins && cumulative_[edge] <= static_cast<float>(i) / kGuides) ++edge;
+    guide_[i] = static_cast<std::uint16_t>(edge);
+  }
 }
 
 float FilterSampler::sample_1d(float u) const {
-  // A table of the inverse would be faster and wrong at the tails, where the inverse is steep.
-  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
+  // The inverse itself in a table would be wrong at the tails, where it is steep; the guides only shorten the
+  // search (Chen and Asau 1974), from ten steps to one or two.
+  const auto guide = static_cast<std::size_t>(u * kGuides);
+  const auto above =
+      std::upper_bound(cumulative_.begin() + guide_[guide], cumulative_.begin() + guide_[guide + 1], u);
   const auto bin = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
   const float mass = cumulative_[bin + 1] - cumulative_[bin];
   const float within = mass > 0.0f ? std::clamp((u - cumulative_[bin]) / mass, 0.0f, 1.0f) : 0.5f;
