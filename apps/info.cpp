@@ -4,8 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/cache_flags.h"
+#include "apps/cache_report_text.h"
 #include "apps/errors.h"
 #include "apps/log.h"
+#include "apps/render_flags.h"
+#include "apps/render_settings.h"
 #include "apps/results.h"
 #include "apps/scene_report.h"
 #include "apps/stopwatch.h"
@@ -19,15 +23,19 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kFooter =
+    R"(With --integrator nao or nrc it also tells what the cache of the scene would be for the view that these flags describe:
+memory, feature vectors, resolutions and sides of the instances, and what the network reads. Nothing is trained.
+
+Examples:
   gatelight info
   gatelight info room.glb
+  gatelight info room.glb --integrator nrc --node-spacing 0.05
   gatelight info room.glb --json - | jq .requirements)";
 
 struct InfoSettings {
-  std::string scene;
+  RenderSettings render;
   std::string json;
-  std::string variant;
 };
 
 std::string program_text() {
@@ -36,35 +44,48 @@ std::string program_text() {
                      embree_version());
 }
 
-std::string program_json() {
-  const nlohmann::ordered_json json = {{"schema", 1},
-                                       {"version", version()},
-                                       {"isa", renderer::best_isa()},
-                                       {"threads", renderer::available_threads()},
-                                       {"embree", embree_version()}};
-  return json.dump(1) + "\n";
+nlohmann::ordered_json program_json() {
+  return {{"schema", 1},
+          {"version", version()},
+          {"isa", renderer::best_isa()},
+          {"threads", renderer::available_threads()},
+          {"embree", embree_version()}};
 }
 
-int run_info(const InfoSettings& settings) {
-  // A missing texture changes nothing that is told here.
-  const scene::LoadOptions options{.variant = settings.variant, .missing_is_error = false};
-  if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
+struct Told {
   std::string text;
-  std::string json;
-  if (settings.scene.empty()) {
-    text = program_text();
-    json = program_json();
-  } else {
-    const Stopwatch watch;
-    const scene::Scene scene = scene::load_gltf(settings.scene, options);
-    const SceneReport report = make_scene_report(scene, watch.seconds());
-    for (const std::string& warning : scene.warnings) log_warning(warning);
-    text = scene_report_text(scene, report);
-    json = scene_report_json(scene, report);
+  nlohmann::ordered_json json;
+};
+
+Told tell_scene(const RenderSettings& settings) {
+  const Stopwatch watch;
+  const scene::Scene scene = scene::load_gltf(settings.scene, settings.load);
+  const SceneReport report = make_scene_report(scene, watch.seconds());
+  for (const std::string& warning : scene.warnings) log_warning(warning);
+  Told told{scene_report_text(scene, report), scene_report_json(scene, report)};
+  if (renderer::uses_cache(settings.render.integrator)) {
+    const renderer::CacheReport cache = renderer::report_cache(scene, settings.render);
+    told.text += cache_report_text(cache, settings.render);
+    told.json["cache"] = cache_report_json(cache, settings.render);
   }
-  if (!settings.json.empty()) write_text(settings.json, json);
+  return told;
+}
+
+int run_info(InfoSettings settings) {
+  if (settings.render.scene.empty() && !settings.render.given.empty()) {
+    throw UsageError(fmt::format("{}: there is no scene to tell about, expected SCENE with it",
+                                 *settings.render.given.begin()));
+  }
+  complete_settings(settings.render);
+  if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
+  const Told told =
+      settings.render.scene.empty() ? Told{program_text(), program_json()} : tell_scene(settings.render);
+  if (!settings.json.empty()) {
+    write_text(settings.json,
+               told.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  }
   // JSON on stdout stands alone, so that it can be parsed.
-  if (settings.json != "-") write_text("-", text);
+  if (settings.json != "-") write_text("-", told.text);
   return kDone;
 }
 
@@ -74,11 +95,21 @@ Subcommand add_info_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("info", "Tell what a scene holds and needs, or what this program is");
   app->footer(kFooter);
   const auto settings = std::make_shared<InfoSettings>();
-  app->add_option("SCENE", settings->scene, "Scene, .gltf or .glb; without it: version, ISA, threads, Embree")
+  // A missing texture changes little that is told here.
+  settings->render.load.missing_is_error = false;
+  app->add_option("SCENE", settings->render.scene,
+                  "Scene, .gltf or .glb; without it: version, ISA, threads, Embree")
       ->type_name("");
-  app->add_option("--json", settings->json, "The same as JSON; - is stdout")->type_name("FILE|-");
-  app->add_option("--variant", settings->variant, "Material variant of the file, by name")->type_name("NAME");
-  return {app, [settings] { return run_info(*settings); }};
+  app->add_option("--json", settings->json, "The same as JSON; - is stdout")
+      ->type_name("FILE|-")
+      ->group("Output");
+  add_cache_report_flags(*app, settings->render);
+  return {app, [app, settings] {
+            finish_flags(*app, settings->render);
+            // They are of the call, not of the scene.
+            for (const char* name : {"SCENE", "--json"}) settings->render.given.erase(name);
+            return run_info(*settings);
+          }};
 }
 
 }  // namespace gatelight::apps

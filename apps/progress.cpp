@@ -29,6 +29,30 @@ void print_json(const nlohmann::ordered_json& object) {
   std::fflush(stderr);
 }
 
+const char* name_of(renderer::Phase phase) {
+  switch (phase) {
+    case renderer::Phase::scout:
+      return "scout";
+    case renderer::Phase::train:
+      return "train";
+    case renderer::Phase::render:
+      return "render";
+  }
+  return "";
+}
+
+/// What the bar tells of a phase beside its fraction.
+std::string measures(const renderer::Progress& progress, double samples_per_second) {
+  if (progress.phase == renderer::Phase::train) {
+    return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);
+  }
+  if (progress.phase == renderer::Phase::render) {
+    return fmt::format("  {}/{} spp  {}{}samples/s", progress.spp_done, progress.spp,
+                       format_count(samples_per_second), samples_per_second < 999.5 ? " " : "");
+  }
+  return "";
+}
+
 }  // namespace
 
 ProgressReporter::ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds)
@@ -57,43 +81,70 @@ void ProgressReporter::phase(const std::string& name) {
 void ProgressReporter::update(const renderer::Progress& progress) {
   const std::lock_guard lock(mutex_);
   if (mode_ == ProgressMode::none) return;
+  const bool first = enter_phase(progress);
+  const bool last = progress.fraction >= 1.0;
   const auto now = std::chrono::steady_clock::now();
   const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
-  const bool last = progress.fraction >= 1.0;
-  if (any_update_ && !last && std::chrono::duration<double>(now - last_).count() < interval) return;
-  any_update_ = true;
+  if (!first && !last && std::chrono::duration<double>(now - last_).count() < interval) return;
   last_ = now;
+  if (mode_ == ProgressMode::bar) {
+    show_bar(progress, rates(progress));
+  } else {
+    show_json(progress, rates(progress));
+  }
+}
 
-  const double samples = progress.fraction * pixels_ * progress.spp;
-  const double samples_per_second = progress.seconds > 0.0 ? samples / progress.seconds : 0.0;
-  double eta = progress.fraction > 0.0 ? progress.seconds * (1.0 / progress.fraction - 1.0) : -1.0;
+bool ProgressReporter::enter_phase(const renderer::Progress& progress) {
+  const bool first = phase_ != progress.phase;
+  if (first) {
+    phase_ = progress.phase;
+    phase_start_ = seconds_;
+  }
+  seconds_ = progress.seconds;
+  return first;
+}
+
+ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progress) const {
+  Rates rates;
+  const double seconds = progress.seconds - phase_start_;
+  if (progress.fraction > 0.0) rates.eta_seconds = seconds * (1.0 / progress.fraction - 1.0);
+  if (progress.phase != renderer::Phase::render) return rates;
+  if (seconds > 0.0) rates.samples_per_second = progress.fraction * pixels_ * progress.spp / seconds;
   if (time_limit_seconds_ > 0.0) {
     const double left = std::max(0.0, time_limit_seconds_ - progress.seconds);
-    eta = eta < 0.0 ? left : std::min(eta, left);
+    rates.eta_seconds = rates.eta_seconds < 0.0 ? left : std::min(rates.eta_seconds, left);
   }
-  if (mode_ == ProgressMode::bar) {
-    show_bar(progress, samples_per_second, eta);
-    return;
+  return rates;
+}
+
+void ProgressReporter::show_json(const renderer::Progress& progress, const Rates& rates) {
+  nlohmann::ordered_json line = {
+      {"event", "progress"}, {"phase", name_of(progress.phase)}, {"fraction", progress.fraction}};
+  if (progress.phase == renderer::Phase::train) {
+    line["steps_done"] = progress.steps_done;
+    line["steps"] = progress.steps;
+    line["loss"] = progress.loss;
+  } else if (progress.phase == renderer::Phase::render) {
+    line["spp_done"] = progress.spp_done;
+    line["spp"] = progress.spp;
+    line["samples_per_second"] = rates.samples_per_second;
   }
-  nlohmann::ordered_json line = {{"event", "progress"},           {"fraction", progress.fraction},
-                                 {"spp_done", progress.spp_done}, {"spp", progress.spp},
-                                 {"seconds", progress.seconds},   {"samples_per_second", samples_per_second}};
-  if (eta >= 0.0) line["eta_seconds"] = eta;
+  line["seconds"] = progress.seconds;
+  if (rates.eta_seconds >= 0.0) line["eta_seconds"] = rates.eta_seconds;
   print_json(line);
 }
 
-void ProgressReporter::show_bar(const renderer::Progress& progress, double samples_per_second,
-                                double eta_seconds) {
-  const std::string numbers =
-      fmt::format(" {:5.1f} %  {}/{} spp  {}samples/s  ETA {}", 100.0 * progress.fraction, progress.spp_done,
-                  progress.spp, format_count(samples_per_second) + (samples_per_second < 999.5 ? " " : ""),
-                  eta_seconds < 0.0 ? "?" : format_duration(eta_seconds));
-  // "render [" and "]", and the last column stays free: some terminals wrap there.
-  const int room = terminal_columns() - static_cast<int>(numbers.size()) - 10;
+void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
+  const std::string name = name_of(progress.phase);
+  const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,
+                                          measures(progress, rates.samples_per_second),
+                                          rates.eta_seconds < 0.0 ? "?" : format_duration(rates.eta_seconds));
+  // "NAME [" and "]", and the last column stays free: some terminals wrap there.
+  const int room = terminal_columns() - static_cast<int>(name.size() + numbers.size()) - 4;
   const int width = std::clamp(room, 0, 40);
   const int filled = static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * width));
   clear_line();
-  if (width >= 8) fmt::print(stderr, "render [{:=<{}}{: <{}}]", "", filled, "", width - filled);
+  if (width >= 8) fmt::print(stderr, "{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled);
   fmt::print(stderr, "{}", numbers);
   std::fflush(stderr);
   line_shown_ = true;

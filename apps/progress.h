@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,15 @@ class ProgressReporter {
   void clear();
 
  private:
-  void show_bar(const renderer::Progress& progress, double samples_per_second, double eta_seconds);
+  struct Rates {
+    double samples_per_second = 0.0;
+    double eta_seconds = -1.0;  ///< of the phase; negative: unknown
+  };
+  /// Whether it is the first of its phase.
+  bool enter_phase(const renderer::Progress& progress);
+  Rates rates(const renderer::Progress& progress) const;
+  void show_json(const renderer::Progress& progress, const Rates& rates);
+  void show_bar(const renderer::Progress& progress, const Rates& rates);
   void clear_line();
 
   std::mutex mutex_;
@@ -45,7 +54,9 @@ class ProgressReporter {
   double time_limit_seconds_;
   bool line_shown_ = false;
   std::chrono::steady_clock::time_point last_;
-  bool any_update_ = false;
+  std::optional<renderer::Phase> phase_;
+  double phase_start_ = 0.0;  ///< Progress::seconds when the phase began
+  double seconds_ = 0.0;      ///< of the last update
 };
 
 }  // namespace gatelight::apps

@@ -155,7 +155,7 @@ std::string scene_report_text(const scene::Scene& scene, const SceneReport& repo
   return rows.text();
 }
 
-std::string scene_report_json(const scene::Scene& scene, const SceneReport& report) {
+ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& report) {
   const SceneRequirements& requirements = report.requirements;
   ordered_json json;
   json["schema"] = 1;
@@ -189,7 +189,7 @@ std::string scene_report_json(const scene::Scene& scene, const SceneReport& repo
                           {"render_estimate", report.render_bytes}};
   json["seconds"] = {{"load", report.load_seconds}};
   json["warnings"] = scene.warnings;
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json;
 }
 
 }  // namespace gatelight::apps

@@ -1,6 +1,7 @@
 #pragma once
 // What `gatelight info SCENE` tells.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "scene/requirements.h"
@@ -20,8 +21,8 @@ struct SceneReport {
 
 SceneReport make_scene_report(const scene::Scene& scene, double load_seconds);
 
-/// Both end in a line break.
+/// Lines, each with its line break.
 std::string scene_report_text(const scene::Scene& scene, const SceneReport& report);
-std::string scene_report_json(const scene::Scene& scene, const SceneReport& report);
+nlohmann::ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& report);
 
 }  // namespace gatelight::apps

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "apps/cache_statistics.h"
 #include "apps/run_report.h"
 #include "apps/text.h"
 
@@ -28,6 +29,7 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",
                       format_bytes(peak_resident_bytes()), format_bytes(s.geometry_bytes),
                       format_bytes(s.bvh_bytes), format_bytes(s.texture_bytes));
+  if (renderer::uses_cache(settings.render.integrator)) text += cache_summary(s.cache);
   return text;
 }
 

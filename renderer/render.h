@@ -21,7 +21,7 @@ struct Progress {
   double loss = 0.0;
   int spp_done = 0;
   int spp = 0;
-  double fraction = 0.0;  ///< of the work, in [0, 1]
+  double fraction = 0.0;  ///< of the phase, in [0, 1]
   double seconds = 0.0;   ///< since rendering started
 };
 

@@ -272,6 +272,7 @@ TEST_F(RenderCommand, ProgressLinesAreJson) {
     for (const char* key : {"fraction", "spp_done", "spp", "seconds", "samples_per_second"}) {
       EXPECT_TRUE(object[key].is_number()) << key;
     }
+    EXPECT_EQ(object["phase"], "render");
     EXPECT_GE(object["fraction"], last_fraction);
     last_fraction = object["fraction"];
   }

@@ -88,7 +88,9 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
     EXPECT_THAT(render.out, HasSubstr(word));
   }
   EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
-  EXPECT_THAT(run_gatelight({"info", "--help"}).out, HasSubstr("Examples:"));
+  EXPECT_THAT(run_gatelight({"info", "--help"}).out,
+              AllOf(HasSubstr("Examples:"), HasSubstr("--integrator path|ao|nao|nrc"),
+                    HasSubstr("--stack LIST"), HasSubstr("--environment FILE"), HasSubstr("[warn]")));
   EXPECT_THAT(run_gatelight_inside({"merge", "--help"}).out, HasSubstr("Example:"));
 }
 
@@ -257,6 +259,17 @@ TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {
   EXPECT_THAT(output.out, HasSubstr("\"spp\": 1"));
   EXPECT_TRUE(std::filesystem::exists(path("one.exr")));
   EXPECT_TRUE(std::filesystem::exists(path("two.png")));
+}
+
+TEST_F(Usage, InfoChecksTheFlagsOfTheCache) {
+  const Output alone = run_gatelight_inside({"info", "--integrator", "nrc"});
+  EXPECT_EQ(alone.exit_code, 1);
+  EXPECT_THAT(alone.last_error_line(), AllOf(HasSubstr("--integrator"), HasSubstr("SCENE")));
+  const Output without = run_gatelight_inside({"info", scene(), "--batch", "8"});
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_EQ(without.out, "");
+  EXPECT_THAT(without.last_error_line(), AllOf(HasSubstr("--batch"), HasSubstr("nao or nrc")));
+  EXPECT_EQ(run_gatelight_inside({"info", scene(), "--camera", "front"}).exit_code, 0);
 }
 
 TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {

@@ -1,0 +1,16 @@
+#pragma once
+// What `gatelight info SCENE --integrator nao|nrc` tells of the cache.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "renderer/cache/cache_report.h"
+
+namespace gatelight::apps {
+
+/// Lines, each with its line break.
+std::string cache_report_text(const renderer::CacheReport& report, const renderer::RenderOptions& options);
+nlohmann::ordered_json cache_report_json(const renderer::CacheReport& report,
+                                         const renderer::RenderOptions& options);
+
+}  // namespace gatelight::apps

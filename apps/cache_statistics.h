@@ -1,0 +1,22 @@
+#pragma once
+// What a cache learned and answered, for programs and for people.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "renderer/statistics.h"
+
+namespace gatelight::apps {
+
+/// The parts of the statistics file that only a cache has: "train", "cache", and its share of "memory_bytes".
+nlohmann::ordered_json training_json(const renderer::CacheStatistics& statistics);
+nlohmann::ordered_json cache_json(const renderer::CacheStatistics& statistics);
+nlohmann::ordered_json cache_memory_json(const renderer::CacheStatistics& statistics);
+
+/// A few lines, each with its line break.
+std::string cache_summary(const renderer::CacheStatistics& statistics);
+
+/// "1: 20, 4: 3": instances by resolution.
+std::string histogram_text(const renderer::CacheStatistics& statistics);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,34 @@
+#pragma once
+// What the cache of a scene would be: found by scouting, nothing is trained.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/options.h"
+#include "renderer/statistics.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+struct CacheInstanceReport {
+  std::string name;
+  std::uint64_t triangles = 0;
+  std::vector<std::uint32_t> resolutions;  ///< of each level of the stack
+  int sides = 0;                           ///< with storage: 0, 1 or 2
+  std::uint64_t nodes = 0;                 ///< of all levels and sides
+};
+
+struct CacheReport {
+  RenderStatistics statistics;  ///< its `cache`: memory, nodes, sides, node spacing; and what building took
+  std::vector<CacheInstanceReport> instances;  ///< in the scene's order; empty for a hash grid
+  bool direction_input = false;                ///< what the network reads beside the features
+  bool normal_input = false;
+  bool albedo_input = false;
+  std::uint64_t bytes_without_scouting = 0;  ///< parameters, had all possible sides storage
+};
+
+/// For integrators with a cache. Throws what Renderer throws.
+CacheReport report_cache(const scene::Scene& scene, const RenderOptions& options);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,83 @@
+#include "apps/progress.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::json;
+using renderer::Phase;
+using renderer::Progress;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// What the reporter says of a picture of 1000 pixels.
+std::string report(ProgressMode mode, const std::vector<Progress>& updates, double time_limit_seconds = 0.0) {
+  ::testing::internal::CaptureStderr();
+  ProgressReporter reporter(mode, 1000.0, time_limit_seconds);
+  for (const Progress& update : updates) reporter.update(update);
+  return ::testing::internal::GetCapturedStderr();
+}
+
+std::vector<json> report_json(const std::vector<Progress>& updates, double time_limit_seconds = 0.0) {
+  std::istringstream text(report(ProgressMode::json, updates, time_limit_seconds));
+  std::vector<json> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+const std::vector<Progress> kRun = {
+    {.phase = Phase::scout, .fraction = 1.0, .seconds = 1.0},
+    {.phase = Phase::train, .steps_done = 25, .steps = 100, .loss = 0.5, .fraction = 0.25, .seconds = 3.0},
+    {.phase = Phase::train, .steps_done = 100, .steps = 100, .loss = 0.125, .fraction = 1.0, .seconds = 9.0},
+    {.phase = Phase::render, .spp_done = 2, .spp = 8, .fraction = 0.25, .seconds = 10.0},
+};
+
+TEST(Progress, EachPhaseHasItsMeasures) {
+  const std::vector<json> lines = report_json(kRun);
+  ASSERT_EQ(lines.size(), 4u);
+  for (const json& line : lines) EXPECT_EQ(line["event"], "progress");
+  EXPECT_EQ(lines[0]["phase"], "scout");
+  EXPECT_FALSE(lines[0].contains("spp"));
+  EXPECT_EQ(lines[1]["phase"], "train");
+  EXPECT_EQ(lines[1]["steps_done"], 25);
+  EXPECT_EQ(lines[1]["steps"], 100);
+  EXPECT_EQ(lines[1]["loss"], 0.5);
+  EXPECT_FALSE(lines[1].contains("spp"));
+  EXPECT_EQ(lines[3]["phase"], "render");
+  EXPECT_EQ(lines[3]["spp_done"], 2);
+  EXPECT_FALSE(lines[3].contains("loss"));
+}
+
+TEST(Progress, TimeLeftAndSpeedCountFromTheBeginOfThePhase) {
+  const std::vector<json> lines = report_json(kRun);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[1]["eta_seconds"], 6.0) << "a quarter took two seconds";
+  EXPECT_EQ(lines[3]["eta_seconds"], 3.0);
+  EXPECT_EQ(lines[3]["samples_per_second"], 2000.0);
+  const std::vector<json> limited = report_json(kRun, 11.0);
+  EXPECT_EQ(limited[1]["eta_seconds"], 6.0) << "the limit is of rendering";
+  EXPECT_EQ(limited[3]["eta_seconds"], 1.0);
+}
+
+TEST(Progress, LinesAreRareWithinAPhase) {
+  std::vector<Progress> updates;
+  for (int i = 1; i < 100; ++i) {
+    updates.push_back({.phase = i < 50 ? Phase::train : Phase::render, .spp = 1, .fraction = 0.01 * i});
+  }
+  EXPECT_EQ(report_json(updates).size(), 2u);
+}
+
+TEST(Progress, TheBarNamesThePhase) {
+  const std::string bar = report(ProgressMode::bar, kRun);
+  EXPECT_THAT(bar, AllOf(HasSubstr("scout ["), HasSubstr("train ["), HasSubstr("render [")));
+  EXPECT_THAT(bar, AllOf(HasSubstr("25/100 steps  loss 0.5  ETA 0:06"), HasSubstr("2/8 spp")));
+  EXPECT_EQ(report(ProgressMode::none, kRun), "");
+}
+
+}  // namespace
+}  // namespace gatelight::apps
