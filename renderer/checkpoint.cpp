@@ -14,6 +14,7 @@
 #include "renderer/atomic_file.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/digest.h"
+#include "renderer/film_samples.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -28,38 +29,43 @@ constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
 constexpr const char* kSamples = "samples";
+constexpr const char* kFirstStep = "first_step";
 constexpr const char* kHasCache = "cache";
 constexpr const char* kDigest = "digest";
 constexpr const char* kNonFinite = "nonfinite_samples";
 
-/// What adds up over the runs that make a picture, and the last values of what a later run may not count
-/// anew.
-template <class Statistics, class Visit>
-void each_accumulated(Statistics& s, Visit&& visit) {
-  visit("render-seconds", s.render_seconds);
-  visit("camera-rays", s.rays.camera);
-  visit("bounce-rays", s.rays.bounce);
-  visit("shadow-rays", s.rays.shadow);
-  visit("trace-seconds", s.rays.seconds);
-  visit("nonfinite", s.nonfinite);
-  visit("clamped", s.clamped);
-  visit("cache-steps", s.cache.steps);
-  visit("cache-records", s.cache.records);
-  visit("cache-rejected", s.cache.rejected);
-  visit("cache-unstored", s.cache.unstored);
-  visit("cache-training-paths", s.cache.training_paths);
-  visit("cache-touched-nodes", s.cache.touched_nodes);
-  visit("cache-loss", s.cache.loss);
-  visit("cache-scout-seconds", s.cache.scout_seconds);
-  visit("cache-train-seconds", s.cache.train_seconds);
-  visit("cache-train-trace-seconds", s.cache.train_trace_seconds);
-  visit("cache-train-query-seconds", s.cache.train_query_seconds);
-  visit("cache-train-step-seconds", s.cache.train_step_seconds);
-  visit("cache-render-trace-seconds", s.cache.render_trace_seconds);
-  visit("cache-render-query-seconds", s.cache.render_query_seconds);
-  visit("cache-queries", s.cache.queries);
-  visit("cache-negative-answers", s.cache.negative_answers);
-  visit("cache-unstored-hits", s.cache.unstored_hits);
+/// What adds up over the runs that make a picture: the same member of each of the statistics.
+template <class Visit, class... Statistics>
+void each_sum(Visit&& visit, Statistics&... s) {
+  visit("render-seconds", s.render_seconds...);
+  visit("camera-rays", s.rays.camera...);
+  visit("bounce-rays", s.rays.bounce...);
+  visit("shadow-rays", s.rays.shadow...);
+  visit("trace-seconds", s.rays.seconds...);
+  visit("nonfinite", s.nonfinite...);
+  visit("clamped", s.clamped...);
+  visit("cache-steps", s.cache.steps...);
+  visit("cache-records", s.cache.records...);
+  visit("cache-rejected", s.cache.rejected...);
+  visit("cache-unstored", s.cache.unstored...);
+  visit("cache-training-paths", s.cache.training_paths...);
+  visit("cache-scout-seconds", s.cache.scout_seconds...);
+  visit("cache-train-seconds", s.cache.train_seconds...);
+  visit("cache-train-trace-seconds", s.cache.train_trace_seconds...);
+  visit("cache-train-query-seconds", s.cache.train_query_seconds...);
+  visit("cache-train-step-seconds", s.cache.train_step_seconds...);
+  visit("cache-render-trace-seconds", s.cache.render_trace_seconds...);
+  visit("cache-render-query-seconds", s.cache.render_query_seconds...);
+  visit("cache-queries", s.cache.queries...);
+  visit("cache-negative-answers", s.cache.negative_answers...);
+  visit("cache-unstored-hits", s.cache.unstored_hits...);
+}
+
+/// What the last run that trained has to say.
+template <class Visit, class... Statistics>
+void each_last(Visit&& visit, Statistics&... s) {
+  visit("cache-touched-nodes", s.cache.touched_nodes...);
+  visit("cache-loss", s.cache.loss...);
 }
 
 /// The film's arrays and their names.
@@ -165,6 +171,15 @@ std::set<std::string> own_tensors() {
 
 }  // namespace
 
+void add_earlier(RenderStatistics& statistics, const RenderStatistics& earlier) {
+  if (statistics.cache.steps == 0)
+    each_last([](const char*, auto& value, const auto& before) { value = before; }, statistics, earlier);
+  each_sum([](const char*, auto& value, const auto& before) { value += before; }, statistics, earlier);
+  statistics.nonfinite_samples.insert(statistics.nonfinite_samples.end(), earlier.nonfinite_samples.begin(),
+                                      earlier.nonfinite_samples.end());
+  keep_first(statistics.nonfinite_samples);
+}
+
 void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentity& identity,
                       const CheckpointProgress& progress, const RenderStatistics& statistics,
                       const Film& film, const std::optional<CheckpointCache>& cache) {
@@ -184,12 +199,15 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   metadata["version"] = fmt::format("{}", kVersion);
   metadata[kPhase] = phase_name(progress.phase);
   metadata[kSamples] = fmt::format("{}", progress.samples);
+  metadata[kFirstStep] = fmt::format("{}", progress.first_step);
   metadata[kHasCache] = cache ? "yes" : "no";
   add_texts(metadata, kOptions, identity.options);
   add_scene(metadata, identity.scene);
-  each_accumulated(statistics, [&](const char* name, const auto& value) {
+  const auto add = [&](const char* name, const auto& value) {
     metadata[fmt::format("{}.{}", kStatistics, name)] = fmt::format("{}", value);
-  });
+  };
+  each_sum(add, statistics);
+  each_last(add, statistics);
   metadata[kDigest] = digest_of_content(tensors, metadata);
 
   AtomicFile file(path);
@@ -207,6 +225,7 @@ Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
     file_.fail(fmt::format("phase: '{}', expected train or render", phase));
   progress_.phase = phase == phase_name(Phase::train) ? Phase::train : Phase::render;
   progress_.samples = number_at<int>(file_, kSamples);
+  progress_.first_step = number_at<std::uint64_t>(file_, kFirstStep);
   if (text_at(file_, kHasCache) == "yes") cache_setup_ = read_cache_setup(file_);
 }
 
@@ -214,8 +233,16 @@ void Checkpoint::expect(const CheckpointIdentity& identity, int spp) const {
   const std::string differences = list_differences(file_.metadata(), kOptions, identity.options);
   if (!differences.empty()) file_.fail(fmt::format("it is of other options: {}", differences));
   expect_scene(file_, identity.scene);
+  if (cache_setup_ && cache_setup_->sides.size() != identity.instances)
+    file_.fail(
+        fmt::format("sides of {} instances, expected {}", cache_setup_->sides.size(), identity.instances));
   if (progress_.samples > spp)
     file_.fail(fmt::format("spp: file {}, expected at most {}", progress_.samples, spp));
+}
+
+const CacheSetup& Checkpoint::cache_setup() const {
+  if (!cache_setup_) file_.fail("it holds no cache");
+  return *cache_setup_;
 }
 
 void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
@@ -227,15 +254,18 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
     });
     film.import_state(sums);
   }
-  each_accumulated(statistics, [&](const char* name, auto& value) {
+  const auto read = [&](const char* name, auto& value) {
     value =
         number_at<std::remove_reference_t<decltype(value)>>(file_, fmt::format("{}.{}", kStatistics, name));
-  });
+  };
+  each_sum(read, statistics);
+  each_last(read, statistics);
   statistics.nonfinite_samples = read_nonfinite(file_);
   statistics.spp = progress_.samples;
 }
 
 CacheState Checkpoint::read_cache(const neural::Model& model, const neural::TrainingOptions& options) {
+  cache_setup();
   return read_cache_state(file_, model, options, own_tensors());
 }
 

@@ -17,12 +17,17 @@ namespace gatelight::renderer {
 struct CheckpointIdentity {
   NamedTexts options;  ///< deciding_options()
   SceneFingerprint scene;
+  std::size_t instances = 0;  ///< of the scene
 };
 
 struct CheckpointProgress {
-  Phase phase = Phase::render;  ///< train or render
-  int samples = 0;              ///< finished for every pixel; 0 while it trains
+  Phase phase = Phase::render;   ///< train or render
+  int samples = 0;               ///< finished for every pixel; 0 while it trains
+  std::uint64_t first_step = 0;  ///< of its training: those of a loaded cache come before
 };
+
+/// Adds what `earlier` counted of the same picture.
+void add_earlier(RenderStatistics& statistics, const RenderStatistics& earlier);
 
 /// A cache with what is needed to write it.
 struct CheckpointCache {
@@ -44,14 +49,16 @@ class Checkpoint {
   explicit Checkpoint(const std::filesystem::path& path);
 
   const CheckpointProgress& progress() const { return progress_; }
-  /// Of the cache, where there is one: the model is made after it.
-  const std::optional<CacheSetup>& cache_setup() const { return cache_setup_; }
+  bool has_cache() const { return cache_setup_.has_value(); }
+  /// The model is made after it. Throws where there is no cache.
+  const CacheSetup& cache_setup() const;
 
   /// Refuses, naming what differs, a checkpoint of other options, of another scene, or of more samples than
   /// are wanted.
   void expect(const CheckpointIdentity& identity, int spp) const;
   /// Sets the film, and of the statistics what is counted over the whole picture.
   void restore(Film& film, RenderStatistics& statistics);
+  /// Throws where there is no cache.
   CacheState read_cache(const neural::Model& model, const neural::TrainingOptions& options);
 
  private:

@@ -12,10 +12,15 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/ao_integrator.h"
+#include "renderer/atomic_file.h"
+#include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_pass.h"
 #include "renderer/camera.h"
+#include "renderer/checkpoint_keeper.h"
+#include "renderer/deciding_options.h"
 #include "renderer/film.h"
 #include "renderer/memory_estimate.h"
 #include "renderer/pixel_filter.h"
@@ -59,6 +64,16 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
   return options.memory_limit_bytes - (need.total() - need.bvh);
 }
 
+/// A cache on its way. Without a session for integrators that have none.
+struct Training {
+  std::unique_ptr<CacheSession> session;
+  std::uint64_t first_step = 0;  ///< those of a loaded cache come before
+  int steps = 0;                 ///< wanted
+  bool chosen = false;           ///< by the picture's pixels and samples
+  bool complete = false;
+  bool stopped = false;  ///< by the caller
+};
+
 }  // namespace
 
 struct Renderer::Implementation {
@@ -71,9 +86,9 @@ struct Renderer::Implementation {
         arena(threads),
         region(resolve_region(options)),
         tiles(region),
-        camera(choose_camera(scene, options.camera,
-                             static_cast<float>(options.width) / static_cast<float>(options.height)),
-               options.width, options.height),
+        view(choose_camera(scene, options.camera,
+                           static_cast<float>(options.width) / static_cast<float>(options.height))),
+        camera(view, options.width, options.height),
         filter(options.filter, options.filter_width),
         budget(checked_budget(scene, options)) {
     const Clock::time_point start = Clock::now();
@@ -97,7 +112,13 @@ struct Renderer::Implementation {
     statistics.light_bytes = lights->bytes();
   }
 
-  std::unique_ptr<CacheSession> train(const Callbacks& callbacks);
+  CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
+  /// In the state of the checkpoint or of the cache file where there is one; new otherwise.
+  Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
+  void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_step);
+  /// Of this run and those before it.
+  RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
+                          const RenderStatistics& earlier) const;
 
   const scene::Scene& scene;
   RenderOptions options;
@@ -107,6 +128,7 @@ struct Renderer::Implementation {
   tbb::task_arena arena;
   PixelRect region;
   TileGrid tiles;
+  scene::Camera view;
   Camera camera;
   FilterSampler filter;
   std::size_t budget;
@@ -120,36 +142,92 @@ struct Renderer::Implementation {
   RenderStatistics statistics;
 };
 
-std::unique_ptr<CacheSession> Renderer::Implementation::train(const Callbacks& callbacks) {
-  const Clock::time_point start = Clock::now();
-  const auto report = [&](Phase phase, int done, int steps, double loss) {
-    if (!callbacks.progress) return;
-    callbacks.progress({.phase = phase,
-                        .steps_done = done,
-                        .steps = steps,
-                        .loss = loss,
-                        .spp = options.spp,
-                        .fraction = steps > 0 ? static_cast<double>(done) / steps : 0.0,
-                        .seconds = seconds_since(start)});
+CheckpointIdentity Renderer::Implementation::identity(const SceneFingerprint& fingerprint) const {
+  NamedTexts machine = {{"isa", accel->isa()}};
+  if (uses_cache(options.integrator)) machine.push_back({"kernels", cache_machine(options)});
+  return {deciding_options(options, view, machine), fingerprint, scene.instances.size()};
+}
+
+Training Renderer::Implementation::begin_training(Checkpoint* found, const SceneFingerprint& fingerprint,
+                                                  const Callbacks& callbacks) {
+  Training training;
+  const std::string& file = options.cache.cache_in;
+  const auto make_session = [&](const CacheSetup* setup) {
+    if (!setup && callbacks.progress) callbacks.progress({.phase = Phase::scout, .spp = options.spp});
+    arena.execute(
+        [&] { training.session = std::make_unique<CacheSession>(*world, camera, region, options, setup); });
   };
-  std::unique_ptr<CacheSession> session;
-  report(Phase::scout, 0, 0, 0.0);
-  arena.execute([&] { session = std::make_unique<CacheSession>(*world, camera, region, options); });
+  if (found) {
+    make_session(&found->cache_setup());
+    training.session->import_state(found->read_cache(training.session->model(), training_options(options)));
+    training.first_step = found->progress().first_step;
+  } else if (!file.empty()) {
+    CacheFile cache(file);
+    cache.expect(meaning_of(options, resolve_ao_distance(options.ao_distance, scene.bounds)), fingerprint,
+                 scene.instances.size());
+    make_session(&cache.setup());
+    training.session->import_state(cache.read_state(training.session->model(), training_options(options)));
+    training.first_step = training.session->steps();
+  } else {
+    make_session(nullptr);
+  }
+  // What was loaded has learned enough, unless the caller says otherwise.
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height());
-  statistics.cache.steps_chosen = !options.cache.train_steps;
-  statistics.cache.steps_wanted = options.cache.train_steps.value_or(choose_training_steps(options, pixels));
+  training.chosen = !options.cache.train_steps && file.empty();
+  training.steps =
+      options.cache.train_steps.value_or(training.chosen ? choose_training_steps(options, pixels) : 0);
+  training.complete = found && found->progress().phase == Phase::render;
+  return training;
+}
+
+void Renderer::Implementation::train(Training& training, const Callbacks& callbacks,
+                                     const std::function<void()>& after_step) {
+  const Clock::time_point start = Clock::now();
+  const auto first = static_cast<int>(training.first_step);
   double reported = -1.0;
   CacheSession::Watch watch;
-  watch.stop = callbacks.stop;
+  watch.stop = [&] { return training.stopped = callbacks.stop && callbacks.stop(); };
+  watch.after_step = after_step;
   watch.progress = [&](int done, int steps, double loss) {
     const double now = seconds_since(start);
-    if (done < steps && now - reported < 0.1) return;
+    if (!callbacks.progress || (done < steps && now - reported < 0.1)) return;
     reported = now;
-    report(Phase::train, done, steps, loss);
+    callbacks.progress({.phase = Phase::train,
+                        .steps_done = done - first,
+                        .steps = steps - first,
+                        .loss = loss,
+                        .spp = options.spp,
+                        .fraction = static_cast<double>(done - first) / (steps - first),
+                        .seconds = now});
   };
-  arena.execute([&] { session->train(static_cast<std::uint64_t>(statistics.cache.steps_wanted), watch); });
-  return session;
+  const std::uint64_t end = training.first_step + static_cast<std::uint64_t>(training.steps);
+  arena.execute([&] { training.session->train(end, watch); });
+  training.complete = !training.stopped || training.session->steps() >= end;
+}
+
+RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Pass* pass,
+                                                  const Training& training,
+                                                  const RenderStatistics& earlier) const {
+  RenderStatistics sum = statistics;
+  sum.render_seconds = seconds;
+  sum.spp = spp;
+  sum.samples = static_cast<std::uint64_t>(spp) * static_cast<std::uint64_t>(region.width()) *
+                static_cast<std::uint64_t>(region.height());
+  SampleCounts counts = pass ? pass->counts() : SampleCounts{};
+  sum.rays = pass ? pass->rays() : RayCounts{};
+  sum.nonfinite = counts.nonfinite;
+  sum.clamped = counts.clamped;
+  sum.nonfinite_samples = std::move(counts.located);
+  if (training.session) {
+    sum.rays.add(training.session->rays());
+    sum.cache = training.session->statistics();
+    sum.cache.steps_chosen = training.chosen;
+    sum.cache.steps_wanted = training.steps;
+    if (const auto* cached = dynamic_cast<const CachedPass*>(pass)) cached->add_to(sum.cache);
+  }
+  add_earlier(sum, earlier);
+  return sum;
 }
 
 Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
@@ -167,20 +245,53 @@ Picture Renderer::render(const Callbacks& callbacks) {
   RenderStatistics& statistics = self.statistics;
   Film film(self.region, options.width, options.height, options.aovs);
   const PassContext context{self.tiles, options, self.camera, self.filter};
-  std::unique_ptr<CacheSession> session;
-  CachedPass* cached = nullptr;
+
+  SceneFingerprint fingerprint;
+  const std::string& cache_out = options.cache.cache_out;
+  const bool keeps = !options.checkpoint.file.empty();
+  const bool caches = uses_cache(options.integrator);
+  if (caches && !cache_out.empty()) check_writable(cache_out);
+  if (keeps || (caches && !(options.cache.cache_in.empty() && cache_out.empty())))
+    self.arena.execute([&] { fingerprint = compute_scene_fingerprint(self.scene, options.environment); });
+  std::optional<CheckpointKeeper> keeper;
+  std::optional<Checkpoint> found;
+  RenderStatistics earlier;
+  if (keeps) {
+    keeper.emplace(options.checkpoint, self.identity(fingerprint));
+    found = keeper->find(options.spp);
+  }
+  if (found) found->restore(film, earlier);
+
+  Training training;
+  if (caches) training = self.begin_training(found ? &*found : nullptr, fingerprint, callbacks);
+  const neural::TrainingOptions training_of_model = training_options(options);
+  const auto keep = [&](Phase phase, const RenderStatistics& sum) {
+    const CheckpointProgress progress{phase, phase == Phase::render ? sum.spp : 0, training.first_step};
+    keeper->write(progress, sum, film, training.session.get(), training_of_model);
+  };
+  if (training.session && !training.complete) {
+    const auto keep_training = [&] { keep(Phase::train, self.sum_up(0, 0.0, nullptr, training, earlier)); };
+    self.train(training, callbacks, [&] {
+      if (keeper && keeper->due()) keep_training();
+    });
+    if (keeper && !training.complete) keep_training();
+  }
+  // A picture with half a cache is for looking at, and no part of the whole one.
+  const bool whole = !training.session || training.complete;
+  if (training.session && whole && !cache_out.empty()) {
+    write_cache_file(
+        cache_out, training.session->export_state(), training.session->model(), training_of_model,
+        meaning_of(options, resolve_ao_distance(options.ao_distance, self.scene.bounds)), fingerprint);
+  }
   std::unique_ptr<Pass> pass;
-  if (uses_cache(options.integrator)) {
-    session = self.train(callbacks);
-    auto made = std::make_unique<CachedPass>(*self.world, context, *session);
-    cached = made.get();
-    pass = std::move(made);
+  if (training.session) {
+    pass = std::make_unique<CachedPass>(*self.world, context, *training.session);
   } else {
     pass = std::make_unique<ReferencePass>(*self.world, context);
   }
 
   const Clock::time_point start = Clock::now();
-  std::atomic<bool> stop{false};
+  std::atomic<bool> stop{training.stopped};
   std::mutex progress_mutex;
   double last_progress = -1.0;
   const auto report = [&](int done, double of_pass, int pass_spp) {
@@ -195,8 +306,12 @@ Picture Renderer::render(const Callbacks& callbacks) {
                         .seconds = now});
   };
 
-  int done = 0;
+  const auto sum_up = [&](int spp, double seconds) {
+    return self.sum_up(spp, seconds, pass.get(), training, earlier);
+  };
+  int done = earlier.spp;
   int batch = 1;
+  bool interrupted = false;
   while (done < options.spp) {
     batch = std::min(batch, options.spp - done);
     const double pass_start = seconds_since(start);
@@ -218,41 +333,27 @@ Picture Renderer::render(const Callbacks& callbacks) {
     }
     if (callbacks.snapshot_wanted && callbacks.snapshot && done < options.spp &&
         callbacks.snapshot_wanted()) {
-      statistics.spp = done;
-      statistics.render_seconds = now;
+      statistics = sum_up(done, now);
       callbacks.snapshot(film.resolve());
     }
     if (done < options.spp &&
         (stop || (options.time_limit_seconds > 0.0 && now >= options.time_limit_seconds))) {
-      statistics.interrupted = true;
+      interrupted = true;
       break;
     }
+    if (keeper && whole && done < options.spp && keeper->due()) keep(Phase::render, sum_up(done, now));
     const double per_sample = (now - pass_start) / batch;
     double budget = kPassSeconds;
     if (options.time_limit_seconds > 0.0) budget = std::min(budget, options.time_limit_seconds - now);
     batch = std::max(1, std::min(2 * batch, static_cast<int>(budget / std::max(per_sample, 1e-9))));
   }
 
-  statistics.render_seconds = seconds_since(start);
-  statistics.spp = done;
-  statistics.samples = static_cast<std::uint64_t>(done) * static_cast<std::uint64_t>(self.region.width()) *
-                       static_cast<std::uint64_t>(self.region.height());
-  statistics.rays = pass->rays();
-  if (session) {
-    statistics.rays.add(session->rays());
-    CacheStatistics cache = session->statistics();
-    cache.steps_chosen = statistics.cache.steps_chosen;
-    cache.steps_wanted = statistics.cache.steps_wanted;
-    cached->add_to(cache);
-    statistics.cache = std::move(cache);
-  }
-  SampleCounts counts = pass->counts();
-  statistics.nonfinite = counts.nonfinite;
-  statistics.clamped = counts.clamped;
-  statistics.nonfinite_samples = std::move(counts.located);
+  statistics = sum_up(done, seconds_since(start));
+  statistics.interrupted = interrupted;
+  if (keeper && whole) keep(Phase::render, statistics);
   if (callbacks.progress)
     callbacks.progress(
-        {.spp_done = done, .spp = options.spp, .fraction = 1.0, .seconds = statistics.render_seconds});
+        {.spp_done = done, .spp = options.spp, .fraction = 1.0, .seconds = seconds_since(start)});
   return film.resolve();
 }
 

@@ -31,7 +31,7 @@ struct RayCounts {
 
 /// What the cache learned and answered; zero for integrators without one. Seconds are wall time.
 struct CacheStatistics {
-  int steps = 0;  ///< trained, those of an earlier run and of a loaded file not counted
+  int steps = 0;  ///< trained for this picture; those of a loaded cache not counted
   int steps_wanted = 0;
   bool steps_chosen = false;   ///< by the picture's pixels and samples, not by the caller
   std::uint64_t records = 0;   ///< learned

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "neural/cpu/cpu_backend.h"
 #include "neural/errors.h"
@@ -11,6 +12,14 @@
 #include "renderer/errors.h"
 
 namespace gatelight::renderer {
+namespace {
+
+std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
+  if (options.isa == "auto") return std::nullopt;
+  return neural::cpu::parse_isa(options.isa);
+}
+
+}  // namespace
 
 neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options) {
   const CacheOptions& cache = options.cache;
@@ -64,10 +73,17 @@ std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural
   if (options.cache.device != "cpu") {
     throw Unavailable(fmt::format("--device {}: not in this build, expected cpu", options.cache.device));
   }
-  std::optional<neural::cpu::Isa> isa;
-  if (options.isa != "auto") isa = neural::cpu::parse_isa(options.isa);
   try {
-    return neural::cpu::make_cpu_backend(std::move(model), training_options(options), isa);
+    return neural::cpu::make_cpu_backend(std::move(model), training_options(options), forced_isa(options));
+  } catch (const neural::Unavailable& error) {
+    throw Unavailable(error.what());
+  }
+}
+
+std::string cache_machine(const RenderOptions& options) {
+  if (options.cache.device != "cpu") return options.cache.device;
+  try {
+    return std::string(neural::cpu::isa_name(neural::cpu::select_isa(forced_isa(options))));
   } catch (const neural::Unavailable& error) {
     throw Unavailable(error.what());
   }

@@ -150,6 +150,7 @@ void CacheSession::guard(double loss) {
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
+  const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
   RecordBatch batch;
   RecordBatch next;
@@ -190,6 +191,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
                              static_cast<double>(last_losses_.size());
     statistics_.loss = mean_loss;
 
+    statistics_.train_seconds = before + seconds_since(start);
     if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, mean_loss);
     if (watch.after_step) watch.after_step();
     const double limit = options_.cache.train_seconds;
@@ -197,7 +199,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     if (steps_ < steps) trace(steps_, next);
     std::swap(batch, next);
   }
-  statistics_.train_seconds += seconds_since(start);
+  statistics_.train_seconds = before + seconds_since(start);
 }
 
 void CacheSession::answer(const SurfacePoints& points, std::span<float> answers) {

@@ -4,53 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/renderer/scene_builder.h"
+#include "tests/renderer/room.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::SceneBuilder;
-
-/// A room with a lamp, a glossy and a glass ball, a sky through a hole and an alpha-blended veil.
-scene::Scene room() {
-  SceneBuilder builder;
-  const int white = builder.material(SceneBuilder::lambert(Color(0.8f, 0.7f, 0.6f)));
-  const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(10.0f)));
-  scene::Material gold;
-  gold.base_color = Color(1.0f, 0.7f, 0.3f);
-  gold.roughness = 0.3f;
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
-  glass.thickness = 1.0f;
-  scene::Material veil = SceneBuilder::lambert(Color(0.2f, 0.3f, 0.9f));
-  veil.alpha_mode = scene::AlphaMode::blend;
-  veil.base_alpha = 0.4f;
-  builder.quad(white, Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4));
-  builder.quad(white, Vec3(-2, 0, -2), Vec3(4, 0, 0), Vec3(0, 3, 0));
-  builder.quad(white, Vec3(-2, 0, 2), Vec3(0, 0, -4), Vec3(0, 3, 0));
-  builder.quad(lamp, Vec3(-0.5f, 2.8f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1));
-  builder.sphere(builder.material(gold), Vec3(-0.7f, 0.5f, -0.5f), 0.5f, 32, true);
-  builder.sphere(builder.material(glass), Vec3(0.7f, 0.5f, 0.2f), 0.5f, 32, true);
-  builder.quad(builder.material(veil), Vec3(0.2f, 0, -1), Vec3(1, 0, 0), Vec3(0, 1.5f, 0));
-  return builder.scene();
-}
-
-RenderOptions small() {
-  RenderOptions options;
-  options.width = 50;
-  options.height = 40;
-  options.spp = 6;
-  options.camera.look_at = LookAt{{0.5f, 1.5f, 5.0f}, {0, 1, 0}, {0, 1, 0}};
-  options.environment.constant = Color(0.3f, 0.4f, 0.6f);
-  options.aovs = {Aov::albedo, Aov::normal, Aov::depth, Aov::instance_id, Aov::variance};
-  return options;
-}
+using testing::room;
+using testing::small_picture;
 
 TEST(Render, AnyNumberOfThreadsGivesTheSameBits) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   for (Integrator integrator : {Integrator::path, Integrator::ao}) {
     options.integrator = integrator;
     options.threads = 1;
@@ -68,7 +32,7 @@ TEST(Render, AnyNumberOfThreadsGivesTheSameBits) {
 
 TEST(Render, SeedsAndSamplersDiffer) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   const Picture a = Renderer(s, options).render();
   options.seed = 1;
   const Picture b = Renderer(s, options).render();
@@ -81,7 +45,7 @@ TEST(Render, SeedsAndSamplersDiffer) {
 
 TEST(Render, ARegionIsThatPartOfTheWhole) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   const Picture whole = Renderer(s, options).render();
   options.region = {{16, 16, 48, 32}};  // whole tiles: the same batches of rays, hence the same bits
   const Picture part = Renderer(s, options).render();
@@ -97,7 +61,7 @@ TEST(Render, ARegionIsThatPartOfTheWhole) {
 
 TEST(Render, StopsAfterThePassWhenAsked) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   options.spp = 1 << 20;
   options.aovs.push_back(Aov::sample_count);
   Renderer renderer(s, options);
@@ -122,7 +86,7 @@ TEST(Render, InstancedEqualsFlattened) {
     instance.transform = scene::Affine(Eigen::Translation3f(1, 2, -3));
     instance.baked = false;
   }
-  const RenderOptions options = small();
+  const RenderOptions options = small_picture();
   const Picture a = Renderer(flat, options).render();
   const Picture b = Renderer(instanced, options).render();
   // The same random numbers and the same geometry but for rounding: nearly every pixel agrees, and so does
@@ -143,14 +107,14 @@ TEST(Render, InstancedEqualsFlattened) {
 
 TEST(Render, RefusesWhatNoSceneCanSatisfy) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   options.region = {{0, 0, 51, 40}};
   EXPECT_THROW(Renderer(s, options), BadOption);
-  options = small();
+  options = small_picture();
   options.camera = {};
   options.camera.name = "nobody";
   EXPECT_THROW(Renderer(s, options), BadOption);
-  options = small();
+  options = small_picture();
   options.memory_limit_bytes = 1000;
   EXPECT_THROW(Renderer(s, options), OutOfMemory);
 }
@@ -169,7 +133,7 @@ TEST(Render, AnEmptySceneShowsTheSky) {
 
 TEST(Render, ClampBoundsSamplesAndIsCounted) {
   const scene::Scene s = room();
-  RenderOptions options = small();
+  RenderOptions options = small_picture();
   options.clamp = 0.1f;
   Renderer renderer(s, options);
   const Picture picture = renderer.render();
