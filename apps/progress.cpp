@@ -98,7 +98,8 @@ bool ProgressReporter::enter_phase(const renderer::Progress& progress) {
   const bool first = phase_ != progress.phase;
   if (first) {
     phase_ = progress.phase;
-    phase_start_ = seconds_;
+    // Scouting and training share a clock.
+    phase_start_ = progress.phase == renderer::Phase::train ? seconds_ : 0.0;
   }
   seconds_ = progress.seconds;
   return first;

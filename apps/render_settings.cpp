@@ -139,7 +139,7 @@ std::vector<Condition> cache_conditions(const CacheOptions& o) {
 }
 
 void complete_cache(RenderSettings& settings) {
-  const RenderOptions& o = settings.render;
+  RenderOptions& o = settings.render;
   if (!uses_cache(o.integrator)) {
     for (const std::string& flag : settings.cache_flags) {
       if (settings.given.contains(flag)) {
@@ -156,6 +156,10 @@ void complete_cache(RenderSettings& settings) {
             fmt::format("{}: it has no effect here, expected it with {}", flag, condition.expected));
       }
     }
+  }
+  // The paper's presets count steps by triangle, which a hash grid does not know.
+  if (o.cache.encoding == neural::FeatureEncoding::hash_grid) {
+    o.cache.training.feature_step = neural::FeatureStep::per_node;
   }
 }
 

@@ -22,7 +22,7 @@ struct Progress {
   int spp_done = 0;
   int spp = 0;
   double fraction = 0.0;  ///< of the phase, in [0, 1]
-  double seconds = 0.0;   ///< since rendering started
+  double seconds = 0.0;   ///< since scouting or rendering started
 };
 
 struct Callbacks {

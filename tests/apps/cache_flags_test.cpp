@@ -327,7 +327,8 @@ TEST(CacheFlags, ThoseOfAnotherEncodingOrRuleAreRefused) {
   EXPECT_THAT(refusal(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
               HasSubstr("--resolution uniform"));
   // A preset's values are no flags.
-  EXPECT_EQ(refusal({"--preset", "paper-nrc", "--encoding", "hashgrid"}), "");
+  const RenderSettings preset = read({"--preset", "paper-nrc", "--encoding", "hashgrid"});
+  EXPECT_EQ(preset.render.cache.training.feature_step, neural::FeatureStep::per_node);
 }
 
 TEST(CheckpointFlags, NeedAFile) {

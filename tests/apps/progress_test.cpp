@@ -34,7 +34,7 @@ const std::vector<Progress> kRun = {
     {.phase = Phase::scout, .fraction = 1.0, .seconds = 1.0},
     {.phase = Phase::train, .steps_done = 25, .steps = 100, .loss = 0.5, .fraction = 0.25, .seconds = 3.0},
     {.phase = Phase::train, .steps_done = 100, .steps = 100, .loss = 0.125, .fraction = 1.0, .seconds = 9.0},
-    {.phase = Phase::render, .spp_done = 2, .spp = 8, .fraction = 0.25, .seconds = 10.0},
+    {.phase = Phase::render, .spp_done = 2, .spp = 8, .fraction = 0.25, .seconds = 1.0},
 };
 
 TEST(Progress, EachPhaseHasItsMeasures) {
@@ -59,7 +59,7 @@ TEST(Progress, TimeLeftAndSpeedCountFromTheBeginOfThePhase) {
   EXPECT_EQ(lines[1]["eta_seconds"], 6.0) << "a quarter took two seconds";
   EXPECT_EQ(lines[3]["eta_seconds"], 3.0);
   EXPECT_EQ(lines[3]["samples_per_second"], 2000.0);
-  const std::vector<json> limited = report_json(kRun, 11.0);
+  const std::vector<json> limited = report_json(kRun, 2.0);
   EXPECT_EQ(limited[1]["eta_seconds"], 6.0) << "the limit is of rendering";
   EXPECT_EQ(limited[3]["eta_seconds"], 1.0);
 }

@@ -1,0 +1,191 @@
+// Small pictures with a cache through the real program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "renderer/image_read.h"
+#include "tests/apps/process.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using nlohmann::json;
+using renderer::Layer;
+using renderer::Picture;
+using renderer::read_image;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class CacheCommand : public ::testing::Test {
+ protected:
+  using Words = std::vector<std::string>;
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  Output render(Words flags, const std::string& scene = "cornell-box") const {
+    const Words defaults = {"--size", "24x16", "--spp", "2", "--train-steps", "6", "--batch", "256"};
+    for (std::size_t i = 0; i < defaults.size(); i += 2) {
+      if (std::find(flags.begin(), flags.end(), defaults[i]) == flags.end()) {
+        flags.insert(flags.end(), {defaults[i], defaults[i + 1]});
+      }
+    }
+    flags.insert(flags.begin(), {"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/" + scene + ".glb"});
+    return run_gatelight(flags);
+  }
+
+  json statistics(Words flags, const std::string& scene = "cornell-box") const {
+    flags.insert(flags.end(), {"-o", path("a.exr"), "--stats", "-"});
+    const Output output = render(flags, scene);
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return json::parse(output.out);
+  }
+
+  TemporaryFolder folder;
+};
+
+/// Finite everywhere and not black.
+void expect_picture(const std::string& path) {
+  const Picture picture = read_image(path);
+  double sum = 0.0;
+  for (const float value : picture.layers[0].values) {
+    ASSERT_TRUE(std::isfinite(value));
+    ASSERT_GE(value, 0.0f);
+    sum += value;
+  }
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
+  for (const char* integrator : {"nrc", "nao"}) {
+    const json stats = statistics({"--integrator", integrator});
+    expect_picture(path("a.exr"));
+    EXPECT_EQ(stats["options"]["integrator"], integrator);
+    EXPECT_EQ(stats["spp"], 2);
+    EXPECT_EQ(stats["train"]["steps"], 6);
+    EXPECT_EQ(stats["train"]["steps_wanted"], 6);
+    EXPECT_EQ(stats["train"]["steps_chosen"], false);
+    EXPECT_GE(stats["train"]["records"], 6 * 128);
+    EXPECT_GT(stats["train"]["paths"], 0);
+    EXPECT_GT(stats["train"]["loss"], 0.0);
+    EXPECT_GT(stats["train"]["touched_nodes"], 0);
+    EXPECT_EQ(stats["train"]["rejected"], 0);
+    for (const char* part : {"scout", "train", "train_trace", "train_step", "render_trace", "render_query"}) {
+      EXPECT_GT(stats["seconds"][part], 0.0) << part;
+    }
+    EXPECT_LE(stats["seconds"]["train_step"], stats["seconds"]["train"]);
+    EXPECT_GT(stats["memory_bytes"]["parameters"], 0);
+    EXPECT_GT(stats["memory_bytes"]["optimizer"], 0);
+    EXPECT_GT(stats["cache"]["nodes"], 0);
+    EXPECT_GT(stats["cache"]["node_spacing"], 0.0);
+    EXPECT_GT(stats["cache"]["surfaces_stored"], 0);
+    EXPECT_LE(stats["cache"]["surfaces_stored"], stats["cache"]["surfaces_possible"]);
+    EXPECT_FALSE(stats["cache"]["resolution_histogram"].empty());
+    EXPECT_GT(stats["cache"]["queries"], 0);
+    EXPECT_LE(stats["cache"]["queries"], 2 * 24 * 16 * 8);
+    EXPECT_THAT(stats["cache"]["backend"].get<std::string>(), HasSubstr("cpu"));
+  }
+}
+
+TEST_F(CacheCommand, TheNumberOfStepsIsChosenAndTold) {
+  const json stats = statistics({"--integrator", "nao", "--train-steps", "auto", "--train-time", "0.02"});
+  EXPECT_EQ(stats["train"]["steps_chosen"], true);
+  EXPECT_GT(stats["train"]["steps_wanted"], 0);
+}
+
+TEST_F(CacheCommand, ThreadsDoNotChangeABit) {
+  const std::vector<Words> runs = {
+      {"--integrator", "nrc", "--self-training", "2", "--candidates", "4", "--aov", "all"},
+      {"--integrator", "nao"},
+      {"--integrator", "nrc", "--encoding", "hashgrid", "--query-at", "primary"}};
+  for (const Words& run : runs) {
+    std::vector<std::string> files;
+    for (const char* threads : {"1", "3"}) {
+      Words flags = run;
+      flags.insert(flags.end(), {"--reproducible", "--quiet", "-o", path("a.exr"), "--threads", threads});
+      const Output output = render(flags, "material-grid");
+      ASSERT_EQ(output.exit_code, 0) << output.err;
+      files.push_back(read_file(path("a.exr")));
+    }
+    EXPECT_EQ(files[0], files[1]) << run[1];
+  }
+}
+
+TEST_F(CacheCommand, TheSeedChangesTheTraining) {
+  const Words flags = {"--integrator", "nao", "--quiet", "--exr", "float"};
+  for (const char* seed : {"0", "1"}) {
+    Words words = flags;
+    words.insert(words.end(), {"-o", path(std::string(seed) + ".exr"), "--seed", seed});
+    ASSERT_EQ(render(words).exit_code, 0);
+  }
+  EXPECT_NE(read_image(path("0.exr")).layers[0].values, read_image(path("1.exr")).layers[0].values);
+}
+
+TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
+  for (const char* preset : {"preview", "final", "paper-nao", "paper-nrc"}) {
+    for (const char* encoding : {"gate", "hashgrid"}) {
+      const json stats = statistics({"--preset", preset, "--encoding", encoding, "--train-path-length", "3"});
+      expect_picture(path("a.exr"));
+      EXPECT_EQ(stats["options"]["preset"], preset);
+      EXPECT_EQ(stats["options"]["encoding"], encoding);
+      EXPECT_EQ(stats["width"], 24);
+    }
+  }
+}
+
+TEST_F(CacheCommand, TheSummaryTellsOfTheCache) {
+  const Output output = render({"--integrator", "nrc", "-o", path("a.png")});
+  EXPECT_THAT(output.err, AllOf(HasSubstr("training  6 steps"), HasSubstr("loss"), HasSubstr("answers"),
+                                HasSubstr("nodes"), HasSubstr("optimiser")));
+}
+
+TEST_F(CacheCommand, ProgressGoesThroughThePhases) {
+  const Output output = render({"--integrator", "nrc", "-o", path("a.png"), "--progress", "json"});
+  std::istringstream lines(output.err);
+  std::vector<std::string> phases;
+  for (std::string line; std::getline(lines, line);) {
+    const json object = json::parse(line);
+    if (object["event"] != "progress") continue;
+    if (phases.empty() || phases.back() != object["phase"]) phases.push_back(object["phase"]);
+    EXPECT_GE(object["fraction"], 0.0);
+    EXPECT_LE(object["fraction"], 1.0);
+    EXPECT_GE(object.value("eta_seconds", 0.0), 0.0) << line;
+  }
+  EXPECT_THAT(phases, ElementsAre("scout", "train", "render"));
+}
+
+TEST_F(CacheCommand, AllLayersShowTheCache) {
+  ASSERT_EQ(render({"--integrator", "nrc", "--aov", "all", "-o", path("a.exr"), "--quiet"}).exit_code, 0);
+  const Picture picture = read_image(path("a.exr"));
+  for (const char* name : {"cache-answer", "cache-error", "training-count", "resolution", "nearest-node"}) {
+    const Layer* layer = picture.find(name);
+    ASSERT_NE(layer, nullptr) << name;
+    EXPECT_TRUE(std::any_of(layer->values.begin(), layer->values.end(), [](float v) { return v > 0.0f; }))
+        << name;
+  }
+}
+
+TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
+  const Output output =
+      render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
+  EXPECT_EQ(output.exit_code, 1);
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("cache"), HasSubstr("105 bytes"), HasSubstr("at least")));
+}
+
+TEST_F(CacheCommand, ADeviceThatIsMissingIsCode5) {
+  const Output output =
+      render({"--integrator", "nrc", "--device", "vulkan:99", "-o", path("a.png"), "--quiet"});
+  EXPECT_EQ(output.exit_code, 5);
+  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("vulkan:99"), HasSubstr("--device cpu")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
