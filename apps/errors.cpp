@@ -40,7 +40,7 @@ Failure describe_current_exception() {
   } catch (const renderer::NumericalError& error) {
     return {kNumerical, error.what(), "use --nan drop to leave such samples out"};
   } catch (const neural::CacheFileError& error) {
-    return {kInput, error.what(), "use the same scene and cache flags as when it was written, or train anew"};
+    return {kInput, error.what(), "use the scene and flags that it was written with, or begin anew"};
   } catch (const std::runtime_error& error) {
     // What libraries throw for files: scene::SceneError, renderer::ImageError and the environment's.
     return {kInput, error.what(), "check the input file"};

@@ -33,6 +33,18 @@ fs::path resolve_link(const fs::path& path) {
   return error ? path : resolved;
 }
 
+std::string link_of(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+/// A file without a name: of a program that is killed nothing is left. -1 where the file system has none.
+int open_nameless(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (descriptor < 0 || ::access(link_of(descriptor).c_str(), F_OK) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
 /// The rename has reached the disk only when its folder has. Best effort: some file systems refuse.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -70,22 +82,23 @@ AtomicFile::AtomicFile(const fs::path& path) : target_(resolve_link(path)) {
   temporary_ = folder_of(target_) /
                fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), counter.fetch_add(1));
   // 0666 leaves the permissions to the umask, as for any other file.
-  const int descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  int descriptor = open_nameless(folder_of(target_));
+  named_ = descriptor < 0;
+  if (named_) descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(errno);
   stream_ = ::fdopen(descriptor, "w+b");
   if (stream_ == nullptr) {
     const int error = errno;
     ::close(descriptor);
-    ::unlink(temporary_.c_str());
+    if (named_) ::unlink(temporary_.c_str());
     fail(error);
   }
 }
 
 AtomicFile::~AtomicFile() {
-  if (stream_ != nullptr) {
-    std::fclose(stream_);
-    ::unlink(temporary_.c_str());
-  }
+  if (stream_ == nullptr) return;
+  std::fclose(stream_);
+  if (named_) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::write(const void* data, std::size_t bytes) {
@@ -94,6 +107,12 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 
 void AtomicFile::commit() {
   if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail(errno);
+  if (!named_) {
+    // A link does not replace a file, so that the name that a rename needs is given at the last moment.
+    const std::string link = link_of(::fileno(stream_));
+    if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0) fail(errno);
+    named_ = true;
+  }
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   std::fclose(stream_);  // nothing is left to be flushed
   stream_ = nullptr;

@@ -1,5 +1,6 @@
 #pragma once
-// Files that are whole or not there: written under a temporary name in the same folder, then renamed.
+// Files that are whole or not there: written without a name, or under a temporary one in the same folder
+// where the file system asks for it, then renamed.
 
 #include <cstdio>
 #include <filesystem>
@@ -39,6 +40,7 @@ class AtomicFile {
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;
+  bool named_ = false;  ///< whether temporary_ is there
   std::FILE* stream_ = nullptr;
 };
 

@@ -64,6 +64,12 @@ void Process::send(int signal) const {
   ::kill(pid_, signal);
 }
 
+bool Process::runs() const {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == 0;
+}
+
 bool Process::read_some(int timeout_ms) {
   pollfd descriptors[2] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};
   if (::poll(descriptors, 2, timeout_ms) <= 0) {

@@ -26,6 +26,8 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send(int signal) const;
+  /// Whether it has not ended yet.
+  bool runs() const;
   /// Reads stderr until the text is in it. False where the program ends before.
   bool wait_for_error_text(const std::string& text);
   /// Reads the rest and waits for the end; kills the program after a minute.

@@ -1,0 +1,112 @@
+// A render that is killed again and again ends with the file of one that was not.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/apps/process.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using std::chrono::microseconds;
+using ::testing::HasSubstr;
+
+struct Kill {
+  const char* name;
+  std::vector<std::string> arguments;
+};
+
+/// A new file each time that it is written: files are renamed into place.
+ino_t identity(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+void PrintTo(const Kill& kill, std::ostream* stream) {
+  *stream << kill.name;
+}
+
+class Killed : public ::testing::TestWithParam<Kill> {
+ protected:
+  std::vector<std::string> command(const std::string& output, const char* threads) const {
+    std::vector<std::string> words = {"render",    GATELIGHT_SOURCE_DIR "/data/cornell-box.glb",
+                                      "-o",        (folder / output).string(),
+                                      "--threads", threads,
+                                      "--size",    "96x96",
+                                      "--exr",     "float",
+                                      "--quiet",   "--reproducible"};
+    words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+    return words;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_P(Killed, AtAnyMomentAndGoneOnWithItHasTheSameBytes) {
+  ASSERT_EQ(run_gatelight(command("straight.exr", "2")).exit_code, 0);
+  const std::string checkpoint = (folder / "checkpoint").string();
+  std::vector<std::string> words = command("killed.exr", "1");
+  for (const char* word : {"--checkpoint", checkpoint.c_str(), "--checkpoint-every", "0", "--resume"})
+    words.emplace_back(word);
+  int killed = 0;
+  for (int i = 0; i < 5; ++i) {
+    ino_t before = identity(checkpoint);
+    Process process(words);
+    // Some moment after one or more new checkpoints: mostly it is writing the next one.
+    for (int seen = 0; seen < 1 + i % 3 && process.runs(); std::this_thread::sleep_for(microseconds(200))) {
+      const ino_t now = identity(checkpoint);
+      seen += now != before ? 1 : 0;
+      before = now;
+    }
+    std::this_thread::sleep_for(microseconds(1700 * i));
+    process.send(SIGKILL);
+    const Output output = process.finish();
+    if (!output.killed) {
+      EXPECT_EQ(output.exit_code, 0) << output.err;
+      break;
+    }
+    ++killed;
+  }
+  EXPECT_GT(killed, 1);
+  const Output output = run_gatelight(words);
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(read_file(folder / "killed.exr") == read_file(folder / "straight.exr"), true);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
+                         ::testing::Values(Kill{"path", {"--integrator", "path", "--spp", "64"}},
+                                           Kill{"nrc",
+                                                {"--integrator", "nrc", "--spp", "24", "--train-steps", "24",
+                                                 "--batch", "2048"}}),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST(Resuming, SaysWhatDiffers) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render",       GATELIGHT_SOURCE_DIR "/data/cornell-box.glb",
+                                      "-o",           (folder / "a.exr").string(),
+                                      "--size",       "16x16",
+                                      "--spp",        "2",
+                                      "--checkpoint", (folder / "c").string(),
+                                      "--resume",     "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_gatelight(words);
+  };
+  EXPECT_EQ(run({}).exit_code, 0);
+  const Output other = run({"--seed", "5"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.last_error_line(), HasSubstr("seed: file 0, expected 5"));
+  const Output environment = run({"--environment", "1,1,1"});
+  EXPECT_EQ(environment.exit_code, 2);
+  EXPECT_THAT(environment.last_error_line(), HasSubstr("it differs in environment"));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
