@@ -38,18 +38,27 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
 void PathBatch::average_first_records(std::size_t times) {
   const std::vector<std::int32_t>& first = first_records;
   const std::size_t paths = first.size();
+  const auto same_point = [&](std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a);
+    const auto j = static_cast<std::size_t>(b);
+    return records.surface(i) == records.surface(j) && records.triangle(i) == records.triangle(j) &&
+           records.barycentrics(i) == records.barycentrics(j);
+  };
   std::vector<bool> dropped(records.size(), false);
   for (std::size_t begin = 0; begin < paths; begin += times) {
-    if (first[begin] == kNone) continue;
-    Color sum = Color::Zero();
-    float count = 0.0f;
-    for (std::size_t p = begin; p < begin + times; ++p) {
-      if (first[p] == kNone) continue;
-      sum += color_at(targets, first[p]);
-      count += 1.0f;
-      if (p > begin) dropped[static_cast<std::size_t>(first[p])] = true;
+    const std::size_t end = std::min(begin + times, paths);
+    for (std::size_t p = begin; p < end; ++p) {
+      if (first[p] == kNone || dropped[static_cast<std::size_t>(first[p])]) continue;
+      Color sum = color_at(targets, first[p]);
+      float count = 1.0f;
+      for (std::size_t q = p + 1; q < end; ++q) {
+        if (first[q] == kNone || !same_point(first[p], first[q])) continue;
+        sum += color_at(targets, first[q]);
+        count += 1.0f;
+        dropped[static_cast<std::size_t>(first[q])] = true;
+      }
+      color_at(targets, first[p]) = sum / count;
     }
-    color_at(targets, first[begin]) = sum / count;
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {

@@ -53,7 +53,8 @@ struct PathBatch {
   void resolve(std::span<const float> answers, std::span<Color> radiance);
 
   /// Makes one record of the first records of each `times` paths in a row, which begin at the same point: the
-  /// mean target. After resolve().
+  /// mean target. Where a mirror or glass at that point sent the paths to several, there is one for each.
+  /// After resolve(); the indices in `vertices` and `first_records` are those before.
   void average_first_records(std::size_t times);
 };
 

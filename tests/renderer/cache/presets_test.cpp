@@ -1,0 +1,104 @@
+// Presets hold the values that they promise, and nothing beyond them.
+
+#include "renderer/cache/presets.h"
+
+#include <gtest/gtest.h>
+
+namespace gatelight::renderer {
+namespace {
+
+/// What the paper says of its experiments, for both applications.
+void expect_papers(const RenderOptions& options) {
+  const CacheOptions& cache = options.cache;
+  EXPECT_EQ(options.width, 1920);
+  EXPECT_EQ(options.height, 1080);
+  EXPECT_EQ(options.spp, 1);
+  EXPECT_EQ(cache.batch, 49152u);
+  EXPECT_EQ(cache.path_length, 4);
+  EXPECT_EQ(cache.samples_per_point, 1);
+  EXPECT_EQ(cache.candidates, 16);
+  EXPECT_EQ(cache.source, TrainingSource::camera);
+  EXPECT_LT(cache.self_training.start_step, 0);
+  EXPECT_EQ(cache.encoding, neural::FeatureEncoding::gate);
+  EXPECT_EQ(cache.gate.stack, (std::vector<std::uint32_t>{neural::kAdaptive, 1}));
+  EXPECT_EQ(cache.gate.rule, neural::ResolutionRule::paper);
+  EXPECT_FALSE(cache.gate.cluster);
+  EXPECT_EQ(cache.gate.max_resolution, 32u);
+  EXPECT_EQ(cache.mlp.width, 32u);
+  EXPECT_EQ(cache.mlp.hidden_layers, 2u);
+  EXPECT_FLOAT_EQ(cache.mlp.leaky_slope, 0.01f);
+  EXPECT_FALSE(cache.mlp.biases);
+  EXPECT_EQ(cache.training.loss, neural::Loss::l2);
+  EXPECT_EQ(cache.training.update, neural::FeatureUpdate::sparse);
+  EXPECT_EQ(cache.training.feature_step, neural::FeatureStep::per_triangle);
+  EXPECT_EQ(cache.training.precision, neural::FeaturePrecision::fp32);
+  EXPECT_FALSE(cache.training.average.network || cache.training.average.features);
+  EXPECT_EQ(cache.training.adam.decay_steps, 0.0f);
+  EXPECT_FALSE(cache.training.start_at_mean);
+  EXPECT_EQ(cache.holds, CacheHolds::all);
+  EXPECT_EQ(cache.query_at, QueryAt::primary);
+  EXPECT_EQ(cache.view, CacheView::cache);
+  EXPECT_EQ(cache.hash_grid.levels, 8u);
+  EXPECT_EQ(cache.hash_grid.features, 4u);
+  EXPECT_EQ(cache.hash_grid.base_resolution, 2u);
+}
+
+TEST(Presets, PaperNaoIsThePapersOcclusion) {
+  RenderOptions options;
+  apply_preset(CachePreset::paper_nao, options);
+  EXPECT_EQ(options.integrator, Integrator::nao);
+  expect_papers(options);
+  EXPECT_EQ(options.cache.gate.features, 2u);
+  EXPECT_EQ(options.cache.train_steps, 128);
+}
+
+TEST(Presets, PaperNrcIsThePapersRadiance) {
+  RenderOptions options;
+  apply_preset(CachePreset::paper_nrc, options);
+  EXPECT_EQ(options.integrator, Integrator::nrc);
+  expect_papers(options);
+  EXPECT_EQ(options.cache.gate.features, 8u);
+  EXPECT_EQ(options.cache.train_steps, 1024);
+}
+
+TEST(Presets, PreviewAsksAtTheFirstVertexAndFinalAfterAGather) {
+  RenderOptions preview;
+  apply_preset(CachePreset::preview, preview);
+  RenderOptions final;
+  apply_preset(CachePreset::final, final);
+  for (const RenderOptions* o : {&preview, &final}) {
+    EXPECT_EQ(o->integrator, Integrator::nrc);
+    EXPECT_EQ(o->cache.holds, CacheHolds::no_delta);
+    EXPECT_EQ(o->cache.view, CacheView::final);
+    EXPECT_EQ(o->width, RenderOptions().width);
+    EXPECT_EQ(o->height, RenderOptions().height);
+  }
+  EXPECT_EQ(preview.cache.query_at, QueryAt::primary);
+  EXPECT_EQ(final.cache.query_at, QueryAt::gather);
+  EXPECT_LT(preview.spp, final.spp);
+}
+
+TEST(Presets, WhatIsNoneOfTheirBusinessStays) {
+  for (const CachePreset preset :
+       {CachePreset::preview, CachePreset::final, CachePreset::paper_nao, CachePreset::paper_nrc}) {
+    RenderOptions options;
+    options.seed = 5;
+    options.max_depth = 3;
+    options.threads = 2;
+    options.camera.name = "north";
+    options.environment.constant = Color(1.0f, 2.0f, 3.0f);
+    options.aovs = {Aov::depth};
+    options.region = {{1, 2, 3, 4}};
+    apply_preset(preset, options);
+    EXPECT_EQ(options.seed, 5u);
+    EXPECT_EQ(options.max_depth, 3);
+    EXPECT_EQ(options.threads, 2);
+    EXPECT_EQ(options.camera.name, "north");
+    EXPECT_TRUE((options.environment.constant == Color(1.0f, 2.0f, 3.0f)).all());
+    EXPECT_EQ(options.aovs.size(), 1u);
+    EXPECT_TRUE(options.region.has_value());
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
