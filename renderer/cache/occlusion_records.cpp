@@ -64,14 +64,18 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
 
   std::size_t size = 0;
   for (const SurfacePoints& r : records) size += r.size();
+  const Thinning thinning(size, request.most_records);
   if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
-  batch.records.resize(size);
-  batch.targets.clear();
-  std::size_t at = 0;
+  batch.records.resize(thinning.kept());
+  batch.targets.resize(thinning.kept());
+  std::size_t record = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    batch.records.copy(records[b], 0, records[b].size(), at);
-    batch.targets.insert(batch.targets.end(), targets[b].begin(), targets[b].end());
-    at += records[b].size();
+    for (std::size_t i = 0; i < records[b].size(); ++i, ++record) {
+      if (!thinning.keeps(record)) continue;
+      const std::size_t at = thinning.kept_before(record);
+      batch.records.copy(records[b], i, 1, at);
+      batch.targets[at] = targets[b][i];
+    }
   }
   batch.paths_traced = batch.starts.starts.size();
   batch.records_made = size;

@@ -7,14 +7,6 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Where record j of n goes when `most` of them are kept evenly: whether it is kept, and as which.
-struct Thinning {
-  std::uint64_t n = 0;
-  std::uint64_t most = 0;
-  std::uint64_t kept_before(std::uint64_t j) const { return n <= most ? j : j * most / n; }
-  bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
-};
-
 template <typename Size>
 std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
   std::vector<std::size_t> offsets(blocks.size() + 1, 0);
@@ -75,9 +67,8 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
 
   const std::vector<std::size_t> record_offsets =
       offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
-  const Thinning thinning{record_offsets.back(),
-                          request.most_records > 0 ? request.most_records : record_offsets.back()};
-  const std::size_t kept = thinning.kept_before(record_offsets.back());
+  const Thinning thinning(record_offsets.back(), request.most_records);
+  const std::size_t kept = thinning.kept();
   if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
   batch.records.resize(kept);
   batch.targets.resize(3 * kept);

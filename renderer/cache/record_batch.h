@@ -36,6 +36,20 @@ struct RecordRequest {
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 
+/// Which of n records are kept where there may be `most` (0: all), evenly spread.
+class Thinning {
+ public:
+  Thinning(std::uint64_t n, std::uint64_t most) : n_(n), most_(most > 0 && most < n ? most : n) {}
+  std::uint64_t kept() const { return most_; }
+  /// Of records 0 to j-1: the place of record j, where it is kept.
+  std::uint64_t kept_before(std::uint64_t j) const { return n_ == 0 ? 0 : j * most_ / n_; }
+  bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
+
+ private:
+  std::uint64_t n_;
+  std::uint64_t most_;
+};
+
 /// Answers in radiance over reflectance: 3 floats for each point.
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
 

@@ -83,9 +83,9 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
 void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const {
   // A grid of about `count` cells over the region, one point in each.
   const double aspect = static_cast<double>(region_.width()) / region_.height();
-  const int columns =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(count) * aspect))));
-  const int rows = std::max(1, static_cast<int>(std::lround(static_cast<double>(count) / columns)));
+  const auto nearest = [](double x) { return std::max(1, static_cast<int>(std::lround(x))); };
+  const int rows = nearest(std::sqrt(static_cast<double>(count) / aspect));
+  const int columns = nearest(static_cast<double>(count) / rows);
   const float cell_width = static_cast<float>(region_.width()) / static_cast<float>(columns);
   const float cell_height = static_cast<float>(region_.height()) / static_cast<float>(rows);
   const TileGrid tiles({0, 0, columns, rows});
@@ -188,7 +188,8 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
     for (std::size_t c = 0; c < most; ++c) {
       random = hash(random + 0x9e3779b9u);
       const auto place = static_cast<std::size_t>((std::uint64_t{random} * size) >> 32);
-      if (!hits[place]) continue;
+      // A triangle without storage is never counted: it would win ever after.
+      if (numbers[place] == ~0u) continue;
       candidates.push_back(numbers[place]);
       places.push_back(place);
     }
