@@ -1,0 +1,233 @@
+// What records learn is right in the mean: closed forms of the part of the light that the cache holds.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "renderer/cache/radiance_records.h"
+#include "tests/renderer/cache/small_worlds.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::Moments;
+using testing::SceneBuilder;
+using testing::view_from;
+using testing::ViewedWorld;
+
+const double kSignificance = testing::sidak(1e-4, 40);
+
+/// One target a path: that of its record nearest to the eye.
+Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, std::size_t points,
+                      bool self_training = false, float answer = 0.0f) {
+  const StoredSurfaces stored;
+  const CachedPaths paths(viewed.world, options, stored);
+  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
+  RadianceRecords records(paths, chosen, options, {});
+  RecordBatch batch;
+  const RecordRequest request{.step = 3, .points = points, .self_training = self_training};
+  records.trace(request, batch);
+  records.finish(
+      request, [&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); },
+      batch);
+  Moments moments;
+  for (const PathBatch& block : batch.paths) {
+    for (const std::int32_t record : block.first_records) {
+      if (record != kNone)
+        moments.add(static_cast<double>(block.targets[3 * static_cast<std::size_t>(record) + 1]));
+    }
+  }
+  return moments;
+}
+
+void expect_mean(const Moments& m, double expected, double rounding = 1e-5) {
+  EXPECT_GT(m.count(), 100u);
+  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kSignificance)
+      << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
+}
+
+RenderOptions deep() {
+  RenderOptions options;
+  options.max_depth = 64;
+  options.sampler = SamplerKind::independent;
+  return options;
+}
+
+constexpr float kAlbedo = 0.6f;
+constexpr float kEmission = 1.5f;
+
+/// What every point of the furnace sends: E + S.
+constexpr double kSent = 1.5 / (1.0 - 0.6);
+
+/// Light that the cache stands for over the reflectance, in a furnace.
+double held_in_furnace(CacheHolds holds) {
+  return holds == CacheHolds::indirect ? kSent - 1.5 : kSent;
+}
+
+class RadianceRecordsStat : public ::testing::TestWithParam<CacheHolds> {};
+
+TEST_P(RadianceRecordsStat, TargetsOfAClosedFurnaceAreItsLight) {
+  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  expect_mean(first_targets(viewed, options, 8000), held_in_furnace(GetParam()));
+}
+
+TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
+  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  options.cache.path_length = 2;
+  const StoredSurfaces stored;
+  const CachedPaths paths(viewed.world, options, stored);
+  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
+  RadianceRecords records(paths, chosen, options, {});
+  // Two scattering events: emission reflected once or twice.
+  const double expected = GetParam() == CacheHolds::indirect ? 0.6 * 1.5 : 1.5 + 0.6 * 1.5;
+  double variance[2];
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    options.cache.samples_per_point = i == 0 ? 1 : 8;
+    RecordBatch batch;
+    const RecordRequest request{.step = 4, .points = 1000};
+    records.trace(request, batch);
+    records.finish(request, {}, batch);
+    // The averaged record of a point stands before its paths' others.
+    Moments moments;
+    std::size_t begin = 0;
+    for (const PathBatch& block : batch.paths) {
+      for (std::size_t p = 0; p < block.first_records.size(); p += i == 0 ? 1 : 8) {
+        const auto first = static_cast<std::size_t>(block.first_records[p]);
+        // Records that were dropped stood one a path before this one.
+        const std::size_t dropped = i == 0 ? 0 : p - p / 8;
+        moments.add(static_cast<double>(batch.targets[3 * (begin + first - dropped)]));
+      }
+      begin += block.records.size();
+    }
+    expect_mean(moments, expected);
+    variance[i] = moments.variance();
+  }
+  EXPECT_NEAR(variance[1] / variance[0], 1.0 / 8.0, 0.03);
+}
+
+TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveWhatIsHeldOfThem) {
+  SceneBuilder builder;
+  builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f))), Vec3(-500, 0, 500),
+               Vec3(1000, 0, 0), Vec3(0, 0, -1000));
+  builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
+  scene::PunctualLight sun;
+  sun.type = scene::LightType::directional;
+  sun.direction = Vec3(0.6f, -0.8f, 0.0f);
+  sun.intensity = Color(1.0f, 2.0f, 3.0f);
+  builder.scene().lights = {sun};
+  const ViewedWorld viewed(builder, {.constant = Color(0.1f, 0.3f, 0.9f)});
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  const double sunlight = 2.0 * 0.8 / M_PI;
+  const double expected = GetParam() == CacheHolds::all        ? 0.3 + sunlight
+                          : GetParam() == CacheHolds::no_delta ? 0.3
+                                                               : 0.0;
+  expect_mean(first_targets(viewed, options, 4000), expected);
+}
+
+TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
+  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  for (const int length : {1, 4}) {
+    options.cache.path_length = length;
+    double expected = 0.0;
+    for (int k = GetParam() == CacheHolds::indirect ? 1 : 0; k < length; ++k)
+      expected += 1.5 * std::pow(0.6, k);
+    const Moments m = first_targets(viewed, options, 8000);
+    expect_mean(m, expected);
+  }
+}
+
+TEST_P(RadianceRecordsStat, EndsInARightCacheKeepTheMean) {
+  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  const double held = held_in_furnace(GetParam());
+  for (const int vertices : {1, 2}) {
+    options.cache.self_training.vertices = vertices;
+    expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(held)), held);
+  }
+}
+
+TEST_P(RadianceRecordsStat, AttenuationWeakensTheEndsAlone) {
+  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  options.cache.self_training.vertices = 1;
+  options.cache.self_training.full_fraction = 0.0f;
+  options.cache.self_training.attenuation = 0.25f;
+  const double held = held_in_furnace(GetParam());
+  // S of the second vertex: a quarter of the answer, with what the cache does not hold in full.
+  const double direct = GetParam() == CacheHolds::indirect ? 1.5 : 0.0;
+  const double scattered = 0.6 * (0.25 * held + direct);
+  const double expected = GetParam() == CacheHolds::indirect ? scattered : 1.5 + scattered;
+  expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(held)), expected);
+}
+
+std::string name_of(CacheHolds holds) {
+  const char* const names[] = {"All", "NoDelta", "Indirect"};
+  return names[static_cast<std::size_t>(holds)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Holds, RadianceRecordsStat,
+                         ::testing::Values(CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect),
+                         [](const auto& holds) { return name_of(holds.param); });
+
+TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
+  // Behind a half-mirroring pane lies a bright wall, before it a dark one: records at each learn their own.
+  SceneBuilder builder;
+  scene::Material pane;
+  pane.metallic = 0.0f;
+  pane.roughness = 0.0f;
+  pane.transmission = 1.0f;
+  pane.ior = 3.0f;
+  builder.quad(builder.material(pane), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
+  const int bright = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(bright, Vec3(-9, -9, -1), Vec3(18, 0, 0), Vec3(0, 18, 0));
+  const int dark = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(dark, Vec3(9, -9, 5), Vec3(-18, 0, 0), Vec3(0, 18, 0));
+  scene::PunctualLight lamp;
+  lamp.position = Vec3(0, 0, -0.5f);
+  lamp.type = scene::LightType::spot;
+  lamp.direction = Vec3(0, 0, -1);
+  lamp.intensity = Color::Constant(10.0f);
+  lamp.cos_inner = 0.5f;
+  lamp.cos_outer = 0.3f;
+  builder.scene().lights = {lamp};
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 2), Vec3(0, 0, 0), 0.3f));
+  const ViewedWorld viewed(builder);
+  RenderOptions options = deep();
+  options.cache.holds = CacheHolds::all;
+  options.cache.path_length = 2;  // the pane is no event, its reflection is one
+  options.cache.samples_per_point = 8;
+  const StoredSurfaces stored;
+  const CachedPaths paths(viewed.world, options, stored);
+  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
+  RadianceRecords records(paths, chosen, options, {});
+  RecordBatch batch;
+  const RecordRequest request{.step = 4, .points = 400};
+  records.trace(request, batch);
+  records.finish(request, {}, batch);
+  Moments at_dark;
+  Moments at_bright;
+  for (std::size_t i = 0; i < batch.records.size(); ++i) {
+    const std::uint32_t instance = batch.records.surface(i) / 2;
+    (instance == 2 ? at_dark : at_bright).add(static_cast<double>(batch.targets[3 * i]));
+  }
+  ASSERT_GT(at_dark.count(), 100u);
+  ASSERT_GT(at_bright.count(), 100u);
+  // The lamp does not reach the dark wall, which a path of two events cannot learn from the bright one.
+  EXPECT_EQ(at_dark.mean(), 0.0);
+  EXPECT_GT(at_bright.mean(), 1.0);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

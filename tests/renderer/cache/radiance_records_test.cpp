@@ -1,0 +1,263 @@
+// Which vertices of training paths become records, and which of the records are kept.
+
+#include "renderer/cache/radiance_records.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tests/renderer/cache/small_worlds.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::SceneBuilder;
+using testing::view_from;
+using testing::ViewedWorld;
+using testing::with_threads;
+
+PointInputs with_positions() {
+  PointInputs inputs;
+  inputs.positions = true;
+  return inputs;
+}
+
+/// The records of one request.
+struct Made {
+  Made(const ViewedWorld& viewed, const RenderOptions& options, const RecordRequest& request,
+       const AnswerPoints& answer = {}) {
+    const StoredSurfaces stored;
+    const CachedPaths paths(viewed.world, options, stored);
+    const std::vector<neural::Sides> sides(viewed.world.scene.instances.size(), neural::Sides::both);
+    const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
+    RadianceRecords records(paths, points, options, with_positions());
+    records.trace(request, batch);
+    records.finish(request, answer, batch);
+  }
+  std::uint32_t instance(std::size_t i) const { return batch.records.surface(i) / 2; }
+
+  RecordBatch batch;
+};
+
+/// A matte room with a lamp, and in it a mirror, a black block that shines and a pane.
+SceneBuilder room() {
+  SceneBuilder builder;
+  builder.box(builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f))), Vec3(-2, 0, -2),
+              Vec3(2, 3, 2), true);
+  scene::Material mirror;
+  mirror.base_color = Color::Constant(0.9f);
+  mirror.roughness = 0.0f;
+  builder.quad(builder.material(mirror), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0), Vec3(0, 2, 0));
+  builder.box(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
+              Vec3(0.2f, 0.4f, -1.5f), Vec3(1.2f, 1.4f, -0.8f));
+  scene::Material pane;
+  pane.metallic = 0.0f;
+  pane.roughness = 0.0f;
+  pane.transmission = 1.0f;
+  builder.quad(builder.material(pane), Vec3(-0.5f, 0.3f, -0.4f), Vec3(0.8f, 0, 0), Vec3(0, 1, 0));
+  builder.scene().cameras.push_back(view_from(Vec3(0, 1.2f, 1.8f), Vec3(0, 1, -1)));
+  return builder;
+}
+
+TEST(RadianceRecords, DeltaAndBlackVerticesWriteNone) {
+  const ViewedWorld viewed(room());
+  const RenderOptions options;
+  const Made made(viewed, options, {.step = 1, .points = 2000});
+  ASSERT_GT(made.batch.records.size(), 2000u);
+  std::map<std::uint32_t, int> met;
+  for (std::size_t i = 0; i < made.batch.records.size(); ++i) ++met[made.instance(i)];
+  EXPECT_EQ(met.size(), 1u) << "the room alone";
+  EXPECT_EQ(met.begin()->first, 0u);
+  // Paths that begin at mirror, block or pane still leave records behind them.
+  std::size_t beyond = 0;
+  for (const PathBatch& paths : made.batch.paths) {
+    for (std::size_t p = 0; p < paths.first_records.size(); ++p) {
+      if (paths.first_records[p] == kNone) continue;
+      const Eigen::Map<const Vec3> at(
+          paths.records.batch().positions[static_cast<std::size_t>(paths.first_records[p])].data());
+      beyond += at.z() > 1.85f ? 1 : 0;  // behind the camera: seen in the mirror alone
+    }
+  }
+  EXPECT_GT(beyond, 20u);
+}
+
+TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
+  SceneBuilder builder;
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.8f), Color::Constant(5.0f))),
+               Vec3(-9, 0, 9), Vec3(18, 0, 0), Vec3(0, 0, -18));
+  builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
+  const ViewedWorld viewed(builder);
+  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect}) {
+    RenderOptions options;
+    options.cache.holds = holds;
+    const Made made(viewed, options, {.step = 1, .points = 500});
+    ASSERT_GT(made.batch.records.size(), 400u);
+    for (const float t : made.batch.targets) ASSERT_EQ(t, 0.0f);
+  }
+}
+
+TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
+  const ViewedWorld viewed(room());
+  const RenderOptions options;
+  const Made all(viewed, options, {.step = 1, .points = 1000});
+  const std::size_t n = all.batch.records.size();
+  EXPECT_EQ(all.batch.records_made, n);
+  for (const std::size_t most : {std::size_t{1}, std::size_t{777}, n / 2, n - 1, n, n + 1}) {
+    const Made some(viewed, options, {.step = 1, .points = 1000, .most_records = most});
+    ASSERT_EQ(some.batch.records.size(), std::min(most, n));
+    ASSERT_EQ(some.batch.targets.size(), 3 * some.batch.records.size());
+    EXPECT_EQ(some.batch.records_made, n);
+    // Each is one of all, in their order, with its own target; the gaps are as equal as they can be.
+    std::size_t at = 0;
+    std::size_t last = 0;
+    std::set<std::size_t> gaps;
+    for (std::size_t i = 0; i < some.batch.records.size(); ++i) {
+      while (at < n && !(all.batch.records.barycentrics(at) == some.batch.records.barycentrics(i) &&
+                         all.batch.records.triangle(at) == some.batch.records.triangle(i)))
+        ++at;
+      ASSERT_LT(at, n);
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(some.batch.targets[3 * i + c], all.batch.targets[3 * at + c]);
+      if (i > 0) gaps.insert(at - last);
+      last = at++;
+    }
+    EXPECT_LE(gaps.size(), 2u);
+    if (gaps.size() == 2) {
+      EXPECT_EQ(*gaps.rbegin() - *gaps.begin(), 1u);
+    }
+  }
+}
+
+TEST(RadianceRecords, TargetsAreScaled) {
+  const ViewedWorld viewed(room());
+  const RenderOptions options;
+  const Made one(viewed, options, {.step = 1, .points = 300});
+  const Made four(viewed, options, {.step = 1, .points = 300, .target_scale = 4.0f});
+  ASSERT_EQ(one.batch.targets.size(), four.batch.targets.size());
+  for (std::size_t i = 0; i < one.batch.targets.size(); ++i)
+    ASSERT_EQ(4.0f * one.batch.targets[i], four.batch.targets[i]);
+}
+
+TEST(RadianceRecords, ShortPathsEndAfterTheirRecordsAndSomeRunOn) {
+  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
+  RenderOptions options;
+  options.min_depth = 64;
+  options.max_depth = 12;
+  const AnswerPoints zero = [](const SurfacePoints&, std::span<float> a) {
+    std::fill(a.begin(), a.end(), 0.0f);
+  };
+  for (const int vertices : {1, 2, 3}) {
+    options.cache.self_training.vertices = vertices;
+    for (const float fraction : {0.0f, 0.25f, 1.0f}) {
+      options.cache.self_training.full_fraction = fraction;
+      const Made made(viewed, options, {.step = 1, .points = 400, .self_training = true}, zero);
+      const auto paths = static_cast<double>(made.batch.paths_traced);
+      std::size_t full = 0;
+      for (const PathStart& s : made.batch.starts.starts) full += s.to_its_end ? 1 : 0;
+      EXPECT_EQ(made.batch.queries.size(), made.batch.starts.starts.size() - full);
+      EXPECT_NEAR(static_cast<double>(full), static_cast<double>(fraction) * paths, 1.0);
+      const auto short_records = static_cast<std::size_t>(vertices) * made.batch.queries.size();
+      EXPECT_EQ(made.batch.records.size(), short_records + 12 * full);
+    }
+  }
+}
+
+TEST(RadianceRecords, PathsOfGivenLengthHaveSoManyRecords) {
+  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
+  RenderOptions options;
+  options.min_depth = 64;
+  for (const int length : {1, 4, 7}) {
+    options.cache.path_length = length;
+    const Made made(viewed, options, {.step = 1, .points = 200});
+    EXPECT_EQ(made.batch.records.size(), static_cast<std::size_t>(length) * made.batch.paths_traced);
+  }
+}
+
+TEST(RadianceRecords, SamplesOfAPointBecomeOneRecordAtThePoint) {
+  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
+  RenderOptions options;
+  options.cache.path_length = 2;
+  options.min_depth = 64;
+  for (const int times : {1, 8}) {
+    options.cache.samples_per_point = times;
+    const Made made(viewed, options, {.step = 1, .points = 192});
+    const auto all_paths = 192 * static_cast<std::size_t>(times);
+    EXPECT_EQ(made.batch.paths_traced, all_paths);
+    // One record at the point, and one for each path's second vertex.
+    EXPECT_EQ(made.batch.records.size(), 192 + all_paths);
+    std::set<neural::Float2> places;
+    for (std::size_t i = 0; i < made.batch.records.size(); ++i)
+      places.insert(made.batch.records.barycentrics(i));
+    EXPECT_EQ(places.size(), made.batch.records.size()) << "no point twice";
+  }
+}
+
+TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
+  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
+  RenderOptions options;
+  neural::GateLayout nothing;
+  nothing.surfaces.resize(2);
+  const StoredSurfaces stored(nothing);
+  const CachedPaths paths(viewed.world, options, stored);
+  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
+  RadianceRecords records(paths, points, options, {});
+  RecordBatch batch;
+  const RecordRequest request{.step = 1, .points = 100, .self_training = true};
+  records.trace(request, batch);
+  records.finish(request, {}, batch);
+  EXPECT_EQ(batch.records.size(), 0u);
+  EXPECT_EQ(batch.queries.size(), 0u);
+  EXPECT_GT(records.rays().bounce, batch.paths_traced);
+}
+
+TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
+  const ViewedWorld viewed(room());
+  RenderOptions options;
+  options.cache.samples_per_point = 2;
+  const AnswerPoints answer = [](const SurfacePoints& points, std::span<float> a) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) a[3 * i + c] = points.barycentrics(i)[0];
+    }
+  };
+  const RecordRequest request{.step = 5, .points = 1500, .most_records = 1800, .self_training = true};
+  std::vector<float> targets[3];
+  std::vector<neural::Float2> places[3];
+  const int threads[] = {1, 2, 7};
+  for (std::size_t i = 0; i < 3; ++i) {
+    with_threads(threads[i], [&] {
+      const Made made(viewed, options, request, answer);
+      targets[i] = made.batch.targets;
+      const std::span<const neural::Float2> where = made.batch.records.batch().barycentrics;
+      places[i].assign(where.begin(), where.end());
+    });
+  }
+  ASSERT_EQ(targets[0].size(), 3u * 1800u);
+  EXPECT_EQ(targets[0], targets[1]);
+  EXPECT_EQ(targets[0], targets[2]);
+  EXPECT_EQ(places[0], places[1]);
+  EXPECT_EQ(places[0], places[2]);
+}
+
+TEST(RadianceRecords, ABatchThatIsUsedAgainIsAsNew) {
+  const ViewedWorld viewed(room());
+  const RenderOptions options;
+  const StoredSurfaces stored;
+  const CachedPaths paths(viewed.world, options, stored);
+  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
+  RadianceRecords records(paths, points, options, with_positions());
+  RecordBatch used;
+  for (const std::size_t count : {2000u, 300u}) {
+    const RecordRequest request{.step = count, .points = count};
+    records.trace(request, used);
+    records.finish(request, {}, used);
+  }
+  const Made fresh(viewed, options, {.step = 300, .points = 300});
+  EXPECT_EQ(used.targets, fresh.batch.targets);
+  EXPECT_EQ(used.records.size(), fresh.batch.records.size());
+  EXPECT_EQ(used.paths_traced, fresh.batch.paths_traced);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,203 @@
+// What a look at the scene finds: the sides that are met, how bright it is, how far it reaches.
+
+#include "renderer/cache/scouting.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "renderer/cache/surface_layout.h"
+#include "tests/renderer/cache/small_worlds.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::Sides;
+using testing::SceneBuilder;
+using testing::view_from;
+using testing::ViewedWorld;
+using testing::with_threads;
+
+RenderOptions nrc() {
+  RenderOptions options;
+  options.integrator = Integrator::nrc;
+  return options;
+}
+
+ScoutReport scouted(const ViewedWorld& viewed, const RenderOptions& options) {
+  return scout(viewed.world, viewed.camera, viewed.region, options);
+}
+
+/// A double-sided room, seen from inside, with a double-sided card that stands free, a double-sided block
+/// that is seen from outside, a mirrored single-sided copy of the card, and a thing behind the walls.
+SceneBuilder rooms(float scale = 1.0f) {
+  SceneBuilder builder;
+  scene::Material both = SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f));
+  both.double_sided = true;
+  const int twofold = builder.material(both);
+  const int single = builder.material(SceneBuilder::lambert(Color::Constant(0.4f)));
+  builder.box(twofold, scale * Vec3(-2, -1, -3), scale * Vec3(2, 2, 3), true);
+  builder.quad(twofold, scale * Vec3(-1.5f, -0.5f, 0), scale * Vec3(1, 0, 0), scale * Vec3(0, 1, 0));
+  builder.box(twofold, scale * Vec3(0.5f, -0.9f, -1), scale * Vec3(1.2f, 0, -0.3f));
+  builder.quad(single, scale * Vec3(-0.4f, -0.5f, -0.5f), scale * Vec3(-1, 0, 0), scale * Vec3(0, 1, 0));
+  scene::Instance& mirrored = builder.scene().instances.back();
+  mirrored.baked = false;
+  mirrored.mirrors = true;
+  mirrored.transform.scale(Vec3(-1, 1, 1));
+  builder.box(twofold, scale * Vec3(5, 0, 0), scale * Vec3(6, 1, 1));
+  builder.scene().cameras.push_back(view_from(scale * Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
+  return builder;
+}
+
+const std::vector<Sides>& expected_sides() {
+  // Of the room the fronts, which look inwards; of the mirrored card its front, which by its corners is the
+  // back.
+  static const std::vector<Sides> sides{Sides::front, Sides::both, Sides::front, Sides::back, Sides::none};
+  return sides;
+}
+
+TEST(Scouting, SidesAreStoredWhereTheyAreMet) {
+  const ViewedWorld viewed(rooms());
+  const ScoutReport report = scouted(viewed, nrc());
+  EXPECT_EQ(report.setup.sides, expected_sides());
+  EXPECT_GT(report.paths, 0u);
+  EXPECT_GT(report.rays.camera + report.rays.bounce, report.paths);
+}
+
+TEST(Scouting, ForOcclusionOnlyWhatTheEyeSeesIsStored) {
+  const ViewedWorld viewed(rooms());
+  RenderOptions options;
+  options.integrator = Integrator::nao;
+  const ScoutReport report = scouted(viewed, options);
+  EXPECT_EQ(report.setup.sides,
+            (std::vector<Sides>{Sides::front, Sides::front, Sides::front, Sides::back, Sides::none}));
+  EXPECT_EQ(report.setup.target_scale, 1.0f);
+  EXPECT_FLOAT_EQ(report.setup.records_per_path, 1.0f);
+}
+
+TEST(Scouting, WithoutScoutingAllThatMaterialsShowIsStored) {
+  const ViewedWorld viewed(rooms());
+  RenderOptions options = nrc();
+  options.cache.scout = false;
+  EXPECT_EQ(scouted(viewed, options).setup.sides,
+            (std::vector<Sides>{Sides::both, Sides::both, Sides::both, Sides::back, Sides::both}));
+}
+
+TEST(Scouting, ABackThatIsMetBringsStorageToItsFront) {
+  SceneBuilder builder;
+  builder.box(builder.material(SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f))),
+              Vec3(-2, -1, -3), Vec3(2, 2, 3));  // fronts outwards, seen from inside
+  builder.scene().cameras.push_back(view_from(Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
+  const ViewedWorld viewed(builder);
+  EXPECT_EQ(scouted(viewed, nrc()).setup.sides, std::vector<Sides>{Sides::front});
+}
+
+TEST(Scouting, TargetsAreScaledToAMeanOfOne) {
+  for (const float brightness : {1e4f, 1e-6f}) {
+    const ViewedWorld viewed(testing::closed_furnace(0.5f, brightness));
+    RenderOptions options = nrc();
+    options.max_depth = 64;
+    // Every target's mean is Le / (1 - a).
+    const ScoutReport report = scouted(viewed, options);
+    EXPECT_NEAR(report.setup.target_scale * 2.0f * brightness, 1.0f, 0.01f);
+    options.cache.holds = CacheHolds::indirect;
+    EXPECT_NEAR(scouted(viewed, options).setup.target_scale * brightness, 1.0f, 0.01f);
+  }
+}
+
+TEST(Scouting, RecordsArePredicted) {
+  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
+  RenderOptions options = nrc();
+  options.min_depth = 64;
+  options.max_depth = 10;
+  options.cache.self_training.vertices = 3;
+  options.cache.self_training.full_fraction = 0.25f;
+  const ScoutReport report = scouted(viewed, options);
+  EXPECT_FLOAT_EQ(report.setup.records_per_path, 10.0f);
+  EXPECT_FLOAT_EQ(report.setup.records_per_short_path, 0.25f * 10.0f + 0.75f * 3.0f);
+  options.cache.path_length = 4;
+  EXPECT_FLOAT_EQ(scouted(viewed, options).setup.records_per_path, 4.0f);
+}
+
+TEST(Scouting, AScaledSceneIsTheSameSceneWithLongerMetres) {
+  const ViewedWorld small(rooms());
+  const ViewedWorld large(rooms(1000.0f));
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    RenderOptions options;
+    options.integrator = integrator;
+    const CacheSetup a = scouted(small, options).setup;
+    const CacheSetup b = scouted(large, options).setup;
+    EXPECT_EQ(a.sides, b.sides);
+    EXPECT_NEAR(b.node_spacing / a.node_spacing, 1000.0f, 2.0f);
+    EXPECT_NEAR(b.target_scale / a.target_scale, 1.0f, 0.01f);
+  }
+}
+
+TEST(Scouting, AGivenSpacingIsKept) {
+  const ViewedWorld viewed(rooms());
+  RenderOptions options = nrc();
+  options.cache.node_spacing = 0.37f;
+  EXPECT_EQ(scouted(viewed, options).setup.node_spacing, 0.37f);
+}
+
+TEST(Scouting, OptionsOfTrainingPointsDoNotMatter) {
+  const ViewedWorld viewed(rooms());
+  RenderOptions options = nrc();
+  const CacheSetup plain = scouted(viewed, options).setup;
+  options.cache.candidates = 16;
+  options.cache.samples_per_point = 4;
+  options.cache.source = TrainingSource::surface;
+  const CacheSetup other = scouted(viewed, options).setup;
+  EXPECT_EQ(plain.sides, other.sides);
+  EXPECT_EQ(plain.node_spacing, other.node_spacing);
+  EXPECT_EQ(plain.target_scale, other.target_scale);
+}
+
+TEST(Scouting, AnyNumberOfThreadsGivesTheSameBits) {
+  const ViewedWorld viewed(rooms());
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    RenderOptions options;
+    options.integrator = integrator;
+    std::vector<std::uint32_t> bits[3];
+    const int threads[] = {1, 2, 7};
+    for (std::size_t i = 0; i < 3; ++i) {
+      with_threads(threads[i], [&] {
+        const CacheSetup s = scouted(viewed, options).setup;
+        for (const float f : {s.node_spacing, s.target_scale, s.records_per_path, s.records_per_short_path})
+          bits[i].push_back(std::bit_cast<std::uint32_t>(f));
+        for (const Sides side : s.sides) bits[i].push_back(static_cast<std::uint32_t>(side));
+      });
+    }
+    EXPECT_EQ(bits[0], bits[1]);
+    EXPECT_EQ(bits[0], bits[2]);
+  }
+}
+
+TEST(Scouting, ScenesWithNothingToMeetHaveASetupAllTheSame) {
+  const auto check = [](const SceneBuilder& builder, Sides expected) {
+    const ViewedWorld viewed(builder, {.constant = Color::Ones()});
+    for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+      RenderOptions options;
+      options.integrator = integrator;
+      const CacheSetup setup = scouted(viewed, options).setup;
+      for (const Sides s : setup.sides) EXPECT_EQ(s, expected);
+      for (const float f :
+           {setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path}) {
+        EXPECT_TRUE(std::isfinite(f));
+        EXPECT_GT(f, 0.0f);
+      }
+    }
+  };
+  SceneBuilder empty;
+  empty.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
+  check(empty, Sides::none);
+  SceneBuilder behind;
+  behind.quad(behind.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(0, 0, 9), Vec3(1, 0, 0),
+              Vec3(0, 1, 0));
+  behind.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
+  check(behind, Sides::none);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,213 @@
+// How often training begins where: surfaces by area, directions by cosine, candidates by how seldom they were
+// trained.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "neural/gate_layout.h"
+#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/training_points.h"
+#include "tests/renderer/built_world.h"
+#include "tests/renderer/scene_builder.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::BuiltWorld;
+using testing::Moments;
+using testing::SceneBuilder;
+
+const double kSignificance = testing::sidak(1e-4, 20);
+constexpr PixelRect kRegion{0, 0, 64, 48};
+
+scene::Camera view() {
+  scene::Camera camera;
+  camera.vertical_fov = 0.9f;
+  return camera;
+}
+
+TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosine) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  // A fan of triangles of different areas, one of them degenerate; both sides.
+  std::vector<Vec3> fan{Vec3::Zero()};
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const float a = 0.1f * static_cast<float>(i * i);
+    fan.emplace_back(3.0f * std::cos(a), 2.0f * std::sin(a), 0.1f * static_cast<float>(i));
+    if (i > 0) triangles.push_back({0, i, i + 1});
+  }
+  triangles.push_back({0, 3, 3});
+  builder.mesh(matte, fan, triangles);
+  // One side of a scaled and mirrored instance, and an instance without storage.
+  builder.mesh(matte, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+  scene::Instance& mirrored = builder.scene().instances[1];
+  mirrored.baked = false;
+  mirrored.mirrors = true;
+  mirrored.transform.scale(Vec3(-1.5f, 2, 1));
+  builder.quad(matte, Vec3(0, 0, 5), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  const scene::Scene& scene = builder.scene();
+  const BuiltWorld built(scene);
+  const Camera camera(view(), 64, 48);
+  RenderOptions options;
+  options.sampler = SamplerKind::independent;
+  options.cache.source = TrainingSource::surface;
+  const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back, neural::Sides::none};
+  const TrainingPoints points(built.world, camera, kRegion, options, sides, nullptr);
+
+  constexpr std::size_t kCount = 40000;
+  TrainingStarts starts;
+  RayCounts rays;
+  points.choose(1, kCount, false, {}, starts, rays);
+  ASSERT_EQ(starts.hits.size(), kCount);
+
+  std::map<std::array<std::uint32_t, 3>, double> area;  // of instance, triangle, side
+  double whole = 0.0;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const auto count = static_cast<std::uint32_t>(scene.mesh_of(scene.instances[i]).triangles.size());
+    for (std::uint32_t t = 0; t < count; ++t) {
+      for (std::uint32_t side = 0; side < 2; ++side) {
+        const double a = static_cast<double>(scene::world_normal(scene, scene.instances[i], t).norm());
+        area[{i, t, side}] = has_side(sides[i], side) ? a : 0.0;
+        whole += area[{i, t, side}];
+      }
+    }
+  }
+  std::map<std::array<std::uint32_t, 3>, double> met;
+  std::array<double, 4> quarter{};
+  std::array<double, 10> cosine{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Hit& hit = starts.hits[i];
+    const Vec3 direction = starts.starts[i].sample.camera_ray.ray.direction;
+    const Surface surface = built.surfaces.at(hit, direction, 0.0f, 0.5f);
+    const std::uint32_t side = side_of(surface.front, hit.instance == 1);
+    ++met[{hit.instance, hit.primitive, side}];
+    // The four triangles between the middles of the edges have the same area.
+    const float w = 1.0f - hit.u - hit.v;
+    ++quarter[w > 0.5f ? 0 : hit.u > 0.5f ? 1 : hit.v > 0.5f ? 2 : 3];
+    // The squared cosine of a cosine-weighted direction is uniform.
+    const double c = static_cast<double>(-direction.dot(surface.geometric_normal));
+    ++cosine[static_cast<std::size_t>(std::clamp(c * c * 10.0, 0.0, 9.0))];
+  }
+  std::vector<double> observed;
+  std::vector<double> expected;
+  for (const auto& [key, a] : area) {
+    observed.push_back(met[key]);
+    expected.push_back(kCount * a / whole);
+    met.erase(key);
+  }
+  EXPECT_TRUE(met.empty()) << "nothing without storage is chosen";
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected), kSignificance));
+  const std::array<double, 4> quarters{kCount / 4.0, kCount / 4.0, kCount / 4.0, kCount / 4.0};
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(quarter, quarters), kSignificance));
+  std::array<double, 10> tenths;
+  tenths.fill(kCount / 10.0);
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(cosine, tenths), kSignificance));
+}
+
+/// Four strips of a wall before the camera, a quarter of the picture each; the last has no storage.
+struct Strips {
+  Strips() : built(fill()), camera(view(), 64, 48) {
+    sides = {neural::Sides::front, neural::Sides::front, neural::Sides::front, neural::Sides::none};
+    const WeldedMeshes meshes(builder.scene());
+    layout = neural::build_gate_layout(meshes.layout(builder.scene(), sides), {});
+  }
+  const scene::Scene& fill() {
+    const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+    const float half = 2.0f * std::tan(0.45f) * 64.0f / 48.0f;
+    for (int i = 0; i < 4; ++i) {
+      const float left = half * (0.5f * static_cast<float>(i) - 1.0f);
+      builder.mesh(
+          matte,
+          {{left, -99, -2}, {left + 0.5f * half, -99, -2}, {left, 99, -2}, {left + 0.5f * half, 99, -2}},
+          {{0, 1, 3}, {0, 3, 2}});
+    }
+    return builder.scene();
+  }
+  SceneBuilder builder;
+  BuiltWorld built;
+  Camera camera;
+  std::vector<neural::Sides> sides;
+  neural::GateLayout layout;
+};
+
+/// Starts in each strip.
+std::array<double, 4> chosen_strips(const Strips& strips, int candidates,
+                                    std::array<std::uint32_t, 3> trained, std::size_t& made) {
+  RenderOptions options;
+  options.cache.candidates = candidates;
+  const TrainingPoints points(strips.built.world, strips.camera, kRegion, options, strips.sides,
+                              &strips.layout);
+  std::vector<std::uint32_t> counts(strips.layout.triangle_count);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const neural::GateSurface& s = strips.layout.surfaces[neural::surface_index(i, 0)];
+    for (std::uint32_t t = 0; t < 2; ++t) counts[s.first_triangle + t] = trained[i];
+  }
+  std::array<double, 4> met{};
+  made = 0;
+  for (std::uint64_t step = 0; step < 5; ++step) {
+    TrainingStarts starts;
+    RayCounts rays;
+    points.choose(step, 4096, false, counts, starts, rays);
+    made += starts.starts.size();
+    for (std::size_t i = 0; i < starts.hits.size(); ++i) {
+      const Ray& ray = starts.starts[i].sample.camera_ray.ray;
+      EXPECT_EQ(starts.hits[i].instance,
+                static_cast<std::uint32_t>(
+                    std::clamp(std::floor(2.0f + 2.0f * (-2.0f * ray.direction.x() / ray.direction.z()) /
+                                                     (2.0f * std::tan(0.45f) * 64.0f / 48.0f)),
+                               0.0f, 3.0f)));
+      ++met[starts.hits[i].instance];
+    }
+  }
+  return met;
+}
+
+TEST(TrainingPointsStat, CandidatesAreChosenByHowSeldomTheyWereTrained) {
+  const Strips strips;
+  const std::array<std::uint32_t, 3> trained{400, 100, 1};
+  // Beyond 512 all are equal, and 0 is as 1.
+  for (const int candidates : {2, 3}) {
+    std::size_t made = 0;
+    const std::array<double, 4> met = chosen_strips(strips, candidates, trained, made);
+    // All draws of so many candidates with their probabilities. Those without storage are left out, and where
+    // there is no other the start stays in its place.
+    const std::array<double, 3> weight{1.0 / 400.0, 1.0 / 100.0, 1.0};
+    std::array<double, 4> expected{};
+    const int draws = candidates == 2 ? 16 : 64;
+    for (int draw = 0; draw < draws; ++draw) {
+      double sum = 0.0;
+      for (int c = 0, rest = draw; c < candidates; ++c, rest /= 4)
+        sum += rest % 4 < 3 ? weight[static_cast<std::size_t>(rest % 4)] : 0.0;
+      for (int c = 0, rest = draw; c < candidates; ++c, rest /= 4) {
+        if (sum > 0.0 && rest % 4 < 3)
+          expected[static_cast<std::size_t>(rest % 4)] +=
+              weight[static_cast<std::size_t>(rest % 4)] / sum / draws;
+      }
+      if (!(sum > 0.0)) {
+        for (double& e : expected) e += 0.25 / draws;
+      }
+    }
+    for (double& e : expected) e *= static_cast<double>(made);
+    EXPECT_TRUE(testing::accepts(testing::chi_square_test(met, expected), kSignificance))
+        << met[0] << " " << met[1] << " " << met[2] << " " << met[3];
+  }
+}
+
+TEST(TrainingPointsStat, EquallyTrainedCandidatesAreEquallyLikely) {
+  const Strips strips;
+  std::size_t made = 0;
+  std::array<double, 4> met = chosen_strips(strips, 16, {0, 1, 0}, made);
+  met[3] = 0.0;
+  std::array<double, 4> expected{};
+  for (std::size_t i = 0; i < 3; ++i) expected[i] = static_cast<double>(made) / 3.0;
+  // Four thousand starts are left where all 16 candidates have no storage: 1e-10 of them.
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(met, expected), kSignificance));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
