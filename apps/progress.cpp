@@ -95,22 +95,19 @@ void ProgressReporter::update(const renderer::Progress& progress) {
 }
 
 bool ProgressReporter::enter_phase(const renderer::Progress& progress) {
-  const bool first = phase_ != progress.phase;
-  if (first) {
-    phase_ = progress.phase;
-    // Scouting and training share a clock.
-    phase_start_ = progress.phase == renderer::Phase::train ? seconds_ : 0.0;
-  }
-  seconds_ = progress.seconds;
-  return first;
+  if (phase_ == progress.phase) return false;
+  phase_ = progress.phase;
+  first_ = progress;
+  return true;
 }
 
 ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progress) const {
   Rates rates;
-  const double seconds = progress.seconds - phase_start_;
-  if (progress.fraction > 0.0) rates.eta_seconds = seconds * (1.0 / progress.fraction - 1.0);
+  const double seconds = progress.seconds - first_.seconds;
+  const double done = progress.fraction - first_.fraction;
+  if (done > 0.0) rates.eta_seconds = seconds / done * std::max(0.0, 1.0 - progress.fraction);
   if (progress.phase != renderer::Phase::render) return rates;
-  if (seconds > 0.0) rates.samples_per_second = progress.fraction * pixels_ * progress.spp / seconds;
+  if (seconds > 0.0) rates.samples_per_second = done * pixels_ * progress.spp / seconds;
   if (time_limit_seconds_ > 0.0) {
     const double left = std::max(0.0, time_limit_seconds_ - progress.seconds);
     rates.eta_seconds = rates.eta_seconds < 0.0 ? left : std::min(rates.eta_seconds, left);

@@ -55,8 +55,7 @@ class ProgressReporter {
   bool line_shown_ = false;
   std::chrono::steady_clock::time_point last_;
   std::optional<renderer::Phase> phase_;
-  double phase_start_ = 0.0;  ///< Progress::seconds when the phase began
-  double seconds_ = 0.0;      ///< of the last update
+  renderer::Progress first_;  ///< update of the phase; a picture that is gone on with does not begin at zero
 };
 
 }  // namespace gatelight::apps

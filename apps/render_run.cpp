@@ -139,8 +139,9 @@ void RenderRun::write_results(renderer::Picture picture) {
   if (!told && !settings_.quiet) fmt::print(stderr, "{}", summary(settings_, report_));
   if (report_.signal != 0) {
     print_notice(
-        fmt::format("stopped by signal {} after {} of {} samples per pixel; the picture so far is in '{}'",
-                    report_.signal, report_.statistics.spp, settings_.render.spp, settings_.outputs.front()));
+        fmt::format("stopped by signal {} after {} of {} samples per pixel; the picture so far is in '{}'{}",
+                    report_.signal, report_.statistics.spp, settings_.render.spp, settings_.outputs.front(),
+                    settings_.render.checkpoint.file.empty() ? "" : "; --resume goes on with it"));
   }
 }
 

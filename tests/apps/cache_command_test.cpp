@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,6 +170,53 @@ TEST_F(CacheCommand, AllLayersShowTheCache) {
     EXPECT_TRUE(std::any_of(layer->values.begin(), layer->values.end(), [](float v) { return v > 0.0f; }))
         << name;
   }
+}
+
+TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
+  const Words flags = {"--integrator", "nrc", "--quiet", "--exr", "float", "-o"};
+  Words saving = flags, loading = flags;
+  saving.insert(saving.end(), {path("a.exr"), "--cache-out", path("c.safetensors")});
+  loading.insert(loading.end(), {path("b.exr"), "--cache-in", path("c.safetensors"), "--train-steps", "0"});
+  ASSERT_EQ(render(saving).exit_code, 0);
+  ASSERT_EQ(render(loading).exit_code, 0);
+  EXPECT_EQ(read_image(path("a.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+  const json other_view = statistics(
+      {"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "3", "--fov", "20"});
+  EXPECT_EQ(other_view["train"]["steps"], 3);
+  EXPECT_EQ(other_view["options"]["cache-in"], path("c.safetensors"));
+}
+
+TEST_F(CacheCommand, ASavedCacheOfSomethingElseIsCode2) {
+  const std::string file = path("c.safetensors");
+  ASSERT_EQ(render({"--integrator", "nrc", "--quiet", "-o", path("a.exr"), "--cache-out", file}).exit_code,
+            0);
+  const Words loading = {"--integrator", "nrc", "--quiet", "-o", path("b.exr"), "--cache-in"};
+  const auto refused = [&](const std::string& cache, const Words& more, const std::string& scene) {
+    Words flags = loading;
+    flags.push_back(cache);
+    flags.insert(flags.end(), more.begin(), more.end());
+    const Output output = render(flags, scene);
+    EXPECT_EQ(output.exit_code, 2) << output.err;
+    EXPECT_FALSE(std::filesystem::exists(path("b.exr")));
+    EXPECT_THAT(output.last_error_line(), HasSubstr(cache));
+    return output.last_error_line();
+  };
+  EXPECT_THAT(refused(file, {}, "furnace"), HasSubstr("another scene"));
+  EXPECT_THAT(refused(file, {"--hidden", "64"}, "cornell-box"), HasSubstr("hidden width"));
+  refused(path("a.exr"), {}, "cornell-box");
+}
+
+TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
+  Process process({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--integrator",
+                   "nrc", "--size", "24x16", "--spp", "2", "--train-steps", "2147483647", "-o", path("a.exr"),
+                   "--checkpoint", path("k"), "--progress", "json"});
+  ASSERT_TRUE(process.wait_for_error_text("\"train\""));
+  process.send(SIGINT);
+  const Output output = process.finish();
+  EXPECT_EQ(output.exit_code, 130) << output.err;
+  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("a.exr"), HasSubstr("--resume")));
+  expect_picture(path("a.exr"));
+  EXPECT_TRUE(std::filesystem::exists(path("k")));
 }
 
 TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
