@@ -16,6 +16,7 @@
 #include "renderer/atomic_file.h"
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/cache/cache_report.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_pass.h"
 #include "renderer/camera.h"
@@ -237,6 +238,17 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 const RenderStatistics& Renderer::statistics() const {
   return implementation_->statistics;
+}
+
+CacheReport Renderer::report_cache() {
+  Implementation& self = *implementation_;
+  CacheReport report;
+  self.arena.execute(
+      [&] { report = renderer::report_cache(*self.world, self.camera, self.region, self.options); });
+  RenderStatistics statistics = self.statistics;
+  statistics.cache = std::move(report.statistics.cache);
+  report.statistics = std::move(statistics);
+  return report;
 }
 
 Picture Renderer::render(const Callbacks& callbacks) {

@@ -36,6 +36,8 @@ struct Callbacks {
   std::function<void(const Picture&)> snapshot;
 };
 
+struct CacheReport;  // cache/cache_report.h
+
 /// Holds what was built for a scene (acceleration structure, lights, textures), so that several pictures can
 /// be made of it.
 class Renderer {
@@ -48,6 +50,8 @@ class Renderer {
 
   /// Renders. The same scene, options and Embree ISA give the same bits for any number of threads.
   Picture render(const Callbacks& callbacks = {});
+  /// What the cache would be: scouts, but neither trains nor renders. For integrators with a cache.
+  CacheReport report_cache();
   const RenderStatistics& statistics() const;
 
  private:

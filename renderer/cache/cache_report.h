@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "renderer/camera.h"
+#include "renderer/film.h"
 #include "renderer/options.h"
 #include "renderer/statistics.h"
+#include "renderer/world.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
@@ -28,7 +31,10 @@ struct CacheReport {
   std::uint64_t bytes_without_scouting = 0;  ///< parameters, had all possible sides storage
 };
 
-/// For integrators with a cache. Throws what Renderer throws.
+/// For integrators with a cache. Throws what Renderer throws. The second is for callers that have built a
+/// world.
 CacheReport report_cache(const scene::Scene& scene, const RenderOptions& options);
+CacheReport report_cache(const World& world, const Camera& camera, const PixelRect& region,
+                         const RenderOptions& options);
 
 }  // namespace gatelight::renderer
