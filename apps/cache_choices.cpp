@@ -44,6 +44,7 @@ constexpr Choice<bool> kAutoOff[] = {{"auto", true}, {"off", false}};
 constexpr Choice<bool> kQueryPrecisions[] = {{"fp32", false}, {"bf16", true}};
 
 constexpr IntegerRange kResolution{1, kMaxResolution};
+constexpr IntegerRange kDivisor{1, neural::kMaxAdaptiveDivisor};
 constexpr std::string_view kFixed = "fixed:";
 
 }  // namespace
@@ -105,8 +106,15 @@ std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::strin
   }
   std::vector<std::uint32_t> stack;
   for (const std::string& word : words) {
-    stack.push_back(word == "adaptive" ? kAdaptive
-                                       : static_cast<std::uint32_t>(parse_integer(flag, word, kResolution)));
+    const std::string part = "adaptive/";
+    if (word == "adaptive") {
+      stack.push_back(kAdaptive);
+    } else if (word.starts_with(part)) {
+      stack.push_back(neural::adaptive_part(
+          static_cast<std::uint32_t>(parse_integer(flag, word.substr(part.size()), kDivisor))));
+    } else {
+      stack.push_back(static_cast<std::uint32_t>(parse_integer(flag, word, kResolution)));
+    }
   }
   return stack;
 }
@@ -114,7 +122,9 @@ std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::strin
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> words;
   for (const std::uint32_t level : stack)
-    words.push_back(level == kAdaptive ? "adaptive" : std::to_string(level));
+    words.push_back(!neural::is_adaptive(level) ? std::to_string(level)
+                    : level == kAdaptive        ? "adaptive"
+                                         : fmt::format("adaptive/{}", neural::adaptive_divisor(level)));
   return fmt::format("{}", fmt::join(words, ","));
 }
 

@@ -27,7 +27,7 @@ Choices<bool> on_off_choices();
 Choices<bool> auto_off_choices();
 Choices<bool> query_precision_choices();  ///< true: bf16
 
-/// "adaptive,1": kAdaptive and 1, at most kMaxStack levels.
+/// "adaptive,adaptive/4,1": kAdaptive, adaptive_part(4) and 1, at most kMaxStack levels.
 std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::string& text);
 std::string stack_text(const std::vector<std::uint32_t>& stack);
 

@@ -117,7 +117,7 @@ void add_gate_flags(CLI::App& app, CacheOptions& o, const std::string& group) {
       ->group(group);
   add_word(app, "--stack", "LIST",
            "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is what --resolution "
-           "finds",
+           "finds, 'adaptive/4' a fourth of it",
            stack_text(gate.stack),
            [&gate](const std::string& text) { gate.stack = parse_stack("--stack", text); })
       ->group(group);

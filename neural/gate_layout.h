@@ -29,8 +29,19 @@ enum class NodeStorage : std::uint8_t {
   per_triangle,  ///< (R+1)(R+2)/2 nodes for each triangle, in a row
 };
 
-/// A level of the stack: `kAdaptive` takes the rule's R, any other value is the R of all instances.
+/// A level of the stack: `kAdaptive` takes the rule's R, adaptive_part(d) a d-th of it (rounded, at least 1),
+/// any other value is the R of all instances.
 inline constexpr std::uint32_t kAdaptive = 0;
+inline constexpr std::uint32_t kMaxAdaptiveDivisor = 64;
+constexpr std::uint32_t adaptive_part(std::uint32_t divisor) {
+  return divisor <= 1 ? kAdaptive : divisor << 16;
+}
+constexpr bool is_adaptive(std::uint32_t level) {
+  return (level & 0xffffu) == 0;
+}
+constexpr std::uint32_t adaptive_divisor(std::uint32_t level) {
+  return level < 0x10000u ? 1 : level >> 16;
+}
 
 struct GateOptions {
   std::uint32_t features = 8;                         ///< L: floats in a feature vector, 1 to 16

@@ -99,12 +99,17 @@ std::string inputs_text(std::span<const AuxiliaryInput> inputs) {
   return text;
 }
 
-/// "adaptive, 1"
+/// "adaptive, adaptive/4, 1"
 std::string stack_text(std::span<const std::uint32_t> stack) {
   std::string text;
   for (const std::uint32_t resolution : stack) {
     if (!text.empty()) text += ", ";
-    text += resolution == kAdaptive ? "adaptive" : fmt::format("{}", resolution);
+    if (!is_adaptive(resolution)) {
+      text += fmt::format("{}", resolution);
+    } else {
+      const std::uint32_t divisor = adaptive_divisor(resolution);
+      text += divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
+    }
   }
   return text;
 }

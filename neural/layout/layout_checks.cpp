@@ -72,7 +72,9 @@ void check_gate_options(const GateOptions& options) {
   require(!options.stack.empty() && options.stack.size() <= kMaxStack, "levels of the stack",
           options.stack.size(), "1 to 4");
   for (const std::uint32_t level : options.stack)
-    require(level <= kMaxResolution, "resolution of a level", level, "at most 64, 0 for adaptive");
+    require(is_adaptive(level) ? adaptive_divisor(level) <= kMaxAdaptiveDivisor : level <= kMaxResolution,
+            is_adaptive(level) ? "divisor of an adaptive level" : "resolution of a level",
+            is_adaptive(level) ? adaptive_divisor(level) : level, "at most 64, 0 for adaptive");
   require_positive("node spacing", options.node_spacing);
   require_positive("resolution scale", options.resolution_scale);
   require(options.fixed_resolution >= 1 && options.fixed_resolution <= kMaxResolution, "fixed resolution",

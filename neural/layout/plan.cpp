@@ -124,7 +124,7 @@ std::optional<UnclusteredPlan> plan_unclustered(PlanScene& scene, const Density&
     const std::uint32_t adaptive =
         adaptive_resolution(options, scene.sizes[s], density.node_spacing, density.resolution_scale);
     for (std::size_t l = 0; l < options.stack.size(); ++l)
-      instance.resolutions[l] = options.stack[l] == kAdaptive ? adaptive : options.stack[l];
+      instance.resolutions[l] = level_resolution(options.stack[l], adaptive);
     if (shared) instance.vertex_nodes = scene.meshes[instance_of(scene, s).mesh].vertices.size();
     if (has_edges(scene, instance))
       edged.push_back(s);
@@ -182,7 +182,7 @@ PlanScene make_plan_scene(const SurfaceLayout& surfaces, const GateOptions& opti
     });
   }
   std::vector<SurfaceAreas> areas(scene.stored.size());
-  if (options.rule != ResolutionRule::fixed && std::ranges::count(options.stack, kAdaptive) != 0)
+  if (options.rule != ResolutionRule::fixed && std::ranges::any_of(options.stack, is_adaptive))
     tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t s) {
       const SurfaceInstance& instance = instance_of(scene, s);
       areas[s] = measure_areas(surfaces.meshes[instance.mesh], to_transform(instance.object_to_world));

@@ -28,4 +28,10 @@ std::uint32_t adaptive_resolution(const GateOptions& options, double size, float
       std::clamp(std::round(r), 1.0, static_cast<double>(options.max_resolution)));
 }
 
+std::uint32_t level_resolution(std::uint32_t level, std::uint32_t adaptive) {
+  if (!is_adaptive(level)) return level;
+  const std::uint32_t divisor = adaptive_divisor(level);
+  return std::max(1u, (adaptive + divisor / 2) / divisor);
+}
+
 }  // namespace gatelight::neural

@@ -19,4 +19,7 @@ std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const Surfac
 std::uint32_t adaptive_resolution(const GateOptions& options, double size, float node_spacing,
                                   float resolution_scale);
 
+/// R of a level of the stack where the rule's is `adaptive`.
+std::uint32_t level_resolution(std::uint32_t level, std::uint32_t adaptive);
+
 }  // namespace gatelight::neural

@@ -62,11 +62,12 @@ struct CacheOptions {
 
   // What it is. The input encodings and the hash grid's bounds follow from the scene.
   neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
-  neural::GateOptions gate;
+  /// Between the finest level and R = 1 one in the middle: what few records a preview has teach it first.
+  neural::GateOptions gate = {.stack = {neural::kAdaptive, neural::adaptive_part(4), 1}};
   neural::HashGridOptions hash_grid;
   std::uint64_t memory_bytes = 0;  ///< of all features, for either encoding; 0: none
   neural::MlpOptions mlp;
-  neural::TrainingOptions training;
+  neural::TrainingOptions training = {.adam = {.learning_rate = 2e-2f}};
   /// Inputs beside the position. None: those that the scene and the encoding need.
   std::optional<bool> direction_input, normal_input, albedo_input;
   bool scout = true;  ///< storage only for the sides of instances that scouting paths meet

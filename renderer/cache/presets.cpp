@@ -42,6 +42,7 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       cache.mlp.leaky_slope = 0.01f;
       cache.mlp.biases = false;
       cache.training.loss = neural::Loss::l2;
+      cache.training.adam.learning_rate = 1e-2f;
       cache.training.average.network = false;
       cache.training.average.features = false;
       cache.training.adam.decay_steps = 0.0f;

@@ -58,7 +58,29 @@ std::vector<GateOptions> many_options() {
   all.push_back(testing::fixed_options(3));
   all.push_back(testing::fixed_options(5, NodeStorage::per_triangle));
   all.back().stack = {kAdaptive, 1, 2, 8};
+  GateOptions parts;
+  parts.node_spacing = 0.02f;
+  parts.stack = {kAdaptive, adaptive_part(4), 1};
+  all.push_back(parts);
   return all;
+}
+
+TEST(GateLayout, APartOfTheAdaptiveResolutionIsRoundedAndAtLeastOne) {
+  const Scene scene;
+  GateOptions options;
+  for (const float spacing : {0.01f, 0.03f, 0.1f, 1.0f}) {
+    options.node_spacing = spacing;
+    options.stack = {kAdaptive, adaptive_part(4), adaptive_part(3), adaptive_part(1)};
+    const GateLayout layout = build_gate_layout(scene.surfaces, options);
+    for (std::size_t s = 0; s < layout.surfaces.size(); ++s) {
+      const GateSurfaceLevel* const levels = &layout.levels[s * layout.stack];
+      const double whole = levels[0].resolution;
+      if (whole == 0.0) continue;
+      EXPECT_EQ(levels[1].resolution, std::max(1.0, std::round(whole / 4.0)));
+      EXPECT_EQ(levels[2].resolution, std::max(1.0, std::round(whole / 3.0)));
+      EXPECT_EQ(levels[3].resolution, whole);
+    }
+  }
 }
 
 TEST(GateLayout, EqualForAnyNumberOfThreads) {
@@ -260,6 +282,7 @@ TEST(GateLayout, OptionsOutOfRangeAreRefusedByName) {
   expect_refused("stack: 0", [](GateOptions& o) { o.stack.clear(); });
   expect_refused("stack: 5", [](GateOptions& o) { o.stack.assign(5, 1); });
   expect_refused("level: 65", [](GateOptions& o) { o.stack = {1, 65}; });
+  expect_refused("level: 65", [](GateOptions& o) { o.stack = {adaptive_part(65)}; });
   expect_refused("node spacing: 0", [](GateOptions& o) { o.node_spacing = 0; });
   expect_refused("node spacing: nan", [](GateOptions& o) { o.node_spacing = std::nanf(""); });
   expect_refused("resolution scale: -1", [](GateOptions& o) { o.resolution_scale = -1; });
