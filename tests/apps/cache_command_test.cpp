@@ -219,6 +219,38 @@ TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
   EXPECT_TRUE(std::filesystem::exists(path("k")));
 }
 
+TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
+  const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/material-grid.glb";
+  const Words flags = {"--integrator", "nrc", "--size", "24x16", "--node-spacing", "0.2"};
+  Words asking = {"info", scene};
+  asking.insert(asking.end(), flags.begin(), flags.end());
+  const Output text = run_gatelight(asking);
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("triangles"), HasSubstr("network reads"), HasSubstr("sides stored"),
+                              HasSubstr("instance\n")));
+  asking.insert(asking.end(), {"--json", "-"});
+  const json info = json::parse(run_gatelight(asking).out);
+  const json& cache = info["cache"];
+  std::uint64_t nodes = 0, sides = 0;
+  for (const json& instance : cache["instances"]) {
+    nodes += instance["nodes"].get<std::uint64_t>();
+    sides += instance["sides"].get<std::uint64_t>();
+    EXPECT_EQ(instance["resolutions"].size(), instance["sides"] > 0 ? 2u : 0u) << instance;
+  }
+  EXPECT_EQ(cache["instances"].size(), info["instances"]);
+  EXPECT_EQ(cache["nodes"], nodes);
+  EXPECT_EQ(cache["surfaces_stored"], sides);
+  EXPECT_EQ(cache["inputs"]["direction"], info["requirements"]["view_dependent"]);
+  EXPECT_GE(cache["memory_bytes"]["parameters_without_scouting"], cache["memory_bytes"]["parameters"]);
+  // The picture has the cache that was told.
+  const json stats = statistics(flags, "material-grid");
+  EXPECT_EQ(stats["cache"]["nodes"], cache["nodes"]);
+  EXPECT_EQ(stats["cache"]["surfaces_stored"], cache["surfaces_stored"]);
+  for (const char* part : {"parameters", "optimizer", "layout"}) {
+    EXPECT_EQ(stats["memory_bytes"][part], cache["memory_bytes"][part]) << part;
+  }
+}
+
 TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
   const Output output =
       render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
