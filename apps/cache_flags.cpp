@@ -1,5 +1,7 @@
 #include "apps/cache_flags.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -31,6 +33,13 @@ constexpr IntegerRange kHashLog2Size{3, 31};
 constexpr IntegerRange kHashBase{1, 1 << 20};
 constexpr IntegerRange kLayers{1, neural::kMaxLayers - 1};
 
+/// With its value as the default in the help.
+template <typename Real>
+CLI::Option* add_number(CLI::App& app, const std::string& flag, Real& value, const RealRange& range,
+                        const std::string& unit, const std::string& help) {
+  return add_real(app, flag, value, range, unit, help, fmt::format("{}", value));
+}
+
 /// A number, or a word that stands for none.
 template <typename Read>
 CLI::Option* add_word_or(CLI::App& app, const std::string& flag, const std::string& unit,
@@ -52,11 +61,11 @@ void add_self_training_flags(CLI::App& app, renderer::SelfTrainingOptions& o, co
   add_integer(app, "--self-training-vertices", o.vertices, kPaths, "N",
               "Vertices that become records before the cache answers for the rest of the path")
       ->group(group);
-  add_real(app, "--self-training-full", o.full_fraction, kFraction, "FRACTION",
-           "Part of the training paths that run to their end all the same, 0 to 1", "0.0625")
+  add_number(app, "--self-training-full", o.full_fraction, kFraction, "FRACTION",
+             "Part of the training paths that run to their end all the same, 0 to 1")
       ->group(group);
-  add_real(app, "--self-training-attenuation", o.attenuation, kFraction, "FACTOR",
-           "Multiplies the cache's answer at the end of a training path, 0 to 1", "1")
+  add_number(app, "--self-training-attenuation", o.attenuation, kFraction, "FACTOR",
+             "Multiplies the cache's answer at the end of a training path, 0 to 1")
       ->group(group);
 }
 
@@ -69,8 +78,8 @@ void add_learning_flags(CLI::App& app, CacheOptions& o) {
                 if (text) o.train_steps = static_cast<int>(parse_integer("--train-steps", *text, kSteps));
               })
       ->group(group);
-  add_real(app, "--train-time", o.train_seconds, kNotNegative, "SECONDS",
-           "No further step after this time of training; 0: no limit", "0")
+  add_number(app, "--train-time", o.train_seconds, kNotNegative, "SECONDS",
+             "No further step after this time of training; 0: no limit")
       ->group(group);
   add_integer(app, "--batch", o.batch, kRecords, "N",
               "Records (points with their light) that a step learns from")
@@ -88,11 +97,11 @@ void add_learning_flags(CLI::App& app, CacheOptions& o) {
               "Points to choose a training point from; the more, the more even are the triangles trained")
       ->group(group);
   add_self_training_flags(app, o.self_training, group);
-  add_real(app, "--learning-rate", o.training.adam.learning_rate, kNotNegative, "X",
-           "Size of a training step (of Adam)", "0.01")
+  add_number(app, "--learning-rate", o.training.adam.learning_rate, kNotNegative, "X",
+             "Size of a training step (of Adam)")
       ->group(group);
-  add_real(app, "--learning-decay", o.training.adam.decay_steps, kNotNegative, "STEPS",
-           "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays", "50")
+  add_number(app, "--learning-decay", o.training.adam.decay_steps, kNotNegative, "STEPS",
+             "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays")
       ->group(group);
   add_choice(app, "--loss", o.training.loss, loss_choices(),
              "Squared error, as it is or relative to the squared luminance of the answer")
@@ -104,7 +113,8 @@ void add_learning_flags(CLI::App& app, CacheOptions& o) {
              "What counts the steps of a feature vector (for Adam): itself, or its triangles as in the paper")
       ->group(group);
   add_word(app, "--average", choice_names(on_off_choices()),
-           "Answer with a running average of features and weights instead of the last ones", "on",
+           "Answer with a running average of features and weights instead of the last ones",
+           name_of(on_off_choices(), o.training.average.network),
            [&average = o.training.average](const std::string& text) {
              average.network = average.features = parse_choice("--average", text, on_off_choices());
            })
@@ -128,8 +138,8 @@ void add_gate_flags(CLI::App& app, CacheOptions& o, const std::string& group) {
       resolution_text(gate),
       [&gate](const std::string& text) { parse_resolution("--resolution", text, gate); })
       ->group(group);
-  add_real(app, "--resolution-scale", gate.resolution_scale, kPositive, "X",
-           "gate: factor of the paper's rule", "1")
+  add_number(app, "--resolution-scale", gate.resolution_scale, kPositive, "X",
+             "gate: factor of the paper's rule")
       ->group(group);
   add_word_or(app, "--node-spacing", "METRES",
               "gate: distance between feature vectors; auto: by the size of what paths meet", "auto", "auto",
@@ -159,8 +169,8 @@ void add_hash_flags(CLI::App& app, HashGridOptions& hash, const std::string& gro
   add_integer(app, "--hash-base", hash.base_resolution, kHashBase, "N",
               "hashgrid: resolution of the first level")
       ->group(group);
-  add_real(app, "--hash-growth", hash.growth, kGrowth, "X",
-           "hashgrid: factor of the resolution from level to level", "2")
+  add_number(app, "--hash-growth", hash.growth, kGrowth, "X",
+             "hashgrid: factor of the resolution from level to level")
       ->group(group);
 }
 
@@ -217,11 +227,11 @@ void add_answer_flags(CLI::App& app, CacheOptions& o) {
   add_choice(app, "--view", o.view, cache_view_choices(),
              "final: the picture; cache: the bare answer at the first hit, without emission and reflectance")
       ->group(group);
-  add_real(app, "--cache-roughness", o.min_roughness, kFraction, "X",
-           "Reflections at least this rough come from the cache, sharper ones are traced, 0 to 1", "0.3")
+  add_number(app, "--cache-roughness", o.min_roughness, kFraction, "X",
+             "Reflections at least this rough come from the cache, sharper ones are traced, 0 to 1")
       ->group(group);
-  add_real(app, "--spread-threshold", o.spread_threshold, kNotNegative, "X",
-           "For --query-at spread: spread of the path over that of its first segment; more is later", "0.01")
+  add_number(app, "--spread-threshold", o.spread_threshold, kNotNegative, "X",
+             "For --query-at spread: spread of the path over that of its first segment; more is later")
       ->group(group);
   add_choice(app, "--query-precision", o.bf16_queries, query_precision_choices(),
              "Arithmetic of answers in the picture; bf16 is faster where the processor has it")

@@ -221,7 +221,7 @@ TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
 
 TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
   const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/material-grid.glb";
-  const Words flags = {"--integrator", "nrc", "--size", "24x16", "--node-spacing", "0.2"};
+  const Words flags = {"--integrator", "nrc", "--size", "24x16", "--stack", "adaptive,1"};
   Words asking = {"info", scene};
   asking.insert(asking.end(), flags.begin(), flags.end());
   const Output text = run_gatelight(asking);

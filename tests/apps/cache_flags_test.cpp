@@ -123,7 +123,7 @@ TEST(CacheFlags, EachFlagSetsItsMember) {
   const CacheOptions shape = read_cache({"--features",
                                          "4",
                                          "--stack",
-                                         "adaptive,8,1",
+                                         "adaptive,8,adaptive/4",
                                          "--resolution",
                                          "fixed:12",
                                          "--max-resolution",
@@ -152,7 +152,7 @@ TEST(CacheFlags, EachFlagSetsItsMember) {
                                          "off"});
   EXPECT_EQ(shape.encoding, neural::FeatureEncoding::gate);
   EXPECT_EQ(shape.gate.features, 4u);
-  EXPECT_THAT(shape.gate.stack, ElementsAre(0, 8, 1));
+  EXPECT_THAT(shape.gate.stack, ElementsAre(0, 8, neural::adaptive_part(4)));
   EXPECT_EQ(shape.gate.rule, neural::ResolutionRule::fixed);
   EXPECT_EQ(shape.gate.fixed_resolution, 12u);
   EXPECT_EQ(shape.gate.max_resolution, 16u);
@@ -350,8 +350,8 @@ TEST(CacheRecipe, CanBeGivenBackAsFlags) {
       {"--preset", "paper-nao"},
       {"--preset", "paper-nrc", "--encoding", "hashgrid", "--cache-memory", "0.1"},
       {"--preset", "preview", "--node-spacing", "0.1", "--self-training", "off", "--train-steps", "12"},
-      {"--integrator", "nao", "--resolution", "fixed:3", "--average", "off", "--query-precision", "bf16",
-       "--learning-rate", "0.003", "--cache-in", "i"},
+      {"--integrator", "nao", "--resolution", "fixed:3", "--stack", "adaptive,adaptive/3,2", "--average",
+       "off", "--query-precision", "bf16", "--learning-rate", "0.003", "--cache-in", "i"},
   };
   CLI::App app("");
   RenderSettings flags;

@@ -77,7 +77,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
                            "--preset preview|final|paper-nao|paper-nrc",
                            "--train-steps N|auto",
                            "--stack LIST",
-                           "[adaptive,1]",
+                           "[adaptive",
                            "--cache-memory MIB",
                            "--query-at primary|gather|spread|none",
                            "--checkpoint FILE",
