@@ -102,8 +102,11 @@ RecordRequest CacheSession::request(std::uint64_t step) const {
   request.step = step;
   request.self_training = options_.integrator == Integrator::nrc && self.start_step >= 0 &&
                           step >= static_cast<std::uint64_t>(self.start_step);
-  const double per_point =
+  double per_point =
       static_cast<double>(request.self_training ? setup_.records_per_short_path : setup_.records_per_path);
+  // The first records of a point's paths are one.
+  if (options_.integrator == Integrator::nrc)
+    per_point += (options_.cache.samples_per_point - 1) * (per_point - std::min(per_point, 1.0));
   // A few points more than enough: the number of records varies, and what is too much is left out.
   const double slack = options_.integrator == Integrator::nrc ? 1.03 : 1.0;
   request.points =
@@ -114,17 +117,26 @@ RecordRequest CacheSession::request(std::uint64_t step) const {
   return request;
 }
 
-void CacheSession::count_triangles(const SurfacePoints& records) {
+void CacheSession::count_triangles(const RecordBatch& batch) {
   if (counts_.empty()) return;
   const neural::GateLayout& layout = model().gate;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const neural::GateSurface& surface = layout.surfaces[records.surface(i)];
-    if (surface.triangle_count == 0) continue;
-    const std::size_t triangle = surface.first_triangle + records.triangle(i);
-    // Once a step, however many records lie on it.
-    if (counted_at_[triangle] == steps_ + 1) continue;
+  // Once a step, however many records lie on it.
+  const auto count = [&](std::size_t triangle) {
+    if (counted_at_[triangle] == steps_ + 1) return;
     counted_at_[triangle] = steps_ + 1;
     if (counts_[triangle] != ~0u) ++counts_[triangle];
+  };
+  for (std::size_t i = 0; i < batch.records.size(); ++i) {
+    const neural::GateSurface& surface = layout.surfaces[batch.records.surface(i)];
+    if (surface.triangle_count > 0) count(surface.first_triangle + batch.records.triangle(i));
+  }
+  if (options_.cache.candidates <= 1) return;
+  // Paths that begin at a mirror leave no record there, and its triangles would be chosen ever after.
+  for (std::size_t i = 0; i < batch.starts.hits.size(); ++i) {
+    if (!batch.starts.hits[i]) continue;
+    const Vec3& direction = batch.starts.starts[i].sample.camera_ray.ray.direction;
+    const std::uint32_t triangle = points_->triangle_number(batch.starts.hits[i], direction);
+    if (triangle != TrainingPoints::kNoTriangle) count(triangle);
   }
 }
 
@@ -172,7 +184,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     const double queried = statistics_.train_query_seconds;
     records_->finish(request(steps_), answer_tail, batch);
     statistics_.train_trace_seconds += seconds_since(begin) - (statistics_.train_query_seconds - queried);
-    count_triangles(batch.records);
+    count_triangles(batch);
 
     begin = Clock::now();
     const neural::StepStatistics step = trainer_->train(batch.batch());

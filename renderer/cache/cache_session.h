@@ -53,7 +53,7 @@ class CacheSession {
 
  private:
   RecordRequest request(std::uint64_t step) const;
-  void count_triangles(const SurfacePoints& records);
+  void count_triangles(const RecordBatch& batch);
   void guard(double loss);
 
   const World& world_;

@@ -23,8 +23,9 @@ struct CacheState {
   CacheSetup setup;
   neural::ModelState model;
   std::uint64_t steps = 0;  ///< of this training: keys of the next step's random numbers
-  std::vector<std::uint32_t>
-      triangle_counts;        ///< steps that trained each triangle with storage; empty unless counted
+  /// Steps that trained each triangle with storage, or, where candidates are compared, began a path there;
+  /// empty unless counted.
+  std::vector<std::uint32_t> triangle_counts;
   double loss_average = 0.0;  ///< of the divergence guard
   double loss_least = 0.0;
 };

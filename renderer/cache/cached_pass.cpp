@@ -221,19 +221,35 @@ void CachedPass::finish_occlusion(Tile& tile) const {
   }
 }
 
+/// Traces the tile's paths to their ends. For each path the record of worker.check at the vertex where the
+/// cache was asked first: up to there both paths are the same.
+std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& worker) const {
+  PathBatch& check = worker.check;
+  if (check.queries.inputs() != session_.inputs()) check = PathBatch(session_.inputs());
+  PathPlan plan = plan_;
+  plan.query_at = QueryAt::none;
+  plan.records = true;
+  paths_.trace(tile.starts, {}, plan, check, {}, worker.counts, worker.scratch);
+  check.resolve({}, {});
+  std::vector<std::int32_t> records(tile.starts.size(), kNone);
+  const std::vector<std::uint32_t> path_of = check.paths_of_vertices();
+  for (std::size_t v = 0; v < check.vertices.size(); ++v) {
+    const std::int32_t record = check.vertices[v].record;
+    const std::int32_t query = tile.paths.first_queries[path_of[v]];
+    if (record == kNone || query == kNone || records[path_of[v]] != kNone) continue;
+    if (check.records.same_point(static_cast<std::size_t>(record), tile.paths.queries,
+                                 static_cast<std::size_t>(query)))
+      records[path_of[v]] = record;
+  }
+  return records;
+}
+
 void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
   const std::size_t outputs = session_.outputs();
   const neural::Model& model = session_.model();
   const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
-  const bool errors = needs_error_ && context_.options.integrator == Integrator::nrc;
-  if (errors) {
-    if (worker.check.queries.inputs() != session_.inputs()) worker.check = PathBatch(session_.inputs());
-    PathPlan plan = plan_;
-    plan.query_at = QueryAt::none;
-    plan.records = true;
-    paths_.trace(tile.starts, {}, plan, worker.check, {}, worker.counts, worker.scratch);
-    worker.check.resolve({}, {});
-  }
+  std::vector<std::int32_t> records(tile.first_hits.size(), kNone);
+  if (needs_error_ && context_.options.integrator == Integrator::nrc) records = check_records(tile, worker);
   for (std::size_t i = 0; i < tile.first_hits.size(); ++i) {
     if (tile.paths.first_queries[i] == kNone) continue;
     const auto query = static_cast<std::size_t>(tile.paths.first_queries[i]);
@@ -241,13 +257,11 @@ void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
     first.asked = true;
     const float* const answer = &answers_[outputs * (tile.first_query + query)];
     for (int c = 0; c < 3; ++c) first.answer[c] = answer[outputs == 3 ? c : 0];
-    if (errors && worker.check.first_records[i] != kNone) {
+    if (records[i] != kNone) {
       const float scale = session_.setup().target_scale;
       const Color y = first.answer * scale;
       const Color target =
-          Eigen::Map<const Color>(
-              &worker.check.targets[3 * static_cast<std::size_t>(worker.check.first_records[i])]) *
-          scale;
+          Eigen::Map<const Color>(&worker.check.targets[3 * static_cast<std::size_t>(records[i])]) * scale;
       const float luminance = scene::luminance(y);
       first.error = (y - target).square().mean() /
                     (luminance * luminance + static_cast<float>(neural::kRelativeLossEpsilon));

@@ -51,6 +51,7 @@ class CachedPass : public Pass {
   void trace_occlusion(Tile& tile, Worker& worker) const;
   void finish_paths(Tile& tile, Worker& worker) const;
   void finish_occlusion(Tile& tile) const;
+  std::vector<std::int32_t> check_records(const Tile& tile, Worker& worker) const;
   void describe_answers(Tile& tile, Worker& worker) const;
 
   const World& world_;

@@ -35,14 +35,20 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
   }
 }
 
+std::vector<std::uint32_t> PathBatch::paths_of_vertices() const {
+  std::vector<std::uint32_t> paths(vertices.size());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const std::int32_t previous = vertices[i].previous;
+    paths[i] = previous == kNone ? i : paths[static_cast<std::size_t>(previous)];
+  }
+  return paths;
+}
+
 void PathBatch::average_first_records(std::size_t times) {
   const std::vector<std::int32_t>& first = first_records;
   const std::size_t paths = first.size();
   const auto same_point = [&](std::int32_t a, std::int32_t b) {
-    const auto i = static_cast<std::size_t>(a);
-    const auto j = static_cast<std::size_t>(b);
-    return records.surface(i) == records.surface(j) && records.triangle(i) == records.triangle(j) &&
-           records.barycentrics(i) == records.barycentrics(j);
+    return records.same_point(static_cast<std::size_t>(a), records, static_cast<std::size_t>(b));
   };
   std::vector<bool> dropped(records.size(), false);
   for (std::size_t begin = 0; begin < paths; begin += times) {

@@ -52,6 +52,9 @@ struct PathBatch {
   /// each path, or empty. Fills `targets`.
   void resolve(std::span<const float> answers, std::span<Color> radiance);
 
+  /// For each vertex the path that it belongs to.
+  std::vector<std::uint32_t> paths_of_vertices() const;
+
   /// Makes one record of the first records of each `times` paths in a row, which begin at the same point: the
   /// mean target. Where a mirror or glass at that point sent the paths to several, there is one for each.
   /// After resolve(); the indices in `vertices` and `first_records` are those before.

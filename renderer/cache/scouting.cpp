@@ -42,15 +42,18 @@ float extent_of(std::span<const neural::Float3> positions) {
 
 /// Records that each path left.
 std::vector<int> records_by_path(const PathBatch& batch) {
-  const std::size_t paths = batch.first_queries.size();
-  std::vector<int> records(paths, 0);
-  std::vector<std::size_t> path_of(batch.vertices.size());
+  const std::vector<std::uint32_t> path_of = batch.paths_of_vertices();
+  std::vector<int> records(batch.first_queries.size(), 0);
   for (std::size_t i = 0; i < batch.vertices.size(); ++i) {
-    const PathVertex& v = batch.vertices[i];
-    path_of[i] = v.previous == kNone ? i : path_of[static_cast<std::size_t>(v.previous)];
-    if (v.record != kNone) ++records[path_of[i]];
+    if (batch.vertices[i].record != kNone) ++records[path_of[i]];
   }
   return records;
+}
+
+/// Records of a path, for the number of paths that a step traces. Not more than 64 are traced for one record,
+/// and where there is nothing to learn from nobody has to look for it.
+float records_per_path(double records, double paths) {
+  return records > 0.0 ? static_cast<float>(std::max(records / paths, 1.0 / 64.0)) : 1.0f;
 }
 
 void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
@@ -121,13 +124,14 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     positions.assign(where.begin(), where.end());
     const double traced = static_cast<double>(batch.paths_traced);
     const double full = static_cast<double>(options.cache.self_training.full_fraction);
-    report.setup.records_per_path = static_cast<float>(std::max(all / traced, 1e-3));
-    report.setup.records_per_short_path =
-        static_cast<float>(std::max((full * all + (1.0 - full) * few) / traced, 1e-3));
-    if (light > 0.0) report.setup.target_scale = static_cast<float>(static_cast<double>(lit) / light);
+    report.setup.records_per_path = records_per_path(all, traced);
+    report.setup.records_per_short_path = records_per_path(full * all + (1.0 - full) * few, traced);
+    if (light > 0.0)
+      report.setup.target_scale =
+          static_cast<float>(std::clamp(static_cast<double>(lit) / light, 1e-37, 1e37));
   } else {
-    report.setup.records_per_path = static_cast<float>(std::max<double>(
-        static_cast<double>(positions.size()) / static_cast<double>(starts.starts.size()), 1e-3));
+    report.setup.records_per_path =
+        records_per_path(static_cast<double>(positions.size()), static_cast<double>(starts.starts.size()));
     report.setup.records_per_short_path = report.setup.records_per_path;
   }
 

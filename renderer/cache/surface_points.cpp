@@ -1,6 +1,7 @@
 #include "renderer/cache/surface_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gatelight::renderer {
 namespace {
@@ -64,6 +65,14 @@ void SurfacePoints::copy(const SurfacePoints& from, std::size_t begin, std::size
   copy_range(from.normals_, begin, count, normals_, at);
   copy_range(from.albedos_, begin, count, albedos_, at);
   copy_range(from.roughnesses_, begin, count, roughnesses_, at);
+}
+
+bool SurfacePoints::same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const {
+  constexpr float kNear = 1e-4f;
+  const neural::Float2& a = barycentrics_[i];
+  const neural::Float2& b = other.barycentrics_[j];
+  return surfaces_[i] == other.surfaces_[j] && triangles_[i] == other.triangles_[j] &&
+         std::abs(a[0] - b[0]) < kNear && std::abs(a[1] - b[1]) < kNear;
 }
 
 neural::QueryBatch SurfacePoints::batch() const {

@@ -52,6 +52,9 @@ class SurfacePoints {
   std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
   const neural::Float2& barycentrics(std::size_t i) const { return barycentrics_[i]; }
 
+  /// Whether point i is point j of the other, but for rounding.
+  bool same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const;
+
   /// Valid until the next change.
   neural::QueryBatch batch() const;
 

@@ -166,14 +166,14 @@ std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direct
   const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
   const std::uint32_t surface = neural::surface_index(hit.instance, side_of(front, instance.mirrors));
   const neural::GateSurface& s = layout_->surfaces[surface];
-  return s.triangle_count > 0 ? s.first_triangle + hit.primitive : ~0u;
+  return s.triangle_count > 0 ? s.first_triangle + hit.primitive : kNoTriangle;
 }
 
 void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint32_t> counts,
                                    TrainingStarts& result) const {
   const std::size_t size = result.starts.size();
   const std::uint32_t seed = step_seed(options_, step);
-  std::vector<std::uint32_t> numbers(size, ~0u);
+  std::vector<std::uint32_t> numbers(size, kNoTriangle);
   tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
     if (result.hits[i])
       numbers[i] = triangle_number(result.hits[i], result.starts[i].sample.camera_ray.ray.direction);
@@ -189,7 +189,7 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
       random = hash(random + 0x9e3779b9u);
       const auto place = static_cast<std::size_t>((std::uint64_t{random} * size) >> 32);
       // A triangle without storage is never counted: it would win ever after.
-      if (numbers[place] == ~0u) continue;
+      if (numbers[place] == kNoTriangle) continue;
       candidates.push_back(numbers[place]);
       places.push_back(place);
     }

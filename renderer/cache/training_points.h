@@ -38,15 +38,16 @@ class TrainingPoints {
   void choose(std::uint64_t step, std::size_t count, bool need_hits, std::span<const std::uint32_t> counts,
               TrainingStarts& result, RayCounts& rays) const;
 
+  static constexpr std::uint32_t kNoTriangle = ~0u;
+  /// Of the triangle's side that a ray met among all with storage, or kNoTriangle. With a layout only.
+  std::uint32_t triangle_number(const Hit& hit, const Vec3& direction) const;
+
  private:
   void from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
   void from_surfaces(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
   void trace(TrainingStarts& result, RayCounts& rays) const;
   void prefer_seldom(std::uint64_t step, std::span<const std::uint32_t> counts, TrainingStarts& result) const;
   void repeat(std::uint64_t step, TrainingStarts& result) const;
-  /// Among all triangles with storage; ~0 without.
-  std::uint32_t triangle_number(const Hit& hit, const Vec3& direction) const;
-
   const World& world_;
   const Camera& camera_;
   PixelRect region_;
