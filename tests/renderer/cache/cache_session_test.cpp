@@ -1,0 +1,404 @@
+// A cache that learns: what it answers, what it counts, when it stops, and that threads and interruptions
+// change no bit.
+
+#include "renderer/cache/cache_session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "neural/errors.h"
+#include "renderer/errors.h"
+#include "tests/renderer/cache/small_worlds.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::SceneBuilder;
+using testing::view_from;
+using testing::ViewedWorld;
+using testing::with_threads;
+
+RenderOptions small(Integrator integrator) {
+  RenderOptions options;
+  options.integrator = integrator;
+  options.max_depth = 32;
+  options.cache.batch = 2048;
+  options.cache.node_spacing = 0.7f;
+  return options;
+}
+
+/// What the camera sees, as points to ask about.
+SurfacePoints seen_points(const ViewedWorld& viewed, const CacheSession& session) {
+  SurfacePoints points(session.inputs());
+  for (int y = 1; y < viewed.region.height(); y += 3) {
+    for (int x = 1; x < viewed.region.width(); x += 3) {
+      const CameraRay ray = viewed.camera.ray(static_cast<float>(x), static_cast<float>(y));
+      Hit hit;
+      viewed.world.accel.intersect(std::span(&ray.ray, 1), std::span(&hit, 1), true);
+      if (!hit) continue;
+      const Surface surface = viewed.world.surfaces.at(hit, ray.ray.direction, 0.0f, 0.5f);
+      points.push_back(hit, side_of(surface.front, viewed.world.scene.instances[hit.instance].mirrors),
+                       -ray.ray.direction, surface, surface.material.base_color);
+    }
+  }
+  return points;
+}
+
+std::vector<float> answers_of(CacheSession& session, const SurfacePoints& points) {
+  std::vector<float> answers(session.outputs() * points.size());
+  session.answer(points, answers);
+  return answers;
+}
+
+/// Mean of all answers at what the camera sees.
+double mean_answer(CacheSession& session, const ViewedWorld& viewed) {
+  testing::Moments moments;
+  for (const float a : answers_of(session, seen_points(viewed, session))) moments.add(static_cast<double>(a));
+  EXPECT_GT(moments.count(), 300u);
+  return moments.mean();
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+void expect_same_state(const CacheState& a, const CacheState& b) {
+  EXPECT_TRUE(same_bits(a.model.parameters, b.model.parameters));
+  EXPECT_TRUE(same_bits(a.model.averages, b.model.averages));
+  EXPECT_TRUE(same_bits(a.model.first_moments, b.model.first_moments));
+  EXPECT_TRUE(same_bits(a.model.second_moments, b.model.second_moments));
+  EXPECT_EQ(a.model, b.model);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.triangle_counts, b.triangle_counts);
+  EXPECT_EQ(a.loss_average, b.loss_average);
+  EXPECT_EQ(a.loss_least, b.loss_least);
+  EXPECT_EQ(a.setup.sides, b.setup.sides);
+  EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
+  EXPECT_EQ(a.setup.node_spacing, b.setup.node_spacing);
+}
+
+struct Learned {
+  CacheHolds holds;
+  neural::FeatureEncoding encoding;
+};
+
+class CacheSessionLearns : public ::testing::TestWithParam<Learned> {};
+
+TEST_P(CacheSessionLearns, TheLightOfAClosedFurnace) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 30.0f));
+  RenderOptions options = small(Integrator::nrc);
+  options.cache.holds = GetParam().holds;
+  options.cache.encoding = GetParam().encoding;
+  options.cache.hash_grid.levels = 4;
+  options.cache.hash_grid.log2_table_size = 12;
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  session.train(100, {});
+  EXPECT_EQ(session.steps(), 100u);
+  const double sent = 30.0 / (1.0 - 0.6);
+  const double held = GetParam().holds == CacheHolds::indirect ? sent - 30.0 : sent;
+  EXPECT_NEAR(mean_answer(session, viewed) / held, 1.0, 0.03);
+
+  const CacheStatistics s = session.statistics();
+  EXPECT_EQ(s.steps, 100);
+  EXPECT_EQ(s.rejected, 0u);
+  EXPECT_EQ(s.unstored, 0u);
+  EXPECT_EQ(s.negative_answers, 0u);
+  EXPECT_NEAR(static_cast<double>(s.records), 100.0 * 2048.0, 0.05 * 100.0 * 2048.0);
+  EXPECT_LE(s.records, 100u * 2048u);
+  EXPECT_GT(s.nodes, 0u);
+  EXPECT_EQ(s.nodes, session.model().parameters.node_count);
+  EXPECT_FALSE(s.backend.empty());
+}
+
+std::string name_of(const Learned& l) {
+  const char* const holds[] = {"All", "NoDelta", "Indirect"};
+  return std::string(holds[static_cast<std::size_t>(l.holds)]) +
+         (l.encoding == neural::FeatureEncoding::gate ? "Gate" : "HashGrid");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CacheSessionLearns,
+                         ::testing::Values(Learned{CacheHolds::all, neural::FeatureEncoding::gate},
+                                           Learned{CacheHolds::no_delta, neural::FeatureEncoding::gate},
+                                           Learned{CacheHolds::indirect, neural::FeatureEncoding::gate},
+                                           Learned{CacheHolds::no_delta, neural::FeatureEncoding::hash_grid}),
+                         [](const auto& learned) { return name_of(learned.param); });
+
+TEST(CacheSession, PointsOfEverySourceLearnTheSameFurnace) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 2.0f));
+  for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.source = source;
+    options.cache.samples_per_point = 4;
+    options.cache.candidates = 4;
+    options.cache.bf16_queries = true;
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    session.train(80, {});
+    EXPECT_NEAR(mean_answer(session, viewed) / 5.0, 1.0, 0.03);
+  }
+}
+
+TEST(CacheSession, AnAttenuatedCacheLearnsTooLittle) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  RenderOptions options = small(Integrator::nrc);
+  options.cache.holds = CacheHolds::all;
+  options.cache.self_training.start_step = 0;
+  options.cache.self_training.vertices = 1;
+  options.cache.self_training.full_fraction = 0.0f;
+  options.cache.self_training.attenuation = 0.5f;
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  session.train(120, {});
+  // y = Le + a / 2 y.
+  EXPECT_NEAR(mean_answer(session, viewed), 1.0 / 0.7, 0.04 / 0.7);
+}
+
+/// A room of two materials with a lamp, a mirror and a glossy ball: everything that a batch may meet.
+SceneBuilder room() {
+  SceneBuilder builder;
+  builder.box(builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f))), Vec3(-2, 0, -2),
+              Vec3(2, 3, 2), true);
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color(9.0f, 8.0f, 7.0f))),
+               Vec3(-0.5f, 2.9f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1));
+  scene::Material mirror;
+  mirror.base_color = Color::Constant(0.9f);
+  mirror.roughness = 0.0f;
+  builder.quad(builder.material(mirror), Vec3(-1.8f, 0.2f, -1.9f), Vec3(1.7f, 0, 0), Vec3(0, 2.5f, 0));
+  scene::Material metal;
+  metal.base_color = Color(0.9f, 0.7f, 0.4f);
+  metal.roughness = 0.4f;
+  builder.sphere(builder.material(metal), Vec3(0.8f, 0.6f, 0), 0.6f, 16, true);
+  builder.scene().cameras.push_back(view_from(Vec3(0, 1.2f, 1.8f), Vec3(0, 1, -1)));
+  return builder;
+}
+
+TEST(CacheSession, AnyNumberOfThreadsLearnsTheSameBits) {
+  const ViewedWorld viewed(room());
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    RenderOptions options = small(integrator);
+    options.max_depth = 6;
+    options.cache.candidates = 4;
+    options.cache.self_training.start_step = 3;
+    CacheState states[3];
+    std::vector<float> answers[3];
+    const int threads[] = {1, 2, 7};
+    for (std::size_t i = 0; i < 3; ++i) {
+      with_threads(threads[i], [&] {
+        CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+        session.train(8, {});
+        states[i] = session.export_state();
+        answers[i] = answers_of(session, seen_points(viewed, session));
+      });
+    }
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+      expect_same_state(states[0], states[i]);
+      EXPECT_TRUE(same_bits(answers[0], answers[i]));
+    }
+  }
+}
+
+TEST(CacheSession, InterruptedAndContinuedElsewhereItLearnsTheSameBits) {
+  const ViewedWorld viewed(room());
+  RenderOptions options = small(Integrator::nrc);
+  options.max_depth = 6;
+  options.cache.candidates = 4;
+  options.cache.self_training.start_step = 3;
+  CacheSession whole(viewed.world, viewed.camera, viewed.region, options);
+  whole.train(9, {});
+  CacheSession begun(viewed.world, viewed.camera, viewed.region, options);
+  begun.train(5, {});
+  const CacheState half = begun.export_state();
+  EXPECT_EQ(half.steps, 5u);
+  CacheSession continued(viewed.world, viewed.camera, viewed.region, options, &half.setup);
+  EXPECT_EQ(continued.rays().camera, 0u) << "a given setup is not scouted for again";
+  continued.import_state(half);
+  EXPECT_EQ(continued.steps(), 5u);
+  continued.train(9, {});
+  expect_same_state(whole.export_state(), continued.export_state());
+  begun.train(9, {});
+  expect_same_state(whole.export_state(), begun.export_state());
+}
+
+TEST(CacheSession, SeedsLearnDifferently) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  RenderOptions options = small(Integrator::nrc);
+  CacheState states[2];
+  for (const std::uint32_t seed : {0u, 1u}) {
+    options.seed = seed;
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    session.train(2, {});
+    states[seed] = session.export_state();
+  }
+  EXPECT_FALSE(same_bits(states[0].model.parameters, states[1].model.parameters));
+}
+
+TEST(CacheSession, ItStopsWhenAskedOrOutOfTime) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  RenderOptions options = small(Integrator::nrc);
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  int told = 0;
+  int after = 0;
+  CacheSession::Watch watch;
+  watch.progress = [&](int done, int steps, double loss) {
+    EXPECT_EQ(done, ++told);
+    EXPECT_EQ(steps, 100);
+    EXPECT_TRUE(std::isfinite(loss));
+  };
+  watch.after_step = [&] { EXPECT_EQ(session.export_state().steps, static_cast<std::uint64_t>(++after)); };
+  watch.stop = [&] { return told >= 4; };
+  session.train(100, watch);
+  EXPECT_EQ(session.steps(), 4u);
+  EXPECT_EQ(after, 4);
+  options.cache.train_seconds = 1e-9;
+  watch.stop = {};
+  session.train(100, watch);
+  EXPECT_EQ(session.steps(), 5u) << "no time: one step all the same";
+  session.train(5, watch);
+  EXPECT_EQ(session.steps(), 5u) << "nothing left to do";
+}
+
+/// All answers of the model are this number, before the scale: the network's last layer has its bias alone.
+void answer_always(CacheSession& session, float value) {
+  CacheState state = session.export_state();
+  const neural::LayerLayout& last = session.model().parameters.layers.back();
+  for (std::vector<float>* p : {&state.model.parameters, &state.model.averages}) {
+    std::fill_n(p->begin() + static_cast<std::ptrdiff_t>(last.weights), last.inputs * last.outputs, 0.0f);
+    std::fill_n(p->begin() + static_cast<std::ptrdiff_t>(last.biases), last.outputs, value);
+  }
+  session.import_state(state);
+}
+
+TEST(CacheSession, NegativeAnswersAreZeroAndCounted) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 8.0f));
+  const RenderOptions options = small(Integrator::nrc);
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  const SurfacePoints points = seen_points(viewed, session);
+  answer_always(session, -0.5f);
+  for (const float a : answers_of(session, points)) ASSERT_EQ(a, 0.0f);
+  EXPECT_EQ(session.statistics().negative_answers, points.size());
+  answer_always(session, 0.5f);
+  for (const float a : answers_of(session, points)) ASSERT_FLOAT_EQ(a, 0.5f / session.setup().target_scale);
+  EXPECT_EQ(session.statistics().negative_answers, points.size()) << "points, not calls";
+}
+
+TEST(CacheSession, WildAnswersAreFinite) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 8.0f));
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    const RenderOptions options = small(integrator);
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    const SurfacePoints points = seen_points(viewed, session);
+    const float most = integrator == Integrator::nrc ? std::numeric_limits<float>::max() : 1.0f;
+    const auto expect_sound = [&] {
+      for (const float a : answers_of(session, points)) ASSERT_TRUE(a >= 0.0f && a <= most) << a;
+    };
+    answer_always(session, 3e38f);  // overflows when it is scaled back
+    expect_sound();
+    EXPECT_EQ(answers_of(session, points)[0], most);
+    // Infinities that meet within the network.
+    CacheState state = session.export_state();
+    for (std::size_t i = session.model().parameters.network; i < state.model.averages.size(); ++i)
+      state.model.averages[i] = i % 3 == 0 ? -3e38f : 3e38f;
+    session.import_state(state);
+    expect_sound();
+  }
+}
+
+TEST(CacheSession, OcclusionIsLearnedAndStaysWithinOne) {
+  SceneBuilder builder;
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-9, 0, 9), Vec3(18, 0, 0),
+               Vec3(0, 0, -18));
+  builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
+  const ViewedWorld viewed(builder);
+  const RenderOptions options = small(Integrator::nao);
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  EXPECT_EQ(session.outputs(), 1u);
+  session.train(30, {});
+  for (const float a : answers_of(session, seen_points(viewed, session))) {
+    ASSERT_LE(a, 1.0f);
+    ASSERT_GT(a, 0.95f);
+  }
+}
+
+TEST(CacheSession, LossThatGrowsWithoutEndIsAnErrorOrStaysFinite) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  for (const float rate : {1e3f, 1e20f}) {
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.batch = 512;
+    options.cache.training.adam.learning_rate = rate;
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    try {
+      session.train(150, {});
+    } catch (const NumericalError& error) {
+      EXPECT_NE(std::string(error.what()).find("learning-rate"), std::string::npos) << error.what();
+    }
+    for (const float a : answers_of(session, seen_points(viewed, session))) ASSERT_TRUE(std::isfinite(a));
+  }
+}
+
+TEST(CacheSession, SamplesOfAPointDoNotMultiplyTheWork) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  RenderOptions options = small(Integrator::nrc);
+  options.cache.path_length = 3;
+  options.min_depth = 64;
+  for (const int times : {1, 8}) {
+    options.cache.samples_per_point = times;
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    session.train(3, {});
+    const CacheStatistics s = session.statistics();
+    EXPECT_NEAR(static_cast<double>(s.records), 3.0 * 2048.0, 0.03 * 3.0 * 2048.0);
+    // 3 records for one path, 1 + 2 x 8 for eight; some paths more than needed.
+    const double paths_per_record = times == 1 ? 1.0 / 3.0 : 8.0 / 17.0;
+    EXPECT_NEAR(static_cast<double>(s.training_paths) / static_cast<double>(s.records), paths_per_record,
+                0.1 * paths_per_record);
+  }
+}
+
+TEST(CacheSession, MirrorsAreCountedWherePathsBegin) {
+  const ViewedWorld viewed(room());
+  RenderOptions options = small(Integrator::nrc);
+  options.max_depth = 4;
+  options.cache.candidates = 16;
+  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+  session.train(12, {});
+  const neural::GateSurface& mirror = session.model().gate.surfaces[neural::surface_index(2, 0)];
+  ASSERT_EQ(mirror.triangle_count, 2u);
+  for (std::uint32_t t = 0; t < 2; ++t)
+    EXPECT_EQ(session.triangle_counts()[mirror.first_triangle + t], 12u) << "each step, as the walls";
+  const neural::GateSurface& walls = session.model().gate.surfaces[neural::surface_index(0, 0)];
+  for (std::uint32_t t = 0; t < walls.triangle_count; ++t)
+    EXPECT_EQ(session.triangle_counts()[walls.first_triangle + t], 12u);
+}
+
+TEST(CacheSession, WithNothingToLearnFromItStillRuns) {
+  SceneBuilder builder;
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
+  const ViewedWorld viewed(builder, {.constant = Color::Ones()});
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    for (const auto encoding : {neural::FeatureEncoding::gate, neural::FeatureEncoding::hash_grid}) {
+      RenderOptions options = small(integrator);
+      options.cache.encoding = encoding;
+      options.cache.hash_grid.log2_table_size = 8;
+      options.cache.batch = 64;
+      CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+      session.train(3, {});
+      EXPECT_EQ(session.steps(), 3u);
+      EXPECT_EQ(session.statistics().records, 0u);
+      EXPECT_TRUE(answers_of(session, SurfacePoints(session.inputs())).empty());
+    }
+  }
+}
+
+TEST(CacheSession, WhatNoModelCanBeIsRefused) {
+  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
+  RenderOptions options = small(Integrator::nrc);
+  options.cache.mlp.width = 33;
+  EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), neural::BadConfiguration);
+  options = small(Integrator::nrc);
+  options.cache.device = "abacus";
+  EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), Unavailable);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

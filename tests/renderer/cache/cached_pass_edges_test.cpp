@@ -1,0 +1,146 @@
+// Pictures with a cache of scenes that have next to nothing to learn from: defined, finite, right.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/errors.h"
+#include "renderer/render.h"
+#include "tests/renderer/cache/small_worlds.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::Moments;
+using testing::SceneBuilder;
+using testing::view_from;
+
+RenderOptions small(Integrator integrator) {
+  RenderOptions options;
+  options.integrator = integrator;
+  options.width = 64;
+  options.height = 48;
+  options.spp = 1;
+  options.max_depth = 32;
+  options.cache.train_steps = 4;
+  options.cache.batch = 256;
+  options.cache.node_spacing = 0.7f;
+  options.cache.self_training.start_step = 2;
+  options.cache.hash_grid.log2_table_size = 8;
+  return options;
+}
+
+const std::vector<float>& pixels(const Picture& picture) {
+  return picture.layers[0].values;
+}
+
+double mean_of(const Picture& picture, std::size_t channel) {
+  Moments moments;
+  for (std::size_t i = channel; i < pixels(picture).size(); i += 3)
+    moments.add(static_cast<double>(pixels(picture)[i]));
+  return moments.mean();
+}
+
+void expect_sound(const Picture& picture) {
+  for (const float v : pixels(picture)) ASSERT_TRUE(std::isfinite(v) && v >= 0.0f) << v;
+}
+
+/// Pictures of each kind of a scene.
+void expect_right_picture(SceneBuilder builder, const Color& sky, const Color& expected, double tolerance) {
+  struct Kind {
+    neural::FeatureEncoding encoding;
+    QueryAt query_at;
+    CacheHolds holds;
+  };
+  for (const Kind& kind : {Kind{neural::FeatureEncoding::gate, QueryAt::primary, CacheHolds::all},
+                           Kind{neural::FeatureEncoding::gate, QueryAt::gather, CacheHolds::indirect},
+                           Kind{neural::FeatureEncoding::hash_grid, QueryAt::gather, CacheHolds::no_delta}}) {
+    RenderOptions options = small(Integrator::nrc);
+    options.environment.constant = sky;
+    options.cache.encoding = kind.encoding;
+    options.cache.query_at = kind.query_at;
+    options.cache.holds = kind.holds;
+    Renderer renderer(builder.scene(), options);
+    const Picture picture = renderer.render();
+    expect_sound(picture);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(mean_of(picture, c), static_cast<double>(expected[static_cast<Eigen::Index>(c)]),
+                  tolerance);
+    // Where nothing is found no time is spent on looking for it.
+    EXPECT_LE(renderer.statistics().cache.training_paths, 4u * 300u);
+  }
+  for (const float distance : {-1.0f, scene::kInfinity}) {
+    RenderOptions options = small(Integrator::nao);
+    options.environment.constant = sky;
+    options.ao_distance = distance;
+    expect_sound(Renderer(builder.scene(), options).render());
+  }
+}
+
+TEST(CachedPassEdges, NothingButSky) {
+  SceneBuilder builder;
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
+  expect_right_picture(builder, Color(0.5f, 1.0f, 2.0f), Color(0.5f, 1.0f, 2.0f), 1e-6);
+  expect_right_picture(builder, Color::Zero(), Color::Zero(), 0.0);
+}
+
+SceneBuilder closed_box(const Color& albedo, const Color& emission) {
+  SceneBuilder builder;
+  builder.box(builder.material(SceneBuilder::lambert(albedo, emission)), Vec3(-2, 0, -2), Vec3(2, 3, 2),
+              true);
+  builder.scene().cameras.push_back(view_from(Vec3(0, 1.5f, 1.5f), Vec3(0, 1, 0)));
+  return builder;
+}
+
+TEST(CachedPassEdges, NoLight) {
+  // What was never lit is black but for the start of the network, which training leaves behind.
+  SceneBuilder builder = closed_box(Color::Constant(0.5f), Color::Zero());
+  for (const QueryAt at : {QueryAt::primary, QueryAt::gather}) {
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.query_at = at;
+    options.cache.train_steps = 60;
+    const Picture picture = Renderer(builder.scene(), options).render();
+    expect_sound(picture);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(mean_of(picture, c), 0.0, 2e-3);
+  }
+}
+
+TEST(CachedPassEdges, AllBlack) {
+  expect_right_picture(closed_box(Color::Zero(), Color::Zero()), Color::Zero(), Color::Zero(), 0.0);
+}
+
+TEST(CachedPassEdges, OnlyEmission) {
+  expect_right_picture(closed_box(Color::Zero(), Color(1.0f, 2.0f, 3.0f)), Color::Zero(),
+                       Color(1.0f, 2.0f, 3.0f), 1e-5);
+}
+
+TEST(CachedPassEdges, HugeAndTinyLight) {
+  for (const float brightness : {1e-35f, 1e30f}) {
+    SceneBuilder builder = closed_box(Color::Constant(0.5f), Color::Constant(brightness));
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.train_steps = 40;
+    options.cache.batch = 2048;
+    options.nan_policy = NanPolicy::error;
+    const Picture picture = Renderer(builder.scene(), options).render();
+    expect_sound(picture);
+    EXPECT_NEAR(mean_of(picture, 0) / (2.0 * static_cast<double>(brightness)), 1.0, 0.05);
+  }
+}
+
+TEST(CachedPassEdges, ALearningRateOfAThousandEndsInAnErrorOrAFinitePicture) {
+  SceneBuilder builder = closed_box(Color(0.8f, 0.5f, 0.2f), Color::Constant(1.0f));
+  for (const float rate : {1e3f, 1e20f}) {
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.train_steps = 150;
+    options.cache.training.adam.learning_rate = rate;
+    try {
+      expect_sound(Renderer(builder.scene(), options).render());
+    } catch (const NumericalError& error) {
+      EXPECT_NE(std::string(error.what()).find("learning-rate"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
