@@ -59,7 +59,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
                                                make_cache_backend(cache_model, options));
   inputs_ = PointInputs(cache_model->config);
   const bool gate = cache_model->config.encoding == neural::FeatureEncoding::gate;
-  if (gate) stored_ = StoredSurfaces(cache_model->gate);
+  if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
   std::vector<neural::Sides> sides = setup_.sides;
   points_ = std::make_unique<TrainingPoints>(world, camera, region, options, sides,
                                              gate ? &cache_model->gate : nullptr);

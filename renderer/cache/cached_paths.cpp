@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/cache/cached_paths_scratch.h"
+#include "renderer/cache/surface_layout.h"
 #include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
@@ -16,9 +17,15 @@ constexpr float kNarrowSurvival = 5.0f;
 
 }  // namespace
 
-StoredSurfaces::StoredSurfaces(const neural::GateLayout& layout)
-    : all_(false), stored_(layout.surfaces.size()) {
-  for (std::size_t i = 0; i < stored_.size(); ++i) stored_[i] = layout.surfaces[i].triangle_count > 0 ? 1 : 0;
+StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural::Sides> sides)
+    : all_(false), stored_(2 * scene.instances.size(), 0) {
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const bool alike = possible_sides(scene, scene.instances[i]) != neural::Sides::both;
+    for (const std::uint32_t side : {0u, 1u}) {
+      const bool stored = alike ? sides[i] != neural::Sides::none : has_side(sides[i], side);
+      stored_[neural::surface_index(i, side)] = stored ? 1 : 0;
+    }
+  }
 }
 
 CachedPaths::CachedPaths(const World& world, const RenderOptions& options, const StoredSurfaces& stored)

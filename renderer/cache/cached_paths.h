@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/gate_layout.h"
+#include "neural/surface_layout.h"
 #include "renderer/cache/held_light.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/path_integrator.h"
@@ -19,7 +19,9 @@ class StoredSurfaces {
  public:
   /// All: what a hash grid has.
   StoredSurfaces() = default;
-  explicit StoredSurfaces(const neural::GateLayout& layout);
+  /// sides: those of each instance that have storage. A side without counts as stored only where materials
+  /// do not tell it from the other: the back of what is double-sided may lie in another light.
+  StoredSurfaces(const scene::Scene& scene, std::span<const neural::Sides> sides);
 
   bool operator()(std::uint32_t surface) const { return all_ || stored_[surface] != 0; }
 
