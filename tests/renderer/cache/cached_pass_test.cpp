@@ -257,6 +257,30 @@ TEST(CachedPass, InstancesWithoutStorageStandBesideOthersThatHaveIt) {
   EXPECT_NEAR(moments_of(picture).mean(), 5.0, 0.15);
 }
 
+TEST(CachedPass, ASideWithoutStorageDoesNotShowTheOther) {
+  // Unless a material does not tell them apart.
+  scene::Material card = SceneBuilder::lambert(Color::Constant(0.5f));
+  for (const bool double_sided : {true, false}) {
+    card.double_sided = double_sided;
+    SceneBuilder made;
+    made.quad(made.material(card), Vec3(-5, -5, 0), Vec3(0, 10, 0), Vec3(10, 0, 0));
+    made.scene().cameras.push_back(view_from(Vec3(0, 0, 2), Vec3::Zero()));  // sees its back
+    const ViewedWorld viewed(made, {.constant = Color::Ones()});
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.query_at = QueryAt::primary;
+    options.spp = 1;
+    CacheSetup setup;
+    setup.sides = {neural::Sides::front};
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options, &setup);
+    session.train(2, {});
+    EXPECT_EQ(session.statistics().records > 0, !double_sided);
+    CacheStatistics statistics;
+    pass_over(viewed, options, session, viewed.region, &statistics);
+    EXPECT_EQ(statistics.queries, double_sided ? 0u : 64u * 48u);
+    EXPECT_EQ(statistics.unstored_hits, double_sided ? 64u * 48u : 0u);
+  }
+}
+
 TEST(CachedPass, NegativeAnswersAreCountedAndNeverSeen) {
   const ViewedWorld viewed(room(), {.constant = Color(0.2f, 0.3f, 0.5f)});
   RenderOptions options = small(Integrator::nrc);

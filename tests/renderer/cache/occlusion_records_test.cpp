@@ -68,10 +68,8 @@ TEST(OcclusionRecords, APointIsOneRecordAndASkyIsNone) {
 TEST(OcclusionRecords, SurfacesWithoutStorageLeaveNone) {
   const ViewedWorld viewed(block());
   const RenderOptions options;
-  neural::GateLayout layout;
-  layout.surfaces.resize(4);
-  layout.surfaces[neural::surface_index(1, 0)].triangle_count = 12;
-  const StoredSurfaces stored(layout);
+  const StoredSurfaces stored(viewed.world.scene,
+                              std::vector<neural::Sides>{neural::Sides::none, neural::Sides::front});
   const RecordBatch batch = made(viewed, options, {.step = 2, .points = 768}, stored, 1.0f);
   ASSERT_GT(batch.records.size(), 30u);
   for (std::size_t i = 0; i < batch.records.size(); ++i) ASSERT_EQ(batch.records.surface(i), 2u);
@@ -85,14 +83,14 @@ TEST(OcclusionRecords, AnyNumberOfThreadsGivesTheSameBits) {
   const int threads[] = {1, 2, 7};
   for (std::size_t i = 0; i < 3; ++i) {
     with_threads(threads[i], [&] {
-      batches[i] = made(viewed, options, {.step = 2, .points = 3000, .most_records = 1000}, {}, 1.0f);
+      batches[i] = made(viewed, options, {.step = 2, .points = 30000, .most_records = 10000}, {}, 1.0f);
     });
   }
-  ASSERT_EQ(batches[0].records.size(), 1000u);
+  ASSERT_EQ(batches[0].records.size(), 10000u);
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
     EXPECT_EQ(batches[i].targets, batches[0].targets);
-    ASSERT_EQ(batches[i].records.size(), 1000u);
-    for (std::size_t r = 0; r < 1000; ++r)
+    ASSERT_EQ(batches[i].records.size(), 10000u);
+    for (std::size_t r = 0; r < 10000; ++r)
       ASSERT_EQ(batches[i].records.barycentrics(r), batches[0].records.barycentrics(r));
   }
 }

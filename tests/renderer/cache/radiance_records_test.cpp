@@ -123,6 +123,7 @@ TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
       if (i > 0) gaps.insert(at - last);
       last = at++;
     }
+    EXPECT_GT((last + 1) * most, n * (most - 1)) << "up to the end";
     EXPECT_LE(gaps.size(), 2u);
     if (gaps.size() == 2) {
       EXPECT_EQ(*gaps.rbegin() - *gaps.begin(), 1u);
@@ -197,9 +198,7 @@ TEST(RadianceRecords, SamplesOfAPointBecomeOneRecordAtThePoint) {
 TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options;
-  neural::GateLayout nothing;
-  nothing.surfaces.resize(2);
-  const StoredSurfaces stored(nothing);
+  const StoredSurfaces stored(viewed.world.scene, std::vector<neural::Sides>{neural::Sides::none});
   const CachedPaths paths(viewed.world, options, stored);
   const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, points, options, {});
@@ -221,7 +220,7 @@ TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
       for (std::size_t c = 0; c < 3; ++c) a[3 * i + c] = points.barycentrics(i)[0];
     }
   };
-  const RecordRequest request{.step = 5, .points = 1500, .most_records = 1800, .self_training = true};
+  const RecordRequest request{.step = 5, .points = 12000, .most_records = 18000, .self_training = true};
   std::vector<float> targets[3];
   std::vector<neural::Float2> places[3];
   const int threads[] = {1, 2, 7};
@@ -233,7 +232,7 @@ TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
       places[i].assign(where.begin(), where.end());
     });
   }
-  ASSERT_EQ(targets[0].size(), 3u * 1800u);
+  ASSERT_EQ(targets[0].size(), 3u * 18000u);
   EXPECT_EQ(targets[0], targets[1]);
   EXPECT_EQ(targets[0], targets[2]);
   EXPECT_EQ(places[0], places[1]);

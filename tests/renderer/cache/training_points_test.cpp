@@ -174,8 +174,8 @@ TEST(TrainingPoints, AnyNumberOfThreadsGivesTheSameBits) {
     options.cache.source = source;
     options.cache.samples_per_point = 2;
     std::vector<std::uint32_t> bits[2];
-    tbb::task_arena(1).execute([&] { bits[0] = bits_of(choose(walls, options, 9, 1500)); });
-    tbb::task_arena(3).execute([&] { bits[1] = bits_of(choose(walls, options, 9, 1500)); });
+    tbb::task_arena(1).execute([&] { bits[0] = bits_of(choose(walls, options, 9, 30000)); });
+    tbb::task_arena(3).execute([&] { bits[1] = bits_of(choose(walls, options, 9, 30000)); });
     EXPECT_EQ(bits[0], bits[1]);
   }
 }
