@@ -78,7 +78,7 @@ struct CacheOptions {
   CacheView view = CacheView::final;
   /// Lobes at least this rough (perceptual, as in glTF) belong to the cache; narrower ones are traced on from
   /// the vertex where it is asked. 0: only deltas are.
-  float min_roughness = 0.3f;
+  float min_roughness = 0.5f;
   float spread_threshold = 0.01f;  ///< c of the area-spread rule
   bool bf16_queries = false;
 
