@@ -110,7 +110,11 @@ void AtomicFile::commit() {
   if (!named_) {
     // A link does not replace a file, so that the name that a rename needs is given at the last moment.
     const std::string link = link_of(::fileno(stream_));
-    if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0) fail(errno);
+    const auto give_name = [&] {
+      return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    // The name may be left from a process of the same number that was killed right here.
+    if (!give_name() && (errno != EEXIST || ::unlink(temporary_.c_str()) != 0 || !give_name())) fail(errno);
     named_ = true;
   }
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);

@@ -15,6 +15,11 @@ struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The loss grew without end or is not finite. The message names the step.
+struct TrainingDiverged : NumericalError {
+  using NumericalError::NumericalError;
+};
+
 /// The device or instruction set asked for is not there.
 struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;

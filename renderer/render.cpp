@@ -93,6 +93,12 @@ struct Renderer::Implementation {
         filter(options.filter, options.filter_width),
         budget(checked_budget(scene, options)) {
     const Clock::time_point start = Clock::now();
+    // What was loaded has learned enough, unless the caller says otherwise.
+    if (!options.cache.train_steps && options.cache.cache_in.empty()) {
+      steps_chosen = true;
+      options.cache.train_steps = choose_training_steps(
+          options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
+    }
     arena.execute([&] {
       textures.emplace(scene);
       environment.emplace(options.environment);
@@ -140,6 +146,7 @@ struct Renderer::Implementation {
   std::optional<Accel> accel;
   std::optional<Lights> lights;
   std::optional<World> world;
+  bool steps_chosen = false;  ///< of training, by the picture's pixels and samples
   RenderStatistics statistics;
 };
 
@@ -172,12 +179,8 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
   } else {
     make_session(nullptr);
   }
-  // What was loaded has learned enough, unless the caller says otherwise.
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height());
-  training.chosen = !options.cache.train_steps && file.empty();
-  training.steps =
-      options.cache.train_steps.value_or(training.chosen ? choose_training_steps(options, pixels) : 0);
+  training.chosen = steps_chosen;
+  training.steps = options.cache.train_steps.value_or(0);
   training.complete = found && found->progress().phase == Phase::render;
   return training;
 }
@@ -286,6 +289,8 @@ Picture Renderer::render(const Callbacks& callbacks) {
     self.train(training, callbacks, [&] {
       if (keeper && keeper->due()) keep_training();
     });
+    // Training that a time limit ended is not to be repeated: where it ended is part of the picture.
+    if (keeper && training.complete) keep(Phase::render, self.sum_up(0, 0.0, nullptr, training, earlier));
     if (keeper && !training.complete) keep_training();
   }
   // A picture with half a cache is for looking at, and no part of the whole one.
@@ -361,7 +366,7 @@ Picture Renderer::render(const Callbacks& callbacks) {
   }
 
   statistics = sum_up(done, seconds_since(start));
-  statistics.interrupted = interrupted;
+  statistics.interrupted = interrupted || !whole;
   if (keeper && whole) keep(Phase::render, statistics);
   if (callbacks.progress)
     callbacks.progress(

@@ -63,8 +63,6 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
 neural::TrainingOptions training_options(const RenderOptions& options) {
   neural::TrainingOptions training = options.cache.training;
   training.seed = training.seed * 0x9e3779b97f4a7c15u + options.seed;
-  // One number alone is compared with itself: its loss needs no weight.
-  if (options.integrator == Integrator::nao) training.loss = neural::Loss::l2;
   return training;
 }
 

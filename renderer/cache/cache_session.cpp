@@ -15,6 +15,7 @@
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/surface_layout.h"
+#include "renderer/memory_estimate.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -29,10 +30,37 @@ double seconds_since(Clock::time_point start) {
 constexpr std::size_t kLossWindow = 16;
 
 // The divergence guard: a running mean of the loss that grows tenfold over its least value. Single bright
-// records raise one step's loss a hundredfold and more, so that the mean is slow.
+// records raise one step's loss a thousandfold, so that the mean is slow and no step counts for more than
+// tenfold; a loss that has gone to nothing may double as it likes.
 constexpr double kGuardDecay = 0.98;
-constexpr std::uint64_t kGuardFrom = 100;
+constexpr std::uint64_t kGuardFrom = 100;  ///< steps of this run: another camera or batch has another loss
 constexpr double kGuardFactor = 10.0;
+constexpr double kGuardFloor = 1e-2;
+
+/// Paths of one step that are held at once.
+constexpr double kMostPaths = 1 << 24;
+
+void check_options(const CacheOptions& options) {
+  if (static_cast<double>(options.batch) * options.samples_per_point > kMostPaths) {
+    throw BadOption(
+        fmt::format("{} samples at each of the points of a batch of {}: expected at most {} paths",
+                    options.samples_per_point, options.batch, static_cast<int>(kMostPaths)));
+  }
+}
+
+void check_memory(const scene::Scene& scene, const RenderOptions& options, const neural::Model& model) {
+  if (options.memory_limit_bytes == 0) return;
+  // Features, their average and two moments; a counter for each node.
+  const std::size_t cache = model.parameters.count * 4 * sizeof(float) +
+                            model.parameters.node_count * sizeof(std::uint32_t) +
+                            model.gate.report.topology_bytes + model.gate.report.table_bytes;
+  const std::size_t need = estimate_memory(scene, options).total() + cache;
+  if (need > options.memory_limit_bytes) {
+    throw OutOfMemory(
+        fmt::format("{}: rendering with a cache of {} MiB needs about {} MiB, more than the limit of {} MiB",
+                    scene.path, cache >> 20, need >> 20, options.memory_limit_bytes >> 20));
+  }
+}
 
 bool counts_needed(const RenderOptions& options) {
   return options.cache.candidates > 1 ||
@@ -44,6 +72,7 @@ bool counts_needed(const RenderOptions& options) {
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                            const RenderOptions& options, const CacheSetup* setup)
     : world_(world), options_(options) {
+  check_options(options.cache);
   Clock::time_point start = Clock::now();
   if (setup) {
     setup_ = *setup;
@@ -55,6 +84,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.scout_seconds = seconds_since(start);
 
   const std::shared_ptr<const neural::Model> cache_model = make_cache_model(world, options, setup_);
+  check_memory(world.scene, options, *cache_model);
   trainer_ = std::make_unique<neural::Trainer>(cache_model, training_options(options),
                                                make_cache_backend(cache_model, options));
   inputs_ = PointInputs(cache_model->config);
@@ -140,23 +170,20 @@ void CacheSession::count_triangles(const RecordBatch& batch) {
   }
 }
 
-void CacheSession::guard(double loss) {
-  const double weight = 1.0 - kGuardDecay;
-  loss_average_ = steps_ <= 1 ? loss : loss_average_ + weight * (loss - loss_average_);
-  if (!std::isfinite(loss)) {
-    throw NumericalError(
-        fmt::format("training step {}: the loss is not finite; lower --learning-rate", steps_));
-  }
-  if (steps_ < kGuardFrom) {
+void CacheSession::guard(const neural::StepStatistics& step) {
+  if (step.records == 0) return;
+  if (!std::isfinite(step.loss))
+    throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", steps_));
+  const double fed = loss_average_ > 0.0 ? std::min(step.loss, kGuardFactor * loss_average_) : step.loss;
+  loss_average_ = loss_average_ > 0.0 ? loss_average_ + (1.0 - kGuardDecay) * (fed - loss_average_) : fed;
+  if (++guarded_steps_ < kGuardFrom) {
     loss_least_ = loss_average_;
     return;
   }
   loss_least_ = std::min(loss_least_, loss_average_);
-  if (loss_average_ > kGuardFactor * loss_least_ && loss_least_ > 0.0) {
-    throw NumericalError(
-        fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}; lower --learning-rate or "
-                    "--self-training-attenuation",
-                    steps_, loss_least_, loss_average_));
+  if (loss_average_ > kGuardFactor * std::max(loss_least_, kGuardFloor)) {
+    throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", steps_,
+                                       loss_least_, loss_average_));
   }
 }
 
@@ -169,7 +196,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
     const std::uint64_t negative = statistics_.negative_answers;
-    answer(points, answers);
+    answer_with(neural::QueryPrecision::fp32, points, answers);
     statistics_.negative_answers = negative;
     statistics_.train_query_seconds += seconds_since(begin);
   };
@@ -198,7 +225,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     statistics_.touched_nodes = step.touched_nodes;
     last_losses_.push_back(step.loss);
     if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
-    guard(step.loss);
+    guard(step);
     const double mean_loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
                              static_cast<double>(last_losses_.size());
     statistics_.loss = mean_loss;
@@ -215,9 +242,16 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
 }
 
 void CacheSession::answer(const SurfacePoints& points, std::span<float> answers) {
+  answer_with(options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
+              points, answers);
+}
+
+void CacheSession::answer_with(neural::QueryPrecision precision, const SurfacePoints& points,
+                               std::span<float> answers) {
   const bool occlusion = options_.integrator == Integrator::nao;
   neural::QueryOptions query;
-  query.precision = options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32;
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  query.precision = precision;
   query.range = neural::OutputRange::raw;
   trainer_->query(points.batch(), query, answers);
   const float scale = 1.0f / setup_.target_scale;
@@ -228,11 +262,11 @@ void CacheSession::answer(const SurfacePoints& points, std::span<float> answers)
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           bool below = false;
           for (float& a : answers.subspan(outputs * i, outputs)) {
-            if (!(a >= 0.0f)) {
+            if (!(a >= 0.0f && a <= kGreatest)) {
               below = true;
               a = 0.0f;
             }
-            a = occlusion ? std::min(a, 1.0f) : std::min(a * scale, std::numeric_limits<float>::max());
+            a = occlusion ? std::min(a, 1.0f) : std::min(a * scale, kGreatest);
           }
           if (below) ++negative;
         }

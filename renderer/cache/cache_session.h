@@ -54,7 +54,8 @@ class CacheSession {
  private:
   RecordRequest request(std::uint64_t step) const;
   void count_triangles(const RecordBatch& batch);
-  void guard(double loss);
+  void guard(const neural::StepStatistics& step);
+  void answer_with(neural::QueryPrecision precision, const SurfacePoints& points, std::span<float> answers);
 
   const World& world_;
   const RenderOptions& options_;
@@ -70,6 +71,7 @@ class CacheSession {
   std::vector<std::uint64_t> counted_at_;  ///< step after which a triangle was counted last
   double loss_average_ = 0.0;
   double loss_least_ = 0.0;
+  std::uint64_t guarded_steps_ = 0;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
   CacheStatistics statistics_;

@@ -136,7 +136,9 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
       (ends || (wide && plan.records)) && stored_(neural::surface_index(hit.instance, meeting.side));
   if (ends && stored) return answer(path, meeting, batch, scratch);
   if (ends) ++batch.unstored_hits;
-  return continue_from(path, meeting, plan.records && stored, plan, batch, scratch);
+  const bool teaches =
+      plan.records && stored && (plan.most_records == kNone || path.records < plan.most_records);
+  return continue_from(path, meeting, teaches, plan, batch, scratch);
 }
 
 bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch& scratch) const {

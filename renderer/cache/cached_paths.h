@@ -35,6 +35,7 @@ struct PathPlan {
   QueryAt query_at = QueryAt::none;
   bool records = false;  ///< every vertex of wide lobes that does not end in the cache becomes a record
   int end_after_records = kNone;  ///< a path with so many ends in the cache; kNone: query_at decides
+  int most_records = kNone;       ///< of a path; kNone: no limit
   int max_depth = 8;              ///< scattering events
   int min_depth = 2;              ///< before Russian roulette
 };

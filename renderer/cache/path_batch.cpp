@@ -58,7 +58,9 @@ void PathBatch::average_first_records(std::size_t times) {
       Color sum = color_at(targets, first[p]);
       float count = 1.0f;
       for (std::size_t q = p + 1; q < end; ++q) {
-        if (first[q] == kNone || !same_point(first[p], first[q])) continue;
+        if (first[q] == kNone || dropped[static_cast<std::size_t>(first[q])] ||
+            !same_point(first[p], first[q]))
+          continue;
         sum += color_at(targets, first[q]);
         count += 1.0f;
         dropped[static_cast<std::size_t>(first[q])] = true;

@@ -7,6 +7,9 @@
 namespace gatelight::renderer {
 namespace {
 
+/// Scattering events that Russian roulette lets nobody reach: 0.95 to this power is 1e-22.
+constexpr int kEndless = 1000;
+
 template <typename Size>
 std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
   std::vector<std::size_t> offsets(blocks.size() + 1, 0);
@@ -26,7 +29,10 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   PathPlan plan;
   plan.records = true;
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
-  plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : options_.max_depth;
+  // A vertex near the end of a path of limited length would teach less light than the first one, at the same
+  // nodes: such paths teach at their first vertex alone.
+  plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
+  plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());

@@ -56,6 +56,22 @@ float records_per_path(double records, double paths) {
   return records > 0.0 ? static_cast<float>(std::max(records / paths, 1.0 / 64.0)) : 1.0f;
 }
 
+/// Mean of numbers of which none counts for more than a hundred times the median of those above zero: one
+/// path that met a tiny lamp in a mirror does not say how bright a scene is.
+double robust_mean(const std::vector<double>& values) {
+  std::vector<double> lit;
+  for (const double v : values) {
+    if (v > 0.0) lit.push_back(v);
+  }
+  if (lit.empty()) return 0.0;
+  const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
+  std::nth_element(lit.begin(), middle, lit.end());
+  const double most = 100.0 * *middle;
+  double sum = 0.0;
+  for (const double v : values) sum += std::min(v, most);
+  return sum / static_cast<double>(values.size());
+}
+
 void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
   met[surface / 2] = static_cast<std::uint8_t>(met[surface / 2] | (1u << (surface % 2)));
 }
@@ -104,8 +120,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
 
     double all = 0.0;
     double few = 0.0;
-    double light = 0.0;
-    std::uint64_t lit = 0;
+    std::vector<double> luminances;
     for (const PathBatch& block : batch.paths) {
       for (const int n : records_by_path(block)) {
         all += n;
@@ -117,8 +132,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
       const Color target = Eigen::Map<const Color>(&batch.targets[3 * i]);
       const double l = static_cast<double>(scene::luminance(target));
       if (!std::isfinite(l)) continue;
-      light += l;
-      ++lit;
+      luminances.push_back(l);
     }
     const std::span<const neural::Float3> where = batch.records.batch().positions;
     positions.assign(where.begin(), where.end());
@@ -126,9 +140,8 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     const double full = static_cast<double>(options.cache.self_training.full_fraction);
     report.setup.records_per_path = records_per_path(all, traced);
     report.setup.records_per_short_path = records_per_path(full * all + (1.0 - full) * few, traced);
-    if (light > 0.0)
-      report.setup.target_scale =
-          static_cast<float>(std::clamp(static_cast<double>(lit) / light, 1e-37, 1e37));
+    const double mean = robust_mean(luminances);
+    if (mean > 0.0) report.setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
   } else {
     report.setup.records_per_path =
         records_per_path(static_cast<double>(positions.size()), static_cast<double>(starts.starts.size()));
