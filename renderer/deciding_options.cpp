@@ -49,6 +49,17 @@ std::string aov_names(const std::vector<Aov>& aovs) {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
+std::string stack_text(const std::vector<std::uint32_t>& stack) {
+  std::vector<std::string> levels;
+  for (const std::uint32_t level : stack) {
+    levels.push_back(!neural::is_adaptive(level) ? std::to_string(level)
+                     : level == neural::kAdaptive
+                         ? "adaptive"
+                         : fmt::format("adaptive/{}", neural::adaptive_divisor(level)));
+  }
+  return fmt::format("{}", fmt::join(levels, ","));
+}
+
 void add_training_points(NamedTexts& texts, const CacheOptions& options) {
   const auto& [start_step, vertices, full_fraction, attenuation] = options.self_training;
   const NamedTexts more = {{"train-steps", text(options.train_steps)},
@@ -93,7 +104,7 @@ void add_gate(NamedTexts& texts, const neural::GateOptions& options) {
   const auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution,
                storage, cluster, memory_budget, bytes_per_feature] = options;
   const NamedTexts more = {{"features", text(features)},
-                           {"stack", fmt::format("{}", fmt::join(stack, ","))},
+                           {"stack", stack_text(stack)},
                            {"resolution", word(rule)},
                            {"gate-node-spacing", text(node_spacing)},
                            {"resolution-scale", text(resolution_scale)},
