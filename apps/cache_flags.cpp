@@ -84,8 +84,10 @@ void add_learning_flags(CLI::App& app, CacheOptions& o) {
   add_integer(app, "--batch", o.batch, kRecords, "N",
               "Records (points with their light) that a step learns from")
       ->group(group);
-  add_integer(app, "--train-path-length", o.path_length, kEvents, "N",
-              "Largest number of scattering events of a training path; 0: Russian roulette alone ends it")
+  add_integer(
+      app, "--train-path-length", o.path_length, kEvents, "N",
+      "0: Russian roulette alone ends a training path, and each vertex becomes a record; N: paths of N "
+      "segments, and only the first vertex does, as in the paper")
       ->group(group);
   add_integer(app, "--samples-per-point", o.samples_per_point, kPaths, "N",
               "Paths whose mean becomes the record of a training point")

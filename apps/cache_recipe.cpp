@@ -39,22 +39,17 @@ void add_learning(ordered_json& json, const CacheOptions& o) {
 
 void add_encoding(ordered_json& json, const CacheOptions& o) {
   json["encoding"] = name_of(encoding_choices(), o.encoding);
-  if (o.encoding == neural::FeatureEncoding::hash_grid) {
-    json["hash-levels"] = o.hash_grid.levels;
-    json["hash-features"] = o.hash_grid.features;
-    json["hash-log2-size"] = o.hash_grid.log2_table_size;
-    json["hash-base"] = o.hash_grid.base_resolution;
-    json["hash-growth"] = shortest(o.hash_grid.growth);
-    return;
-  }
+  json["hash-levels"] = o.hash_grid.levels;
+  json["hash-features"] = o.hash_grid.features;
+  json["hash-log2-size"] = o.hash_grid.log2_table_size;
+  json["hash-base"] = o.hash_grid.base_resolution;
+  json["hash-growth"] = shortest(o.hash_grid.growth);
   const neural::GateOptions& gate = o.gate;
   json["features"] = gate.features;
   json["stack"] = stack_text(gate.stack);
   json["resolution"] = resolution_text(gate);
-  if (gate.rule == neural::ResolutionRule::paper) json["resolution-scale"] = shortest(gate.resolution_scale);
-  if (gate.rule == neural::ResolutionRule::uniform) {
-    json["node-spacing"] = o.node_spacing ? ordered_json(shortest(*o.node_spacing)) : ordered_json("auto");
-  }
+  json["resolution-scale"] = shortest(gate.resolution_scale);
+  json["node-spacing"] = o.node_spacing ? ordered_json(shortest(*o.node_spacing)) : ordered_json("auto");
   json["max-resolution"] = gate.max_resolution;
   json["cluster"] = name_of(auto_off_choices(), gate.cluster);
   json["storage"] = name_of(storage_choices(), gate.storage);
@@ -93,6 +88,7 @@ ordered_json resolved_cache_options(const RenderSettings& settings) {
   add_learning(json, options);
   add_shape(json, options);
   add_answers(json, options);
+  for (const std::string& flag : cache_flags_without_effect(settings.render)) json.erase(flag.substr(2));
   if (!options.cache_in.empty()) json["cache-in"] = options.cache_in;
   if (!options.cache_out.empty() && !settings.reproducible) json["cache-out"] = options.cache_out;
   return json;

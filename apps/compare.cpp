@@ -12,6 +12,7 @@
 #include "apps/log.h"
 #include "apps/render_settings.h"
 #include "apps/results.h"
+#include "apps/seeds.h"
 #include "apps/subcommand.h"
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
@@ -78,6 +79,8 @@ Picture read_pictures(const std::vector<std::string>& files, std::vector<Picture
   if (files.size() == 1) return first;
   halves.push_back(std::move(first));
   halves.push_back(renderer::read_image(files.back()));
+  SeedsSeen seeds;
+  for (std::size_t i = 0; i < halves.size(); ++i) seeds.add(halves[i], files[i]);
   return renderer::merge_pictures({{halves.front(), files.front()}, {halves.back(), files.back()}});
 }
 

@@ -37,6 +37,8 @@ Failure describe_current_exception() {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
   } catch (const neural::Unavailable& error) {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
+  } catch (const renderer::TrainingDiverged& error) {
+    return {kNumerical, error.what(), "lower --learning-rate"};
   } catch (const renderer::NumericalError& error) {
     return {kNumerical, error.what(), "use --nan drop to leave such samples out"};
   } catch (const neural::CacheFileError& error) {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 
 #include "apps/errors.h"
-#include "apps/log.h"
 #include "apps/results.h"
+#include "apps/seeds.h"
 #include "apps/subcommand.h"
 #include "renderer/image_format.h"
 #include "renderer/image_read.h"
@@ -36,26 +35,15 @@ void require_exr(const std::string& file) {
   throw UsageError(fmt::format("merge: '{}' is not an .exr file", file));
 }
 
-/// Two pictures of one seed have the same noise, which no mean makes less.
-void warn_of_equal_seeds(const renderer::Picture& picture, const std::string& file,
-                         std::map<std::string, std::string>& files_by_seed) {
-  const auto seed = picture.metadata.find("seed");
-  if (seed == picture.metadata.end()) return;
-  const auto [first, is_new] = files_by_seed.emplace(seed->second, file);
-  if (is_new) return;
-  log_warning(fmt::format("'{}' and '{}' have the same seed {}: their noise is not independent",
-                          first->second, file, seed->second));
-}
-
 int run_merge(const MergeSettings& settings) {
   require_exr(settings.output);
   for (const std::string& input : settings.inputs) require_exr(input);
   renderer::check_image_output(settings.output);
   renderer::PictureMerger merger;
-  std::map<std::string, std::string> files_by_seed;
+  SeedsSeen seeds;
   for (const std::string& input : settings.inputs) {
     const renderer::Picture picture = renderer::read_image(input);
-    warn_of_equal_seeds(picture, input, files_by_seed);
+    seeds.add(picture, input);
     merger.add({picture, input});
   }
   renderer::write_image(merger.finish(), settings.output);

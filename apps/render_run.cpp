@@ -138,10 +138,7 @@ void RenderRun::write_results(renderer::Picture picture) {
   const bool told = progress_.done(settings_.outputs, report_.total_seconds);
   if (!told && !settings_.quiet) fmt::print(stderr, "{}", summary(settings_, report_));
   if (report_.signal != 0) {
-    print_notice(
-        fmt::format("stopped by signal {} after {} of {} samples per pixel; the picture so far is in '{}'{}",
-                    report_.signal, report_.statistics.spp, settings_.render.spp, settings_.outputs.front(),
-                    settings_.render.checkpoint.file.empty() ? "" : "; --resume goes on with it"));
+    print_notice(stop_notice(settings_, report_));
   }
 }
 
@@ -170,6 +167,8 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command)
   // What knows no file gets the scene's name.
   try {
     return RenderRun(settings, command).run();
+  } catch (const renderer::TrainingDiverged& error) {
+    throw renderer::TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const renderer::NumericalError& error) {
     throw renderer::NumericalError(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const std::bad_alloc&) {

@@ -116,16 +116,33 @@ void check_output_names(const RenderSettings& settings) {
   }
 }
 
-/// Flags of one encoding or rule, which another would silently ignore.
+/// Flags of one encoding, rule or integrator, which another would silently ignore.
 struct Condition {
   bool holds = true;
   std::string_view expected;
   std::vector<std::string_view> flags;
 };
 
-std::vector<Condition> cache_conditions(const CacheOptions& o) {
+std::vector<Condition> cache_conditions(const RenderOptions& options) {
+  const CacheOptions& o = options.cache;
   const bool gate = o.encoding == neural::FeatureEncoding::gate;
+  const bool nrc = options.integrator == Integrator::nrc;
   return {
+      {nrc,
+       "--integrator nrc",
+       {"--cache-holds", "--query-at", "--view", "--self-training", "--self-training-vertices",
+        "--self-training-full", "--self-training-attenuation", "--train-path-length", "--cache-roughness",
+        "--spread-threshold", "--direction-input"}},
+      {nrc || !gate, "--integrator nrc or --encoding hashgrid", {"--albedo-input"}},
+      {o.self_training.start_step >= 0,
+       "--self-training STEP",
+       {"--self-training-vertices", "--self-training-full", "--self-training-attenuation"}},
+      {o.query_at == QueryAt::spread, "--query-at spread", {"--spread-threshold"}},
+      // The bare answer is that of the first vertex, or what should have been it.
+      {o.view == CacheView::final || o.query_at == QueryAt::primary || o.query_at == QueryAt::none,
+       "--view final",
+       {"--query-at"}},
+      {gate || o.candidates == 1, "--encoding gate", {"--candidates"}},
       {gate,
        "--encoding gate",
        {"--features", "--stack", "--resolution", "--resolution-scale", "--node-spacing", "--max-resolution",
@@ -136,6 +153,21 @@ std::vector<Condition> cache_conditions(const CacheOptions& o) {
       {o.gate.rule == neural::ResolutionRule::paper, "--resolution paper", {"--resolution-scale"}},
       {o.gate.rule == neural::ResolutionRule::uniform, "--resolution uniform", {"--node-spacing"}},
   };
+}
+
+/// What defaults and presets leave open or wrong for this encoding and integrator.
+void adapt_cache(RenderSettings& settings) {
+  CacheOptions& o = settings.render.cache;
+  // The paper's presets count steps by triangle, which a hash grid does not know.
+  if (o.encoding == neural::FeatureEncoding::hash_grid) {
+    o.training.feature_step = neural::FeatureStep::per_node;
+    o.candidates = 1;
+  }
+  if (o.view == CacheView::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
+  // One number alone is compared with itself: its loss needs no weight.
+  if (settings.render.integrator == Integrator::nao && !settings.given.contains("--loss")) {
+    o.training.loss = neural::Loss::l2;
+  }
 }
 
 void complete_cache(RenderSettings& settings) {
@@ -149,7 +181,7 @@ void complete_cache(RenderSettings& settings) {
     }
     return;
   }
-  for (const Condition& condition : cache_conditions(o.cache)) {
+  for (const Condition& condition : cache_conditions(o)) {
     for (const std::string_view flag : condition.flags) {
       if (!condition.holds && settings.given.contains(std::string(flag))) {
         throw UsageError(
@@ -157,27 +189,38 @@ void complete_cache(RenderSettings& settings) {
       }
     }
   }
-  // The paper's presets count steps by triangle, which a hash grid does not know.
-  if (o.cache.encoding == neural::FeatureEncoding::hash_grid) {
-    o.cache.training.feature_step = neural::FeatureStep::per_node;
+  adapt_cache(settings);
+}
+
+/// Why a layer would be black, and what it needs; empty where it shows something.
+std::string why_black(Aov aov, const RenderOptions& o) {
+  if (!shows_cache(aov)) return "";
+  if (!uses_cache(o.integrator)) {
+    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
+                       name_of(integrator_choices(), o.integrator));
   }
+  if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
+    return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
+  }
+  const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
+  if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid) {
+    return "the encoding 'hashgrid' knows no triangles, expected --encoding gate";
+  }
+  return "";
 }
 
 void complete_aovs(RenderSettings& settings) {
   RenderOptions& o = settings.render;
-  const bool cache = uses_cache(o.integrator);
   if (settings.all_aovs) {
     o.aovs.clear();
     for (const Choice<Aov>& choice : aov_choices()) {
-      if (cache || !shows_cache(choice.value)) o.aovs.push_back(choice.value);
+      if (why_black(choice.value, o).empty()) o.aovs.push_back(choice.value);
     }
   }
   for (const Aov aov : o.aovs) {
-    if (!cache && shows_cache(aov)) {
-      throw UsageError(
-          fmt::format("--aov: '{}' shows a cache, which the integrator '{}' has not, expected "
-                      "--integrator nao or nrc",
-                      name_of(aov_choices(), aov), name_of(integrator_choices(), o.integrator)));
+    const std::string why = why_black(aov, o);
+    if (!why.empty()) {
+      throw UsageError(fmt::format("--aov: '{}' would be black: {}", name_of(aov_choices(), aov), why));
     }
   }
 }
@@ -233,6 +276,14 @@ Choices<Tonemap> tonemap_choices() {
 }
 Choices<ProgressMode> progress_choices() {
   return kProgress;
+}
+
+std::set<std::string> cache_flags_without_effect(const RenderOptions& options) {
+  std::set<std::string> flags;
+  for (const Condition& condition : cache_conditions(options)) {
+    if (!condition.holds) flags.insert(condition.flags.begin(), condition.flags.end());
+  }
+  return flags;
 }
 
 void complete_settings(RenderSettings& settings) {

@@ -49,6 +49,10 @@ Choices<renderer::Aov> aov_choices();
 Choices<renderer::Tonemap> tonemap_choices();
 Choices<ProgressMode> progress_choices();
 
+/// Flags that mean nothing beside the other values: of another encoding, rule or integrator. Refused, and no
+/// part of recipes.
+std::set<std::string> cache_flags_without_effect(const renderer::RenderOptions& options);
+
 constexpr bool shows_cache(renderer::Aov aov) {
   return aov >= renderer::Aov::cache_answer;
 }

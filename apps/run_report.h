@@ -28,4 +28,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report);
 /// A few lines, each with its line break.
 std::string summary(const RenderSettings& settings, const RunReport& report);
 
+/// After a signal: how far it came, in training where that was cut short, and what there is of it.
+std::string stop_notice(const RenderSettings& settings, const RunReport& report);
+
 }  // namespace gatelight::apps

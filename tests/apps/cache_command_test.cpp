@@ -131,7 +131,7 @@ TEST_F(CacheCommand, TheSeedChangesTheTraining) {
 TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
   for (const char* preset : {"preview", "final", "paper-nao", "paper-nrc"}) {
     for (const char* encoding : {"gate", "hashgrid"}) {
-      const json stats = statistics({"--preset", preset, "--encoding", encoding, "--train-path-length", "3"});
+      const json stats = statistics({"--preset", preset, "--encoding", encoding});
       expect_picture(path("a.exr"));
       EXPECT_EQ(stats["options"]["preset"], preset);
       EXPECT_EQ(stats["options"]["encoding"], encoding);
@@ -209,12 +209,15 @@ TEST_F(CacheCommand, ASavedCacheOfSomethingElseIsCode2) {
 TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
   Process process({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--integrator",
                    "nrc", "--size", "24x16", "--spp", "2", "--train-steps", "2147483647", "-o", path("a.exr"),
-                   "--checkpoint", path("k"), "--progress", "json"});
+                   "--checkpoint", path("k"), "--cache-out", path("c.safetensors"), "--progress", "json"});
   ASSERT_TRUE(process.wait_for_error_text("\"train\""));
   process.send(SIGINT);
   const Output output = process.finish();
   EXPECT_EQ(output.exit_code, 130) << output.err;
-  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("a.exr"), HasSubstr("--resume")));
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("of 2147483647 training steps"), HasSubstr("a.exr"), HasSubstr("--resume"),
+                    HasSubstr(path("c.safetensors") + "' was not written")));
+  EXPECT_FALSE(std::filesystem::exists(path("c.safetensors")));
   expect_picture(path("a.exr"));
   EXPECT_TRUE(std::filesystem::exists(path("k")));
 }
@@ -257,6 +260,15 @@ TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
   EXPECT_EQ(output.exit_code, 1);
   EXPECT_THAT(output.last_error_line(),
               AllOf(HasSubstr("cache"), HasSubstr("105 bytes"), HasSubstr("at least")));
+}
+
+TEST_F(CacheCommand, ATrainingThatDivergesIsCode6) {
+  const Output output =
+      render({"--integrator", "nrc", "--learning-rate", "1e30", "-o", path("a.png"), "--quiet"});
+  EXPECT_EQ(output.exit_code, 6);
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("cornell-box.glb: training step"), HasSubstr("; lower --learning-rate")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
 }
 
 TEST_F(CacheCommand, ADeviceThatIsMissingIsCode5) {

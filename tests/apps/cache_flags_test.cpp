@@ -26,8 +26,10 @@ using renderer::Aov;
 using renderer::CacheOptions;
 using renderer::Integrator;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using tests::TemporaryFolder;
 
 using Words = std::vector<std::string>;
@@ -181,18 +183,18 @@ TEST(CacheFlags, EachFlagSetsItsMember) {
   EXPECT_EQ(hash.hash_grid.growth, 1.5f);
 
   const CacheOptions answers =
-      read_cache({"--cache-holds", "indirect", "--query-at", "spread", "--view", "cache", "--cache-roughness",
-                  "0.5", "--spread-threshold", "0.125", "--query-precision", "bf16", "--device", "vulkan:1",
+      read_cache({"--cache-holds", "indirect", "--query-at", "spread", "--cache-roughness", "0.5",
+                  "--spread-threshold", "0.125", "--query-precision", "bf16", "--device", "vulkan:1",
                   "--cache-in", "i.safetensors", "--cache-out", "o.safetensors"});
   EXPECT_EQ(answers.holds, renderer::CacheHolds::indirect);
   EXPECT_EQ(answers.query_at, renderer::QueryAt::spread);
-  EXPECT_EQ(answers.view, renderer::CacheView::cache);
   EXPECT_EQ(answers.min_roughness, 0.5f);
   EXPECT_EQ(answers.spread_threshold, 0.125f);
   EXPECT_TRUE(answers.bf16_queries);
   EXPECT_EQ(answers.device, "vulkan:1");
   EXPECT_EQ(answers.cache_in, "i.safetensors");
   EXPECT_EQ(answers.cache_out, "o.safetensors");
+  EXPECT_EQ(read_cache({"--view", "cache"}).view, renderer::CacheView::cache);
 }
 
 TEST(CacheFlags, WordsThatStandForNoNumber) {
@@ -213,7 +215,7 @@ TEST(CacheFlags, DefaultsAreThoseOfTheRendererAndShownInTheHelp) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     if (!settings.cache_flags.contains(name) || option->get_default_str().empty()) continue;
-    if (name.starts_with("--hash") || name == "--resolution-scale") continue;
+    if (name.starts_with("--hash") || name == "--resolution-scale" || name == "--spread-threshold") continue;
     words.insert(words.end(), {name, option->get_default_str()});
   }
   EXPECT_GT(words.size(), 60u);
@@ -242,10 +244,11 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
 TEST(Presets, AreBelowEveryFlagWhereverTheyStand) {
   const Words flags = {"--spp",        "3", "--size", "64x32", "--query-at", "gather",
                        "--candidates", "2", "--aov",  "all"};
-  Words before = {"--preset", "paper-nrc"};
+  // The paper's view is the bare answer, for which gathering means nothing.
+  Words before = {"--preset", "paper-nrc", "--view", "final"};
   before.insert(before.end(), flags.begin(), flags.end());
   Words after = flags;
-  after.insert(after.end(), {"--preset", "paper-nrc"});
+  after.insert(after.end(), {"--view", "final", "--preset", "paper-nrc"});
   const RenderSettings first = read(before);
   EXPECT_EQ(first.render.integrator, Integrator::nrc);
   EXPECT_EQ(first.render.spp, 3);
@@ -311,9 +314,15 @@ TEST(CacheFlags, AreRefusedWithoutACache) {
 
 TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
   const std::vector<Aov> path = read({"--aov", "all"}).render.aovs;
-  const std::vector<Aov> cache = read({"--aov", "all", "--integrator", "nao"}).render.aovs;
+  const std::vector<Aov> cache = read({"--aov", "all", "--integrator", "nrc"}).render.aovs;
   EXPECT_EQ(path.size(), 8u);
   EXPECT_EQ(cache.size(), 13u);
+  const std::vector<Aov> occlusion = read({"--aov", "all", "--integrator", "nao"}).render.aovs;
+  EXPECT_EQ(occlusion.size(), 12u);
+  EXPECT_THAT(occlusion, Not(Contains(Aov::cache_error)));
+  const std::vector<Aov> hash = read(with_cache({"--aov", "all", "--encoding", "hashgrid"})).render.aovs;
+  EXPECT_EQ(hash.size(), 10u);
+  EXPECT_EQ(hash.back(), Aov::cache_error);
   EXPECT_THAT(read({"--aov", "resolution,albedo", "--integrator", "nao"}).render.aovs,
               ElementsAre(Aov::albedo, Aov::resolution));
 }
@@ -326,9 +335,73 @@ TEST(CacheFlags, ThoseOfAnotherEncodingOrRuleAreRefused) {
   EXPECT_THAT(refusal(with_cache({"--resolution-scale", "2"})), HasSubstr("--resolution paper"));
   EXPECT_THAT(refusal(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
               HasSubstr("--resolution uniform"));
+  EXPECT_THAT(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
+              AllOf(HasSubstr("--candidates"), HasSubstr("--encoding gate")));
+  EXPECT_EQ(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "1"})), "");
   // A preset's values are no flags.
   const RenderSettings preset = read({"--preset", "paper-nrc", "--encoding", "hashgrid"});
   EXPECT_EQ(preset.render.cache.training.feature_step, neural::FeatureStep::per_node);
+  EXPECT_EQ(preset.render.cache.candidates, 1);
+  EXPECT_EQ(read({"--preset", "paper-nrc"}).render.cache.candidates, 16);
+}
+
+TEST(CacheFlags, ThoseOfRadianceAreRefusedWithOcclusion) {
+  const std::vector<Words> cases = {
+      {"--cache-holds", "all"},
+      {"--query-at", "primary"},
+      {"--view", "final"},
+      {"--self-training", "9"},
+      {"--self-training-vertices", "5"},
+      {"--self-training-full", "0.5"},
+      {"--train-path-length", "4"},
+      {"--self-training-attenuation", "0.5"},
+      {"--cache-roughness", "0.25"},
+      {"--spread-threshold", "0.5"},
+      {"--albedo-input", "on"},
+      {"--direction-input", "on"},
+  };
+  for (Words words : cases) {
+    const std::string flag = words.front();
+    words.insert(words.begin(), {"--integrator", "nao"});
+    EXPECT_THAT(refusal(words), AllOf(HasSubstr(flag + ":"), HasSubstr("--integrator nrc")));
+    EXPECT_FALSE(resolved_options(read({"--integrator", "nao"})).contains(flag.substr(2))) << flag;
+  }
+  EXPECT_EQ(refusal({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}), "");
+}
+
+TEST(CacheFlags, ThoseWithoutEffectBesideOthersAreRefused) {
+  EXPECT_THAT(refusal(with_cache({"--spread-threshold", "0.5"})),
+              AllOf(HasSubstr("--spread-threshold"), HasSubstr("--query-at spread")));
+  for (const char* flag :
+       {"--self-training-vertices", "--self-training-full", "--self-training-attenuation"}) {
+    EXPECT_THAT(refusal(with_cache({"--self-training", "off", flag, "1"})),
+                AllOf(HasSubstr(flag), HasSubstr("--self-training STEP")));
+    EXPECT_EQ(refusal(with_cache({"--self-training", "0", flag, "1"})), "");
+  }
+  for (const char* place : {"gather", "spread"}) {
+    EXPECT_THAT(refusal(with_cache({"--view", "cache", "--query-at", place})),
+                AllOf(HasSubstr("--query-at"), HasSubstr("--view final")));
+  }
+  // Where the bare answer is asked is told as it is.
+  EXPECT_EQ(read_cache({"--view", "cache"}).query_at, renderer::QueryAt::primary);
+  EXPECT_EQ(read_cache({"--view", "cache", "--query-at", "none"}).query_at, renderer::QueryAt::none);
+}
+
+TEST(CacheFlags, OcclusionHasItsOwnLossUnlessOneIsGiven) {
+  EXPECT_EQ(read({"--integrator", "nao"}).render.cache.training.loss, neural::Loss::l2);
+  EXPECT_EQ(read({"--integrator", "nao", "--loss", "relative-l2"}).render.cache.training.loss,
+            neural::Loss::relative_l2);
+  EXPECT_EQ(read_cache({}).training.loss, neural::Loss::relative_l2);
+  EXPECT_EQ(resolved_options(read({"--integrator", "nao"}))["loss"], "l2");
+}
+
+TEST(CacheFlags, LayersThatWouldBeBlackAreRefused) {
+  EXPECT_THAT(refusal({"--integrator", "nao", "--aov", "cache-error"}),
+              AllOf(HasSubstr("--aov"), HasSubstr("'cache-error'"), HasSubstr("--integrator nrc")));
+  for (const char* layer : {"training-count", "resolution", "nearest-node"}) {
+    EXPECT_THAT(refusal(with_cache({"--encoding", "hashgrid", "--aov", layer})),
+                AllOf(HasSubstr("--aov"), HasSubstr(layer), HasSubstr("--encoding gate")));
+  }
 }
 
 TEST(CheckpointFlags, NeedAFile) {
@@ -349,6 +422,9 @@ TEST(CacheRecipe, CanBeGivenBackAsFlags) {
       {"--integrator", "nrc"},
       {"--preset", "paper-nao"},
       {"--preset", "paper-nrc", "--encoding", "hashgrid", "--cache-memory", "0.1"},
+      {"--preset", "paper-nao", "--encoding", "hashgrid"},
+      {"--integrator", "nrc", "--view", "cache"},
+      {"--integrator", "nrc", "--query-at", "spread"},
       {"--preset", "preview", "--node-spacing", "0.1", "--self-training", "off", "--train-steps", "12"},
       {"--integrator", "nao", "--resolution", "fixed:3", "--stack", "adaptive,adaptive/3,2", "--average",
        "off", "--query-precision", "bf16", "--learning-rate", "0.003", "--cache-in", "i"},
@@ -373,7 +449,8 @@ TEST(CacheRecipe, CanBeGivenBackAsFlags) {
 
 TEST(CacheRecipe, IsThereOnlyWithACache) {
   const ordered_json path = resolved_options(read({}));
-  const ordered_json cache = resolved_options(read({"--integrator", "nrc", "--cache-out", "o"}));
+  const ordered_json cache =
+      resolved_options(read({"--integrator", "nrc", "--cache-out", "o", "--cache-roughness", "0.3"}));
   EXPECT_FALSE(path.contains("batch"));
   EXPECT_FALSE(path.contains("train-steps"));
   EXPECT_EQ(cache["train-steps"], "auto");

@@ -158,5 +158,27 @@ TEST(CacheReport, JsonHoldsEveryInstance) {
   EXPECT_EQ(report["instances"][3], third);
 }
 
+TEST(StopNotice, TellsOfTheTrainingThatItCutShort) {
+  RenderSettings settings;
+  settings.outputs = {"a.exr"};
+  settings.render.integrator = Integrator::nrc;
+  settings.render.cache.cache_out = "c.safetensors";
+  RunReport report;
+  report.signal = 2;
+  report.statistics.spp = 1;
+  report.statistics.cache = some_statistics();
+  const auto training = AllOf(HasSubstr("37 of 128 training steps"), HasSubstr("'c.safetensors' was not"));
+  const auto picture = AllOf(HasSubstr("signal 2 after 1 of 64 samples"), Not(HasSubstr("training")),
+                             Not(HasSubstr("c.safetensors")));
+  EXPECT_THAT(stop_notice(settings, report), picture) << "it had learned all";
+  report.statistics.cache.steps = 37;
+  EXPECT_THAT(stop_notice(settings, report), training);
+  settings.render.cache.train_seconds = report.statistics.cache.train_seconds;
+  EXPECT_THAT(stop_notice(settings, report), picture) << "its time was over";
+  settings.render.cache.train_seconds = 0.0;
+  settings.render.integrator = Integrator::path;
+  EXPECT_THAT(stop_notice(settings, report), picture) << "there is no cache";
+}
+
 }  // namespace
 }  // namespace gatelight::apps

@@ -21,8 +21,9 @@ class CompareCommand : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
-  std::string picture(const std::string& name, int width, int height, float value) const {
-    renderer::Picture picture{.width = width, .height = height};
+  std::string picture(const std::string& name, int width, int height, float value,
+                      std::map<std::string, std::string> metadata = {}) const {
+    renderer::Picture picture{.width = width, .height = height, .metadata = std::move(metadata)};
     picture.layers = {{.channels = {"R", "G", "B"},
                        .values = std::vector<float>(static_cast<std::size_t>(3 * width * height), value)}};
     renderer::write_image(picture, folder / name, {.exr_float = true});
@@ -115,19 +116,38 @@ TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
   EXPECT_EQ(result["halves"], json::array({r2, test}));
   EXPECT_THAT(run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--metric", "max"}).out,
               AllOf(HasSubstr("max_error        1\n"), HasSubstr("bias_rel_mse     0.742574\n")));
-  EXPECT_FALSE(json::parse(run_gatelight_inside({"compare", r1, test, "--json", "-"}).out).contains("bias_rel_mse"));
+  EXPECT_FALSE(
+      json::parse(run_gatelight_inside({"compare", r1, test, "--json", "-"}).out).contains("bias_rel_mse"));
   EXPECT_EQ(run_gatelight_inside({"compare", r1, test, "--halves", r2}).exit_code, 1);
-  const Output sizes = run_gatelight_inside({"compare", r1, test, "--halves", r2, picture("n.exr", 1, 2, 2.0f)});
+  const Output sizes =
+      run_gatelight_inside({"compare", r1, test, "--halves", r2, picture("n.exr", 1, 2, 2.0f)});
   EXPECT_EQ(sizes.exit_code, 2);
   EXPECT_THAT(sizes.last_error_line(), HasSubstr("n.exr"));
+}
+
+TEST_F(CompareCommand, HalvesOfOneSeedAreWarnedOf) {
+  const auto half = [&](const std::string& name, const std::string& seed) {
+    return picture(name, 1, 1, 1.0f, {{"spp", "1"}, {"seed", seed}});
+  };
+  const std::string r1 = half("r1.exr", "7"), r2 = half("r2.exr", "8");
+  const std::string t1 = half("t1.exr", "7"), t2 = half("t2.exr", "8");
+  // A reference and a test may have one seed.
+  const Output good = run_gatelight({"compare", r1, t1, "--halves", r2, t2});
+  EXPECT_EQ(good.exit_code, 0);
+  EXPECT_EQ(good.err, "");
+  const Output references = run_gatelight({"compare", r1, r2, "--halves", t1, t2});
+  EXPECT_EQ(references.exit_code, 0);
+  EXPECT_THAT(references.err, AllOf(HasSubstr("r1.exr"), HasSubstr("t1.exr"), HasSubstr("same seed 7"),
+                                    HasSubstr("r2.exr"), HasSubstr("t2.exr"), HasSubstr("same seed 8")));
 }
 
 TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
   const std::string reference = picture("r.exr", 5, 3, 1.0f);
   const std::string test = picture("t.exr", 5, 3, 9.0f);
-  ASSERT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"})
+          .exit_code,
+      0);
   const renderer::Picture relative = renderer::read_image(path("e.png"));
   EXPECT_EQ(relative.width, 5);
   EXPECT_EQ(relative.height, 3);

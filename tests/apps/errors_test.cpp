@@ -41,12 +41,18 @@ TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
   EXPECT_EQ(failure_of(neural::CacheWriteError("m")).code, 3);
   EXPECT_EQ(failure_of(neural::Unavailable("m")).code, 5);
   EXPECT_EQ(failure_of(renderer::NumericalError("m")).code, 6);
+  EXPECT_EQ(failure_of(renderer::TrainingDiverged("m")).code, 6);
 }
 
 TEST(ExitCodes, TheMessageIsKeptAndAdviceGiven) {
   const Failure failure = failure_of(renderer::OutOfMemory("needs 3 GiB"));
   EXPECT_EQ(failure.message, "needs 3 GiB");
   EXPECT_THAT(failure.advice, ::testing::HasSubstr("--memory-limit"));
+}
+
+TEST(ExitCodes, ADivergedTrainingHasAdviceOfItsOwn) {
+  EXPECT_EQ(failure_of(renderer::TrainingDiverged("m")).advice, "lower --learning-rate");
+  EXPECT_THAT(failure_of(renderer::NumericalError("m")).advice, ::testing::HasSubstr("--nan drop"));
 }
 
 TEST(ExitCodes, TheLastLineIsOneLine) {
