@@ -14,6 +14,10 @@
 namespace gatelight::renderer {
 namespace {
 
+/// Features take no more than this where neither spacing nor memory is asked for. Bistro, 144 steps: 231 MB
+/// became 99 MB with the same error (squared bias 0.016), and the run took 2 s less; with 46 MB it was 0.019.
+constexpr std::uint64_t kChosenBytes = std::uint64_t{96} << 20;
+
 std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
   if (options.isa == "auto") return std::nullopt;
   return neural::cpu::parse_isa(options.isa);
@@ -57,7 +61,22 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
   config.mlp.outputs = options.integrator == Integrator::nao ? 1 : 3;
   if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
   const WeldedMeshes meshes(world.scene);
-  return neural::make_model(config, meshes.layout(world.scene, setup.sides));
+  const neural::SurfaceLayout surfaces = meshes.layout(world.scene, setup.sides);
+  const bool chosen =
+      !cache.node_spacing && cache.memory_bytes == 0 && config.gate.rule == neural::ResolutionRule::uniform;
+  if (chosen) {
+    // The budget alone would make the layout as fine as fits: it is for what is too much.
+    const std::shared_ptr<const neural::Model> free = neural::make_model(config, surfaces);
+    const std::uint64_t bytes = std::uint64_t{free->parameters.network} * config.gate.bytes_per_feature;
+    if (bytes <= kChosenBytes) return free;
+    config.gate.memory_budget = kChosenBytes;
+    try {
+      return neural::make_model(config, surfaces);
+    } catch (const neural::BadConfiguration&) {
+      return free;  // even the coarsest layout of this scene is larger
+    }
+  }
+  return neural::make_model(config, surfaces);
 }
 
 neural::TrainingOptions training_options(const RenderOptions& options) {
