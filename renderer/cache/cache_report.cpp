@@ -64,12 +64,13 @@ CacheReport report_cache(const World& world, const Camera& camera, const PixelRe
   if (options.cache.encoding != neural::FeatureEncoding::gate) return report;
   for (std::size_t i = 0; i < world.scene.instances.size(); ++i)
     report.instances.push_back(describe(world.scene, session.model().gate, i, session.setup().sides[i]));
-  // The same, had every side that materials show storage.
+  // The same spacing, had every side that materials show storage.
   CacheSetup everything = session.setup();
   for (std::size_t i = 0; i < everything.sides.size(); ++i)
     everything.sides[i] = possible_sides(world.scene, world.scene.instances[i]);
   RenderOptions unbounded = options;
   unbounded.cache.memory_bytes = 0;
+  unbounded.cache.node_spacing = everything.node_spacing = session.model().gate.report.node_spacing;
   report.bytes_without_scouting =
       make_cache_model(world, unbounded, everything)->parameters.count *
       (options.cache.training.precision == neural::FeaturePrecision::fp32 ? 4 : 2);
