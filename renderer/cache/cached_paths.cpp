@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/cache/surface_layout.h"
@@ -144,22 +145,29 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
 bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.cache.min_roughness;
   const bool has_narrow = m.bsdf.has_narrow(roughness);
-  const Bsdf wide = has_narrow ? m.bsdf.wide_part(roughness) : m.bsdf;
+  std::optional<Bsdf> part;  // a copy of a surface is not cheap
+  if (has_narrow) part = m.bsdf.wide_part(roughness);
+  const Color& wide_albedo = part ? part->albedo() : m.bsdf.albedo();
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v = batch.vertices.emplace_back();
   v.previous = path.vertex;
   v.passed = path.passed;
-  if (worth_caching(wide.albedo())) {
-    v.reflectance = cache_reflectance(wide.albedo());
+  if (worth_caching(wide_albedo)) {
+    v.reflectance = cache_reflectance(wide_albedo);
     v.query = static_cast<std::int32_t>(batch.queries.size());
-    batch.queries.push_back(m.hit, m.side, m.wo, m.surface, wide.albedo());
+    batch.queries.push_back(m.hit, m.side, m.wo, m.surface, wide_albedo);
     if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
   }
 
-  const float u_light = path.sampler.get_1d(m.dimensions + dimension::kLightChoice);
-  const Vec2 u_point = path.sampler.get_2d(m.dimensions + dimension::kLightPoint);
-  const float u_lobe = path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe);
-  const Vec2 u_direction = path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection);
+  const auto sample_light = [&] {
+    return world_.lights.sample(m.surface.position, m.light_normal,
+                                path.sampler.get_1d(m.dimensions + dimension::kLightChoice),
+                                path.sampler.get_2d(m.dimensions + dimension::kLightPoint));
+  };
+  const auto sample_direction = [&](const Bsdf& bsdf) {
+    return bsdf.sample(path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
+                       path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
+  };
   const auto add_light = [&](const LightSample& light, const BsdfValue& value) {
     if (!(light.pdf > 0.0f)) return;
     const float weight = light.delta ? 1.0f : mis_.light_weight(light.pdf, value.pdf);
@@ -173,10 +181,10 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
     // All direct light is sampled here, of all lobes; what the chosen direction brings from further on counts
     // for the narrow ones alone.
     if (!m.bsdf.is_delta() && !world_.lights.empty()) {
-      const LightSample light = world_.lights.sample(m.surface.position, m.light_normal, u_light, u_point);
+      const LightSample light = sample_light();
       add_light(light, m.bsdf.evaluate(light.wi));
     }
-    const BsdfSample sample = m.bsdf.sample(u_lobe, u_direction);
+    const BsdfSample sample = sample_direction(m.bsdf);
     if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
     Color scattered = Color::Zero();
     if (sample.delta) {
@@ -192,17 +200,18 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
   }
 
   if (delta_lights_ && !held_.light_sample(true)) {
-    const LightSample light =
-        world_.lights.sample_delta(m.surface.position, m.light_normal, u_light, u_point);
+    const LightSample light = world_.lights.sample_delta(
+        m.surface.position, m.light_normal, path.sampler.get_1d(m.dimensions + dimension::kLightChoice),
+        path.sampler.get_2d(m.dimensions + dimension::kLightPoint));
     add_light(light, m.bsdf.evaluate(light.wi));
   }
   if (!has_narrow) return false;
   const Bsdf narrow = m.bsdf.narrow_part(roughness);
   if (!narrow.is_delta() && !world_.lights.empty()) {
-    const LightSample light = world_.lights.sample(m.surface.position, m.light_normal, u_light, u_point);
+    const LightSample light = sample_light();
     if (!light.delta || held_.light_sample(true)) add_light(light, narrow.evaluate(light.wi));
   }
-  const BsdfSample sample = narrow.sample(u_lobe, u_direction);
+  const BsdfSample sample = sample_direction(narrow);
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
   path.throughput *= sample.weight;
   const float survival = std::min(
