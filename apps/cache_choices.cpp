@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "apps/errors.h"
+#include "neural/model_description.h"
 
 namespace gatelight::apps {
 namespace {
@@ -121,10 +122,7 @@ std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::strin
 
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> words;
-  for (const std::uint32_t level : stack)
-    words.push_back(!neural::is_adaptive(level) ? std::to_string(level)
-                    : level == kAdaptive        ? "adaptive"
-                                         : fmt::format("adaptive/{}", neural::adaptive_divisor(level)));
+  for (const std::uint32_t level : stack) words.push_back(neural::level_text(level));
   return fmt::format("{}", fmt::join(words, ","));
 }
 

@@ -104,12 +104,7 @@ std::string stack_text(std::span<const std::uint32_t> stack) {
   std::string text;
   for (const std::uint32_t resolution : stack) {
     if (!text.empty()) text += ", ";
-    if (!is_adaptive(resolution)) {
-      text += fmt::format("{}", resolution);
-    } else {
-      const std::uint32_t divisor = adaptive_divisor(resolution);
-      text += divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
-    }
+    text += level_text(resolution);
   }
   return text;
 }
@@ -174,6 +169,12 @@ void describe_bounds(const HashGridOptions& options, ordered_json& out) {
 }
 
 }  // namespace
+
+std::string level_text(std::uint32_t level) {
+  if (!is_adaptive(level)) return fmt::format("{}", level);
+  const std::uint32_t divisor = adaptive_divisor(level);
+  return divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
+}
 
 ordered_json describe_network(const Model& model) {
   const MlpOptions& mlp = model.config.mlp;

@@ -10,6 +10,9 @@
 
 namespace gatelight::neural {
 
+/// "adaptive", "adaptive/4" or "1": a level of GateOptions::stack.
+std::string level_text(std::uint32_t level);
+
 /// Everything but the layout that decides what parameters mean: encoding, inputs, network.
 nlohmann::ordered_json describe_network(const Model& model);
 /// The options and the size of the layout; its tables are in layout_digest.

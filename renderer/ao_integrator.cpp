@@ -1,5 +1,6 @@
 #include "renderer/ao_integrator.h"
 
+#include "renderer/first_hit.h"
 #include "renderer/occlusion.h"
 #include "renderer/trace_timer.h"
 
@@ -30,15 +31,7 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     const RayCone& cone = samples[i].camera_ray.cone;
     const Surface surface =
         world_.surfaces.at(hit, camera_ray.direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!first_hits.empty()) {
-      first_hits[i] = {true,
-                       surface.material.base_color,
-                       surface.shading_normal,
-                       surface.position,
-                       hit.t,
-                       hit.instance,
-                       hit.primitive};
-    }
+    if (!first_hits.empty()) first_hits[i] = first_hit(hit, surface);
     Ray ray;
     if (!make_occlusion_ray(surface, samples[i], distance_, ray)) {
       results[i].radiance = Color::Zero();

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "neural/model_description.h"
 #include "renderer/film.h"
 #include "renderer/option_words.h"
 
@@ -51,12 +52,7 @@ std::string aov_names(const std::vector<Aov>& aovs) {
 
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> levels;
-  for (const std::uint32_t level : stack) {
-    levels.push_back(!neural::is_adaptive(level) ? std::to_string(level)
-                     : level == neural::kAdaptive
-                         ? "adaptive"
-                         : fmt::format("adaptive/{}", neural::adaptive_divisor(level)));
-  }
+  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
   return fmt::format("{}", fmt::join(levels, ","));
 }
 

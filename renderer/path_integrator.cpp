@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/first_hit.h"
 #include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
@@ -49,16 +50,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
   const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
   const bool record = path.vertex == 0 && !first_hits.empty();
-  if (record) {
-    FirstHit& first = first_hits[path.index];
-    first.hit = true;
-    first.normal = surface.shading_normal;
-    first.position = surface.position;
-    first.depth = hit.t;
-    first.instance = hit.instance;
-    first.primitive = hit.primitive;
-    first.albedo = surface.material.base_color;
-  }
+  if (record) first_hits[path.index] = first_hit(hit, surface);
   if ((surface.emission > 0.0f).any()) {
     radiance += path.throughput * surface.emission *
                 emission_weight(world_, mis_, path.departure, hit, surface, direction);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "renderer/cache/cached_pass.h"
 #include "renderer/camera.h"
 #include "renderer/checkpoint_keeper.h"
+#include "renderer/clock.h"
 #include "renderer/deciding_options.h"
 #include "renderer/film.h"
 #include "renderer/memory_estimate.h"
@@ -34,15 +34,9 @@ namespace gatelight::renderer {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A pass is as many samples as take about this long, so that time limits, signals and snapshots are served
 /// soon.
 constexpr double kPassSeconds = 0.7;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 PixelRect resolve_region(const RenderOptions& options) {
   if (!options.region) return {0, 0, options.width, options.height};

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -15,16 +13,11 @@
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/surface_layout.h"
+#include "renderer/clock.h"
 #include "renderer/memory_estimate.h"
 
 namespace gatelight::renderer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The reported loss is the mean of so many last steps.
 constexpr std::size_t kLossWindow = 16;
@@ -90,8 +83,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   inputs_ = PointInputs(cache_model->config);
   const bool gate = cache_model->config.encoding == neural::FeatureEncoding::gate;
   if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
-  std::vector<neural::Sides> sides = setup_.sides;
-  points_ = std::make_unique<TrainingPoints>(world, camera, region, options, sides,
+  points_ = std::make_unique<TrainingPoints>(world, camera, region, options, setup_.sides,
                                              gate ? &cache_model->gate : nullptr);
   if (gate && counts_needed(options)) {
     counts_.assign(cache_model->gate.triangle_count, 0);
@@ -192,7 +184,6 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
   RecordBatch batch;
-  RecordBatch next;
   const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
     const std::uint64_t negative = statistics_.negative_answers;
@@ -200,16 +191,12 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     statistics_.negative_answers = negative;
     statistics_.train_query_seconds += seconds_since(begin);
   };
-  const auto trace = [&](std::uint64_t step, RecordBatch& into) {
-    const Clock::time_point begin = Clock::now();
-    records_->trace(request(step), into);
-    statistics_.train_trace_seconds += seconds_since(begin);
-  };
-  if (steps_ < steps) trace(steps_, batch);
   while (steps_ < steps) {
     Clock::time_point begin = Clock::now();
     const double queried = statistics_.train_query_seconds;
-    records_->finish(request(steps_), answer_tail, batch);
+    const RecordRequest wish = request(steps_);
+    records_->trace(wish, batch);
+    records_->finish(wish, answer_tail, batch);
     statistics_.train_trace_seconds += seconds_since(begin) - (statistics_.train_query_seconds - queried);
     count_triangles(batch);
 
@@ -235,8 +222,6 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     if (watch.after_step) watch.after_step();
     const double limit = options_.cache.train_seconds;
     if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
-    if (steps_ < steps) trace(steps_, next);
-    std::swap(batch, next);
   }
   statistics_.train_seconds = before + seconds_since(start);
 }
@@ -299,10 +284,6 @@ RayCounts CacheSession::rays() const {
   RayCounts sum = scout_rays_;
   sum.add(records_->rays());
   return sum;
-}
-
-CacheStatistics CacheSession::statistics() const {
-  return statistics_;
 }
 
 }  // namespace gatelight::renderer

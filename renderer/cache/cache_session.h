@@ -49,7 +49,7 @@ class CacheSession {
   /// Of scouting and training.
   RayCounts rays() const;
   /// Everything about the cache but what rendering adds.
-  CacheStatistics statistics() const;
+  const CacheStatistics& statistics() const { return statistics_; }
 
  private:
   RecordRequest request(std::uint64_t step) const;

@@ -4,25 +4,20 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "neural/mesh_colors.h"
 #include "renderer/ao_integrator.h"
+#include "renderer/clock.h"
+#include "renderer/first_hit.h"
 #include "renderer/occlusion.h"
 #include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Tiles that are asked for together: some ten thousand points, enough for the kernels' threads and for a
 /// device that wants them by the thousand, few enough to stay in the last-level cache.
 constexpr int kTilesTogether = 256;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A colour that stands for a number.
 Color color_of(std::uint32_t number) {
@@ -112,7 +107,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
       for_each_tile(count, [&](std::size_t t) {
         Tile& tile = tiles_[t];
         Worker& worker = workers_.local();
-        occlusion ? finish_occlusion(tile) : finish_paths(tile, worker);
+        occlusion ? finish_occlusion(tile) : finish_paths(tile);
         if (!tile.first_hits.empty()) describe_answers(tile, worker);
         add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.samples);
       });
@@ -129,7 +124,7 @@ void CachedPass::trace_paths(Tile& tile, Worker& worker) const {
   paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.counts, worker.scratch);
 }
 
-void CachedPass::finish_paths(Tile& tile, Worker& /*worker*/) const {
+void CachedPass::finish_paths(Tile& tile) const {
   tile.radiance.resize(tile.samples.size());
   const std::span<const float> answers =
       std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
@@ -176,16 +171,7 @@ void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
     const Ray& ray = worker.rays[i];
     const RayCone& cone = tile.samples[i].camera_ray.cone;
     const Surface surface = world_.surfaces.at(hit, ray.direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!tile.first_hits.empty()) {
-      FirstHit& first = tile.first_hits[i];
-      first.hit = true;
-      first.albedo = surface.material.base_color;
-      first.normal = surface.shading_normal;
-      first.position = surface.position;
-      first.depth = hit.t;
-      first.instance = hit.instance;
-      first.primitive = hit.primitive;
-    }
+    if (!tile.first_hits.empty()) tile.first_hits[i] = first_hit(hit, surface);
     const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
     if (stored_(neural::surface_index(hit.instance, side))) {
       tile.paths.first_queries[i] = static_cast<std::int32_t>(tile.paths.queries.size());

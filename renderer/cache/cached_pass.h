@@ -49,7 +49,7 @@ class CachedPass : public Pass {
 
   void trace_paths(Tile& tile, Worker& worker) const;
   void trace_occlusion(Tile& tile, Worker& worker) const;
-  void finish_paths(Tile& tile, Worker& worker) const;
+  void finish_paths(Tile& tile) const;
   void finish_occlusion(Tile& tile) const;
   std::vector<std::int32_t> check_records(const Tile& tile, Worker& worker) const;
   void describe_answers(Tile& tile, Worker& worker) const;

@@ -6,6 +6,7 @@
 
 #include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/cache/surface_layout.h"
+#include "renderer/first_hit.h"
 #include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
@@ -87,15 +88,7 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
   const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
   FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
-  if (first) {
-    first->hit = true;
-    first->normal = surface.shading_normal;
-    first->position = surface.position;
-    first->depth = hit.t;
-    first->instance = hit.instance;
-    first->primitive = hit.primitive;
-    first->albedo = surface.material.base_color;
-  }
+  if (first) *first = first_hit(hit, surface);
   if ((surface.emission > 0.0f).any()) {
     from.emission += path.passed * surface.emission *
                      emission_weight(world_, mis_, path.departure, hit, surface, direction);
@@ -229,7 +222,9 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
                                 PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.cache.min_roughness;
   const bool split = record && m.bsdf.has_narrow(roughness);
-  const Bsdf wide = split ? m.bsdf.wide_part(roughness) : m.bsdf;
+  std::optional<Bsdf> part;  // a copy of a surface is not cheap
+  if (split) part = m.bsdf.wide_part(roughness);
+  const Bsdf& wide = part ? *part : m.bsdf;
   record = record && worth_caching(wide.albedo());
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   const auto wide_value = [&](const Vec3& wi, const BsdfValue& whole) -> Color {

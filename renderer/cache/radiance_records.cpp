@@ -2,8 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <numeric>
-
 namespace gatelight::renderer {
 namespace {
 

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "renderer/cache/radiance_records.h"
@@ -19,7 +18,7 @@ constexpr std::size_t kCameraRays = std::size_t{1} << 17;
 /// No step of training has this number: its random numbers are the scouts' own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the extent of what is met (see README.md, "Node spacing").
+/// Node spacing over the extent of what is met (see CACHE.md, "What a scene requires").
 constexpr float kSpacing = 0.015f;
 
 /// Diagonal of the box between the 2nd and the 98th percentile of each coordinate: a glimpse of a far hill
@@ -97,9 +96,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     const Hit& hit = starts.hits[i];
     if (!hit) continue;
     const Ray& ray = starts.starts[i].sample.camera_ray.ray;
-    const scene::Instance& instance = scene.instances[hit.instance];
-    const bool front = scene::world_normal(scene, instance, hit.primitive).dot(ray.direction) <= 0.0f;
-    mark(met, neural::surface_index(hit.instance, side_of(front, instance.mirrors)));
+    mark(met, seen_surface(scene, hit, ray.direction));
     if (options.integrator != Integrator::nao) continue;
     const Vec3 p = ray.origin + hit.t * ray.direction;
     positions.push_back({p.x(), p.y(), p.z()});

@@ -1,5 +1,7 @@
 #include "renderer/cache/surface_layout.h"
 
+#include "renderer/cache/surface_points.h"
+
 #include <tbb/parallel_for.h>
 
 namespace gatelight::renderer {
@@ -36,6 +38,12 @@ neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& i
   const scene::Material& material = scene.material_of(instance);
   if (material.double_sided || material.transmits()) return neural::Sides::both;
   return instance.mirrors ? neural::Sides::back : neural::Sides::front;
+}
+
+std::uint32_t seen_surface(const scene::Scene& scene, const Hit& hit, const Vec3& direction) {
+  const scene::Instance& instance = scene.instances[hit.instance];
+  const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
+  return neural::surface_index(hit.instance, side_of(front, instance.mirrors));
 }
 
 }  // namespace gatelight::renderer

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "neural/surface_layout.h"
+#include "renderer/ray.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
@@ -22,6 +23,9 @@ class WeldedMeshes {
 
 /// Sides that a material lets light meet: both where it is double-sided or transmits, else the front.
 neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& instance);
+
+/// The surface whose triangle a ray in `direction` met.
+std::uint32_t seen_surface(const scene::Scene& scene, const Hit& hit, const Vec3& direction);
 
 inline bool has_side(neural::Sides sides, std::uint32_t side) {
   return ((static_cast<unsigned>(sides) >> side) & 1u) != 0;

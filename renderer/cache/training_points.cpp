@@ -161,11 +161,7 @@ void TrainingPoints::trace(TrainingStarts& result, RayCounts& rays) const {
 }
 
 std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direction) const {
-  const scene::Scene& scene = world_.scene;
-  const scene::Instance& instance = scene.instances[hit.instance];
-  const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
-  const std::uint32_t surface = neural::surface_index(hit.instance, side_of(front, instance.mirrors));
-  const neural::GateSurface& s = layout_->surfaces[surface];
+  const neural::GateSurface& s = layout_->surfaces[seen_surface(world_.scene, hit, direction)];
   return s.triangle_count > 0 ? s.first_triangle + hit.primitive : kNoTriangle;
 }
 
