@@ -116,7 +116,7 @@ struct Renderer::Implementation {
   CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
   /// In the state of the checkpoint or of the cache file where there is one; new otherwise.
   Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
-  void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_step);
+  void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
   /// Of this run and those before it.
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
                           const RenderStatistics& earlier) const;
@@ -180,13 +180,13 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
 }
 
 void Renderer::Implementation::train(Training& training, const Callbacks& callbacks,
-                                     const std::function<void()>& after_step) {
+                                     const std::function<void()>& after_group) {
   const Clock::time_point start = Clock::now();
   const auto first = static_cast<int>(training.first_step);
   double reported = -1.0;
   CacheSession::Watch watch;
   watch.stop = [&] { return training.stopped = callbacks.stop && callbacks.stop(); };
-  watch.after_step = after_step;
+  watch.after_group = after_group;
   watch.progress = [&](int done, int steps, double loss) {
     const double now = seconds_since(start);
     if (!callbacks.progress || (done < steps && now - reported < 0.1)) return;

@@ -107,12 +107,12 @@ std::string cache_machine(const RenderOptions& options) {
 }
 
 int choose_training_steps(const RenderOptions& options, std::uint64_t pixels) {
-  const double samples = static_cast<double>(pixels) * options.spp;
-  const double batches = 16384.0 / options.cache.batch;
-  if (options.integrator == Integrator::nao)
-    return static_cast<int>(std::lround(128.0 * std::max(1.0, batches / 3.0)));
-  const double steps = 0.1 * std::sqrt(samples) * batches;
-  return static_cast<int>(std::lround(std::clamp(steps, 32.0 * batches, 2048.0 * batches)));
+  double records = 0x1p21;
+  if (options.integrator == Integrator::nrc) {
+    const double samples = static_cast<double>(pixels) * options.spp;
+    records = std::clamp(1600.0 * std::sqrt(samples), 0x1p19, 0x1p25);
+  }
+  return static_cast<int>(std::max(1l, std::lround(records / options.cache.batch)));
 }
 
 }  // namespace gatelight::renderer

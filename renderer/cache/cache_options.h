@@ -40,7 +40,7 @@ enum class TrainingSource : std::uint8_t {
 
 /// Training paths that end in the cache's own answer (Mueller et al. 2021).
 struct SelfTrainingOptions {
-  int start_step = 50;            ///< paths run to their end before it; negative: always
+  int start_step = 192;           ///< paths run to their end before it; negative: always
   int vertices = 2;               ///< with a record, before the answer
   float full_fraction = 0.0625f;  ///< of the paths that run to their end all the same
   float attenuation = 1.0f;       ///< factor of the answer, in [0, 1]
@@ -50,7 +50,7 @@ struct CacheOptions {
   // When and from what it learns.
   std::optional<int> train_steps;  ///< none: chosen from the picture's pixels and samples
   double train_seconds = 0.0;      ///< no further steps after this time; 0: none
-  std::uint32_t batch = 16384;     ///< records of a step
+  std::uint32_t batch = 4096;      ///< records of a step
   int path_length = 0;             ///< scattering events of a training path; 0: by Russian roulette alone
   int samples_per_point = 1;       ///< paths averaged in the record of a training point
   TrainingSource source = TrainingSource::camera;

@@ -5,6 +5,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -20,18 +21,22 @@ namespace gatelight::renderer {
 namespace {
 
 /// The reported loss is the mean of so many last steps.
-constexpr std::size_t kLossWindow = 16;
+constexpr std::size_t kLossWindow = 64;
 
 // The divergence guard: a running mean of the loss that grows tenfold over its least value. Single bright
 // records raise one step's loss a thousandfold, so that the mean is slow and no step counts for more than
 // tenfold; a loss that has gone to nothing may double as it likes.
-constexpr double kGuardDecay = 0.98;
-constexpr std::uint64_t kGuardFrom = 100;  ///< steps of this run: another camera or batch has another loss
+constexpr double kGuardDecay = 0.995;
+constexpr std::uint64_t kGuardFrom = 200;  ///< steps of this run: another camera or batch has another loss
 constexpr double kGuardFactor = 10.0;
 constexpr double kGuardFloor = 1e-2;
 
 /// Paths of one step that are held at once.
 constexpr double kMostPaths = 1 << 24;
+
+/// Records whose paths are traced in one go: those of several batches lie nearer to each other, and threads
+/// wait less often (5 to 10 % faster than one batch of 16384 by itself).
+constexpr std::uint64_t kTracedRecords = 1 << 16;
 
 void check_options(const CacheOptions& options) {
   if (static_cast<double>(options.batch) * options.samples_per_point > kMostPaths) {
@@ -118,8 +123,18 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
 
 CacheSession::~CacheSession() = default;
 
-RecordRequest CacheSession::request(std::uint64_t step) const {
+/// Groups grow in powers of two, so that any power of two is the end of one.
+std::uint64_t CacheSession::group_end(std::uint64_t step) const {
+  const std::uint64_t paths =
+      std::uint64_t{options_.cache.batch} * static_cast<std::uint64_t>(options_.cache.samples_per_point);
+  const std::uint64_t most = std::bit_floor(std::max<std::uint64_t>(kTracedRecords / paths, 1));
+  const std::uint64_t size = std::min(most, std::bit_floor(std::max<std::uint64_t>(step, 1)));
+  return (step / size + 1) * size;
+}
+
+RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count) const {
   const SelfTrainingOptions& self = options_.cache.self_training;
+  const std::uint64_t records = options_.cache.batch * count;
   RecordRequest request;
   request.step = step;
   request.self_training = options_.integrator == Integrator::nrc && self.start_step >= 0 &&
@@ -132,14 +147,15 @@ RecordRequest CacheSession::request(std::uint64_t step) const {
   // A few points more than enough: the number of records varies, and what is too much is left out.
   const double slack = options_.integrator == Integrator::nrc ? 1.03 : 1.0;
   request.points =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(slack * options_.cache.batch / per_point)));
-  request.most_records = options_.cache.batch;
+      static_cast<std::size_t>(std::max(1.0, std::ceil(slack * static_cast<double>(records) / per_point)));
+  request.most_records = records;
+  request.batches = count;
   request.target_scale = options_.integrator == Integrator::nrc ? setup_.target_scale : 1.0f;
   if (options_.cache.candidates > 1) request.counts = counts_;
   return request;
 }
 
-void CacheSession::count_triangles(const RecordBatch& batch) {
+void CacheSession::count_triangles(const RecordBatch& group, std::uint64_t batch) {
   if (counts_.empty()) return;
   const neural::GateLayout& layout = model().gate;
   // Once a step, however many records lie on it.
@@ -148,16 +164,16 @@ void CacheSession::count_triangles(const RecordBatch& batch) {
     counted_at_[triangle] = steps_ + 1;
     if (counts_[triangle] != ~0u) ++counts_[triangle];
   };
-  for (std::size_t i = 0; i < batch.records.size(); ++i) {
-    const neural::GateSurface& surface = layout.surfaces[batch.records.surface(i)];
-    if (surface.triangle_count > 0) count(surface.first_triangle + batch.records.triangle(i));
+  for (std::size_t i = group.dealing.begin(batch); i < group.dealing.begin(batch + 1); ++i) {
+    const neural::GateSurface& surface = layout.surfaces[group.records.surface(i)];
+    if (surface.triangle_count > 0) count(surface.first_triangle + group.records.triangle(i));
   }
   if (options_.cache.candidates <= 1) return;
   // Paths that begin at a mirror leave no record there, and its triangles would be chosen ever after.
-  for (std::size_t i = 0; i < batch.starts.hits.size(); ++i) {
-    if (!batch.starts.hits[i]) continue;
-    const Vec3& direction = batch.starts.starts[i].sample.camera_ray.ray.direction;
-    const std::uint32_t triangle = points_->triangle_number(batch.starts.hits[i], direction);
+  for (std::size_t i = 0; i < group.starts.hits.size(); ++i) {
+    if (!group.starts.hits[i]) continue;
+    const Vec3& direction = group.starts.starts[i].sample.camera_ray.ray.direction;
+    const std::uint32_t triangle = points_->triangle_number(group.starts.hits[i], direction);
     if (triangle != TrainingPoints::kNoTriangle) count(triangle);
   }
 }
@@ -179,11 +195,28 @@ void CacheSession::guard(const neural::StepStatistics& step) {
   }
 }
 
+void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
+  const Clock::time_point begin = Clock::now();
+  const neural::StepStatistics step = trainer_->train(group.batch(batch));
+  statistics_.train_step_seconds += seconds_since(begin);
+  ++steps_;
+  statistics_.steps += 1;
+  statistics_.records += step.records;
+  statistics_.rejected += step.rejected;
+  statistics_.unstored += step.unstored;
+  statistics_.touched_nodes = step.touched_nodes;
+  last_losses_.push_back(step.loss);
+  if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
+  statistics_.loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
+                     static_cast<double>(last_losses_.size());
+  guard(step);
+}
+
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
-  RecordBatch batch;
+  RecordBatch group;
   const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
     const std::uint64_t negative = statistics_.negative_answers;
@@ -192,34 +225,21 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     statistics_.train_query_seconds += seconds_since(begin);
   };
   while (steps_ < steps) {
-    Clock::time_point begin = Clock::now();
+    const Clock::time_point begin = Clock::now();
     const double queried = statistics_.train_query_seconds;
-    const RecordRequest wish = request(steps_);
-    records_->trace(wish, batch);
-    records_->finish(wish, answer_tail, batch);
+    const std::uint64_t count = std::min(group_end(steps_), steps) - steps_;
+    const RecordRequest wish = request(steps_, count);
+    records_->trace(wish, group);
+    records_->finish(wish, answer_tail, group);
     statistics_.train_trace_seconds += seconds_since(begin) - (statistics_.train_query_seconds - queried);
-    count_triangles(batch);
-
-    begin = Clock::now();
-    const neural::StepStatistics step = trainer_->train(batch.batch());
-    statistics_.train_step_seconds += seconds_since(begin);
-    ++steps_;
-    statistics_.steps += 1;
-    statistics_.records += step.records;
-    statistics_.rejected += step.rejected;
-    statistics_.unstored += step.unstored;
-    statistics_.training_paths += batch.paths_traced;
-    statistics_.touched_nodes = step.touched_nodes;
-    last_losses_.push_back(step.loss);
-    if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
-    guard(step);
-    const double mean_loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
-                             static_cast<double>(last_losses_.size());
-    statistics_.loss = mean_loss;
-
+    statistics_.training_paths += group.paths_traced;
+    for (std::uint64_t batch = 0; batch < count; ++batch) {
+      count_triangles(group, batch);
+      learn(group, batch);
+    }
     statistics_.train_seconds = before + seconds_since(start);
-    if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, mean_loss);
-    if (watch.after_step) watch.after_step();
+    if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
+    if (watch.after_group) watch.after_group();
     const double limit = options_.cache.train_seconds;
     if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
   }

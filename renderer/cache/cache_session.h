@@ -25,9 +25,10 @@ class CacheSession {
   struct Watch {
     std::function<void(int done, int steps, double loss)> progress;
     std::function<bool()> stop;
-    std::function<void()> after_step;  ///< export_state() is consistent here
+    std::function<void()> after_group;  ///< of steps: a state exported here goes on with the same bits
   };
-  /// Learns until `state.steps` reaches `steps`, or until stopped or out of time. The same bits for any
+  /// Learns until `state.steps` reaches `steps`, or until stopped or out of time. Paths for the records of a
+  /// group of steps are traced in one go; between groups it is asked, told and stopped. The same bits for any
   /// number of threads. Throws NumericalError when the loss grows without end.
   void train(std::uint64_t steps, const Watch& watch);
   std::uint64_t steps() const { return steps_; }
@@ -52,8 +53,10 @@ class CacheSession {
   const CacheStatistics& statistics() const { return statistics_; }
 
  private:
-  RecordRequest request(std::uint64_t step) const;
-  void count_triangles(const RecordBatch& batch);
+  RecordRequest request(std::uint64_t step, std::uint64_t count) const;
+  std::uint64_t group_end(std::uint64_t step) const;
+  void learn(const RecordBatch& group, std::uint64_t batch);
+  void count_triangles(const RecordBatch& group, std::uint64_t batch);
   void guard(const neural::StepStatistics& step);
   void answer_with(neural::QueryPrecision precision, const SurfacePoints& points, std::span<float> answers);
 

@@ -20,7 +20,6 @@ OcclusionRecords::OcclusionRecords(const World& world, const TrainingPoints& poi
       inputs_(inputs) {}
 
 void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
-  batch.step = request.step;
   points_.choose(request.step, request.points, true, request.counts, batch.starts, rays_);
   const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
   const std::size_t blocks = batch.starts.blocks();
@@ -64,15 +63,15 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
 
   std::size_t size = 0;
   for (const SurfacePoints& r : records) size += r.size();
-  const Thinning thinning(size, request.most_records);
+  batch.dealing = Dealing(size, request.most_records, request.batches);
   if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
-  batch.records.resize(thinning.kept());
-  batch.targets.resize(thinning.kept());
+  batch.records.resize(batch.dealing.kept());
+  batch.targets.resize(batch.dealing.kept());
   std::size_t record = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     for (std::size_t i = 0; i < records[b].size(); ++i, ++record) {
-      if (!thinning.keeps(record)) continue;
-      const std::size_t at = thinning.kept_before(record);
+      if (!batch.dealing.keeps(record)) continue;
+      const std::size_t at = batch.dealing.place(record);
       batch.records.copy(records[b], i, 1, at);
       batch.targets[at] = targets[b][i];
     }

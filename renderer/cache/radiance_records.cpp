@@ -22,7 +22,6 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
     : paths_(paths), points_(points), options_(options), inputs_(inputs) {}
 
 void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
-  batch.step = request.step;
   points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_);
   PathPlan plan;
   plan.records = true;
@@ -71,8 +70,8 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
 
   const std::vector<std::size_t> record_offsets =
       offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
-  const Thinning thinning(record_offsets.back(), request.most_records);
-  const std::size_t kept = thinning.kept();
+  batch.dealing = Dealing(record_offsets.back(), request.most_records, request.batches);
+  const std::size_t kept = batch.dealing.kept();
   if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
   batch.records.resize(kept);
   batch.targets.resize(3 * kept);
@@ -80,8 +79,8 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
     const PathBatch& paths = batch.paths[b];
     for (std::size_t i = 0; i < paths.records.size(); ++i) {
       const std::size_t j = record_offsets[b] + i;
-      if (!thinning.keeps(j)) continue;
-      const std::size_t at = thinning.kept_before(j);
+      if (!batch.dealing.keeps(j)) continue;
+      const std::size_t at = batch.dealing.place(j);
       batch.records.copy(paths.records, i, 1, at);
       for (std::size_t c = 0; c < 3; ++c)
         batch.targets[3 * at + c] = paths.targets[3 * i + c] * request.target_scale;

@@ -1,6 +1,7 @@
 #pragma once
-// The records of one training step in the making, and those who make them.
+// The records of a few training steps in the making, and those who make them.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -12,8 +13,36 @@
 
 namespace gatelight::renderer {
 
+/// Where the records of several batches lie, and which are kept: of n records at most `most` (0: all), evenly
+/// spread, are dealt to the batches in turn, so that each batch has records from the whole picture.
+class Dealing {
+ public:
+  Dealing() = default;
+  Dealing(std::uint64_t n, std::uint64_t most, std::uint64_t batches)
+      : n_(n), most_(most > 0 && most < n ? most : n), batches_(batches) {}
+  std::uint64_t kept() const { return most_; }
+  std::uint64_t batches() const { return batches_; }
+  bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
+  /// Of a record that is kept.
+  std::uint64_t place(std::uint64_t j) const {
+    const std::uint64_t k = kept_before(j);
+    return begin(k % batches_) + k / batches_;
+  }
+  /// First place of batch m. begin(batches()) is kept().
+  std::uint64_t begin(std::uint64_t m) const {
+    return m * (most_ / batches_) + std::min(m, most_ % batches_);
+  }
+
+ private:
+  std::uint64_t kept_before(std::uint64_t j) const { return n_ == 0 ? 0 : j * most_ / n_; }
+
+  std::uint64_t n_ = 0;
+  std::uint64_t most_ = 0;
+  std::uint64_t batches_ = 1;
+};
+
+/// Records of one or more batches.
 struct RecordBatch {
-  std::uint64_t step = 0;
   TrainingStarts starts;
   std::vector<PathBatch> paths;  ///< one for each block of starts
   SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
@@ -21,33 +50,26 @@ struct RecordBatch {
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
-  std::uint64_t records_made = 0;  ///< before those beyond the batch's size were left out
+  std::uint64_t records_made = 0;  ///< before those beyond the batches' size were left out
+  Dealing dealing;                 ///< of `records`
 
-  neural::TrainingBatch batch() const { return {records.batch(), targets}; }
+  neural::TrainingBatch batch(std::uint64_t m) const {
+    const std::uint64_t begin = dealing.begin(m);
+    const std::uint64_t size = dealing.begin(m + 1) - begin;
+    const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
+    return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
+  }
 };
 
-/// What a step of training needs of its records.
+/// What some steps of training need of their records.
 struct RecordRequest {
-  std::uint64_t step = 0;
+  std::uint64_t step = 0;        ///< the first one: keys the random numbers
   std::size_t points = 0;        ///< training points
   std::size_t most_records = 0;  ///< more are thinned out evenly; 0: all are kept
+  std::uint64_t batches = 1;     ///< one for each step
   bool self_training = false;
   float target_scale = 1.0f;
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
-};
-
-/// Which of n records are kept where there may be `most` (0: all), evenly spread.
-class Thinning {
- public:
-  Thinning(std::uint64_t n, std::uint64_t most) : n_(n), most_(most > 0 && most < n ? most : n) {}
-  std::uint64_t kept() const { return most_; }
-  /// Of records 0 to j-1: the place of record j, where it is kept.
-  std::uint64_t kept_before(std::uint64_t j) const { return n_ == 0 ? 0 : j * most_ / n_; }
-  bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
-
- private:
-  std::uint64_t n_;
-  std::uint64_t most_;
 };
 
 /// Answers in radiance over reflectance: 3 floats for each point.

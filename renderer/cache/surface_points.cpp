@@ -75,17 +75,20 @@ bool SurfacePoints::same_point(std::size_t i, const SurfacePoints& other, std::s
          std::abs(a[0] - b[0]) < kNear && std::abs(a[1] - b[1]) < kNear;
 }
 
-neural::QueryBatch SurfacePoints::batch() const {
+neural::QueryBatch SurfacePoints::batch(std::size_t begin, std::size_t count) const {
+  const auto part = [&]<class T>(const std::vector<T>& values) {
+    return values.empty() ? std::span<const T>() : std::span<const T>(values).subspan(begin, count);
+  };
   neural::QueryBatch batch;
-  batch.surfaces = surfaces_;
-  batch.triangles = triangles_;
-  batch.barycentrics = barycentrics_;
-  batch.positions = positions_;
-  batch.directions = directions_;
-  batch.normals = normals_;
-  batch.albedos = albedos_;
-  batch.roughnesses = roughnesses_;
-  batch.size = size_;
+  batch.surfaces = part(surfaces_);
+  batch.triangles = part(triangles_);
+  batch.barycentrics = part(barycentrics_);
+  batch.positions = part(positions_);
+  batch.directions = part(directions_);
+  batch.normals = part(normals_);
+  batch.albedos = part(albedos_);
+  batch.roughnesses = part(roughnesses_);
+  batch.size = count;
   return batch;
 }
 

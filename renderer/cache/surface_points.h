@@ -55,8 +55,9 @@ class SurfacePoints {
   /// Whether point i is point j of the other, but for rounding.
   bool same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const;
 
-  /// Valid until the next change.
-  neural::QueryBatch batch() const;
+  /// Valid until the next change. The second: `count` points from `begin` on.
+  neural::QueryBatch batch() const { return batch(0, size_); }
+  neural::QueryBatch batch(std::size_t begin, std::size_t count) const;
 
  private:
   PointInputs inputs_;

@@ -206,18 +206,20 @@ TEST(CacheSession, InterruptedAndContinuedElsewhereItLearnsTheSameBits) {
   options.cache.candidates = 4;
   options.cache.self_training.start_step = 3;
   CacheSession whole(viewed.world, viewed.camera, viewed.region, options);
-  whole.train(9, {});
+  whole.train(13, {});
   CacheSession begun(viewed.world, viewed.camera, viewed.region, options);
-  begun.train(5, {});
+  CacheSession::Watch watch;
+  watch.stop = [&] { return begun.steps() >= 3; };
+  begun.train(13, watch);
   const CacheState half = begun.export_state();
-  EXPECT_EQ(half.steps, 5u);
+  EXPECT_EQ(half.steps, 4u) << "it is stopped at the end of a group";
   CacheSession continued(viewed.world, viewed.camera, viewed.region, options, &half.setup);
   EXPECT_EQ(continued.rays().camera, 0u) << "a given setup is not scouted for again";
   continued.import_state(half);
-  EXPECT_EQ(continued.steps(), 5u);
-  continued.train(9, {});
+  EXPECT_EQ(continued.steps(), 4u);
+  continued.train(13, {});
   expect_same_state(whole.export_state(), continued.export_state());
-  begun.train(9, {});
+  begun.train(13, {});
   expect_same_state(whole.export_state(), begun.export_state());
 }
 
@@ -238,25 +240,26 @@ TEST(CacheSession, ItStopsWhenAskedOrOutOfTime) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
   RenderOptions options = small(Integrator::nrc);
   CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-  int told = 0;
-  int after = 0;
+  std::vector<int> told;
+  std::vector<std::uint64_t> exported;
   CacheSession::Watch watch;
   watch.progress = [&](int done, int steps, double loss) {
-    EXPECT_EQ(done, ++told);
+    told.push_back(done);
     EXPECT_EQ(steps, 100);
     EXPECT_TRUE(std::isfinite(loss));
   };
-  watch.after_step = [&] { EXPECT_EQ(session.export_state().steps, static_cast<std::uint64_t>(++after)); };
-  watch.stop = [&] { return told >= 4; };
+  watch.after_group = [&] { exported.push_back(session.export_state().steps); };
+  watch.stop = [&] { return session.steps() >= 70; };
   session.train(100, watch);
-  EXPECT_EQ(session.steps(), 4u);
-  EXPECT_EQ(after, 4);
+  // Groups grow to 65536 records: 32 batches of 2048.
+  EXPECT_EQ(told, (std::vector<int>{1, 2, 4, 8, 16, 32, 64, 96}));
+  EXPECT_EQ(exported, std::vector<std::uint64_t>(told.begin(), told.end()));
   options.cache.train_seconds = 1e-9;
   watch.stop = {};
   session.train(100, watch);
-  EXPECT_EQ(session.steps(), 5u) << "no time: one step all the same";
-  session.train(5, watch);
-  EXPECT_EQ(session.steps(), 5u) << "nothing left to do";
+  EXPECT_EQ(session.steps(), 100u) << "no time: one group all the same, which ends where training does";
+  session.train(100, watch);
+  EXPECT_EQ(session.steps(), 100u) << "nothing left to do";
 }
 
 /// All answers of the model are this number, before the scale: the network's last layer has its bias alone.

@@ -131,6 +131,32 @@ TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
   }
 }
 
+TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
+  const ViewedWorld viewed(room());
+  const RenderOptions options;
+  const Made all(viewed, options, {.step = 1, .points = 1000});
+  const std::size_t n = all.batch.records.size();
+  for (const std::size_t most : {std::size_t{2}, std::size_t{301}, n, 2 * n}) {
+    const Made dealt(viewed, options, {.step = 1, .points = 1000, .most_records = most, .batches = 3});
+    const Made one(viewed, options, {.step = 1, .points = 1000, .most_records = most});
+    ASSERT_EQ(dealt.batch.records.size(), std::min(most, n));
+    std::size_t seen = 0;
+    for (std::size_t m = 0; m < 3; ++m) {
+      const neural::TrainingBatch batch = dealt.batch.batch(m);
+      ASSERT_EQ(batch.points.size, (std::min(most, n) + 2 - m) / 3);
+      ASSERT_EQ(batch.targets.size(), 3 * batch.points.size);
+      ASSERT_EQ(batch.points.triangles.size(), batch.points.size);
+      for (std::size_t i = 0; i < batch.points.size; ++i, ++seen) {
+        ASSERT_EQ(batch.points.barycentrics[i], one.batch.records.barycentrics(3 * i + m));
+        ASSERT_EQ(batch.points.positions[i], one.batch.records.batch().positions[3 * i + m]);
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_EQ(batch.targets[3 * i + c], one.batch.targets[3 * (3 * i + m) + c]);
+      }
+    }
+    EXPECT_EQ(seen, dealt.batch.records.size());
+  }
+}
+
 TEST(RadianceRecords, TargetsAreScaled) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
