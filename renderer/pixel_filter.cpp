@@ -48,7 +48,7 @@ FilterSampler::FilterSampler(PixelFilter filter, float width)
   }
   for (std::size_t i = 0; i <= kBins; ++i) cumulative_[i] = static_cast<float>(sum[i] / sum[kBins]);
   std::size_t edge = 1;
-  for (std::size_t i = 0; i <= kGuides; ++i) {
+  for (std::size_t i = 0; i < kGuides; ++i) {
     while (edge < kBins && cumulative_[edge] <= static_cast<float>(i) / kGuides) ++edge;
     guide_[i] = static_cast<std::uint16_t>(edge);
   }
@@ -56,11 +56,12 @@ FilterSampler::FilterSampler(PixelFilter filter, float width)
 
 float FilterSampler::sample_1d(float u) const {
   // The inverse itself in a table would be wrong at the tails, where it is steep; the guides only shorten the
-  // search (Chen and Asau 1974), from ten steps to one or two.
-  const auto guide = static_cast<std::size_t>(u * kGuides);
-  const auto above =
-      std::upper_bound(cumulative_.begin() + guide_[guide], cumulative_.begin() + guide_[guide + 1], u);
-  const auto bin = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
+  // search (Chen and Asau 1974). Where the filter is not near zero there is at most one edge between two
+  // guides: a step without a branch, which nobody could predict.
+  std::size_t above = guide_[static_cast<std::size_t>(u * kGuides)];
+  above += cumulative_[above] <= u ? 1 : 0;
+  while (cumulative_[above] <= u) ++above;
+  const std::size_t bin = above - 1;
   const float mass = cumulative_[bin + 1] - cumulative_[bin];
   const float within = mass > 0.0f ? std::clamp((u - cumulative_[bin]) / mass, 0.0f, 1.0f) : 0.5f;
   return ((static_cast<float>(bin) + within) / kBins - 0.5f) * width_;

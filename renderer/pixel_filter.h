@@ -23,13 +23,13 @@ class FilterSampler {
 
  private:
   static constexpr int kBins = 1000;
-  static constexpr int kGuides = 1024;  ///< a power of two: u falls between two of them exactly
+  static constexpr int kGuides = 4096;  ///< a power of two: u falls between two of them exactly
   float sample_1d(float u) const;
 
   float width_;
   std::array<float, kBins + 1>
       cumulative_{};  ///< distribution function at the edges of equal bins of the width
-  std::array<std::uint16_t, kGuides + 1> guide_{};  ///< the first edge above i / kGuides: where to search
+  std::array<std::uint16_t, kGuides> guide_{};  ///< the first edge above i / kGuides: where to search
 };
 
 }  // namespace gatelight::renderer
