@@ -4,17 +4,8 @@
 #include <cmath>
 
 #include "renderer/first_hit.h"
-#include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
-
-namespace {
-
-void append(std::vector<Ray>& log, const std::vector<Ray>& rays) {
-  log.insert(log.end(), rays.begin(), rays.end());
-}
-
-}  // namespace
 
 PathIntegrator::PathIntegrator(const World& world, const RenderOptions& options)
     : world_(world), options_(options), mis_{options.direct, options.mis} {}
@@ -34,10 +25,10 @@ void PathIntegrator::add_direct_light(const Path& path, const Surface& surface, 
   scratch.pending.push_back({contribution, path.index});
 }
 
-bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult> results,
+bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, std::span<SampleResult> results,
                              std::span<FirstHit> first_hits, Scratch& scratch) const {
   Color& radiance = results[path.index].radiance;
-  const Vec3& direction = path.ray.direction;
+  const Vec3& direction = ray.direction;
   if (!hit) {
     const Color sky = world_.environment.radiance(direction);
     if ((sky > 0.0f).any()) {
@@ -90,10 +81,7 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
     if (roulette_number(path.seed) >= survival) return false;
     path.throughput /= survival;
   }
-  path.ray.origin = surface.spawn(sample.wi);
-  path.ray.direction = sample.wi;
-  path.ray.t_max = scene::kInfinity;
-  path.ray.seed = path.seed;
+  ray = {surface.spawn(sample.wi), scene::kInfinity, sample.wi, path.seed};
   path.cone.width = cone_width;
   if (!through_pane) path.cone.spread += sample.spread * kDiffuseSpread;
   return true;
@@ -101,60 +89,29 @@ bool PathIntegrator::scatter(Path& path, const Hit& hit, std::span<SampleResult>
 
 void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
                            std::span<FirstHit> first_hits, RayCounts& counts, Scratch& scratch) const {
-  std::vector<Path>& paths = scratch.paths;
-  paths.resize(samples.size());
+  scratch.paths.resize(samples.size());
+  scratch.rays.resize(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Path path;
-    path.ray = samples[i].camera_ray.ray;
-    path.ray.seed = samples[i].seed;
     path.cone = samples[i].camera_ray.cone;
-    path.departure.position = path.ray.origin;
+    path.departure.position = samples[i].camera_ray.ray.origin;
     path.index = static_cast<std::uint32_t>(i);
     path.seed = samples[i].seed;
     path.sampler = samples[i].sampler;
-    paths[i] = path;
+    scratch.paths[i] = path;
+    scratch.rays[i] = samples[i].camera_ray.ray;
+    scratch.rays[i].seed = samples[i].seed;
     results[i] = {};
     if (!first_hits.empty()) first_hits[i] = {};
   }
-  counts.camera += samples.size();
-
-  for (bool camera = true; !paths.empty(); camera = false) {
-    if (!camera) counts.bounce += paths.size();
-    scratch.rays.resize(paths.size());
-    scratch.hits.resize(paths.size());
-    for (std::size_t i = 0; i < paths.size(); ++i) scratch.rays[i] = paths[i].ray;
-    {
-      const TraceTimer timer(counts);
-      world_.accel.intersect(scratch.rays, scratch.hits, camera);
-    }
-    if (scratch.log) append(camera ? scratch.log->camera : scratch.log->bounce, scratch.rays);
-
-    scratch.shadow_rays.clear();
-    scratch.pending.clear();
-    std::size_t alive = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      if (i + kTriangleAhead < paths.size())
-        world_.surfaces.prefetch_triangle(scratch.hits[i + kTriangleAhead]);
-      if (i + kVerticesAhead < paths.size())
-        world_.surfaces.prefetch_vertices(scratch.hits[i + kVerticesAhead]);
-      if (!scatter(paths[i], scratch.hits[i], results, first_hits, scratch)) continue;
-      if (alive != i) paths[alive] = paths[i];
-      ++alive;
-    }
-    paths.resize(alive);
-
-    counts.shadow += scratch.shadow_rays.size();
-    scratch.transmittance.resize(scratch.shadow_rays.size());
-    {
-      const TraceTimer timer(counts);
-      world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
-    }
-    if (scratch.log) append(scratch.log->shadow, scratch.shadow_rays);
-    for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
-      results[scratch.pending[i].index].radiance +=
-          scratch.pending[i].contribution * scratch.transmittance[i];
-    }
-  }
+  trace_waves(
+      world_, {}, scratch, counts,
+      [&](Path& path, Ray& ray, const Hit& hit) {
+        return scatter(path, ray, hit, results, first_hits, scratch);
+      },
+      [&](const PendingLight& light, const Color& transmittance) {
+        results[light.index].radiance += light.contribution * transmittance;
+      });
 }
 
 }  // namespace gatelight::renderer

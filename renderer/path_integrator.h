@@ -9,6 +9,7 @@
 #include "renderer/options.h"
 #include "renderer/scattering.h"
 #include "renderer/statistics.h"
+#include "renderer/waves.h"
 #include "renderer/world.h"
 
 namespace gatelight::renderer {
@@ -27,8 +28,8 @@ class PathIntegrator {
 
  private:
   struct Path;
-  bool scatter(Path& path, const Hit& hit, std::span<SampleResult> results, std::span<FirstHit> first_hits,
-               Scratch& scratch) const;
+  bool scatter(Path& path, Ray& ray, const Hit& hit, std::span<SampleResult> results,
+               std::span<FirstHit> first_hits, Scratch& scratch) const;
   void add_direct_light(const Path& path, const Surface& surface, const Bsdf& bsdf, const Vec3& normal,
                         Scratch& scratch) const;
 
@@ -38,7 +39,6 @@ class PathIntegrator {
 };
 
 struct PathIntegrator::Path {
-  Ray ray;
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};
   Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
@@ -57,21 +57,6 @@ struct PendingLight {
   std::uint32_t index = 0;
 };
 
-/// Every ray that an integrator traced, in order: benchmarks replay them.
-struct RayLog {
-  std::vector<Ray> camera;
-  std::vector<Ray> bounce;
-  std::vector<Ray> shadow;
-};
-
-struct PathIntegrator::Scratch {
-  RayLog* log = nullptr;  ///< none is kept where there is no log
-  std::vector<Path> paths;
-  std::vector<Ray> rays;
-  std::vector<Hit> hits;
-  std::vector<Ray> shadow_rays;
-  std::vector<PendingLight> pending;
-  std::vector<Color> transmittance;
-};
+struct PathIntegrator::Scratch : Waves<PathIntegrator::Path, PendingLight> {};
 
 }  // namespace gatelight::renderer

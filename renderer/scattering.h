@@ -18,10 +18,6 @@ inline constexpr float kDiffuseSpread = 0.25f;
 /// Panes do not count as scattering events; after this many surfaces more than events a path ends.
 inline constexpr int kMaxPassed = 32;
 
-/// How many hits ahead of shading their data is asked for.
-inline constexpr std::size_t kTriangleAhead = 8;
-inline constexpr std::size_t kVerticesAhead = 4;
-
 /// The weights of the two techniques that find light.
 struct MisRule {
   DirectLight direct = DirectLight::mis;

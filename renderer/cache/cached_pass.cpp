@@ -218,14 +218,12 @@ std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& wo
   paths_.trace(tile.starts, {}, plan, check, {}, worker.counts, worker.scratch);
   check.resolve({}, {});
   std::vector<std::int32_t> records(tile.starts.size(), kNone);
-  const std::vector<std::uint32_t> path_of = check.paths_of_vertices();
-  for (std::size_t v = 0; v < check.vertices.size(); ++v) {
-    const std::int32_t record = check.vertices[v].record;
-    const std::int32_t query = tile.paths.first_queries[path_of[v]];
-    if (record == kNone || query == kNone || records[path_of[v]] != kNone) continue;
-    if (check.records.same_point(static_cast<std::size_t>(record), tile.paths.queries,
+  for (const PathVertex& v : check.vertices) {
+    const std::int32_t query = tile.paths.first_queries[v.path];
+    if (v.record == kNone || query == kNone || records[v.path] != kNone) continue;
+    if (check.records.same_point(static_cast<std::size_t>(v.record), tile.paths.queries,
                                  static_cast<std::size_t>(query)))
-      records[path_of[v]] = record;
+      records[v.path] = v.record;
   }
   return records;
 }

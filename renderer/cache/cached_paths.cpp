@@ -7,7 +7,6 @@
 #include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/cache/surface_layout.h"
 #include "renderer/first_hit.h"
-#include "renderer/trace_timer.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -40,6 +39,7 @@ CachedPaths::CachedPaths(const World& world, const RenderOptions& options, const
 
 /// A path at a surface.
 struct CachedPaths::Meeting {
+  Ray& ray;  ///< that came here; the next one is written over it
   const Hit& hit;
   const Surface& surface;
   const Bsdf& bsdf;
@@ -69,20 +69,28 @@ bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
   return false;
 }
 
-bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, PathBatch& batch,
-                          std::span<FirstHit> first_hits, Scratch& scratch) const {
-  const Vec3& direction = path.ray.direction;
+void CachedPaths::add_emission(const Path& path, const Color& emission, PathBatch& batch) const {
+  if (path.vertex == kNone) {
+    batch.emission[path.index] += path.links.emission * emission;
+    return;
+  }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
+  from.known += path.links.emission * emission;
+  if (from.record != kNone && held_.emission()) batch.target(from.record) += path.links.held * emission;
+}
+
+bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& plan, PathBatch& batch,
+                          std::span<FirstHit> first_hits, Scratch& scratch) const {
+  const Vec3& direction = ray.direction;
   if (!hit) {
     const Color sky = world_.environment.radiance(direction);
-    if ((sky > 0.0f).any()) {
-      from.emission += path.passed * sky * sky_weight(world_, mis_, path.departure, direction);
-    }
+    if ((sky > 0.0f).any())
+      add_emission(path, sky * sky_weight(world_, mis_, path.departure, direction), batch);
     return false;
   }
   if ((path.absorption > 0.0f).any()) {
     const Color left = (-path.absorption * hit.t).exp();
-    path.passed *= left;
+    path.links *= left;
     path.throughput *= left;
   }
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
@@ -90,8 +98,8 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
   FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
   if (first) *first = first_hit(hit, surface);
   if ((surface.emission > 0.0f).any()) {
-    from.emission += path.passed * surface.emission *
-                     emission_weight(world_, mis_, path.departure, hit, surface, direction);
+    const float weight = emission_weight(world_, mis_, path.departure, hit, surface, direction);
+    add_emission(path, surface.emission * weight, batch);
   }
   if (surface.unlit || path.depth >= plan.max_depth) return false;
 
@@ -109,7 +117,8 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
   const Bsdf bsdf(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal,
                   -direction, surface.front);
   if (first) first->albedo = bsdf.albedo();
-  const Meeting meeting{hit,
+  const Meeting meeting{ray,
+                        hit,
                         surface,
                         bsdf,
                         -direction,
@@ -122,7 +131,7 @@ bool CachedPaths::scatter(Path& path, const Hit& hit, const PathPlan& plan, Path
         bsdf.sample(path.sampler.get_1d(meeting.dimensions + dimension::kBsdfLobe),
                     path.sampler.get_2d(meeting.dimensions + dimension::kBsdfDirection));
     return meeting.through_pane(sample) && (sample.weight > 0.0f).any() &&
-           advance(path, meeting, sample, sample.weight, kNone, batch);
+           advance(path, meeting, sample, {sample.weight, sample.weight}, kNone);
   }
   const bool wide = bsdf.has_wide(options_.cache.min_roughness);
   const bool ends = wide && ends_here(path, plan);
@@ -144,7 +153,9 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v = batch.vertices.emplace_back();
   v.previous = path.vertex;
-  v.passed = path.passed;
+  v.path = path.index;
+  v.link = path.links.scattered;
+  v.held_link = path.links.held;
   if (worth_caching(wide_albedo)) {
     v.reflectance = cache_reflectance(wide_albedo);
     v.query = static_cast<std::int32_t>(batch.queries.size());
@@ -185,11 +196,9 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
     } else if (has_narrow) {
       scattered = m.bsdf.narrow_part(roughness).evaluate(sample.wi).value / sample.pdf;
     }
-    v.emission_weight = sample.weight;
-    v.scattered_weight = scattered;
     path.emission_only = !(scattered > 0.0f).any();
     path.throughput *= sample.weight;
-    return advance(path, m, sample, sample.weight, index, batch);
+    return advance(path, m, sample, {sample.weight, scattered}, index);
   }
 
   if (delta_lights_ && !held_.light_sample(true)) {
@@ -213,9 +222,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
   if (roulette_number(next_seed(path.seed)) >= survival) return false;
   path.throughput /= survival;
   const Color weight = sample.weight / survival;
-  v.emission_weight = weight;
-  v.scattered_weight = weight;
-  return advance(path, m, sample, weight, index, batch);
+  return advance(path, m, sample, {weight, weight}, index);
 }
 
 bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const PathPlan& plan,
@@ -231,14 +238,17 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
     return split ? wide.evaluate(wi).value : whole.value;
   };
 
-  PathVertex vertex;
-  vertex.previous = path.vertex;
-  vertex.passed = path.passed;
+  PathVertex& v = batch.vertices.emplace_back();
+  v.previous = path.vertex;
+  v.path = path.index;
+  v.link = path.links.scattered;
+  v.held_link = path.links.held;
   if (record) {
-    vertex.reflectance = cache_reflectance(wide.albedo());
-    vertex.record = static_cast<std::int32_t>(batch.records.size());
+    v.reflectance = cache_reflectance(wide.albedo());
+    v.record = static_cast<std::int32_t>(batch.records.size());
     batch.records.push_back(m.hit, m.side, m.wo, m.surface, wide.albedo());
-    if (path.records == 0) batch.first_records[path.index] = vertex.record;
+    batch.targets.resize(3 * batch.records.size(), 0.0f);
+    if (path.records == 0) batch.first_records[path.index] = v.record;
     path.records += 1;
   }
   if (!m.bsdf.is_delta() && !world_.lights.empty()) {
@@ -258,8 +268,6 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
       }
     }
   }
-  batch.vertices.push_back(vertex);
-
   const BsdfSample sample = m.bsdf.sample(path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
                                           path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
@@ -274,32 +282,22 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
     path.throughput /= survival;
   }
   const Color weight = sample.weight / survival;
-  PathVertex& v = batch.vertices.back();
-  v.emission_weight = weight;
-  v.scattered_weight = weight;
-  if (record && !sample.delta) {
-    v.held_scattered_weight =
-        split ? Color(wide.evaluate(sample.wi).value / (sample.pdf * survival)) : weight;
-    if (held_.emission()) v.held_emission_weight = v.held_scattered_weight;
-  }
-  return advance(path, m, sample, weight, index, batch);
+  Color held = Color::Zero();
+  if (record && !sample.delta)
+    held = split ? Color(wide.evaluate(sample.wi).value / (sample.pdf * survival)) : weight;
+  return advance(path, m, sample, {weight, weight, held}, index);
 }
 
-bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample, const Color& weight,
-                          std::int32_t vertex, PathBatch& batch) const {
+bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample, const Links& links,
+                          std::int32_t vertex) const {
   path.radiance_scale *= sample.radiance_scale;
   if (m.through_pane(sample)) {
     // What is behind the pane belongs to the vertex before it, whose light samples saw it too.
-    if (vertex != kNone) {
-      PathVertex& v = batch.vertices[static_cast<std::size_t>(vertex)];
-      v.emission_weight = v.scattered_weight = Color::Zero();
-      v.held_emission_weight = v.held_scattered_weight = Color::Zero();
-    }
-    path.passed *= weight;
+    path.links *= links.emission;
     path.departure.travelled += m.hit.t;
   } else {
     path.vertex = vertex;
-    path.passed = Color::Ones();
+    path.links = links;
     path.depth += 1;
     path.departure = {m.surface.position, m.light_normal, 0.0f, sample.pdf, sample.delta};
     if (sample.transmitted && !m.surface.material.thin_walled) {
@@ -310,10 +308,7 @@ bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample
   path.surfaces += 1;
   if (path.surfaces > path.depth + kMaxPassed) return false;
   path.seed = next_seed(path.seed);
-  path.ray.origin = m.surface.spawn(sample.wi);
-  path.ray.direction = sample.wi;
-  path.ray.t_max = scene::kInfinity;
-  path.ray.seed = path.seed;
+  m.ray = {m.surface.spawn(sample.wi), scene::kInfinity, sample.wi, path.seed};
   path.cone.width = m.cone_width;
   if (!m.through_pane(sample)) path.cone.spread += sample.spread * kDiffuseSpread;
   return true;
@@ -322,70 +317,33 @@ bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample
 void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,
                         PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                         Scratch& scratch) const {
-  std::vector<Path>& paths = scratch.paths;
-  paths.resize(starts.size());
-  PathVertex root;
-  root.emission_weight = root.scattered_weight = Color::Ones();
-  batch.vertices.assign(starts.size(), root);
-  batch.queries.clear();
-  batch.records.clear();
-  batch.first_queries.assign(starts.size(), kNone);
-  batch.first_records.assign(starts.size(), kNone);
-  batch.unstored_hits = 0;
+  batch.begin(starts.size());
+  scratch.paths.resize(starts.size());
+  scratch.rays.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const CameraSample& s = starts[i].sample;
     Path path;
-    path.ray = s.camera_ray.ray;
-    path.ray.seed = s.seed;
     path.cone = s.camera_ray.cone;
-    path.departure.position = path.ray.origin;
+    path.departure.position = s.camera_ray.ray.origin;
     path.index = static_cast<std::uint32_t>(i);
-    path.vertex = static_cast<std::int32_t>(i);
     path.seed = s.seed;
     path.sampler = s.sampler;
     path.to_its_end = starts[i].to_its_end;
-    paths[i] = path;
+    scratch.paths[i] = path;
+    scratch.rays[i] = s.camera_ray.ray;
+    scratch.rays[i].seed = s.seed;
     if (!first_hits.empty()) first_hits[i] = {};
   }
-  if (hits.empty()) counts.camera += starts.size();
-
-  for (bool start = true; !paths.empty(); start = false) {
-    scratch.hits.resize(paths.size());
-    if (start && !hits.empty()) {
-      std::copy(hits.begin(), hits.end(), scratch.hits.begin());
-    } else {
-      if (!start) counts.bounce += paths.size();
-      scratch.rays.resize(paths.size());
-      for (std::size_t i = 0; i < paths.size(); ++i) scratch.rays[i] = paths[i].ray;
-      const TraceTimer timer(counts);
-      world_.accel.intersect(scratch.rays, scratch.hits, start);
-    }
-    scratch.shadow_rays.clear();
-    scratch.pending.clear();
-    std::size_t alive = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      if (i + kTriangleAhead < paths.size())
-        world_.surfaces.prefetch_triangle(scratch.hits[i + kTriangleAhead]);
-      if (i + kVerticesAhead < paths.size())
-        world_.surfaces.prefetch_vertices(scratch.hits[i + kVerticesAhead]);
-      if (!scatter(paths[i], scratch.hits[i], plan, batch, first_hits, scratch)) continue;
-      if (alive != i) paths[alive] = paths[i];
-      ++alive;
-    }
-    paths.resize(alive);
-
-    counts.shadow += scratch.shadow_rays.size();
-    scratch.transmittance.resize(scratch.shadow_rays.size());
-    {
-      const TraceTimer timer(counts);
-      world_.accel.transmittance(scratch.shadow_rays, scratch.transmittance);
-    }
-    for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
-      PathVertex& v = batch.vertices[static_cast<std::size_t>(scratch.pending[i].vertex)];
-      v.direct += scratch.pending[i].direct * scratch.transmittance[i];
-      v.held_direct += scratch.pending[i].held * scratch.transmittance[i];
-    }
-  }
+  trace_waves(
+      world_, hits, scratch, counts,
+      [&](Path& path, Ray& ray, const Hit& hit) {
+        return scatter(path, ray, hit, plan, batch, first_hits, scratch);
+      },
+      [&](const Pending& light, const Color& transmittance) {
+        PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
+        v.known += light.direct * transmittance;
+        if (v.record != kNone) batch.target(v.record) += light.held * transmittance;
+      });
 }
 
 }  // namespace gatelight::renderer

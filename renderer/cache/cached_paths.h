@@ -60,16 +60,20 @@ class CachedPaths {
              PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
  private:
+  struct Links;
   struct Path;
+  struct Pending;
   struct Meeting;
-  bool scatter(Path& path, const Hit& hit, const PathPlan& plan, PathBatch& batch,
+  bool scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& plan, PathBatch& batch,
                std::span<FirstHit> first_hits, Scratch& scratch) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool answer(Path& path, const Meeting& meeting, PathBatch& batch, Scratch& scratch) const;
   bool continue_from(Path& path, const Meeting& meeting, bool record, const PathPlan& plan, PathBatch& batch,
                      Scratch& scratch) const;
-  bool advance(Path& path, const Meeting& meeting, const BsdfSample& sample, const Color& weight,
-               std::int32_t vertex, PathBatch& batch) const;
+  /// links: from `vertex` on, unless the path only passes a pane.
+  bool advance(Path& path, const Meeting& meeting, const BsdfSample& sample, const Links& links,
+               std::int32_t vertex) const;
+  void add_emission(const Path& path, const Color& emission, PathBatch& batch) const;
 
   const World& world_;
   const RenderOptions& options_;

@@ -41,10 +41,9 @@ float extent_of(std::span<const neural::Float3> positions) {
 
 /// Records that each path left.
 std::vector<int> records_by_path(const PathBatch& batch) {
-  const std::vector<std::uint32_t> path_of = batch.paths_of_vertices();
-  std::vector<int> records(batch.first_queries.size(), 0);
-  for (std::size_t i = 0; i < batch.vertices.size(); ++i) {
-    if (batch.vertices[i].record != kNone) ++records[path_of[i]];
+  std::vector<int> records(batch.paths(), 0);
+  for (const PathVertex& v : batch.vertices) {
+    if (v.record != kNone) ++records[v.path];
   }
   return records;
 }

@@ -19,80 +19,63 @@ void push_point(SurfacePoints& points, std::uint32_t triangle, float u = 0.25f) 
   points.push_back(hit, 0, Vec3(0, 0, 1), Surface{}, Color::Ones());
 }
 
-PathVertex eye() {
-  PathVertex root;
-  root.emission_weight = root.scattered_weight = Color::Ones();
-  return root;
-}
-
 Color target(const PathBatch& batch, std::size_t record) {
   return Eigen::Map<const Color>(&batch.targets[3 * record]);
 }
 
 TEST(PathBatch, LightComesBackThroughPanesAnswersAndRecords) {
   PathBatch batch;
-  batch.first_records = batch.first_queries = {0, kNone};
-  PathVertex root = eye();
-  root.emission = Color(8.0f, 0.0f, 16.0f);  // what the eye sees first shines
-  batch.vertices = {root, eye()};
-  batch.vertices[1].emission = Color(0.5f, 1.0f, 2.0f);  // the second path sees the sky
+  batch.begin(2);
+  batch.emission[0] = Color(8.0f, 0.0f, 16.0f);  // what the eye sees first shines
+  batch.emission[1] = Color(0.5f, 1.0f, 2.0f);   // the second path sees the sky
 
   PathVertex wall;  // a record behind a pane
-  wall.previous = 0;
-  wall.passed = Color(0.5f, 0.25f, 1.0f);
-  wall.direct = Color(2.0f, 4.0f, 8.0f);
-  wall.emission = Color(4.0f, 2.0f, 1.0f);
-  wall.emission_weight = Color(0.25f, 0.5f, 1.0f);
-  wall.scattered_weight = Color(0.75f, 0.5f, 0.25f);
-  wall.held_direct = Color(1.0f, 2.0f, 3.0f);
-  wall.held_emission_weight = Color(0.125f, 0.25f, 0.5f);
-  wall.held_scattered_weight = Color(0.5f, 0.25f, 0.125f);
+  wall.link = Color(0.5f, 0.25f, 1.0f);
+  wall.known = Color(3.0f, 5.0f, 9.0f);
   wall.reflectance = Color(0.5f, 0.25f, 0.125f);
   wall.record = 0;
   push_point(batch.records, 7);
+  batch.targets = {1.5f, 2.5f, 3.5f};
 
   PathVertex end;  // asks the cache, and goes on by a narrow lobe
-  end.previous = 2;
-  end.passed = Color(0.5f, 1.0f, 2.0f);
-  end.direct = Color(1.0f, 2.0f, 3.0f);
-  end.emission = Color(2.0f, 4.0f, 8.0f);
-  end.emission_weight = Color(0.5f, 0.25f, 0.125f);
-  end.scattered_weight = Color(0.25f, 0.5f, 0.75f);
+  end.previous = 0;
+  end.link = Color(0.375f, 0.5f, 0.5f);
+  end.held_link = Color(0.25f, 0.25f, 0.125f);
+  end.known = Color(2.0f, 3.0f, 4.0f);
   end.reflectance = Color(0.5f, 0.75f, 1.0f);
   end.query = 0;
   push_point(batch.queries, 9);
 
   PathVertex mirrored;  // the last, without anything of the cache
-  mirrored.previous = 3;
-  mirrored.passed = Color(1.0f, 0.5f, 2.0f);
-  mirrored.direct = Color(4.0f, 8.0f, 2.0f);
-  batch.vertices.insert(batch.vertices.end(), {wall, end, mirrored});
+  mirrored.previous = 1;
+  mirrored.link = Color(0.25f, 0.25f, 1.5f);
+  mirrored.held_link = Color(9.0f, 9.0f, 9.0f);  // no record is there to hold it
+  mirrored.known = Color(4.0f, 8.0f, 2.0f);
+  batch.vertices = {wall, end, mirrored};
 
   const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
   std::array<Color, 2> radiance;
   batch.resolve(answers, radiance);
 
-  // Back from the last: S(end) = (4, 4, 4).
-  // R(end) = (1,2,3) + (.5,.75,1)(10,20,30) + (.5,.25,.125)(2,4,8) + (.25,.5,.75) 4 = (8, 20, 37).
-  // S(wall) = (.5,1,2) R(end) = (4, 20, 74).
-  // R(wall) = (2,4,8) + (.25,.5,1)(4,2,1) + (.75,.5,.25)(4,20,74) = (6, 15, 27.5).
-  // H(wall) = (1,2,3) + (.125,.25,.5)(4,2,1) + (.5,.25,.125)(4,20,74) = (3.5, 7.5, 12.75).
+  // Back from the last:
+  // R(end) = (2,3,4) + (.5,.75,1)(10,20,30) + (.25,.25,1.5)(4,8,2) = (8, 20, 37).
+  // R(wall) = (3,5,9) + (.375,.5,.5)(8,20,37) = (6, 15, 27.5).
+  // H(wall) = (1.5,2.5,3.5) + (.25,.25,.125)(8,20,37) = (3.5, 7.5, 8.125).
   ASSERT_EQ(batch.targets.size(), 3u);
-  EXPECT_TRUE((target(batch, 0) == Color(7.0f, 30.0f, 102.0f)).all()) << target(batch, 0).transpose();
+  EXPECT_TRUE((target(batch, 0) == Color(7.0f, 30.0f, 65.0f)).all()) << target(batch, 0).transpose();
   EXPECT_TRUE((radiance[0] == Color(8.0f + 3.0f, 3.75f, 16.0f + 27.5f)).all()) << radiance[0].transpose();
   EXPECT_TRUE((radiance[1] == Color(0.5f, 1.0f, 2.0f)).all()) << radiance[1].transpose();
 }
 
 TEST(PathBatch, RadianceIsOptional) {
   PathBatch batch;
-  batch.vertices = {eye()};
+  batch.begin(1);
   PathVertex wall;
-  wall.previous = 0;
-  wall.held_direct = Color(1.0f, 2.0f, 3.0f);
   wall.reflectance = Color(0.5f, 0.5f, 0.5f);
   wall.record = 0;
   batch.vertices.push_back(wall);
   push_point(batch.records, 1);
+  batch.targets = {1.0f, 2.0f, 3.0f};
   batch.resolve({}, {});
   EXPECT_TRUE((target(batch, 0) == Color(2.0f, 4.0f, 6.0f)).all());
 }
