@@ -43,12 +43,30 @@ bool has_side(const SurfaceInstance& instance, std::uint32_t side) {
   return (static_cast<std::uint32_t>(instance.sides) >> side & 1u) != 0;
 }
 
-/// A table of the topology: of a clustered instance, or else of a mesh, which its instances share.
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+bool has_clusters(const InstancePlan& plan) {
+  return std::ranges::any_of(plan, &LevelPlan::clustered);
+}
+
+/// A table of the topology: of an instance with a clustered level, or else of a mesh, which its instances
+/// share. Its rows are threes of words.
 struct TopologyTable {
   std::uint32_t offset = 0;
-  std::uint32_t stride = 3;
   std::uint32_t mesh = 0;
-  std::optional<std::size_t> clustered;  ///< index among the stored instances
+  bool vertices = false;
+  bool edges = false;
+  std::size_t stored = kNone;          ///< the instance whose clusters are in it
+  std::vector<std::size_t> clustered;  ///< levels whose clusters are in it, in their order in the row
+
+  std::uint32_t first_clusters() const { return (vertices ? 3u : 0u) + (edges ? 3u : 0u); }
+  std::uint32_t stride() const { return first_clusters() + 3 * static_cast<std::uint32_t>(clustered.size()); }
+  /// The word where the corners of a level begin.
+  std::uint32_t corners(const LevelPlan& level) const {
+    if (!level.clustered) return 0;
+    const auto place = std::ranges::find(clustered, level.first_alike) - clustered.begin();
+    return first_clusters() + 3 * static_cast<std::uint32_t>(place);
+  }
 };
 
 struct TopologyTables {
@@ -59,107 +77,128 @@ struct TopologyTables {
 
 TopologyTables place_tables(const PlanScene& scene, const LayoutPlan& plan) {
   TopologyTables result;
-  const std::size_t count = scene.stored.size();
-  std::vector<std::uint32_t> strides(scene.surfaces.meshes.size(), 3);
-  const auto mesh_of = [&](std::size_t s) { return scene.surfaces.instances[scene.stored[s]].mesh; };
-  for (std::size_t s = 0; s < count; ++s)
-    if (std::ranges::max(plan.instances[s].resolutions) > 1) strides[mesh_of(s)] = 6;
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> of_mesh(scene.surfaces.meshes.size(), kNone);
-  Allocator words("topology words");
-  for (std::size_t s = 0; s < count; ++s) {
-    const std::uint32_t mesh = mesh_of(s);
-    const bool clustered = plan.instances[s].clustered;
-    std::size_t table = clustered ? kNone : of_mesh[mesh];
+  for (std::size_t s = 0; s < scene.stored.size(); ++s) {
+    const std::uint32_t mesh = scene.surfaces.instances[scene.stored[s]].mesh;
+    const bool own = has_clusters(plan.instances[s]);
+    std::size_t table = own ? kNone : of_mesh[mesh];
     if (table == kNone) {
       table = result.tables.size();
-      const std::uint32_t stride = clustered ? 3 : strides[mesh];
-      const std::uint32_t offset = words.take(stride * scene.surfaces.meshes[mesh].triangles.size());
-      result.tables.push_back({offset, stride, mesh, clustered ? std::optional(s) : std::nullopt});
-      if (!clustered) of_mesh[mesh] = table;
+      result.tables.push_back({.mesh = mesh, .stored = own ? s : kNone});
+      if (!own) of_mesh[mesh] = table;
     }
     result.of_stored.push_back(table);
+    TopologyTable& t = result.tables[table];
+    for (std::size_t l = 0; l < scene.options.stack.size(); ++l) {
+      const LevelPlan& level = plan.instances[s][l];
+      t.vertices |= !level.clustered;
+      t.edges |= level.resolution > 1;
+      if (level.clustered && level.first_alike == l) t.clustered.push_back(l);
+    }
   }
+  Allocator words("topology words");
+  for (TopologyTable& table : result.tables)
+    table.offset = words.take(table.stride() * scene.surfaces.meshes[table.mesh].triangles.size());
   result.words = words.used();
   return result;
 }
 
-void write_table(const TopologyTable& table, const MeshTopology& mesh,
-                 const std::vector<std::uint32_t>* vertex_numbers, std::uint32_t* topology) {
-  tbb::parallel_for(Range(0, mesh.triangles.size(), 16384), [&](const Range& range) {
+/// Writes the three words that begin at `first` of each row: words_of(triangle).
+template <class WordsOf>
+void write_threes(const TopologyTable& table, std::size_t triangles, std::uint32_t first,
+                  std::uint32_t* topology, const WordsOf& words_of) {
+  const std::uint32_t stride = table.stride();
+  tbb::parallel_for(Range(0, triangles, 16384), [&](const Range& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t) {
-      std::uint32_t* words = topology + table.offset + t * table.stride;
-      for (int c = 0; c < 3; ++c) {
-        const std::uint32_t vertex = mesh.triangles[t][c];
-        words[c] = vertex_numbers == nullptr ? vertex : (*vertex_numbers)[vertex];
-        if (table.stride == 6) words[3 + c] = mesh.triangle_edges[t][c];
-      }
+      const TriangleCorners words = words_of(t);
+      std::copy_n(words.begin(), 3, topology + table.offset + t * stride + first);
     }
   });
+}
+
+/// The numbers of the clusters of each level that all instances share.
+std::array<std::optional<ClusterTable>, kMaxStack> number_scene(const PlanScene& scene,
+                                                                const LayoutPlan& plan) {
+  std::array<std::optional<ClusterTable>, kMaxStack> numbers;
+  for (std::uint32_t l = 0; l < kMaxStack; ++l) {
+    std::vector<ClusterInstance> instances;
+    for (std::size_t s = 0; s < plan.instances.size(); ++s) {
+      const LevelPlan& level = plan.instances[s][l];
+      if (level.clustered && level.first_alike == l) instances.push_back(cluster_instance(scene, s));
+    }
+    if (!instances.empty())
+      numbers[l] =
+          number_clusters(instances, cluster_grid(scene, plan.density, l), plan.scene_levels[l].clusters);
+  }
+  return numbers;
 }
 
 void write_topology(const PlanScene& scene, const LayoutPlan& plan, const TopologyTables& tables,
                     std::vector<std::uint32_t>& topology) {
   topology.resize(tables.words == 0 ? 0 : std::size_t{tables.words} + kTopologyPadding, 0);
-  const ClusterGrid grid = cluster_grid(plan.density);
-  std::optional<ClusterTable> scene_numbers;
-  if (plan.scene_clusters > 0) {
-    std::vector<ClusterInstance> instances;
-    for (std::size_t s = 0; s < plan.instances.size(); ++s)
-      if (plan.instances[s].clustered) instances.push_back(cluster_instance(scene, s));
-    scene_numbers = number_clusters(instances, grid, plan.scene_clusters);
-  }
+  std::array<std::optional<ClusterTable>, kMaxStack> scene_numbers;
+  if (clusters_scene(plan.density)) scene_numbers = number_scene(scene, plan);
   tbb::parallel_for(std::size_t{0}, tables.tables.size(), [&](std::size_t i) {
     const TopologyTable& table = tables.tables[i];
     const MeshTopology& mesh = scene.meshes[table.mesh];
-    if (!table.clustered) return write_table(table, mesh, nullptr, topology.data());
-    const ClusterInstance instance = cluster_instance(scene, *table.clustered);
-    std::vector<std::uint32_t> numbers;
-    if (scene_numbers) {
-      numbers = vertex_clusters(instance, grid, *scene_numbers);
-    } else {
-      const std::uint64_t count = plan.instances[*table.clustered].vertex_nodes;
-      numbers = vertex_clusters(instance, grid, number_clusters({&instance, 1}, grid, count));
+    const auto write = [&](std::uint32_t first, const auto& words_of) {
+      write_threes(table, mesh.triangles.size(), first, topology.data(), words_of);
+    };
+    if (table.vertices) write(0, [&](std::size_t t) { return mesh.triangles[t]; });
+    if (table.edges) write(kTopologyEdges, [&](std::size_t t) { return mesh.triangle_edges[t]; });
+    for (const std::size_t l : table.clustered) {
+      const ClusterInstance instance = cluster_instance(scene, table.stored);
+      const ClusterGrid grid = cluster_grid(scene, plan.density, l);
+      const LevelPlan& level = plan.instances[table.stored][l];
+      const std::vector<std::uint32_t> numbers =
+          scene_numbers[l]
+              ? vertex_clusters(instance, grid, *scene_numbers[l])
+              : vertex_clusters(instance, grid, number_clusters({&instance, 1}, grid, level.corner_nodes));
+      write(table.corners(level), [&](std::size_t t) -> TriangleCorners {
+        const auto [a, b, c] = mesh.triangles[t];
+        return {numbers[a], numbers[b], numbers[c]};
+      });
     }
-    write_table(table, mesh, &numbers, topology.data());
   });
 }
 
 /// The nodes of one level of one side.
-GateSurfaceLevel place_nodes(const PlanScene& scene, std::size_t stored, const InstancePlan& plan,
-                             std::uint32_t resolution, Allocator& nodes, GateLayoutReport& report) {
+GateSurfaceLevel place_nodes(const PlanScene& scene, std::size_t stored, const LevelPlan& plan,
+                             Allocator& nodes, GateLayoutReport& report) {
   const std::uint32_t mesh = scene.surfaces.instances[scene.stored[stored]].mesh;
   const std::uint64_t triangles = scene.surfaces.meshes[mesh].triangles.size();
   GateSurfaceLevel level;
-  level.resolution = resolution;
+  level.resolution = plan.resolution;
   if (scene.options.storage == NodeStorage::per_triangle) {
-    const std::uint64_t count = triangles * nodes_per_triangle(resolution);
+    const std::uint64_t count = triangles * nodes_per_triangle(plan.resolution);
     report.triangle_nodes += count;
     level.vertex_base = nodes.take(count);
     return level;
   }
   const std::uint64_t edge_nodes =
-      plan.clustered ? 0 : std::uint64_t{scene.meshes[mesh].edge_count} * nodes_per_edge(resolution);
-  const std::uint64_t interior_nodes = triangles * nodes_per_interior(resolution);
-  (plan.clustered ? report.cluster_nodes : report.vertex_nodes) += plan.vertex_nodes;
+      std::uint64_t{scene.meshes[mesh].edge_count} * nodes_per_edge(plan.resolution);
+  const std::uint64_t interior_nodes = triangles * nodes_per_interior(plan.resolution);
+  (plan.clustered ? report.cluster_nodes : report.vertex_nodes) += plan.corner_nodes;
   report.edge_nodes += edge_nodes;
   report.interior_nodes += interior_nodes;
-  level.vertex_base = nodes.take(plan.vertex_nodes);
+  level.vertex_base = nodes.take(plan.corner_nodes);
   level.edge_base = nodes.take(edge_nodes);
   level.interior_base = nodes.take(interior_nodes);
   return level;
 }
 
-/// One block of nodes for each side and level, which all clustered instances share.
-std::vector<GateSurfaceLevel> place_scene_clusters(const PlanScene& scene, const LayoutPlan& plan,
-                                                   Allocator& nodes, GateLayoutReport& report) {
-  std::vector<GateSurfaceLevel> blocks(2 * scene.options.stack.size());
+/// For each side and level the block of nodes that all instances with the level clustered share.
+using SceneBlocks = std::array<std::array<GateSurfaceLevel, kMaxStack>, 2>;
+
+SceneBlocks place_scene_clusters(const LayoutPlan& plan, Allocator& nodes, GateLayoutReport& report) {
+  SceneBlocks blocks = {};
   for (std::uint32_t side = 0; side < 2; ++side)
-    for (std::size_t l = 0; l < scene.options.stack.size(); ++l) {
-      if ((plan.scene_sides >> side & 1u) == 0) continue;
-      const std::uint32_t base = nodes.take(plan.scene_clusters);
-      blocks[side * scene.options.stack.size() + l] = {1, base, nodes.used(), nodes.used()};
-      report.cluster_nodes += plan.scene_clusters;
+    for (std::size_t l = 0; l < kMaxStack; ++l) {
+      const SceneLevelPlan& level = plan.scene_levels[l];
+      if ((level.sides >> side & 1u) == 0) continue;
+      const std::uint32_t base = nodes.take(level.clusters);
+      blocks[side][l] = {1, base, nodes.used(), nodes.used()};
+      report.cluster_nodes += level.clusters;
     }
   return blocks;
 }
@@ -172,29 +211,30 @@ void place_surfaces(const PlanScene& scene, const LayoutPlan& plan, const Topolo
   layout.surfaces.resize(2 * scene.surfaces.instances.size());
   layout.levels.resize(layout.surfaces.size() * stack);
   const bool merged = clusters_scene(plan.density);
-  std::vector<GateSurfaceLevel> scene_blocks;
-  if (merged) scene_blocks = place_scene_clusters(scene, plan, nodes, layout.report);
+  const SceneBlocks scene_blocks = place_scene_clusters(plan, nodes, layout.report);
   for (std::size_t s = 0; s < scene.stored.size(); ++s) {
     const SurfaceInstance& instance = scene.surfaces.instances[scene.stored[s]];
     const InstancePlan& instance_plan = plan.instances[s];
+    const TopologyTable* table = tables == nullptr ? nullptr : &tables->tables[tables->of_stored[s]];
     const std::uint64_t triangle_count = scene.surfaces.meshes[instance.mesh].triangles.size();
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (!has_side(instance, side)) continue;
       const std::uint32_t surface = surface_index(scene.stored[s], side);
       GateSurface& entry = layout.surfaces[surface];
-      if (tables != nullptr) {
-        const TopologyTable& table = tables->tables[tables->of_stored[s]];
-        entry.topology_offset = table.offset;
-        entry.topology_stride = table.stride;
+      if (table != nullptr) {
+        entry.topology_offset = table->offset;
+        entry.topology_stride = table->stride();
       }
       entry.triangle_count = static_cast<std::uint32_t>(triangle_count);
       entry.first_triangle = triangles.take(triangle_count);
-      for (std::size_t l = 0; l < stack; ++l)
-        layout.levels[surface * stack + l] =
-            merged && instance_plan.clustered
-                ? scene_blocks[side * stack + l]
-                : place_nodes(scene, s, instance_plan, instance_plan.resolutions[l], nodes, layout.report);
-      if (instance_plan.clustered) ++layout.report.clustered_surfaces;
+      for (std::size_t l = 0; l < stack; ++l) {
+        const LevelPlan& level = instance_plan[l];
+        GateSurfaceLevel& placed = layout.levels[surface * stack + l];
+        placed = merged && level.clustered ? scene_blocks[side][l]
+                                           : place_nodes(scene, s, level, nodes, layout.report);
+        if (table != nullptr) placed.corners = table->corners(level);
+      }
+      if (has_clusters(instance_plan)) ++layout.report.clustered_surfaces;
     }
     if (instance.sides != Sides::both) {
       const std::size_t own = surface_index(scene.stored[s], has_side(instance, 0) ? 0 : 1);
@@ -202,7 +242,7 @@ void place_surfaces(const PlanScene& scene, const LayoutPlan& plan, const Topolo
       layout.surfaces[other] = layout.surfaces[own];
       std::copy_n(layout.levels.begin() + own * stack, stack, layout.levels.begin() + other * stack);
     }
-    ++layout.report.resolution_histogram[instance_plan.resolutions[0]];
+    ++layout.report.resolution_histogram[instance_plan[0].resolution];
   }
   layout.node_count = nodes.used();
   layout.triangle_count = triangles.used();

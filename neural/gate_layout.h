@@ -47,14 +47,16 @@ struct GateOptions {
   std::uint32_t features = 8;                         ///< L: floats in a feature vector, 1 to 16
   std::vector<std::uint32_t> stack = {kAdaptive, 1};  ///< at most kMaxStack levels
   ResolutionRule rule = ResolutionRule::uniform;
-  float node_spacing = 0.1f;           ///< world units; `uniform`, and the clusters' cell is half of it
+  float node_spacing = 0.1f;           ///< world units; `uniform`
   float resolution_scale = 1.0f;       ///< `paper`
   std::uint32_t fixed_resolution = 4;  ///< `fixed`
   std::uint32_t max_resolution = 32;   ///< of adaptive levels
   NodeStorage storage = NodeStorage::shared;
-  /// Merge the vertices of surfaces whose R is 1 where triangles are smaller than the node spacing. A
-  /// vertex's cluster is (instance, cell of half the spacing, dominant axis and sign of its normal). Only
-  /// with `uniform` and `shared`, and where all levels of the stack have R = 1.
+  /// Merge vertices in the levels of an instance that have R = 1, where triangles are smaller than the
+  /// level's nodes are to be apart. A vertex's cluster is (instance, cell, dominant axis and sign of its
+  /// normal); a cell is half the node spacing long, adaptive_part(d)'s d times as much. So an instance finer
+  /// than the spacing has fewer nodes in coarser levels. Levels whose cells merge no vertices keep them. Only
+  /// with `uniform` and `shared`.
   bool cluster = true;
   /// Bytes that the feature vectors may take, 0 for no limit. Given, node_spacing (or resolution_scale) is
   /// solved for: the finest layout that fits. Where clusters are made and even one cell for each instance and

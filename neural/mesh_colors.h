@@ -93,15 +93,16 @@ inline std::uint32_t node_index(const GateLayout& layout, std::uint32_t surface,
     return l.vertex_base + triangle * nodes_per_triangle(r) + i * (2 * r + 3 - i) / 2 + j;
   if (i > 0 && j > 0 && k > 0)
     return l.interior_base + triangle * nodes_per_interior(r) + (i - 1) * (2 * (r - 1) - i) / 2 + j - 1;
-  const std::uint32_t* corners =
+  const std::uint32_t* row =
       layout.topology.data() + s.topology_offset + std::size_t{triangle} * s.topology_stride;
+  const std::uint32_t* corners = row + l.corners;
   for (std::uint32_t c = 0; c < 3; ++c)
     if (node[c] == r) return l.vertex_base + corners[c];
   const std::uint32_t c = i == 0 ? 0 : j == 0 ? 1 : 2;  // the corner opposite to the edge
   const std::uint32_t first = (c + 1) % 3;
   const std::uint32_t second = (c + 2) % 3;
   const std::uint32_t steps = corners[first] < corners[second] ? node[second] : node[first];
-  return l.edge_base + corners[3 + c] * nodes_per_edge(r) + steps - 1;
+  return l.edge_base + row[kTopologyEdges + c] * nodes_per_edge(r) + steps - 1;
 }
 
 template <typename T>

@@ -67,24 +67,37 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
 }
 
 struct LaneLevel {
-  Int resolution, vertex_base, edge_base, interior_base;
+  Int resolution, vertex_base, corners;
 };
 
+// Of levels with R > 1 alone.
+struct LaneBases {
+  Int edge, interior;
+};
+
+constexpr uint32_t kLevelWords = sizeof(GateSurfaceLevel) / sizeof(uint32_t);
+
 GATELIGHT_INLINE LaneLevel lane_level(const GateSurfaceLevel& level) {
-  return {broadcast_int(level.resolution), broadcast_int(level.vertex_base), broadcast_int(level.edge_base),
-          broadcast_int(level.interior_base)};
+  return {broadcast_int(level.resolution), broadcast_int(level.vertex_base), broadcast_int(level.corners)};
 }
 
-GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int index) {
-  const uint32_t* words = &levels->resolution;
-  const Int at = mul_int(index, broadcast_int(4));
-  return {gather_int(words, at), gather_int(words, add_int(at, broadcast_int(1))),
-          gather_int(words, add_int(at, broadcast_int(2))), gather_int(words, add_int(at, broadcast_int(3)))};
+GATELIGHT_INLINE LaneBases lane_bases(const GateSurfaceLevel& level) {
+  return {broadcast_int(level.edge_base), broadcast_int(level.interior_base)};
+}
+
+// `at`: of the level's first word.
+GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int at) {
+  return {gather_int(&levels->resolution, at), gather_int(&levels->vertex_base, at),
+          gather_int(&levels->corners, at)};
+}
+
+GATELIGHT_INLINE LaneBases gather_bases(const GateSurfaceLevel* levels, Int at) {
+  return {gather_int(&levels->edge_base, at), gather_int(&levels->interior_base, at)};
 }
 
 // Address of the node with integer barycentrics a (gate_tables.h). `edges` are read for nodes on edges only.
-GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const Int (&corners)[3],
-                                 const Int (&edges)[3], Int triangle) {
+GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const LaneBases& bases,
+                                 const Int (&corners)[3], const Int (&edges)[3], Int triangle) {
   const Int none = broadcast_int(0);
   const Int one = broadcast_int(1);
   const Int last = sub_int(level.resolution, one);  // R - 1
@@ -109,13 +122,13 @@ GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, cons
   const Int steps2 = select_int(swap2, a[1], a[0]);
   const Int steps = select_int(at_zero[0], steps0, select_int(at_zero[1], steps1, steps2));
   const Int number = select_int(at_zero[0], edges[0], select_int(at_zero[1], edges[1], edges[2]));
-  const Int edge_node = add_int(level.edge_base, add_int(mul_int(number, last), sub_int(steps, one)));
+  const Int edge_node = add_int(bases.edge, add_int(mul_int(number, last), sub_int(steps, one)));
 
   const Int row = sub_int(a[0], one);
   const Int interior_count = half_int(mul_int(last, sub_int(last, one)));
   const Int before = half_int(mul_int(row, sub_int(add_int(last, last), a[0])));
   const Int interior_node = add_int(
-      level.interior_base, add_int(mul_int(triangle, interior_count), add_int(before, sub_int(a[1], one))));
+      bases.interior, add_int(mul_int(triangle, interior_count), add_int(before, sub_int(a[1], one))));
   return select_int(vertex, node, select_int(edge, edge_node, interior_node));
 }
 
@@ -165,24 +178,30 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
     for (Float& x : b) x = mul(x, inverse);
 
     Int corners[3], edges[3];
+    Int corners_read = broadcast_int(0);  // word of the row that `corners` begin with
+    Int row = broadcast_int(0);
     bool edges_read = false;
     alignas(64) uint32_t places[kLanes];
+    const auto read_row = [&](Int first, Int(&three)[3]) __attribute__((always_inline)) {
+      store_int(places, add_int(row, first));
+      Int columns[4];
+      load_columns4(
+          [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i]; }, columns);
+      for (uint32_t c = 0; c < 3; ++c) three[c] = columns[c];
+    };
     for (uint32_t l = 0; l < e.levels; ++l) {
-      const LaneLevel level =
-          same ? lane_level(e.surface_levels[leader * e.levels + l])
-               : gather_level(e.surface_levels,
-                              add_int(mul_int(surface, broadcast_int(e.levels)), broadcast_int(l)));
+      const GateSurfaceLevel& one = e.surface_levels[leader * e.levels + l];
+      const Int at = mul_int(add_int(mul_int(surface, broadcast_int(e.levels)), broadcast_int(l)),
+                             broadcast_int(kLevelWords));
+      const LaneLevel level = same ? lane_level(one) : gather_level(e.surface_levels, at);
       if (l == 0) {
         stored = both(stored, less_unsigned(broadcast_int(0), level.resolution));
         triangle = select_int(stored, triangle, broadcast_int(0));
-        if (e.per_triangle == 0) {
-          const Int at = select_int(stored, add_int(offset, mul_int(triangle, stride)), broadcast_int(0));
-          store_int(places, at);
-          Int columns[4];
-          load_columns4(
-              [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i]; }, columns);
-          for (uint32_t c = 0; c < 3; ++c) corners[c] = columns[c];
-        }
+        row = select_int(stored, add_int(offset, mul_int(triangle, stride)), broadcast_int(0));
+      }
+      if (e.per_triangle == 0 && (l == 0 || !all(equal_int(level.corners, corners_read)))) {
+        read_row(level.corners, corners);
+        corners_read = level.corners;
       }
       // Where all have R = 1 the nodes are the corners.
       if (e.per_triangle == 0 && all(equal_int(level.resolution, broadcast_int(1)))) {
@@ -194,16 +213,14 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
         continue;
       }
       if (e.per_triangle == 0 && !edges_read) {
-        Int columns[4];
-        load_columns4(
-            [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i] + 2; }, columns);
-        for (uint32_t c = 0; c < 3; ++c) edges[c] = columns[c + 1];
+        read_row(broadcast_int(kTopologyEdges), edges);
         edges_read = true;
       }
+      const LaneBases bases = same ? lane_bases(one) : gather_bases(e.surface_levels, at);
       const VirtualTriangle t = virtual_triangle(b, level.resolution);
       for (uint32_t n = 0; n < 3; ++n) {
         const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
-                                             : shared_node(t.node[n], level, corners, edges, triangle);
+                                             : shared_node(t.node[n], level, bases, corners, edges, triangle);
         const Float weight = mul(valid, t.weight[n]);
         store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
         store(weights + (3 * l + n) * kTile + s, select(stored, weight, zero()));
@@ -292,8 +309,10 @@ GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints&
     const uint32_t surface = point_surfaces[i], triangle = point_triangles[i];
     if (surface >= surface_count) continue;
     const GateSurface& s = surfaces[surface];
-    if (triangle < s.triangle_count)
-      prefetch_far(topology + s.topology_offset + uint64_t{triangle} * s.topology_stride);
+    if (triangle >= s.triangle_count) continue;
+    const uint32_t* row = topology + s.topology_offset + uint64_t{triangle} * s.topology_stride;
+    prefetch_far(row);
+    if (s.topology_stride > 6) prefetch_far(row + s.topology_stride - 1);
   }
 }
 

@@ -21,91 +21,158 @@ const SurfaceInstance& instance_of(const PlanScene& scene, std::size_t stored) {
   return scene.surfaces.instances[scene.stored[stored]];
 }
 
-std::span<const std::uint32_t> levels(const PlanScene& scene, const InstancePlan& plan) {
-  return {plan.resolutions.data(), scene.options.stack.size()};
+std::uint32_t mesh_of(const PlanScene& scene, std::size_t stored) {
+  return instance_of(scene, stored).mesh;
+}
+
+std::span<const LevelPlan> levels(const PlanScene& scene, const InstancePlan& plan) {
+  return {plan.data(), scene.options.stack.size()};
 }
 
 bool has_edges(const PlanScene& scene, const InstancePlan& plan) {
-  return std::ranges::any_of(levels(scene, plan), [](std::uint32_t r) { return r > 1; });
+  return std::ranges::any_of(levels(scene, plan), [](const LevelPlan& l) { return l.resolution > 1; });
 }
 
-/// Of all levels and sides, without edges that are not known yet.
-std::uint64_t count_nodes(const PlanScene& scene, std::size_t stored, const InstancePlan& plan) {
-  const std::uint32_t mesh = instance_of(scene, stored).mesh;
+/// Of all sides, without edges that are not known yet.
+std::uint64_t count_nodes(const PlanScene& scene, std::size_t stored, const LevelPlan& level) {
+  const std::uint32_t mesh = mesh_of(scene, stored);
   const std::uint64_t triangles = scene.surfaces.meshes[mesh].triangles.size();
-  std::uint64_t nodes = 0;
-  for (const std::uint32_t r : levels(scene, plan))
-    nodes += scene.options.storage == NodeStorage::per_triangle
-                 ? triangles * nodes_per_triangle(r)
-                 : plan.vertex_nodes + std::uint64_t{scene.meshes[mesh].edge_count} * nodes_per_edge(r) +
-                       triangles * nodes_per_interior(r);
+  const std::uint64_t nodes =
+      scene.options.storage == NodeStorage::per_triangle
+          ? triangles * nodes_per_triangle(level.resolution)
+          : level.corner_nodes +
+                std::uint64_t{scene.meshes[mesh].edge_count} * nodes_per_edge(level.resolution) +
+                triangles * nodes_per_interior(level.resolution);
   return nodes * side_count(instance_of(scene, stored).sides);
+}
+
+/// Levels of a stored instance that may be clustered, all with the same clusters.
+struct Clusterable {
+  std::size_t stored = 0;
+  std::uint32_t levels = 0;  ///< mask
+  std::uint32_t first() const { return static_cast<std::uint32_t>(std::countr_zero(levels)); }
+  bool has(std::size_t level) const { return (levels >> level & 1u) != 0; }
+};
+
+void set_clusters(const Clusterable& levels, std::uint64_t clusters, LayoutPlan& plan) {
+  InstancePlan& instance = plan.instances[levels.stored];
+  for (std::size_t l = 0; l < instance.size(); ++l) {
+    if (!levels.has(l)) continue;
+    instance[l].corner_nodes = clusters;
+    instance[l].clustered = true;
+    instance[l].first_alike = levels.first();
+  }
 }
 
 /// Applies `add` to the mesh of each listed instance, once a mesh.
 template <class Add>
 void add_to_meshes(PlanScene& scene, std::span<const std::size_t> stored, const Add& add) {
   std::vector<std::uint32_t> numbers;
-  for (const std::size_t s : stored) numbers.push_back(instance_of(scene, s).mesh);
+  for (const std::size_t s : stored) numbers.push_back(mesh_of(scene, s));
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   tbb::parallel_for(std::size_t{0}, numbers.size(),
                     [&](std::size_t i) { add(scene.meshes[numbers[i]], scene.surfaces.meshes[numbers[i]]); });
 }
 
-/// Each instance by itself. False when there are more than `limit` nodes with the `nodes` counted so far.
-bool cluster_instances(PlanScene& scene, std::span<const std::size_t> stored, std::uint64_t limit,
+/// Each instance by itself. False when there are more than `limit` nodes with those counted so far.
+bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clusterable, std::uint64_t limit,
                        LayoutPlan& plan) {
   const std::uint64_t counted = plan.node_count;
   std::atomic<std::uint64_t> nodes = counted;
   std::atomic<bool> over = false;
-  tbb::parallel_for(std::size_t{0}, stored.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, clusterable.size(), [&](std::size_t i) {
     if (over) return;
-    InstancePlan& instance = plan.instances[stored[i]];
-    const std::uint64_t per_cluster =
-        scene.options.stack.size() * side_count(instance_of(scene, stored[i]).sides);
+    const Clusterable& levels = clusterable[i];
+    const std::uint32_t sides = side_count(instance_of(scene, levels.stored).sides);
+    const std::uint64_t per_cluster = std::uint64_t{sides} * std::popcount(levels.levels);
+    const std::uint64_t vertices = scene.meshes[mesh_of(scene, levels.stored)].vertices.size();
     // As many clusters as vertices bring nothing.
-    const std::uint64_t most = std::min(instance.vertex_nodes - 1, (limit - counted) / per_cluster);
-    const ClusterInstance clustered = cluster_instance(scene, stored[i]);
-    if (const auto count = count_clusters({&clustered, 1}, cluster_grid(plan.density), most)) {
-      instance.vertex_nodes = *count;
-      instance.clustered = true;
-    }
-    const std::uint64_t added = instance.vertex_nodes * per_cluster;
+    const std::uint64_t most = std::min(vertices - 1, (limit - counted) / per_cluster);
+    const ClusterInstance instance = cluster_instance(scene, levels.stored);
+    const auto count =
+        count_clusters({&instance, 1}, cluster_grid(scene, plan.density, levels.first()), most);
+    if (count) set_clusters(levels, *count, plan);
+    const std::uint64_t added = count.value_or(vertices) * per_cluster;
     if (nodes.fetch_add(added) + added > limit) over = true;
   });
   plan.node_count = nodes;
   return !over;
 }
 
-bool cluster_scene(PlanScene& scene, std::span<const std::size_t> stored, std::uint64_t limit,
+bool cluster_scene(const PlanScene& scene, std::span<const Clusterable> clusterable, std::uint64_t limit,
                    LayoutPlan& plan) {
-  std::vector<ClusterInstance> instances;
-  for (const std::size_t s : stored) {
-    plan.instances[s].clustered = true;
-    plan.scene_sides |= static_cast<std::uint32_t>(instance_of(scene, s).sides);
-    instances.push_back(cluster_instance(scene, s));
+  for (std::size_t l = 0; l < scene.options.stack.size(); ++l) {
+    SceneLevelPlan& level = plan.scene_levels[l];
+    std::vector<ClusterInstance> instances;
+    std::size_t first = l;
+    for (const Clusterable& levels : clusterable) {
+      if (!levels.has(l)) continue;
+      first = levels.first();
+      level.sides |= static_cast<std::uint32_t>(instance_of(scene, levels.stored).sides);
+      instances.push_back(cluster_instance(scene, levels.stored));
+    }
+    if (instances.empty()) continue;
+    const auto sides = static_cast<std::uint64_t>(std::popcount(level.sides));
+    const std::uint64_t most = (limit - plan.node_count) / sides;
+    const auto count = first < l ? plan.scene_levels[first].clusters
+                                 : count_clusters(instances, cluster_grid(scene, plan.density, l), most);
+    if (!count || *count > most) return false;
+    level.clusters = *count;
+    plan.node_count += *count * sides;
   }
-  if (instances.empty()) return true;
-  const std::uint64_t per_cluster = scene.options.stack.size() * std::popcount(plan.scene_sides);
-  const auto count =
-      count_clusters(instances, cluster_grid(plan.density), (limit - plan.node_count) / per_cluster);
-  if (!count) return false;
-  plan.scene_clusters = *count;
-  plan.node_count += *count * per_cluster;
+  for (const Clusterable& levels : clusterable)
+    set_clusters(levels, plan.scene_levels[levels.first()].clusters, plan);
   return true;
 }
 
-bool cluster(PlanScene& scene, std::span<const std::size_t> stored, std::uint64_t limit, LayoutPlan& plan) {
-  if (cluster_grid(plan.density).normals) add_to_meshes(scene, stored, add_normals);
-  return clusters_scene(plan.density) ? cluster_scene(scene, stored, limit, plan)
-                                      : cluster_instances(scene, stored, limit, plan);
+bool cluster(PlanScene& scene, std::span<const Clusterable> clusterable, std::uint64_t limit,
+             LayoutPlan& plan) {
+  if (plan.density.scope != ClusterScope::instance) {
+    std::vector<std::size_t> stored;
+    for (const Clusterable& levels : clusterable) stored.push_back(levels.stored);
+    add_to_meshes(scene, stored, add_normals);
+  }
+  return clusters_scene(plan.density) ? cluster_scene(scene, clusterable, limit, plan)
+                                      : cluster_instances(scene, clusterable, limit, plan);
 }
 
-/// A plan that counts the nodes of all instances but the clusterable ones.
+/// Whether two levels' clusters would be the same, in an instance where both have R = 1: their cells are, and
+/// where instances are merged the vertices are too.
+bool clusters_alike(const PlanScene& scene, const LayoutPlan& plan, std::size_t a, std::size_t b) {
+  const std::vector<std::uint32_t>& stack = scene.options.stack;
+  if (adaptive_divisor(stack[a]) != adaptive_divisor(stack[b])) return false;
+  return !clusters_scene(plan.density) || std::ranges::all_of(plan.instances, [&](const InstancePlan& i) {
+    return (i[a].resolution == 1) == (i[b].resolution == 1);
+  });
+}
+
+/// For each stored instance its levels with R = 1, those that are clustered alike together.
+std::vector<Clusterable> find_clusterable(const PlanScene& scene, const LayoutPlan& plan) {
+  const std::size_t stack = scene.options.stack.size();
+  std::array<std::uint32_t, kMaxStack> alike = {};
+  for (std::size_t a = 0; a < stack; ++a)
+    for (std::size_t b = 0; b < stack; ++b)
+      if (clusters_alike(scene, plan, a, b)) alike[a] |= 1u << b;
+  std::vector<Clusterable> result;
+  for (std::size_t s = 0; s < plan.instances.size(); ++s) {
+    if (scene.meshes[mesh_of(scene, s)].vertices.empty()) continue;
+    std::uint32_t left = 0;
+    for (std::size_t l = 0; l < stack; ++l)
+      if (plan.instances[s][l].resolution == 1) left |= 1u << l;
+    while (left != 0) {
+      const std::uint32_t levels = left & alike[static_cast<std::size_t>(std::countr_zero(left))];
+      result.push_back({s, levels});
+      left &= ~levels;
+    }
+  }
+  return result;
+}
+
+/// A plan that counts the nodes of all levels but the clusterable ones.
 struct UnclusteredPlan {
   LayoutPlan plan;
-  std::vector<std::size_t> clusterable;  ///< stored instances
+  std::vector<Clusterable> clusterable;
 };
 
 std::optional<UnclusteredPlan> plan_unclustered(PlanScene& scene, const Density& density,
@@ -118,25 +185,22 @@ std::optional<UnclusteredPlan> plan_unclustered(PlanScene& scene, const Density&
   plan.density = density;
   plan.instances.resize(scene.stored.size());
   std::vector<std::size_t> edged;
-  std::vector<std::size_t> others;
   for (std::size_t s = 0; s < scene.stored.size(); ++s) {
     InstancePlan& instance = plan.instances[s];
     const std::uint32_t adaptive =
         adaptive_resolution(options, scene.sizes[s], density.node_spacing, density.resolution_scale);
-    for (std::size_t l = 0; l < options.stack.size(); ++l)
-      instance.resolutions[l] = level_resolution(options.stack[l], adaptive);
-    if (shared) instance.vertex_nodes = scene.meshes[instance_of(scene, s).mesh].vertices.size();
-    if (has_edges(scene, instance))
-      edged.push_back(s);
-    else if (may_cluster && instance.vertex_nodes > 0)
-      result.clusterable.push_back(s);
-    else
-      others.push_back(s);
+    for (std::size_t l = 0; l < options.stack.size(); ++l) {
+      instance[l].resolution = level_resolution(options.stack[l], adaptive);
+      if (shared) instance[l].corner_nodes = scene.meshes[mesh_of(scene, s)].vertices.size();
+    }
+    if (has_edges(scene, instance)) edged.push_back(s);
   }
+  if (may_cluster) result.clusterable = find_clusterable(scene, plan);
   const auto fits = [&] {
     plan.node_count = 0;
-    for (const std::size_t s : edged) plan.node_count += count_nodes(scene, s, plan.instances[s]);
-    for (const std::size_t s : others) plan.node_count += count_nodes(scene, s, plan.instances[s]);
+    for (std::size_t s = 0; s < plan.instances.size(); ++s)
+      for (const LevelPlan& level : levels(scene, plan.instances[s]))
+        if (!may_cluster || level.resolution != 1) plan.node_count += count_nodes(scene, s, level);
     return plan.node_count <= limit;
   };
   if (!fits()) return std::nullopt;  // before the edges are looked for
@@ -157,8 +221,9 @@ bool clusters_scene(const Density& density) {
   return density.scope == ClusterScope::scene_and_normal;
 }
 
-ClusterGrid cluster_grid(const Density& density) {
-  return {0.5 * density.node_spacing, density.scope != ClusterScope::instance};
+ClusterGrid cluster_grid(const PlanScene& scene, const Density& density, std::size_t level) {
+  const double cell = 0.5 * density.node_spacing * adaptive_divisor(scene.options.stack[level]);
+  return {cell, density.scope != ClusterScope::instance};
 }
 
 ClusterInstance cluster_instance(const PlanScene& scene, std::size_t stored) {
@@ -207,8 +272,9 @@ bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit) {
   auto unclustered = plan_unclustered(scene, density, limit);
   if (!unclustered) return false;
   std::uint64_t most = unclustered->plan.node_count;
-  for (const std::size_t s : unclustered->clusterable)
-    most += count_nodes(scene, s, unclustered->plan.instances[s]);
+  for (const Clusterable& levels : unclustered->clusterable)
+    most += std::popcount(levels.levels) *
+            count_nodes(scene, levels.stored, unclustered->plan.instances[levels.stored][levels.first()]);
   return most <= limit || cluster(scene, unclustered->clusterable, limit, unclustered->plan);
 }
 

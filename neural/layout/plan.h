@@ -38,18 +38,25 @@ struct Density {
   ClusterScope scope = ClusterScope::instance_and_normal;
 };
 
-struct InstancePlan {
-  std::array<std::uint32_t, kMaxStack> resolutions = {};
-  std::uint64_t vertex_nodes = 0;  ///< a level and side, shared storage: vertices or clusters
+struct LevelPlan {
+  std::uint32_t resolution = 0;
+  std::uint64_t corner_nodes = 0;  ///< a side, shared storage: vertices or clusters
   bool clustered = false;
+  std::uint32_t first_alike = 0;  ///< clustered: the first level with the same clusters
+};
+
+using InstancePlan = std::array<LevelPlan, kMaxStack>;
+
+/// With scene_and_normal: the clusters of one level that all instances with it clustered have together.
+struct SceneLevelPlan {
+  std::uint64_t clusters = 0;  ///< a side
+  std::uint32_t sides = 0;     ///< mask of the sides that have them
 };
 
 struct LayoutPlan {
   Density density;
   std::vector<InstancePlan> instances;  ///< in the order of PlanScene::stored
-  /// With scene_and_normal: the clusters that all clustered instances have together, a level and side.
-  std::uint64_t scene_clusters = 0;
-  std::uint32_t scene_sides = 0;  ///< mask of the sides that have them
+  std::array<SceneLevelPlan, kMaxStack> scene_levels = {};
   std::uint64_t node_count = 0;
 };
 
@@ -60,7 +67,8 @@ std::optional<LayoutPlan> make_plan(PlanScene& scene, const Density& density, st
 bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit);
 
 bool clusters_scene(const Density& density);
-ClusterGrid cluster_grid(const Density& density);
+/// Of a level of the stack.
+ClusterGrid cluster_grid(const PlanScene& scene, const Density& density, std::size_t level);
 ClusterInstance cluster_instance(const PlanScene& scene, std::size_t stored);
 std::uint32_t side_count(Sides sides);
 

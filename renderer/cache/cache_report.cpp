@@ -11,21 +11,23 @@ namespace gatelight::renderer {
 namespace {
 
 /// Nodes of one level of a surface. Corners and edges are numbered without gaps.
-std::uint64_t count_nodes(const neural::GateLayout& layout, std::size_t surface, std::uint32_t resolution) {
+std::uint64_t count_nodes(const neural::GateLayout& layout, std::size_t surface,
+                          const neural::GateSurfaceLevel& level) {
   const neural::GateSurface& s = layout.surfaces[surface];
+  const std::uint32_t resolution = level.resolution;
   if (layout.storage == neural::NodeStorage::per_triangle)
     return std::uint64_t{s.triangle_count} * neural::nodes_per_triangle(resolution);
-  std::uint32_t vertices = 0;
+  std::uint32_t corners = 0;
   std::uint32_t edges = 0;
   for (std::uint32_t t = 0; t < s.triangle_count; ++t) {
     const std::uint32_t* const words =
         layout.topology.data() + s.topology_offset + std::size_t{t} * s.topology_stride;
-    for (int c = 0; c < 3; ++c) {
-      vertices = std::max(vertices, words[c] + 1);
-      if (s.topology_stride == 6) edges = std::max(edges, words[3 + c] + 1);
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      corners = std::max(corners, words[level.corners + c] + 1);
+      if (resolution > 1) edges = std::max(edges, words[neural::kTopologyEdges + c] + 1);
     }
   }
-  return vertices + std::uint64_t{edges} * neural::nodes_per_edge(resolution) +
+  return corners + std::uint64_t{edges} * neural::nodes_per_edge(resolution) +
          std::uint64_t{s.triangle_count} * neural::nodes_per_interior(resolution);
 }
 
@@ -41,9 +43,9 @@ CacheInstanceReport describe(const scene::Scene& scene, const neural::GateLayout
     const std::size_t surface = 2 * index + side;
     report.resolutions.clear();
     for (std::uint32_t level = 0; level < layout.stack; ++level) {
-      const std::uint32_t resolution = layout.levels[surface * layout.stack + level].resolution;
-      report.resolutions.push_back(resolution);
-      report.nodes += count_nodes(layout, surface, resolution);
+      const neural::GateSurfaceLevel& placed = layout.levels[surface * layout.stack + level];
+      report.resolutions.push_back(placed.resolution);
+      report.nodes += count_nodes(layout, surface, placed);
     }
   }
   return report;

@@ -41,6 +41,8 @@ struct Scene {
   }
 };
 
+using Stack = std::vector<std::uint32_t>;
+
 std::vector<GateOptions> many_options() {
   std::vector<GateOptions> all;
   for (const float spacing : {0.01f, 0.1f, 0.4f})
@@ -62,6 +64,22 @@ std::vector<GateOptions> many_options() {
   parts.node_spacing = 0.02f;
   parts.stack = {kAdaptive, adaptive_part(4), 1};
   all.push_back(parts);
+  // Levels with cells of their own; with little memory vertices of all instances share clusters.
+  GateOptions cells;
+  cells.features = 1;
+  cells.node_spacing = 0.1f;
+  for (const Stack& stack :
+       {Stack{kAdaptive, adaptive_part(4), adaptive_part(16)}, Stack{kAdaptive, 1, adaptive_part(3)}})
+    for (const std::uint64_t budget : {0, 20000, 700}) {
+      cells.stack = stack;
+      cells.memory_budget = budget;
+      all.push_back(cells);
+    }
+  cells.stack = {1, adaptive_part(8), kAdaptive, 2};
+  for (const std::uint64_t budget : {0, 368000}) {
+    cells.memory_budget = budget;
+    all.push_back(cells);
+  }
   return all;
 }
 
@@ -128,26 +146,13 @@ TEST(GateLayout, EveryNodeBelongsToAStoredSurfaceAndNoTwoPlacesToOne) {
   const Scene scene;
   for (const GateOptions& options : many_options()) {
     const GateLayout layout = build_gate_layout(scene.surfaces, options);
-    std::vector<char> reached(layout.node_count, 0);
-    for (std::uint32_t s = 0; s < layout.surfaces.size(); ++s)
-      for (std::uint32_t l = 0; l < layout.stack; ++l) {
-        const std::uint32_t r = layout.levels[s * layout.stack + l].resolution;
-        if (r == 0) continue;
-        for (std::uint32_t t = 0; t < layout.surfaces[s].triangle_count; ++t)
-          for (std::uint32_t i = 0; i <= r; ++i)
-            for (std::uint32_t j = 0; i + j <= r; ++j) {
-              const std::uint32_t node = node_index(layout, s, l, t, {i, j, r - i - j});
-              ASSERT_LT(node, layout.node_count);
-              reached[node] = 1;
-            }
-      }
-    EXPECT_EQ(std::ranges::count(reached, 1), layout.node_count);
+    testing::expect_all_nodes_reached(layout);
     const GateLayoutReport& report = layout.report;
     EXPECT_EQ(report.vertex_nodes + report.edge_nodes + report.interior_nodes + report.cluster_nodes +
                   report.triangle_nodes,
               layout.node_count);
     EXPECT_EQ(report.topology_bytes, 4 * layout.topology.size());
-    EXPECT_EQ(report.table_bytes, 16 * (layout.surfaces.size() + layout.levels.size()));
+    EXPECT_EQ(report.table_bytes, 16 * layout.surfaces.size() + 20 * layout.levels.size());
     EXPECT_EQ(std::accumulate(report.resolution_histogram.begin(), report.resolution_histogram.end(), 0u),
               6u);
   }

@@ -49,12 +49,17 @@ struct Scene {
 TEST(MemoryBudget, IsMetAndUsed) {
   const Scene scene;
   GateOptions options;
-  for (std::uint64_t budget = 3000; budget < 100 * kMegabyte; budget = budget * 3 / 2) {
-    options.memory_budget = budget;
-    const GateLayout layout = build_gate_layout(scene.surfaces, options);
-    EXPECT_LE(testing::feature_bytes(layout, options), budget);
-    if (budget > 100000) {
-      EXPECT_GE(testing::feature_bytes(layout, options), 0.5 * budget);
+  for (const auto& stack : {std::vector<std::uint32_t>{kAdaptive, 1},
+                            {kAdaptive, adaptive_part(4), adaptive_part(16)},
+                            {1, adaptive_part(64)}}) {
+    options.stack = stack;
+    for (std::uint64_t budget = 3000; budget < 100 * kMegabyte; budget *= 3) {
+      options.memory_budget = budget;
+      const GateLayout layout = build_gate_layout(scene.surfaces, options);
+      EXPECT_LE(testing::feature_bytes(layout, options), budget);
+      if (budget > 100000 && stack[0] == kAdaptive) {
+        EXPECT_GE(testing::feature_bytes(layout, options), 0.5 * budget);
+      }
     }
   }
 }
@@ -157,6 +162,32 @@ TEST(MemoryBudget, ManyInstancesLoseFirstTheNormalThenTheirOwnClusters) {
   EXPECT_EQ(nodes_per_side(600), 4u);
 }
 
+TEST(MemoryBudget, LevelsOfAllInstancesHaveClustersOfTheirOwn) {
+  // Beside the spheres floors that are large enough for R > 1: the adaptive level of the spheres and the
+  // constant one of all have the same cells, but not the same vertices.
+  const Mesh mesh = testing::sphere(8, 0.5f);
+  const Mesh floor = testing::grid(1, 1000);
+  SurfaceLayout scene = many_instances(mesh, 1000);
+  scene.meshes.push_back(testing::view(floor));
+  scene.instances.push_back({1, testing::translation(0, 0, -1)});
+  scene.instances.push_back({1, testing::translation(0, 0, 101)});
+  for (SurfaceInstance& instance : scene.instances) instance.sides = Sides::both;
+  GateOptions options;
+  options.stack = {kAdaptive, 1, adaptive_part(4)};
+  for (const std::uint64_t nodes : {400, 1000, 2500}) {
+    options.memory_budget = nodes * options.features * options.bytes_per_feature;
+    const GateLayout layout = build_gate_layout(scene, options);
+    EXPECT_LE(layout.node_count, nodes);
+    EXPECT_GE(layout.node_count, 0.7 * nodes);
+    const GateSurfaceLevel* const sphere = layout.levels.data();
+    const GateSurfaceLevel* const back = layout.levels.data() + 3 * 2001;  // of the floor below
+    EXPECT_EQ(sphere[0].resolution, 1u);
+    EXPECT_GT(back[0].resolution, 1u);
+    EXPECT_EQ(back[1].vertex_base, layout.levels[3 * 1 + 1].vertex_base);  // of the first sphere's back
+    testing::expect_all_nodes_reached(layout);
+  }
+}
+
 TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
   const Mesh mesh = testing::sphere(8, 0.5f);
   const SurfaceLayout scene = many_instances(mesh, 40000);
@@ -175,7 +206,7 @@ TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
 
 TEST(MemoryBudget, TheLeastPossibleIsNamedAndAccepted) {
   const Scene scene;
-  std::vector<GateOptions> all(7);
+  std::vector<GateOptions> all(8);
   all[0].cluster = false;
   all[1].storage = NodeStorage::per_triangle;
   all[2].rule = ResolutionRule::paper;
@@ -184,6 +215,7 @@ TEST(MemoryBudget, TheLeastPossibleIsNamedAndAccepted) {
   all[4].storage = NodeStorage::per_triangle;
   all[5].stack = {kAdaptive, 4};
   all[6] = {};  // clusters: a node for each normal, side and level
+  all[7].stack = {kAdaptive, adaptive_part(4), 4, adaptive_part(16)};
   for (GateOptions options : all) {
     const std::uint64_t least = least_bytes(scene.surfaces, options);
     ASSERT_GT(least, 0u);

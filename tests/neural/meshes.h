@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "neural/gate_layout.h"
+#include "neural/mesh_colors.h"
 #include "neural/random.h"
 
 namespace gatelight::neural::testing {
@@ -128,9 +129,27 @@ inline void expect_same_tables(const GateLayout& a, const GateLayout& b) {
     EXPECT_EQ(surface(a.surfaces[s]), surface(b.surfaces[s]));
   ASSERT_EQ(a.levels.size(), b.levels.size());
   const auto level = [](const GateSurfaceLevel& l) {
-    return std::array{l.resolution, l.vertex_base, l.edge_base, l.interior_base};
+    return std::array{l.resolution, l.vertex_base, l.edge_base, l.interior_base, l.corners};
   };
   for (std::size_t l = 0; l < a.levels.size(); ++l) EXPECT_EQ(level(a.levels[l]), level(b.levels[l]));
+}
+
+/// That the nodes of all triangles are all nodes there are.
+inline void expect_all_nodes_reached(const GateLayout& layout) {
+  std::vector<char> reached(layout.node_count, 0);
+  for (std::uint32_t s = 0; s < layout.surfaces.size(); ++s)
+    for (std::uint32_t l = 0; l < layout.stack; ++l) {
+      const std::uint32_t r = layout.levels[s * layout.stack + l].resolution;
+      if (r == 0) continue;
+      for (std::uint32_t t = 0; t < layout.surfaces[s].triangle_count; ++t)
+        for (std::uint32_t i = 0; i <= r; ++i)
+          for (std::uint32_t j = 0; i + j <= r; ++j) {
+            const std::uint32_t node = node_index(layout, s, l, t, {i, j, r - i - j});
+            ASSERT_LT(node, layout.node_count);
+            reached[node] = 1;
+          }
+    }
+  EXPECT_EQ(std::ranges::count(reached, 1), layout.node_count);
 }
 
 /// Uniform in [0,1), in double precision.

@@ -212,6 +212,16 @@ inline std::vector<std::pair<std::string, ModelConfig>> all_model_configs() {
       for (const std::uint32_t r : stack) name += r == kAdaptive ? "_a" : fmt::format("_{}", r);
       add(name, c);
     }
+  const std::vector<std::vector<std::uint32_t>> parts = {{kAdaptive, adaptive_part(4), adaptive_part(16)},
+                                                         {adaptive_part(3), 1, kAdaptive, adaptive_part(64)},
+                                                         {adaptive_part(64), 3}};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const std::uint32_t features : {2u, 8u}) {
+      ModelConfig c = gate;
+      c.gate.stack = parts[i];
+      c.gate.features = features;
+      add(fmt::format("gate_L{}_cells_{}", features, i), c);
+    }
   ModelConfig finest = nao;
   finest.gate.stack = {kMaxResolution};
   add("gate_L2_stack_64", finest);
