@@ -25,6 +25,9 @@ struct SurfaceInstance {
   std::uint32_t mesh = 0;
   std::array<float, 12> object_to_world = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};  ///< 3x4, column-major
   Sides sides = Sides::front;
+  /// Multiplies the node spacing (rule `uniform`) and the clusters' cells: 2 for a surface that may be half
+  /// as fine. Positive and finite.
+  float spacing_scale = 1.0f;
 };
 
 struct SurfaceLayout {

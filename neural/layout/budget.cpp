@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "neural/errors.h"
 
@@ -39,6 +40,14 @@ double coordinate_bound(const PlanScene& scene) {
         greatest, std::ranges::max(transform_point(transform, mesh_bounds[surfaces.instances[i].mesh])));
   }
   return greatest;
+}
+
+/// The least and the greatest scale of the node spacing.
+std::pair<float, float> scale_bounds(const PlanScene& scene) {
+  if (scene.stored.empty()) return {1.0f, 1.0f};
+  const auto scale = [&](std::uint32_t i) { return scene.surfaces.instances[i].spacing_scale; };
+  const auto [least, greatest] = std::ranges::minmax_element(scene.stored, {}, scale);
+  return {scale(*least), scale(*greatest)};
 }
 
 /// Between a value that gives a layout that fits and one that does not: one that fits beside one that does
@@ -79,9 +88,10 @@ Density solve_spacing(PlanScene& scene, std::uint64_t limit) {
   // At the coarsest spacing all lies in the cell at the origin, and all resolutions are 1. Powers of two: the
   // search is the same for a scene scaled by one.
   const double bound = coordinate_bound(scene);
+  const auto [least_scale, greatest_scale] = scale_bounds(scene);
   const int exponent = bound > 0.0 ? std::ilogb(bound) + 4 : 0;
-  const float coarsest = power_of_two(exponent);
-  const float finest = power_of_two(exponent - 64);
+  const float coarsest = power_of_two(exponent - std::ilogb(least_scale));
+  const float finest = power_of_two(exponent - 64 - std::ilogb(greatest_scale));
   Density density{.resolution_scale = scene.options.resolution_scale};
   const auto fits = [&](float spacing) {
     density.node_spacing = spacing;

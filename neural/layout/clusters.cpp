@@ -39,16 +39,20 @@ std::uint64_t facing(const Double3& normal) {
 class ClusterKeys {
  public:
   ClusterKeys(const ClusterInstance& instance, const ClusterGrid& grid)
-      : instance_(instance), grid_(grid), normals_to_world_(cofactors(instance.object_to_world)) {}
+      : instance_(instance),
+        cell_(grid.cell * instance.cell_scale),
+        normals_(grid.normals),
+        scale_key_(mix_bits(std::bit_cast<std::uint64_t>(instance.cell_scale))),
+        normals_to_world_(cofactors(instance.object_to_world)) {}
 
   std::uint64_t operator()(std::size_t vertex) const {
     const MeshTopology& topology = *instance_.topology;
     const Double3 position = transform_point(instance_.object_to_world,
                                              to_double(instance_.mesh->positions[topology.vertices[vertex]]));
-    std::uint64_t key = 0;
-    if (grid_.normals) key = mix_bits(facing(transform_vector(normals_to_world_, topology.normals[vertex])));
+    std::uint64_t key = scale_key_;
+    if (normals_) key = mix_bits(key ^ facing(transform_vector(normals_to_world_, topology.normals[vertex])));
     for (const double coordinate : position) {
-      const double cell = std::floor(coordinate / grid_.cell + kGridShift);
+      const double cell = std::floor(coordinate / cell_ + kGridShift);
       key = mix_bits(key ^ std::bit_cast<std::uint64_t>(cell + 0.0));  // -0 becomes 0
     }
     return key == 0 ? 1 : key;
@@ -56,7 +60,9 @@ class ClusterKeys {
 
  private:
   const ClusterInstance& instance_;
-  const ClusterGrid& grid_;
+  double cell_;
+  bool normals_;
+  std::uint64_t scale_key_;
   Transform normals_to_world_;
 };
 

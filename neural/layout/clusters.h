@@ -14,7 +14,7 @@
 namespace gatelight::neural {
 
 struct ClusterGrid {
-  double cell = 0.0;    ///< world units
+  double cell = 0.0;    ///< world units, where an instance's scale is 1
   bool normals = true;  ///< keep apart by dominant axis and sign of the vertex's world-space normal
 };
 
@@ -23,6 +23,7 @@ struct ClusterInstance {
   const SurfaceMesh* mesh = nullptr;
   const MeshTopology* topology = nullptr;
   Transform object_to_world;
+  double cell_scale = 1.0;  ///< cells of instances with different scales have no vertices in common
 };
 
 /// The clusters of the instances' vertices, vertices of different instances merged too. Nothing where they

@@ -94,6 +94,9 @@ void check_surfaces(const SurfaceLayout& surfaces) {
     if (static_cast<std::uint8_t>(instance.sides) > static_cast<std::uint8_t>(Sides::both))
       throw BadConfiguration(
           fmt::format("instance {}: sides {}, expected 0 to 3", i, static_cast<int>(instance.sides)));
+    if (!(instance.spacing_scale > 0.0f) || !std::isfinite(instance.spacing_scale))
+      throw BadConfiguration(fmt::format("instance {}: spacing scale {}, expected a positive number", i,
+                                         instance.spacing_scale));
     if (instance.sides == Sides::none) continue;
     for (const float x : instance.object_to_world)
       if (!std::isfinite(x))

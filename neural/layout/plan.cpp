@@ -29,6 +29,10 @@ std::span<const LevelPlan> levels(const PlanScene& scene, const InstancePlan& pl
   return {plan.data(), scene.options.stack.size()};
 }
 
+double node_spacing(const PlanScene& scene, const Density& density, std::size_t stored) {
+  return double{density.node_spacing} * instance_of(scene, stored).spacing_scale;
+}
+
 bool has_edges(const PlanScene& scene, const InstancePlan& plan) {
   return std::ranges::any_of(levels(scene, plan), [](const LevelPlan& l) { return l.resolution > 1; });
 }
@@ -187,8 +191,8 @@ std::optional<UnclusteredPlan> plan_unclustered(PlanScene& scene, const Density&
   std::vector<std::size_t> edged;
   for (std::size_t s = 0; s < scene.stored.size(); ++s) {
     InstancePlan& instance = plan.instances[s];
-    const std::uint32_t adaptive =
-        adaptive_resolution(options, scene.sizes[s], density.node_spacing, density.resolution_scale);
+    const std::uint32_t adaptive = adaptive_resolution(
+        options, scene.sizes[s], node_spacing(scene, density, s), density.resolution_scale);
     for (std::size_t l = 0; l < options.stack.size(); ++l) {
       instance[l].resolution = level_resolution(options.stack[l], adaptive);
       if (shared) instance[l].corner_nodes = scene.meshes[mesh_of(scene, s)].vertices.size();
@@ -229,7 +233,7 @@ ClusterGrid cluster_grid(const PlanScene& scene, const Density& density, std::si
 ClusterInstance cluster_instance(const PlanScene& scene, std::size_t stored) {
   const SurfaceInstance& instance = instance_of(scene, stored);
   return {&scene.surfaces.meshes[instance.mesh], &scene.meshes[instance.mesh],
-          to_transform(instance.object_to_world)};
+          to_transform(instance.object_to_world), instance.spacing_scale};
 }
 
 PlanScene make_plan_scene(const SurfaceLayout& surfaces, const GateOptions& options) {

@@ -20,7 +20,7 @@ std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const Surfac
   return sizes;
 }
 
-std::uint32_t adaptive_resolution(const GateOptions& options, double size, float node_spacing,
+std::uint32_t adaptive_resolution(const GateOptions& options, double size, double node_spacing,
                                   float resolution_scale) {
   if (options.rule == ResolutionRule::fixed) return options.fixed_resolution;
   const double r = options.rule == ResolutionRule::uniform ? size / node_spacing : size * resolution_scale;

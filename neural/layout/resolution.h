@@ -16,7 +16,7 @@ namespace gatelight::neural {
 std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const SurfaceAreas> areas);
 
 /// The R of an adaptive level: rounded to nearest, 1 to max_resolution.
-std::uint32_t adaptive_resolution(const GateOptions& options, double size, float node_spacing,
+std::uint32_t adaptive_resolution(const GateOptions& options, double size, double node_spacing,
                                   float resolution_scale);
 
 /// R of a level of the stack where the rule's is `adaptive`.

@@ -142,6 +142,58 @@ TEST(GateLayout, EqualForASceneAndSpacingScaledByAPowerOfTwo) {
   }
 }
 
+TEST(GateLayout, ASpacingScaleIsTheSpacingOfItsInstance) {
+  for (GateOptions options : many_options()) {
+    if (options.rule != ResolutionRule::uniform) continue;
+    for (const float scale : {0.3f, 2.0f, 8.0f}) {
+      // A given spacing of one instance, with any scale.
+      const Scene all;
+      if (options.memory_budget == 0) {
+        for (const SurfaceInstance& instance : all.surfaces.instances) {
+          SurfaceLayout one = {all.surfaces.meshes, {instance}};
+          one.instances[0].spacing_scale = scale;
+          const GateLayout scaled = build_gate_layout(one, options);
+          one.instances[0].spacing_scale = 1;
+          GateOptions wide = options;
+          wide.node_spacing = scale * options.node_spacing;
+          testing::expect_same_tables(scaled, build_gate_layout(one, wide));
+        }
+      }
+      // One that is solved for, with powers of two, for which the search is the same.
+      if (scale < 1) continue;
+      Scene equal;
+      for (SurfaceInstance& instance : equal.surfaces.instances) instance.spacing_scale = scale;
+      const GateLayout scaled = build_gate_layout(equal.surfaces, options);
+      GateOptions wide = options;
+      wide.node_spacing = scale * options.node_spacing;
+      const GateLayout wider = build_gate_layout(all.surfaces, wide);
+      testing::expect_same_tables(scaled, wider);
+      EXPECT_EQ(scale * scaled.report.node_spacing, wider.report.node_spacing);
+    }
+  }
+}
+
+TEST(GateLayout, SpacingScalesOfOtherInstancesChangeNothing) {
+  Scene scene;
+  GateOptions options;
+  options.node_spacing = 0.2f;
+  options.stack = {kAdaptive, adaptive_part(4), 1};
+  const GateLayout before = build_gate_layout(scene.surfaces, options);
+  scene.surfaces.instances[3].spacing_scale = 0.25f;
+  const GateLayout after = build_gate_layout(scene.surfaces, options);
+  for (std::uint32_t s = 0; s < before.surfaces.size(); ++s)
+    for (std::uint32_t l = 0; l < 3; ++l) {
+      const std::uint32_t a = before.levels[3 * s + l].resolution;
+      const std::uint32_t b = after.levels[3 * s + l].resolution;
+      if (s / 2 == 3 && l < 2) {
+        EXPECT_EQ(b > a, l == 0) << s << l;
+      } else {
+        EXPECT_EQ(a, b);
+      }
+    }
+  EXPECT_GT(after.node_count, before.node_count);
+}
+
 TEST(GateLayout, EveryNodeBelongsToAStoredSurfaceAndNoTwoPlacesToOne) {
   const Scene scene;
   for (const GateOptions& options : many_options()) {
@@ -311,6 +363,11 @@ TEST(GateLayout, SurfacesThatCannotBeAreRefusedByName) {
   SurfaceLayout scene = testing::one_instance(mesh);
   scene.instances[0].object_to_world[5] = std::nanf("");
   EXPECT_THAT(message(scene), ::testing::HasSubstr("instance 0: nan in its transform"));
+  for (const float scale : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    scene = testing::one_instance(mesh);
+    scene.instances[0].spacing_scale = scale;
+    EXPECT_THAT(message(scene), ::testing::HasSubstr("instance 0: spacing scale"));
+  }
 }
 
 TEST(GateLayout, MoreThan32BitsOfNodesAreRefused) {

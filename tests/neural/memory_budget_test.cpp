@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 #include <set>
@@ -185,6 +186,24 @@ TEST(MemoryBudget, LevelsOfAllInstancesHaveClustersOfTheirOwn) {
     EXPECT_GT(back[0].resolution, 1u);
     EXPECT_EQ(back[1].vertex_base, layout.levels[3 * 1 + 1].vertex_base);  // of the first sphere's back
     testing::expect_all_nodes_reached(layout);
+  }
+}
+
+TEST(MemoryBudget, CellsOfDifferentScalesAreNotMerged) {
+  const Mesh mesh = testing::sphere(8, 0.5f);
+  SurfaceLayout scene = many_instances(mesh, 100);
+  const std::uint64_t least = least_bytes(scene, {});
+  for (std::size_t i = 0; i < 100; ++i) scene.instances[i].spacing_scale = i % 3 == 0 ? 1.0f : 4.0f;
+  EXPECT_EQ(least_bytes(scene, {}), 2 * least);
+  GateOptions options;
+  for (const std::uint64_t budget : {2 * least, 8 * least}) {
+    options.memory_budget = budget;
+    const GateLayout layout = build_gate_layout(scene, options);
+    std::array<std::set<std::uint32_t>, 2> nodes;
+    for (std::uint32_t i = 0; i < 100; ++i)
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        nodes[i % 3 == 0].insert(node_index(layout, 2 * i, 0, t, {1, 0, 0}));
+    for (const std::uint32_t node : nodes[0]) EXPECT_FALSE(nodes[1].contains(node));
   }
 }
 
