@@ -47,7 +47,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O, C c) { c.vertical_fov = 1.25f; }, "expected 1,0,0,0,1,0,0,0,1,0,0,0 fov 1.25 aspect 0"},
       {[](O, C c) { c.orthographic = true; }, "orthographic 1,0"},
       {[](O o, C) { o.cache.train_steps = 7; }, "train-steps: file auto, expected 7"},
-      {[](O o, C) { o.cache.batch = 7; }, "batch: file 16384, expected 7"},
+      {[](O o, C) { o.cache.batch = 7; }, "batch: file 4096, expected 7"},
       {[](O o, C) { o.cache.self_training.attenuation = 0.5f; }, "self-training-attenuation: file 1"},
       {[](O o, C) {
          o.cache.gate.stack = {0, 2};
