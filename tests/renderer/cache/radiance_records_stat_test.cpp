@@ -132,6 +132,35 @@ TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveWhatIsHeldOfThem) {
   expect_mean(first_targets(viewed, options, 4000), expected);
 }
 
+TEST_P(RadianceRecordsStat, TintedPanesWeighWhatIsHeldBehindThem) {
+  // A floor, a pane that reflects nothing, and a ceiling that shines: L(ceiling) = e + a tint L(floor),
+  // L(floor) = b tint L(ceiling).
+  constexpr double kTint = 0.5, kShine = 1.5, kCeiling = 0.8, kFloor = 0.6;
+  SceneBuilder builder;
+  const auto plane = [&](const scene::Material& material, float y) {
+    builder.quad(builder.material(material), Vec3(-500, y, 500), Vec3(1000, 0, 0), Vec3(0, 0, -1000));
+  };
+  plane(SceneBuilder::lambert(Color::Constant(0.6f)), 0.0f);
+  scene::Material pane;
+  pane.metallic = pane.roughness = pane.specular = 0.0f;
+  pane.transmission = 1.0f;
+  pane.base_color = Color(0.25f, 0.5f, 0.75f);
+  pane.double_sided = true;
+  plane(pane, 1.0f);
+  scene::Material ceiling = SceneBuilder::lambert(Color::Constant(0.8f), Color::Constant(1.5f));
+  ceiling.double_sided = true;
+  plane(ceiling, 2.0f);
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0.5f, 0), Vec3(0, 0, 0)));
+  const ViewedWorld viewed(builder);
+  RenderOptions options = deep();
+  options.cache.holds = GetParam();
+  options.direct = DirectLight::bsdf;  // so wide a lamp so near is beyond the digits of light samples
+  const double light = kShine / (1.0 - kCeiling * kFloor * kTint * kTint);
+  // What misses the ends of the planes is 1e-4 of all.
+  expect_mean(first_targets(viewed, options, 8000),
+              kTint * (GetParam() == CacheHolds::indirect ? light - kShine : light), 1e-4);
+}
+
 TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
