@@ -14,6 +14,7 @@ using neural::SafetensorsReader;
 using neural::TensorType;
 
 constexpr const char* kSides = "renderer.sides";
+constexpr const char* kSpacingScales = "renderer.spacing_scales";
 constexpr const char* kScales = "renderer.scales";
 constexpr const char* kTriangleCounts = "renderer.triangle_counts";
 constexpr const char* kSteps = "renderer.steps";
@@ -23,6 +24,16 @@ template <class Values>
 void read_all(SafetensorsReader& file, const char* name, TensorType type, Values&& values) {
   const std::uint64_t shape[] = {values.size()};
   file.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+}
+
+template <class Values>
+void read_positive(SafetensorsReader& file, const char* name, Values& values) {
+  read_all(file, name, TensorType::f32, values);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] > 0.0f) || !std::isfinite(values[i]))
+      file.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number above zero", name, i,
+                            values[i]));
+  }
 }
 
 }  // namespace
@@ -35,12 +46,14 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
   for (const neural::Sides sides : setup.sides) content.sides.push_back(static_cast<std::uint32_t>(sides));
   content.scales = {setup.node_spacing, setup.target_scale, setup.records_per_path,
                     setup.records_per_short_path};
+  content.spacing_scales = setup.spacing_scales;
   content.losses = {state.loss_average, state.loss_least};
   content.tensors = content.model.tensors;
   const auto add = [&](const char* name, TensorType type, const auto& values) {
     content.tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
   };
   add(kSides, TensorType::u32, content.sides);
+  add(kSpacingScales, TensorType::f32, content.spacing_scales);
   add(kScales, TensorType::f32, content.scales);
   add(kTriangleCounts, TensorType::u32, state.triangle_counts);
   add(kSteps, TensorType::u64, std::span(&state.steps, 1));
@@ -58,13 +71,10 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
       file.fail(fmt::format("tensor '{}': element {} is {}, expected 0 to 3", kSides, i, sides[i]));
     setup.sides.push_back(static_cast<neural::Sides>(sides[i]));
   }
+  setup.spacing_scales.resize(sides.size());
+  read_positive(file, kSpacingScales, setup.spacing_scales);
   std::array<float, 4> scales{};
-  read_all(file, kScales, TensorType::f32, scales);
-  for (std::size_t i = 0; i < scales.size(); ++i) {
-    if (!(scales[i] > 0.0f) || !std::isfinite(scales[i]))
-      file.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number above zero", kScales, i,
-                            scales[i]));
-  }
+  read_positive(file, kScales, scales);
   std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
       std::tuple_cat(scales);
   return setup;
@@ -88,7 +98,7 @@ CacheState read_cache_state(SafetensorsReader& file, const neural::Model& model,
   }
   state.loss_average = losses[0];
   state.loss_least = losses[1];
-  others.insert({kSides, kScales, kTriangleCounts, kSteps, kLosses});
+  others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps, kLosses});
   neural::expect_no_other_tensors(file, model, options, std::move(others));
   return state;
 }

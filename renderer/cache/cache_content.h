@@ -15,6 +15,7 @@ namespace gatelight::renderer {
 struct CacheContent {
   neural::ModelContent model;
   std::vector<std::uint32_t> sides;
+  std::vector<float> spacing_scales;
   std::array<float, 4> scales{};
   std::array<double, 2> losses{};
   std::vector<neural::TensorView> tensors;  ///< the model's and the renderer's

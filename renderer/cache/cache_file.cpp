@@ -14,7 +14,7 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr const char* kFormat = "gatelight-scene-cache";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr const char* kMeaning = "cache";
 
 NamedTexts texts_of(const CacheMeaning& meaning) {

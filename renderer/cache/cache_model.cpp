@@ -61,7 +61,7 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
   config.mlp.outputs = options.integrator == Integrator::nao ? 1 : 3;
   if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
   const WeldedMeshes meshes(world.scene);
-  const neural::SurfaceLayout surfaces = meshes.layout(world.scene, setup.sides);
+  const neural::SurfaceLayout surfaces = meshes.layout(world.scene, setup.sides, setup.spacing_scales);
   const bool chosen =
       !cache.node_spacing && cache.memory_bytes == 0 && config.gate.rule == neural::ResolutionRule::uniform;
   if (chosen) {

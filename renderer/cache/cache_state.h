@@ -14,6 +14,7 @@ namespace gatelight::renderer {
 struct CacheSetup {
   std::vector<neural::Sides> sides;     ///< which sides of each instance of the scene have storage
   float node_spacing = 0.1f;            ///< metres; of the layout before any memory budget
+  std::vector<float> spacing_scales;    ///< for each instance: its node spacing over that one
   float target_scale = 1.0f;            ///< targets are radiance times this
   float records_per_path = 1.0f;        ///< of paths that run to their end
   float records_per_short_path = 1.0f;  ///< of paths that end in the cache's answer

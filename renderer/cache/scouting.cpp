@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/surface_layout.h"
 
@@ -18,26 +19,8 @@ constexpr std::size_t kCameraRays = std::size_t{1} << 17;
 /// No step of training has this number: its random numbers are the scouts' own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the extent of what is met (see CACHE.md, "What a scene requires").
-constexpr float kSpacing = 0.015f;
-
-/// Diagonal of the box between the 2nd and the 98th percentile of each coordinate: a glimpse of a far hill
-/// does not count.
-float extent_of(std::span<const neural::Float3> positions) {
-  if (positions.empty()) return 0.0f;
-  float squared = 0.0f;
-  std::vector<float> values(positions.size());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < positions.size(); ++i) values[i] = positions[i][axis];
-    const auto low = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 50);
-    const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / 50);
-    std::nth_element(values.begin(), low, values.end());
-    const float least = *low;
-    std::nth_element(values.begin(), high, values.end());
-    squared += (*high - least) * (*high - least);
-  }
-  return std::sqrt(squared);
-}
+/// Node spacing over the height of the picture (see CACHE.md, "What a scene requires").
+constexpr float kSpacing = 0.045f;
 
 /// Records that each path left.
 std::vector<int> records_by_path(const PathBatch& batch) {
@@ -87,7 +70,8 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
   const StoredSurfaces everything;
   const TrainingPoints points(world, camera, region, plain, {}, nullptr);
   std::vector<std::uint8_t> met(scene.instances.size(), 0);
-  std::vector<neural::Float3> positions;
+  PixelWidths widths(scene.instances.size());
+  std::size_t hits = 0;
 
   TrainingStarts starts;
   points.choose(kStep, kCameraRays, true, {}, starts, report.rays);
@@ -96,9 +80,9 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     if (!hit) continue;
     const Ray& ray = starts.starts[i].sample.camera_ray.ray;
     mark(met, seen_surface(scene, hit, ray.direction));
-    if (options.integrator != Integrator::nao) continue;
-    const Vec3 p = ray.origin + hit.t * ray.direction;
-    positions.push_back({p.x(), p.y(), p.z()});
+    const RayCone& cone = starts.starts[i].sample.camera_ray.cone;
+    widths.add_seen(hit.instance, cone.width + cone.spread * hit.t);
+    ++hits;
   }
   report.paths = starts.starts.size();
 
@@ -130,8 +114,13 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
       if (!std::isfinite(l)) continue;
       luminances.push_back(l);
     }
-    const std::span<const neural::Float3> where = batch.records.batch().positions;
-    positions.assign(where.begin(), where.end());
+    const CameraRay eye =
+        camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
+    for (std::size_t i = 0; i < batch.records.size(); ++i) {
+      const Eigen::Map<const Vec3> position(batch.records.batch().positions[i].data());
+      const float distance = (position - eye.ray.origin).norm();
+      widths.add_met(batch.records.surface(i) / 2, eye.cone.width + eye.cone.spread * distance);
+    }
     const double traced = static_cast<double>(batch.paths_traced);
     const double full = static_cast<double>(options.cache.self_training.full_fraction);
     report.setup.records_per_path = records_per_path(all, traced);
@@ -140,7 +129,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     if (mean > 0.0) report.setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
   } else {
     report.setup.records_per_path =
-        records_per_path(static_cast<double>(positions.size()), static_cast<double>(starts.starts.size()));
+        records_per_path(static_cast<double>(hits), static_cast<double>(starts.starts.size()));
     report.setup.records_per_short_path = report.setup.records_per_path;
   }
 
@@ -155,10 +144,15 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     }
     report.setup.sides[i] = static_cast<neural::Sides>(sides);
   }
-  const float extent = extent_of(positions);
-  const float fallback = scene.bounds.isEmpty() ? 1.0f : scene.bounds.diagonal().norm();
-  report.setup.node_spacing =
-      options.cache.node_spacing.value_or(kSpacing * (extent > 0.0f ? extent : std::max(fallback, 1e-30f)));
+  NodeSpacing found = widths.spacing(kSpacing * static_cast<float>(options.height));
+  if (options.cache.node_spacing) {
+    // One for all, as it was asked for.
+    found.spacing = *options.cache.node_spacing;
+    std::fill(found.scales.begin(), found.scales.end(), 1.0f);
+  }
+  const float diagonal = scene.bounds.isEmpty() ? 1.0f : scene.bounds.diagonal().norm();
+  report.setup.node_spacing = found.spacing > 0.0f ? found.spacing : std::max(0.01f * diagonal, 1e-30f);
+  report.setup.spacing_scales = std::move(found.scales);
   return report;
 }
 

@@ -19,8 +19,8 @@ WeldedMeshes::WeldedMeshes(const scene::Scene& scene)
   });
 }
 
-neural::SurfaceLayout WeldedMeshes::layout(const scene::Scene& scene,
-                                           std::vector<neural::Sides> sides) const {
+neural::SurfaceLayout WeldedMeshes::layout(const scene::Scene& scene, const std::vector<neural::Sides>& sides,
+                                           const std::vector<float>& spacing_scales) const {
   neural::SurfaceLayout layout;
   for (std::size_t i = 0; i < positions_.size(); ++i) layout.meshes.push_back({positions_[i], triangles_[i]});
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -30,6 +30,7 @@ neural::SurfaceLayout WeldedMeshes::layout(const scene::Scene& scene,
     const Eigen::Matrix<float, 3, 4> matrix = instance.transform.matrix().topRows<3>();
     Eigen::Map<Eigen::Matrix<float, 3, 4>>(surface.object_to_world.data()) = matrix;
     surface.sides = sides[i];
+    if (!spacing_scales.empty()) surface.spacing_scale = spacing_scales[i];
   }
   return layout;
 }

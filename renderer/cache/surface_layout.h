@@ -1,6 +1,7 @@
 #pragma once
 // A scene as the cache knows it: welded meshes, instances, and the sides that have storage.
 
+#include <span>
 #include <vector>
 
 #include "neural/surface_layout.h"
@@ -13,8 +14,9 @@ namespace gatelight::renderer {
 class WeldedMeshes {
  public:
   explicit WeldedMeshes(const scene::Scene& scene);
-  /// sides: one for each instance.
-  neural::SurfaceLayout layout(const scene::Scene& scene, std::vector<neural::Sides> sides) const;
+  /// One of the sides and scales of the node spacing for each instance; no scales: 1.
+  neural::SurfaceLayout layout(const scene::Scene& scene, const std::vector<neural::Sides>& sides,
+                               const std::vector<float>& spacing_scales = {}) const;
 
  private:
   std::vector<std::vector<neural::Float3>> positions_;

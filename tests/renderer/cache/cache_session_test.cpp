@@ -77,6 +77,7 @@ void expect_same_state(const CacheState& a, const CacheState& b) {
   EXPECT_EQ(a.loss_average, b.loss_average);
   EXPECT_EQ(a.loss_least, b.loss_least);
   EXPECT_EQ(a.setup.sides, b.setup.sides);
+  EXPECT_EQ(a.setup.spacing_scales, b.setup.spacing_scales);
   EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
   EXPECT_EQ(a.setup.node_spacing, b.setup.node_spacing);
 }

@@ -131,6 +131,7 @@ TEST(Scouting, AScaledSceneIsTheSameSceneWithLongerMetres) {
     const CacheSetup a = scouted(small, options).setup;
     const CacheSetup b = scouted(large, options).setup;
     EXPECT_EQ(a.sides, b.sides);
+    EXPECT_EQ(a.spacing_scales, b.spacing_scales);
     EXPECT_NEAR(b.node_spacing / a.node_spacing, 1000.0f, 2.0f);
     EXPECT_NEAR(b.target_scale / a.target_scale, 1.0f, 0.01f);
   }
@@ -140,7 +141,31 @@ TEST(Scouting, AGivenSpacingIsKept) {
   const ViewedWorld viewed(rooms());
   RenderOptions options = nrc();
   options.cache.node_spacing = 0.37f;
-  EXPECT_EQ(scouted(viewed, options).setup.node_spacing, 0.37f);
+  const CacheSetup setup = scouted(viewed, options).setup;
+  EXPECT_EQ(setup.node_spacing, 0.37f);
+  EXPECT_EQ(setup.spacing_scales, std::vector<float>(setup.sides.size(), 1.0f)) << "everywhere";
+}
+
+TEST(Scouting, NodesLieCloserOnWhatIsNearTheCamera) {
+  SceneBuilder builder;
+  const int grey = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.box(grey, Vec3(-50, -50, -50), Vec3(50, 50, 50), true);
+  builder.box(grey, Vec3(-0.1f, -0.1f, -0.1f), Vec3(0.1f, 0.1f, 0.1f));
+  builder.box(grey, Vec3(-0.1f, -0.1f, 3.0f), Vec3(0.1f, 0.1f, 3.2f));  // behind the camera
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0.2f, 1), Vec3::Zero()));
+  const ViewedWorld viewed(builder, {.constant = Color::Ones()});
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    RenderOptions options;
+    options.integrator = integrator;
+    options.width = viewed.region.width();
+    options.height = viewed.region.height();
+    const CacheSetup setup = scouted(viewed, options).setup;
+    ASSERT_EQ(setup.spacing_scales.size(), 3u);
+    EXPECT_EQ(setup.spacing_scales[0], 1.0f) << "most of the picture";
+    EXPECT_LE(setup.spacing_scales[1], 0x1p-5f) << "a metre away instead of fifty or so";
+    EXPECT_GT(setup.node_spacing, 0.5f);
+    EXPECT_LT(setup.node_spacing, 10.0f);
+  }
 }
 
 TEST(Scouting, OptionsOfTrainingPointsDoNotMatter) {
@@ -153,6 +178,7 @@ TEST(Scouting, OptionsOfTrainingPointsDoNotMatter) {
   const CacheSetup other = scouted(viewed, options).setup;
   EXPECT_EQ(plain.sides, other.sides);
   EXPECT_EQ(plain.node_spacing, other.node_spacing);
+  EXPECT_EQ(plain.spacing_scales, other.spacing_scales);
   EXPECT_EQ(plain.target_scale, other.target_scale);
 }
 
@@ -168,6 +194,7 @@ TEST(Scouting, AnyNumberOfThreadsGivesTheSameBits) {
         const CacheSetup s = scouted(viewed, options).setup;
         for (const float f : {s.node_spacing, s.target_scale, s.records_per_path, s.records_per_short_path})
           bits[i].push_back(std::bit_cast<std::uint32_t>(f));
+        for (const float f : s.spacing_scales) bits[i].push_back(std::bit_cast<std::uint32_t>(f));
         for (const Sides side : s.sides) bits[i].push_back(static_cast<std::uint32_t>(side));
       });
     }
