@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kMaxResolution = 64;
 inline constexpr std::uint32_t kMaxStack = 4;
 
 enum class ResolutionRule : std::uint8_t {
-  uniform,  ///< R = round(sqrt(A) / spacing), A the area-weighted mean area of the instance's triangles
-            ///< (world)
+  uniform,  ///< R = round(sqrt(A) / spacing), A the area-weighted mean area of the instance's triangles,
+            ///< but at most 16 times their mean (world)
   paper,    ///< R = clamp(32 A^2 scale, 1, 32), A the mean area over the greatest mean area of all instances
   fixed,    ///< the same R everywhere
 };

@@ -5,13 +5,22 @@
 
 namespace gatelight::neural {
 
+namespace {
+
+/// An instance of triangles large and small has no more than eight nodes in a square of the spacing: small
+/// triangles would have as many as the large ones need.
+constexpr double kGreatestWaste = 16.0;
+
+}  // namespace
+
 std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const SurfaceAreas> areas) {
   std::vector<double> sizes(areas.size(), 0.0);
   double greatest = 0.0;
   for (const SurfaceAreas& a : areas) greatest = std::max(greatest, a.mean());
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (areas[i].count == 0) continue;
-    if (rule == ResolutionRule::uniform) sizes[i] = std::sqrt(areas[i].weighted_mean());
+    if (rule == ResolutionRule::uniform)
+      sizes[i] = std::sqrt(std::min(areas[i].weighted_mean(), kGreatestWaste * areas[i].mean()));
     if (rule == ResolutionRule::paper) {
       const double normalized = areas[i].mean() / greatest;
       sizes[i] = 32.0 * normalized * normalized;  // clamp(32 A^2 scale, 1, 32)

@@ -69,7 +69,7 @@ struct CacheOptions {
   neural::HashGridOptions hash_grid;
   std::uint64_t memory_bytes = 0;  ///< of all features, for either encoding; 0: none
   neural::MlpOptions mlp;
-  neural::TrainingOptions training = {.adam = {.learning_rate = 2e-2f}};
+  neural::TrainingOptions training = {.adam = {.learning_rate = 1e-2f}};
   /// Inputs beside the position. None: those that the scene and the encoding need.
   std::optional<bool> direction_input, normal_input, albedo_input;
   bool scout = true;  ///< storage only for the sides of instances that scouting paths meet

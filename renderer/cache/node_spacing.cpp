@@ -10,6 +10,10 @@ namespace {
 constexpr int kLeastExponent = -7;
 constexpr int kGreatestExponent = 3;
 
+/// Of an instance for each point on it. A hundred times what its visible part takes when all of it is seen:
+/// it keeps a facade beside the camera from taking all memory.
+constexpr double kMostNodes = 3.0;
+
 /// Zero of nothing.
 float median(std::vector<float> values) {
   if (values.empty()) return 0.0f;
@@ -24,7 +28,7 @@ bool is_width(float width) {
 
 }  // namespace
 
-NodeSpacing PixelWidths::spacing(float pixels) const {
+NodeSpacing PixelWidths::spacing(float pixels, std::span<const double> areas) const {
   std::vector<float> all;
   for (const auto* widths : {&seen_, &met_}) {
     for (const std::vector<float>& of_instance : *widths)
@@ -37,9 +41,13 @@ NodeSpacing PixelWidths::spacing(float pixels) const {
   if (!is_width(typical)) return result;
   result.spacing = pixels * typical;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
-    const float width = median(seen_[i].empty() ? met_[i] : seen_[i]);
+    const std::vector<float>& points = seen_[i].empty() ? met_[i] : seen_[i];
+    const float width = median(points);
     if (!is_width(width)) continue;
-    const auto exponent = static_cast<int>(std::lround(std::log2(width / typical)));
+    const double least = std::sqrt(areas[i] / (kMostNodes * static_cast<double>(points.size())));
+    const double wanted = std::max(static_cast<double>(pixels * width), least);
+    const auto exponent =
+        static_cast<int>(std::lround(std::log2(wanted / static_cast<double>(result.spacing))));
     result.scales[i] = std::ldexp(1.0f, std::clamp(exponent, kLeastExponent, kGreatestExponent));
   }
   return result;

@@ -2,6 +2,7 @@
 // How far apart the nodes of each instance shall lie: as far as the camera's picture of it allows.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/options.h"
@@ -25,9 +26,11 @@ class PixelWidths {
   void add_met(std::uint32_t instance, float pixel_width) { met_[instance].push_back(pixel_width); }
 
   /// The spacing of an instance is `pixels` times the median width of a pixel on it, rounded to the overall
-  /// one times a power of two: paths begin as often in each of its patches wherever it stands. Instances that
-  /// nothing met have a scale of 1. Zero where no width is above zero.
-  NodeSpacing spacing(float pixels) const;
+  /// one times a power of two: paths begin as often in each of its patches wherever it stands. It is greater
+  /// where little of a large instance is near: its area (square metres, one for each instance) holds no more
+  /// than a few nodes for each point that was added. Instances that nothing met have a scale of 1. Zero where
+  /// no width is above zero.
+  NodeSpacing spacing(float pixels, std::span<const double> areas) const;
 
  private:
   std::vector<std::vector<float>> seen_, met_;

@@ -19,8 +19,25 @@ constexpr std::size_t kCameraRays = std::size_t{1} << 17;
 /// No step of training has this number: its random numbers are the scouts' own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the height of the picture (see CACHE.md, "What a scene requires").
-constexpr float kSpacing = 0.045f;
+/// Node spacing over the height of the picture (see CACHE.md, "What a scene requires"). Occlusion is sharper
+/// than light, and cheaper to learn.
+constexpr float kRadianceSpacing = 0.03f;
+constexpr float kOcclusionSpacing = 0.015f;
+
+/// Square metres of each instance.
+std::vector<double> areas_of(const scene::Scene& scene) {
+  std::vector<double> areas(scene.instances.size(), 0.0);
+  tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t i) {
+    const scene::Instance& instance = scene.instances[i];
+    const std::size_t triangles = scene.mesh_of(instance).triangles.size();
+    for (std::size_t t = 0; t < triangles; ++t) {
+      const std::array<Vec3, 3> p = scene::world_triangle(scene, instance, static_cast<std::uint32_t>(t));
+      const double area = 0.5 * static_cast<double>((p[1] - p[0]).cross(p[2] - p[0]).norm());
+      if (std::isfinite(area)) areas[i] += area;
+    }
+  });
+  return areas;
+}
 
 /// Records that each path left.
 std::vector<int> records_by_path(const PathBatch& batch) {
@@ -144,7 +161,8 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     }
     report.setup.sides[i] = static_cast<neural::Sides>(sides);
   }
-  NodeSpacing found = widths.spacing(kSpacing * static_cast<float>(options.height));
+  const float of_height = options.integrator == Integrator::nao ? kOcclusionSpacing : kRadianceSpacing;
+  NodeSpacing found = widths.spacing(of_height * static_cast<float>(options.height), areas_of(scene));
   if (options.cache.node_spacing) {
     // One for all, as it was asked for.
     found.spacing = *options.cache.node_spacing;

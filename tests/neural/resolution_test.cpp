@@ -59,6 +59,15 @@ TEST(Resolution, UniformWeighsTrianglesByTheirArea) {
   EXPECT_EQ(uniform_resolution(mesh, 0.1f, kIdentity), std::round(std::sqrt(18.0 / 8.0) / 0.1));
 }
 
+TEST(Resolution, ALargeTriangleDoesNotMakeManySmallOnesFine) {
+  std::vector<float> legs(999, 0.2f);  // areas 0.02
+  legs.push_back(20.0f);               // and 200
+  const double mean = (999 * 0.02 + 200.0) / 1000.0;
+  EXPECT_EQ(uniform_resolution(triangles_with_legs(legs), 0.1f, kIdentity),
+            std::round(std::sqrt(16.0 * mean) / 0.1))
+      << "not that of the large triangle, which is 32";
+}
+
 TEST(Resolution, AreasAreThoseInWorldSpaceMirroredOrNot) {
   const Mesh mesh = triangles_with_legs({2, 1});
   const std::uint32_t once = uniform_resolution(mesh, 0.2f, kIdentity);
