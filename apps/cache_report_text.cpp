@@ -85,7 +85,7 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
     text += row("node spacing", fmt::format("{:.4g} m", s.node_spacing));
     text += row("R of instances", histogram_text(s));
   }
-  text += row("scouted in", fmt::format("{:.2f} s", s.scout_seconds));
+  text += row("scouted in", fmt::format("{:.2f} s, set up in {:.2f} s", s.scout_seconds, s.setup_seconds));
   if (!report.instances.empty()) text += instances_text(report.instances);
   return text;
 }
@@ -104,7 +104,7 @@ ordered_json cache_report_json(const CacheReport& report, const renderer::Render
                           "node_spacing", "records_per_path"}) {
     json[key] = all[key];
   }
-  json["seconds"] = {{"scout", s.scout_seconds}};
+  json["seconds"] = {{"scout", s.scout_seconds}, {"setup", s.setup_seconds}};
   json["instances"] = ordered_json::array();
   for (const CacheInstanceReport& instance : report.instances) {
     json["instances"].push_back({{"name", instance.name},

@@ -61,8 +61,10 @@ std::string cache_summary(const CacheStatistics& s) {
                                  format_count(static_cast<double>(s.records)),
                                  format_count(static_cast<double>(s.training_paths)), s.loss);
   text += fmt::format(
-      "          scout {:.2f}, train {:.2f} (trace {:.2f}, query {:.2f}, step {:.2f}) seconds\n",
-      s.scout_seconds, s.train_seconds, s.train_trace_seconds, s.train_query_seconds, s.train_step_seconds);
+      "          scout {:.2f}, setup {:.2f}, train {:.2f} (trace {:.2f}, query {:.2f}, step {:.2f}) "
+      "seconds\n",
+      s.scout_seconds, s.setup_seconds, s.train_seconds, s.train_trace_seconds, s.train_query_seconds,
+      s.train_step_seconds);
   text += fmt::format("answers   {}, {} clamped at zero; trace {:.2f}, query {:.2f} seconds\n",
                       format_count(static_cast<double>(s.queries)),
                       format_count(static_cast<double>(s.negative_answers)), s.render_trace_seconds,

@@ -29,6 +29,7 @@ ordered_json seconds(const RunReport& report, bool with_cache) {
   ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
   if (with_cache) {
     json["scout"] = cache.scout_seconds;
+    json["setup"] = cache.setup_seconds;
     json["train"] = cache.train_seconds;
     json["train_trace"] = cache.train_trace_seconds;
     json["train_query"] = cache.train_query_seconds;

@@ -103,62 +103,103 @@ TopologyTables place_tables(const PlanScene& scene, const LayoutPlan& plan) {
   return result;
 }
 
-/// Writes the three words that begin at `first` of each row: words_of(triangle).
-template <class WordsOf>
-void write_threes(const TopologyTable& table, std::size_t triangles, std::uint32_t first,
-                  std::uint32_t* topology, const WordsOf& words_of) {
+/// Three words of a row: a triangle's vertices or edges, or what `numbers` has for them.
+struct RowPart {
+  std::uint32_t first = 0;
+  const TriangleCorners* corners = nullptr;
+  std::vector<std::uint32_t> numbers;
+};
+
+void write_rows(const TopologyTable& table, std::size_t triangles, std::span<const RowPart> parts,
+                std::uint32_t* topology) {
   const std::uint32_t stride = table.stride();
   tbb::parallel_for(Range(0, triangles, 16384), [&](const Range& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t) {
-      const TriangleCorners words = words_of(t);
-      std::copy_n(words.begin(), 3, topology + table.offset + t * stride + first);
+      std::uint32_t* const row = topology + table.offset + t * stride;
+      for (const RowPart& part : parts)
+        for (std::uint32_t c = 0; c < 3; ++c) {
+          const std::uint32_t word = part.corners[t][c];
+          row[part.first + c] = part.numbers.empty() ? word : part.numbers[word];
+        }
     }
   });
 }
 
-/// The numbers of the clusters of each level that all instances share.
-std::array<std::optional<ClusterTable>, kMaxStack> number_scene(const PlanScene& scene,
-                                                                const LayoutPlan& plan) {
-  std::array<std::optional<ClusterTable>, kMaxStack> numbers;
+/// With clusters over the scene: for each level the numbers of each stored instance's vertices.
+using SceneNumbers = std::array<std::vector<std::vector<std::uint32_t>>, kMaxStack>;
+
+SceneNumbers number_scene(const PlanScene& scene, const LayoutPlan& plan) {
+  SceneNumbers numbers;
   for (std::uint32_t l = 0; l < kMaxStack; ++l) {
     std::vector<ClusterInstance> instances;
+    std::vector<std::size_t> stored;
     for (std::size_t s = 0; s < plan.instances.size(); ++s) {
       const LevelPlan& level = plan.instances[s][l];
-      if (level.clustered && level.first_alike == l) instances.push_back(cluster_instance(scene, s));
+      if (!level.clustered || level.first_alike != l) continue;
+      instances.push_back(cluster_instance(scene, s));
+      stored.push_back(s);
     }
-    if (!instances.empty())
-      numbers[l] =
-          number_clusters(instances, cluster_grid(scene, plan.density, l), plan.scene_levels[l].clusters);
+    if (instances.empty()) continue;
+    auto of_instances =
+        number_clusters(instances, cluster_grid(scene, plan.density, l), plan.scene_levels[l].clusters);
+    numbers[l].resize(plan.instances.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) numbers[l][stored[i]] = std::move(of_instances[i]);
   }
   return numbers;
+}
+
+/// The numbers of an instance's clusters; `parts` end with those of its clustered levels.
+void number_instance(const PlanScene& scene, const LayoutPlan& plan, const TopologyTable& table,
+                     std::span<RowPart> parts) {
+  parts = parts.last(table.clustered.size());
+  ClusterInstance instance = cluster_instance(scene, table.stored);
+  const auto number = [&](std::size_t i) {
+    const std::size_t l = table.clustered[i];
+    return std::move(number_clusters({&instance, 1}, cluster_grid(scene, plan.density, l),
+                                     plan.instances[table.stored][l].corner_nodes)[0]);
+  };
+  const auto divisor = [&](std::size_t l) { return adaptive_divisor(scene.options.stack[l]); };
+  const std::size_t finest =
+      static_cast<std::size_t>(std::ranges::find(table.clustered, 1u, divisor) - table.clustered.begin());
+  std::vector<std::uint32_t> first_vertices;  // of the finest clusters: coarser ones are made of these
+  if (finest < parts.size()) {
+    parts[finest].numbers = number(finest);
+    for (std::uint32_t v = 0; v < parts[finest].numbers.size(); ++v)
+      if (parts[finest].numbers[v] == first_vertices.size()) first_vertices.push_back(v);
+    instance.among = first_vertices;
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i == finest) continue;
+    parts[i].numbers = number(i);
+    if (finest == parts.size()) continue;
+    std::vector<std::uint32_t> of_vertices(parts[finest].numbers.size());
+    tbb::parallel_for(Range(0, of_vertices.size(), 16384), [&](const Range& range) {
+      for (std::size_t v = range.begin(); v != range.end(); ++v)
+        of_vertices[v] = parts[i].numbers[parts[finest].numbers[v]];
+    });
+    parts[i].numbers = std::move(of_vertices);
+  }
 }
 
 void write_topology(const PlanScene& scene, const LayoutPlan& plan, const TopologyTables& tables,
                     std::vector<std::uint32_t>& topology) {
   topology.resize(tables.words == 0 ? 0 : std::size_t{tables.words} + kTopologyPadding, 0);
-  std::array<std::optional<ClusterTable>, kMaxStack> scene_numbers;
-  if (clusters_scene(plan.density)) scene_numbers = number_scene(scene, plan);
+  const bool merged = clusters_scene(plan.density);
+  SceneNumbers scene_numbers;
+  if (merged) scene_numbers = number_scene(scene, plan);
   tbb::parallel_for(std::size_t{0}, tables.tables.size(), [&](std::size_t i) {
     const TopologyTable& table = tables.tables[i];
     const MeshTopology& mesh = scene.meshes[table.mesh];
-    const auto write = [&](std::uint32_t first, const auto& words_of) {
-      write_threes(table, mesh.triangles.size(), first, topology.data(), words_of);
-    };
-    if (table.vertices) write(0, [&](std::size_t t) { return mesh.triangles[t]; });
-    if (table.edges) write(kTopologyEdges, [&](std::size_t t) { return mesh.triangle_edges[t]; });
+    std::vector<RowPart> parts;
+    if (table.vertices) parts.push_back({0, mesh.triangles.data(), {}});
+    if (table.edges) parts.push_back({kTopologyEdges, mesh.triangle_edges.data(), {}});
     for (const std::size_t l : table.clustered) {
-      const ClusterInstance instance = cluster_instance(scene, table.stored);
-      const ClusterGrid grid = cluster_grid(scene, plan.density, l);
-      const LevelPlan& level = plan.instances[table.stored][l];
-      const std::vector<std::uint32_t> numbers =
-          scene_numbers[l]
-              ? vertex_clusters(instance, grid, *scene_numbers[l])
-              : vertex_clusters(instance, grid, number_clusters({&instance, 1}, grid, level.corner_nodes));
-      write(table.corners(level), [&](std::size_t t) -> TriangleCorners {
-        const auto [a, b, c] = mesh.triangles[t];
-        return {numbers[a], numbers[b], numbers[c]};
-      });
+      const std::uint32_t first = table.corners(plan.instances[table.stored][l]);
+      parts.push_back({first, mesh.triangles.data(),
+                       merged ? std::move(scene_numbers[l][table.stored]) : std::vector<std::uint32_t>()});
     }
+    if (!merged && !table.clustered.empty()) number_instance(scene, plan, table, parts);
+    write_rows(table, mesh.triangles.size(), parts, topology.data());
   });
 }
 

@@ -63,6 +63,9 @@ struct GateOptions {
   /// normal is too much, they lose first the normal; then those of different instances are merged, by cell
   /// and normal. A budget that cannot be met throws BadConfiguration with the least bytes possible.
   std::uint64_t memory_budget = 0;
+  /// The budget is only a cap: node_spacing (or resolution_scale) is used as it is where it fits and solved
+  /// for where it does not. Where nothing fits it is used all the same.
+  bool budget_is_cap = false;
   std::uint32_t bytes_per_feature = 4;  ///< for the budget: 4 or 2
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "neural/model.h"
+#include "neural/random.h"
 #include "neural/training_options.h"
 
 namespace gatelight::neural {
@@ -29,5 +30,12 @@ inline constexpr float kFeatureRange = 1e-4f;
 /// all from `options.seed` and the parameter's index alone. With fp16 features the values are ones that fp16
 /// holds.
 ModelState initial_state(const Model& model, const TrainingOptions& options);
+
+/// Its parts, for backends that make their arrays themselves: the feature float with index i, and the
+/// network's parameters, in their order. Averages equal parameters, all else is zero.
+inline float initial_feature(const TrainingOptions& options, std::uint64_t i) {
+  return kFeatureRange * (2.0f * uniform_float(options.seed, i) - 1.0f);
+}
+std::vector<float> initial_network(const Model& model, const TrainingOptions& options);
 
 }  // namespace gatelight::neural

@@ -50,6 +50,7 @@ void each_sum(Visit&& visit, Statistics&... s) {
   visit("cache-unstored", s.cache.unstored...);
   visit("cache-training-paths", s.cache.training_paths...);
   visit("cache-scout-seconds", s.cache.scout_seconds...);
+  visit("cache-setup-seconds", s.cache.setup_seconds...);
   visit("cache-train-seconds", s.cache.train_seconds...);
   visit("cache-train-trace-seconds", s.cache.train_trace_seconds...);
   visit("cache-train-query-seconds", s.cache.train_query_seconds...);

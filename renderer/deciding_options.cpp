@@ -98,7 +98,7 @@ void add_training(NamedTexts& texts, const neural::TrainingOptions& options) {
 
 void add_gate(NamedTexts& texts, const neural::GateOptions& options) {
   const auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution,
-               storage, cluster, memory_budget, bytes_per_feature] = options;
+               storage, cluster, memory_budget, budget_is_cap, bytes_per_feature] = options;
   const NamedTexts more = {{"features", text(features)},
                            {"stack", stack_text(stack)},
                            {"resolution", word(rule)},
@@ -109,6 +109,7 @@ void add_gate(NamedTexts& texts, const neural::GateOptions& options) {
                            {"storage", word(storage)},
                            {"cluster", text(cluster)},
                            {"gate-memory", text(memory_budget)},
+                           {"gate-memory-is-cap", text(budget_is_cap)},
                            {"gate-bytes", text(bytes_per_feature)}};
   texts.insert(texts.end(), more.begin(), more.end());
 }

@@ -41,7 +41,8 @@ struct CacheStatistics {
   std::uint64_t touched_nodes = 0;  ///< by the last step
   double loss = 0.0;                ///< mean of the last steps (at most 16)
   double scout_seconds = 0.0;
-  double train_seconds = 0.0;  ///< the whole phase, scouting not counted
+  double setup_seconds = 0.0;  ///< from scouting to the first step: layout, parameters, optimiser
+  double train_seconds = 0.0;  ///< the whole phase, scouting and setting up not counted
   double train_trace_seconds = 0.0;
   double train_query_seconds = 0.0;  ///< answers at the ends of training paths
   double train_step_seconds = 0.0;

@@ -46,11 +46,19 @@ class CpuBackend final : public Backend {
         layout_(model_->parameters),
         encoder_(kernel_encoder(*model_)),
         features_(*model_, options_),
+        network_(initial_network(*model_, options_)),
+        network_average_(network_),
+        network_m_(network_.size(), 0.0f),
+        network_v_(network_.size(), 0.0f),
         raw_(*model_),
         averaged_(*model_),
         adam_table_(adam_table(options_)),
         buckets_(make_buckets(layout_.node_count)) {
-    import_state(initial_state(*model_, options_));
+    if (options_.count_triangles || options_.feature_step == FeatureStep::per_triangle) {
+      triangle_steps_.assign(model_->gate.triangle_count, 0);
+      triangle_stamps_.assign(triangle_steps_.size(), 0);
+    }
+    raw_.pack(network_);
   }
 
   StepStatistics train(const TrainingBatch& batch) override;
@@ -404,7 +412,7 @@ std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, co
                                           std::optional<Isa> isa) {
   check_options(*model, options);
   // Kernels gather the words of levels with signed 32-bit offsets.
-  constexpr std::size_t kMostLevels = std::size_t{1} << 29;
+  constexpr std::size_t kMostLevels = (std::size_t{1} << 31) / (sizeof(GateSurfaceLevel) / 4);
   if (model->gate.levels.size() >= kMostLevels)
     throw BadConfiguration(fmt::format("levels of all surfaces: {}, expected less than {}",
                                        model->gate.levels.size(), kMostLevels));

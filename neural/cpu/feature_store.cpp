@@ -58,6 +58,23 @@ FeatureStore::FeatureStore(const Model& model, const TrainingOptions& options)
     separate_steps_ = HugeBuffer<std::uint32_t>(floats_of(1));
     steps_ = separate_steps_.data();
   }
+
+  for_range(nodes_, [&](std::uint64_t node) {
+    for (std::uint32_t f = 0; f < features_; ++f) {
+      const float feature = initial_feature(options, node * features_ + f);
+      const std::uint64_t to = node * feature_stride_ + f;
+      if (!half) {
+        floats_[to] = feature;
+        if (averages_ != nullptr) averages_[to] = feature;
+        continue;
+      }
+      const std::uint16_t rounded = float_to_half(feature);
+      halves_[to] = rounded;
+      if (average_halves_ != nullptr) average_halves_[to] = rounded;
+      if (floats) floats_[to] = half_to_float(rounded);
+      if (averages_ != nullptr) averages_[to] = half_to_float(rounded);
+    }
+  });
 }
 
 // One node stands in where there are none, so that lookups may read node 0.

@@ -13,6 +13,7 @@ namespace gatelight::neural::cpu {
 /// vector beside its average, the step count behind the moments. Long ones are lines of their own.
 class FeatureStore {
  public:
+  /// As in initial_state. Memory that nothing has been learned in yet is not touched.
   FeatureStore(const Model& model, const TrainingOptions& options);
 
   void set_training_view(KernelEncoder& encoder) const;

@@ -2,13 +2,14 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <utility>
 
+#include "neural/layout/cluster_table.h"
+#include "neural/layout/prefix_sum.h"
 #include "neural/random.h"
 
 namespace gatelight::neural {
@@ -34,6 +35,14 @@ std::uint64_t facing(const Double3& normal) {
   return 2 * axis + (normal[axis] < 0.0 ? 1 : 0);
 }
 
+std::size_t vertex_count(const ClusterInstance& instance) {
+  return instance.among.empty() ? instance.topology->vertices.size() : instance.among.size();
+}
+
+std::size_t vertex_number(const ClusterInstance& instance, std::size_t place) {
+  return instance.among.empty() ? place : instance.among[place];
+}
+
 /// Cells are numbers in double precision, whatever their magnitude, and stay so until they are hashed. That
 /// two keys of n have the same hash, which merges their clusters, has a probability of n^2 / 2^65.
 class ClusterKeys {
@@ -41,18 +50,23 @@ class ClusterKeys {
   ClusterKeys(const ClusterInstance& instance, const ClusterGrid& grid)
       : instance_(instance),
         cell_(grid.cell * instance.cell_scale),
+        divisor_(grid.divisor),
+        offset_(std::floor(kGridShift * grid.divisor)),
         normals_(grid.normals),
         scale_key_(mix_bits(std::bit_cast<std::uint64_t>(instance.cell_scale))),
         normals_to_world_(cofactors(instance.object_to_world)) {}
 
-  std::uint64_t operator()(std::size_t vertex) const {
+  /// Of the vertex with this number among those to cluster.
+  std::uint64_t operator()(std::size_t place) const {
     const MeshTopology& topology = *instance_.topology;
+    const std::size_t vertex = vertex_number(instance_, place);
     const Double3 position = transform_point(instance_.object_to_world,
                                              to_double(instance_.mesh->positions[topology.vertices[vertex]]));
     std::uint64_t key = scale_key_;
     if (normals_) key = mix_bits(key ^ facing(transform_vector(normals_to_world_, topology.normals[vertex])));
     for (const double coordinate : position) {
-      const double cell = std::floor(coordinate / cell_ + kGridShift);
+      double cell = std::floor(coordinate / cell_ + kGridShift);
+      if (divisor_ != 1.0) cell = std::floor((cell + offset_) / divisor_);
       key = mix_bits(key ^ std::bit_cast<std::uint64_t>(cell + 0.0));  // -0 becomes 0
     }
     return key == 0 ? 1 : key;
@@ -60,7 +74,7 @@ class ClusterKeys {
 
  private:
   const ClusterInstance& instance_;
-  double cell_;
+  double cell_, divisor_, offset_;
   bool normals_;
   std::uint64_t scale_key_;
   Transform normals_to_world_;
@@ -69,25 +83,27 @@ class ClusterKeys {
 /// The index of each instance's first vertex among all.
 std::vector<std::uint64_t> vertex_offsets(std::span<const ClusterInstance> instances) {
   std::vector<std::uint64_t> offsets(instances.size() + 1, 0);
-  for (std::size_t i = 0; i < instances.size(); ++i)
-    offsets[i + 1] = offsets[i] + instances[i].topology->vertices.size();
+  for (std::size_t i = 0; i < instances.size(); ++i) offsets[i + 1] = offsets[i] + vertex_count(instances[i]);
   return offsets;
 }
 
-/// False where the table is full or more than `limit` keys are in it.
+/// on_key(instance, vertex, place in the table), vertices counted among those of the instance to cluster.
+/// False, early, where there are more than `limit` keys.
+template <class OnKey>
 bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGrid& grid, std::uint64_t limit,
-                     ClusterTable& table, std::atomic<std::uint64_t>& count) {
-  const std::vector<std::uint64_t> offsets = vertex_offsets(instances);
+                     ClusterTable& table, std::atomic<std::uint64_t>& count, const OnKey& on_key) {
   std::atomic<bool> over = false;
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     const ClusterKeys key(instances[i], grid);
-    tbb::parallel_for(Range(0, instances[i].topology->vertices.size(), kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, vertex_count(instances[i]), kGrain), [&](const Range& range) {
       if (over.load(std::memory_order_relaxed)) return;
       std::uint64_t fresh = 0;
       for (std::size_t v = range.begin(); v != range.end(); ++v) {
-        const ClusterTable::Inserted inserted = table.insert(key(v), offsets[i] + v);
-        if (inserted == ClusterTable::Inserted::fresh) ++fresh;
-        if (inserted == ClusterTable::Inserted::full) return over.store(true, std::memory_order_relaxed);
+        const ClusterTable::Place place = table.insert(key(v));
+        if (place.inserted == ClusterTable::Inserted::fresh) ++fresh;
+        if (place.inserted == ClusterTable::Inserted::full)
+          return over.store(true, std::memory_order_relaxed);
+        on_key(i, v, place);
       }
       if (count.fetch_add(fresh) + fresh > limit) over.store(true, std::memory_order_relaxed);
     });
@@ -98,38 +114,64 @@ bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGr
 }  // namespace
 
 std::optional<std::uint64_t> count_clusters(std::span<const ClusterInstance> instances,
-                                            const ClusterGrid& grid, std::uint64_t limit) {
-  limit = std::min(limit, vertex_offsets(instances).back());
-  ClusterTable table(limit);
-  std::atomic<std::uint64_t> count = 0;
-  if (!insert_vertices(instances, grid, limit, table, count)) return std::nullopt;
-  return count;
+                                            const ClusterGrid& grid, std::uint64_t limit,
+                                            std::vector<std::uint32_t>* members) {
+  const std::uint64_t vertices = vertex_offsets(instances).back();
+  limit = std::min(limit, vertices);
+  // Clusters are few where they matter, and a small table is near.
+  for (std::uint64_t most = std::min(limit, vertices / 8 + 64);; most = std::min(limit, 4 * most)) {
+    ClusterTable table(most);
+    std::atomic<std::uint64_t> count = 0;
+    std::vector<std::uint32_t> fresh(members == nullptr ? 0 : table.size());
+    std::atomic<std::uint64_t> fresh_count = 0;
+    const auto on_key = [&](std::size_t i, std::size_t v, const ClusterTable::Place& place) {
+      if (members != nullptr && place.inserted == ClusterTable::Inserted::fresh)
+        fresh[fresh_count++] = static_cast<std::uint32_t>(vertex_number(instances[i], v));
+    };
+    if (insert_vertices(instances, grid, most, table, count, on_key)) {
+      fresh.resize(fresh_count);
+      if (members != nullptr) *members = std::move(fresh);
+      return count;
+    }
+    if (most == limit) return std::nullopt;
+  }
 }
 
-ClusterTable number_clusters(std::span<const ClusterInstance> instances, const ClusterGrid& grid,
-                             std::uint64_t count) {
+std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterInstance> instances,
+                                                        const ClusterGrid& grid, std::uint64_t count) {
+  const std::vector<std::uint64_t> offsets = vertex_offsets(instances);
   ClusterTable table(count);
+  std::vector<std::atomic<std::uint64_t>> first_vertices(table.size());  // ones' complement, 0: none
+  std::vector<std::uint64_t> slots(offsets.back());
   std::atomic<std::uint64_t> found = 0;
-  insert_vertices(instances, grid, count, table, found);
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> order;  // first vertex, slot
-  order.reserve(count);
-  for (std::size_t s = 0; s < table.slots().size(); ++s)
-    if (table.slots()[s].key != 0) order.emplace_back(table.slots()[s].value, s);
-  tbb::parallel_sort(order.begin(), order.end());
-  tbb::parallel_for(std::size_t{0}, order.size(),
-                    [&](std::size_t number) { table.slots()[order[number].second].value = number; });
-  return table;
-}
-
-std::vector<std::uint32_t> vertex_clusters(const ClusterInstance& instance, const ClusterGrid& grid,
-                                           const ClusterTable& numbers) {
-  const ClusterKeys key(instance, grid);
-  std::vector<std::uint32_t> clusters(instance.topology->vertices.size());
-  tbb::parallel_for(Range(0, clusters.size(), kGrain), [&](const Range& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v)
-      clusters[v] = static_cast<std::uint32_t>(numbers.value(key(v)));
+  insert_vertices(
+      instances, grid, count, table, found,
+      [&](std::size_t i, std::size_t v, const ClusterTable::Place& place) {
+        const std::uint64_t vertex = offsets[i] + v;
+        slots[vertex] = place.slot;
+        std::atomic<std::uint64_t>& first = first_vertices[place.slot];
+        std::uint64_t there = first.load(std::memory_order_relaxed);
+        while (~vertex > there && !first.compare_exchange_weak(there, ~vertex, std::memory_order_relaxed)) {
+        }
+      });
+  const auto first_vertex = [&](std::uint64_t vertex) {
+    return ~first_vertices[slots[vertex]].load(std::memory_order_relaxed);
+  };
+  std::vector<std::uint32_t> numbers(slots.size());
+  const Range vertices(0, numbers.size(), kGrain);
+  tbb::parallel_for(vertices, [&](const Range& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
   });
-  return clusters;
+  inclusive_prefix_sum(numbers);  // at a cluster's first vertex: its number plus one
+  std::vector<std::vector<std::uint32_t>> result(instances.size());
+  tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
+    result[i].resize(offsets[i + 1] - offsets[i]);
+    tbb::parallel_for(Range(0, result[i].size(), kGrain), [&](const Range& range) {
+      for (std::size_t v = range.begin(); v != range.end(); ++v)
+        result[i][v] = numbers[first_vertex(offsets[i] + v)] - 1;
+    });
+  });
+  return result;
 }
 
 }  // namespace gatelight::neural

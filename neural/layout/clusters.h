@@ -7,14 +7,16 @@
 #include <span>
 #include <vector>
 
-#include "neural/layout/cluster_table.h"
 #include "neural/layout/mesh_topology.h"
 #include "neural/layout/vector3.h"
 
 namespace gatelight::neural {
 
+/// The cells of a grid with a divisor are made of divisor^3 cells of the one without: what is in one cell of
+/// the finer grid is in one of the coarser.
 struct ClusterGrid {
-  double cell = 0.0;    ///< world units, where an instance's scale is 1
+  double cell = 0.0;  ///< of divisor 1, in world units, where an instance's scale is 1
+  std::uint32_t divisor = 1;
   bool normals = true;  ///< keep apart by dominant axis and sign of the vertex's world-space normal
 };
 
@@ -24,19 +26,19 @@ struct ClusterInstance {
   const MeshTopology* topology = nullptr;
   Transform object_to_world;
   double cell_scale = 1.0;  ///< cells of instances with different scales have no vertices in common
+  std::span<const std::uint32_t> among = {};  ///< the vertices to cluster; empty: all of the topology
 };
 
 /// The clusters of the instances' vertices, vertices of different instances merged too. Nothing where they
-/// are more than `limit` (found early).
+/// are more than `limit` (found early). `members` gets the number of one vertex of each cluster, any one, in
+/// any order.
 std::optional<std::uint64_t> count_clusters(std::span<const ClusterInstance> instances,
-                                            const ClusterGrid& grid, std::uint64_t limit);
+                                            const ClusterGrid& grid, std::uint64_t limit,
+                                            std::vector<std::uint32_t>* members = nullptr);
 
-/// The clusters' numbers, in the order of their first vertex; `count` is what count_clusters gave.
-ClusterTable number_clusters(std::span<const ClusterInstance> instances, const ClusterGrid& grid,
-                             std::uint64_t count);
-
-/// For each vertex of one of the instances the number of its cluster.
-std::vector<std::uint32_t> vertex_clusters(const ClusterInstance& instance, const ClusterGrid& grid,
-                                           const ClusterTable& numbers);
+/// For each vertex of each instance the number of its cluster; clusters are numbered in the order of their
+/// first vertex. `count` is what count_clusters gave.
+std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterInstance> instances,
+                                                        const ClusterGrid& grid, std::uint64_t count);
 
 }  // namespace gatelight::neural

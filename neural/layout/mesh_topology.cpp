@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kGrain = 8192;
 constexpr std::size_t kLongList = 65536;
+constexpr std::size_t kSmallMesh = 1 << 20;  // triangles that one thread sums up sooner than it sorts them
 using Range = tbb::blocked_range<std::size_t>;
 
 void add_corners(MeshTopology& topology) {
@@ -109,8 +110,16 @@ void add_edges(MeshTopology& topology) {
 
 void add_normals(MeshTopology& topology, const SurfaceMesh& mesh) {
   if (topology.normals.size() == topology.vertices.size()) return;
-  add_corners(topology);
   topology.normals.resize(topology.vertices.size());
+  if (!topology.corners && topology.triangles.size() < kSmallMesh) {
+    // The same sums in the same order as below.
+    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
+      const Double3 area = area_vector(mesh, mesh.triangles[t]);
+      for (const std::uint32_t v : topology.triangles[t]) topology.normals[v] = topology.normals[v] + area;
+    }
+    return;
+  }
+  add_corners(topology);
   tbb::parallel_for(Range(0, topology.vertices.size(), kGrain), [&](const Range& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       const VertexCorners& around = *topology.corners;

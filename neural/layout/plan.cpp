@@ -79,26 +79,48 @@ void add_to_meshes(PlanScene& scene, std::span<const std::size_t> stored, const 
                     [&](std::size_t i) { add(scene.meshes[numbers[i]], scene.surfaces.meshes[numbers[i]]); });
 }
 
+/// All of one instance.
+struct ClusterableInstance {
+  std::size_t stored = 0;
+  std::span<const Clusterable> groups;
+};
+
+std::vector<ClusterableInstance> by_instance(std::span<const Clusterable> clusterable) {
+  std::vector<ClusterableInstance> result;
+  for (std::size_t first = 0, i = 0; i < clusterable.size(); ++i)
+    if (i + 1 == clusterable.size() || clusterable[i + 1].stored != clusterable[i].stored) {
+      result.push_back({clusterable[i].stored, clusterable.subspan(first, i + 1 - first)});
+      first = i + 1;
+    }
+  return result;
+}
+
 /// Each instance by itself. False when there are more than `limit` nodes with those counted so far.
 bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clusterable, std::uint64_t limit,
                        LayoutPlan& plan) {
   const std::uint64_t counted = plan.node_count;
   std::atomic<std::uint64_t> nodes = counted;
   std::atomic<bool> over = false;
-  tbb::parallel_for(std::size_t{0}, clusterable.size(), [&](std::size_t i) {
-    if (over) return;
-    const Clusterable& levels = clusterable[i];
-    const std::uint32_t sides = side_count(instance_of(scene, levels.stored).sides);
-    const std::uint64_t per_cluster = std::uint64_t{sides} * std::popcount(levels.levels);
-    const std::uint64_t vertices = scene.meshes[mesh_of(scene, levels.stored)].vertices.size();
-    // As many clusters as vertices bring nothing.
-    const std::uint64_t most = std::min(vertices - 1, (limit - counted) / per_cluster);
-    const ClusterInstance instance = cluster_instance(scene, levels.stored);
-    const auto count =
-        count_clusters({&instance, 1}, cluster_grid(scene, plan.density, levels.first()), most);
-    if (count) set_clusters(levels, *count, plan);
-    const std::uint64_t added = count.value_or(vertices) * per_cluster;
-    if (nodes.fetch_add(added) + added > limit) over = true;
+  const std::vector<ClusterableInstance> instances = by_instance(clusterable);
+  tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
+    const auto [stored, groups] = instances[i];
+    const std::uint64_t sides = side_count(instance_of(scene, stored).sides);
+    const std::uint64_t vertices = scene.meshes[mesh_of(scene, stored)].vertices.size();
+    ClusterInstance instance = cluster_instance(scene, stored);
+    std::vector<std::uint32_t> members;  // of the finest clusters: coarser ones are made of these
+    for (const Clusterable& levels : groups) {
+      if (over) return;
+      const std::uint64_t per_cluster = sides * static_cast<std::uint64_t>(std::popcount(levels.levels));
+      // As many clusters as vertices bring nothing.
+      const std::uint64_t most = std::min(vertices - 1, (limit - counted) / per_cluster);
+      const ClusterGrid grid = cluster_grid(scene, plan.density, levels.first());
+      const bool finest = grid.divisor == 1;
+      const auto count = count_clusters({&instance, 1}, grid, most, finest ? &members : nullptr);
+      if (count) set_clusters(levels, *count, plan);
+      if (finest) instance.among = members;
+      const std::uint64_t added = count.value_or(vertices) * per_cluster;
+      if (nodes.fetch_add(added) + added > limit) over = true;
+    }
   });
   plan.node_count = nodes;
   return !over;
@@ -151,7 +173,8 @@ bool clusters_alike(const PlanScene& scene, const LayoutPlan& plan, std::size_t 
   });
 }
 
-/// For each stored instance its levels with R = 1, those that are clustered alike together.
+/// For each stored instance its levels with R = 1, those that are clustered alike together, small cells
+/// first.
 std::vector<Clusterable> find_clusterable(const PlanScene& scene, const LayoutPlan& plan) {
   const std::size_t stack = scene.options.stack.size();
   std::array<std::uint32_t, kMaxStack> alike = {};
@@ -164,11 +187,15 @@ std::vector<Clusterable> find_clusterable(const PlanScene& scene, const LayoutPl
     std::uint32_t left = 0;
     for (std::size_t l = 0; l < stack; ++l)
       if (plan.instances[s][l].resolution == 1) left |= 1u << l;
+    const std::size_t first = result.size();
     while (left != 0) {
       const std::uint32_t levels = left & alike[static_cast<std::size_t>(std::countr_zero(left))];
       result.push_back({s, levels});
       left &= ~levels;
     }
+    std::ranges::stable_sort(
+        result.begin() + static_cast<std::ptrdiff_t>(first), result.end(), {},
+        [&](const Clusterable& c) { return adaptive_divisor(scene.options.stack[c.first()]); });
   }
   return result;
 }
@@ -226,8 +253,8 @@ bool clusters_scene(const Density& density) {
 }
 
 ClusterGrid cluster_grid(const PlanScene& scene, const Density& density, std::size_t level) {
-  const double cell = 0.5 * density.node_spacing * adaptive_divisor(scene.options.stack[level]);
-  return {cell, density.scope != ClusterScope::instance};
+  return {0.5 * density.node_spacing, adaptive_divisor(scene.options.stack[level]),
+          density.scope != ClusterScope::instance};
 }
 
 ClusterInstance cluster_instance(const PlanScene& scene, std::size_t stored) {
@@ -272,14 +299,19 @@ std::optional<LayoutPlan> make_plan(PlanScene& scene, const Density& density, st
   return std::move(unclustered->plan);
 }
 
-bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit) {
+bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit,
+               std::optional<LayoutPlan>& plan) {
+  plan.reset();
   auto unclustered = plan_unclustered(scene, density, limit);
   if (!unclustered) return false;
   std::uint64_t most = unclustered->plan.node_count;
   for (const Clusterable& levels : unclustered->clusterable)
     most += std::popcount(levels.levels) *
             count_nodes(scene, levels.stored, unclustered->plan.instances[levels.stored][levels.first()]);
-  return most <= limit || cluster(scene, unclustered->clusterable, limit, unclustered->plan);
+  if (most <= limit) return true;
+  if (!cluster(scene, unclustered->clusterable, limit, unclustered->plan)) return false;
+  plan = std::move(unclustered->plan);
+  return true;
 }
 
 }  // namespace gatelight::neural

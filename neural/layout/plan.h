@@ -63,8 +63,10 @@ struct LayoutPlan {
 /// Nothing where there would be more than `limit` nodes. Adds to the scene's topologies what it needs of
 /// them.
 std::optional<LayoutPlan> make_plan(PlanScene& scene, const Density& density, std::uint64_t limit);
-/// Whether make_plan gives a plan, at less cost where that is plain before vertices are clustered.
-bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit);
+/// Whether make_plan gives a plan, at less cost where that is plain before vertices are clustered; else the
+/// plan is `plan`.
+bool plan_fits(PlanScene& scene, const Density& density, std::uint64_t limit,
+               std::optional<LayoutPlan>& plan);
 
 bool clusters_scene(const Density& density);
 /// Of a level of the stack.

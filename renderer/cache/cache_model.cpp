@@ -62,19 +62,10 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
   if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
   const WeldedMeshes meshes(world.scene);
   const neural::SurfaceLayout surfaces = meshes.layout(world.scene, setup.sides, setup.spacing_scales);
-  const bool chosen =
-      !cache.node_spacing && cache.memory_bytes == 0 && config.gate.rule == neural::ResolutionRule::uniform;
-  if (chosen) {
-    // The budget alone would make the layout as fine as fits: it is for what is too much.
-    const std::shared_ptr<const neural::Model> free = neural::make_model(config, surfaces);
-    const std::uint64_t bytes = std::uint64_t{free->parameters.network} * config.gate.bytes_per_feature;
-    if (bytes <= kChosenBytes) return free;
+  if (!cache.node_spacing && cache.memory_bytes == 0 &&
+      config.gate.rule == neural::ResolutionRule::uniform) {
     config.gate.memory_budget = kChosenBytes;
-    try {
-      return neural::make_model(config, surfaces);
-    } catch (const neural::BadConfiguration&) {
-      return free;  // even the coarsest layout of this scene is larger
-    }
+    config.gate.budget_is_cap = true;
   }
   return neural::make_model(config, surfaces);
 }

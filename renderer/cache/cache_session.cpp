@@ -80,6 +80,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
     scout_rays_ = report.rays;
   }
   statistics_.scout_seconds = seconds_since(start);
+  start = Clock::now();
 
   const std::shared_ptr<const neural::Model> cache_model = make_cache_model(world, options, setup_);
   check_memory(world.scene, options, *cache_model);
@@ -119,6 +120,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.parameter_bytes = trainer_->backend().parameter_bytes();
   statistics_.optimizer_bytes = trainer_->backend().optimizer_bytes();
   statistics_.backend = trainer_->backend().name();
+  statistics_.setup_seconds = seconds_since(start);
 }
 
 CacheSession::~CacheSession() = default;

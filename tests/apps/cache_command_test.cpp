@@ -77,7 +77,7 @@ TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
     EXPECT_GT(stats["train"]["loss"], 0.0);
     EXPECT_GT(stats["train"]["touched_nodes"], 0);
     EXPECT_EQ(stats["train"]["rejected"], 0);
-    for (const char* part : {"scout", "train", "train_trace", "train_step", "render_trace", "render_query"}) {
+    for (const char* part : {"scout", "setup", "train", "train_trace", "train_step", "render_trace", "render_query"}) {
       EXPECT_GT(stats["seconds"][part], 0.0) << part;
     }
     EXPECT_LE(stats["seconds"]["train_step"], stats["seconds"]["train"]);

@@ -29,6 +29,7 @@ renderer::CacheStatistics some_statistics() {
   s.touched_nodes = 999;
   s.loss = 0.25;
   s.scout_seconds = 0.5;
+  s.setup_seconds = 0.75;
   s.train_seconds = 8.0;
   s.train_trace_seconds = 5.0;
   s.train_query_seconds = 1.0;
@@ -80,6 +81,7 @@ TEST(CacheStatistics, AreInTheStatisticsFile) {
   EXPECT_EQ(stats["cache"], cache);
   const json& seconds = stats["seconds"];
   EXPECT_EQ(seconds["scout"], 0.5);
+  EXPECT_EQ(seconds["setup"], 0.75);
   EXPECT_EQ(seconds["train"], 8.0);
   EXPECT_EQ(seconds["train_trace"], 5.0);
   EXPECT_EQ(seconds["train_query"], 1.0);
@@ -95,7 +97,7 @@ TEST(CacheStatistics, AreInTheStatisticsFile) {
 TEST(CacheStatistics, AreAbsentWithoutACache) {
   const json stats = statistics_of(Integrator::path);
   for (const char* key : {"train", "cache"}) EXPECT_FALSE(stats.contains(key)) << key;
-  for (const char* key : {"scout", "train", "train_step", "render_query"}) {
+  for (const char* key : {"scout", "setup", "train", "train_step", "render_query"}) {
     EXPECT_FALSE(stats["seconds"].contains(key)) << key;
   }
   EXPECT_TRUE(stats["seconds"].contains("render_trace"));
@@ -106,7 +108,7 @@ TEST(CacheStatistics, AreSummedUpForPeople) {
   renderer::CacheStatistics s = some_statistics();
   EXPECT_THAT(cache_summary(s),
               AllOf(HasSubstr("128 steps (chosen)"), HasSubstr("2.10 M records"), HasSubstr("loss 0.25"),
-                    HasSubstr("scout 0.50, train 8.00"), HasSubstr("query 1.50"), HasSubstr("12 345 nodes"),
+                    HasSubstr("scout 0.50, setup 0.75, train 8.00"), HasSubstr("query 1.50"), HasSubstr("12 345 nodes"),
                     HasSubstr("10 of 40 sides"), HasSubstr("1.00 MiB")));
   s.steps = 100;
   s.steps_chosen = false;

@@ -67,7 +67,10 @@ TEST(Clusters, AreTheVerticesOfACellThatFaceTheSameWay) {
               place += double{to_world[3 * i + r]} * p[i];
               normal[r] += double{normals_to_world[3 * i + r]} * p[i];
             }
-            cell[r] = std::floor(place / (0.5 * spacing * divisors[level]) + 0.3819660112501051);
+            // Cells of coarser levels are made of those of the finest.
+            const double finest = std::floor(place / (0.5 * spacing) + 0.3819660112501051);
+            cell[r] =
+                std::floor((finest + std::floor(0.3819660112501051 * divisors[level])) / divisors[level]);
           }
           std::array<double, 3> sorted = {std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])};
           const auto axis = static_cast<int>(std::ranges::max_element(sorted) - sorted.begin());
@@ -91,6 +94,18 @@ std::uint32_t corner_count(const GateLayout& layout, const Mesh& mesh, std::uint
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t c = 0; c < 3; ++c) count = std::max(count, corner(layout, t, c, level) + 1);
   return count;
+}
+
+TEST(Clusters, ThoseOfACoarserLevelAreMadeOfFinerOnes) {
+  const Mesh mesh = testing::sphere(96, 1);
+  const GateLayout layout =
+      layout_of(testing::one_instance(mesh), 0.2f, {adaptive_part(5), kAdaptive, adaptive_part(2)});
+  std::map<std::uint32_t, std::set<std::uint32_t>> coarse;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint32_t c = 0; c < 3; ++c)
+      for (const std::uint32_t level : {0u, 2u})
+        coarse[corner(layout, t, c, 1)].insert(1000000 * level + corner(layout, t, c, level));
+  for (const auto& [fine, its_coarse] : coarse) EXPECT_EQ(its_coarse.size(), 2u);
 }
 
 TEST(Clusters, ACoarserLevelHasFewerNodes) {

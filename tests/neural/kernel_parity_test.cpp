@@ -61,6 +61,17 @@ std::vector<float> answers(const Backend& backend, const Model& model, const Own
   return out;
 }
 
+TEST(CpuBackend, StartsWithTheInitialState) {
+  for (const char* name :
+       {"nrc", "nao", "gate_L5", "gate_L9", "gate_L16", "hash_F2", "plain_direction_identity"}) {
+    const ModelCase c = find_model_case(name);
+    for (const auto& [word, options] : all_training_options(*c.model)) {
+      SCOPED_TRACE(std::string(name) + " " + word);
+      EXPECT_EQ(cpu::make_cpu_backend(c.model, options)->export_state(), initial_state(*c.model, options));
+    }
+  }
+}
+
 class KernelParity : public ::testing::Test {
  protected:
   static void TearDownTestSuite() { worst_.print(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <regex>
 #include <set>
 #include <string>
@@ -161,6 +162,74 @@ TEST(MemoryBudget, ManyInstancesLoseFirstTheNormalThenTheirOwnClusters) {
   EXPECT_EQ(nodes_per_side(8000), 3000u);
   EXPECT_EQ(nodes_per_side(2500), 4u);
   EXPECT_EQ(nodes_per_side(600), 4u);
+}
+
+TEST(MemoryBudget, ACapLeavesWhatFitsAsItIs) {
+  const Scene scene;
+  for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
+    for (const bool cluster : {false, true}) {
+      GateOptions options;
+      options.rule = rule;
+      options.cluster = cluster;
+      options.node_spacing = 0.3f;
+      options.resolution_scale = 0.7f;
+      options.stack = {kAdaptive, adaptive_part(4), 1};
+      const GateLayout wanted = build_gate_layout(scene.surfaces, options);
+      options.memory_budget = testing::feature_bytes(wanted, options);
+      options.budget_is_cap = true;
+      const GateLayout layout = build_gate_layout(scene.surfaces, options);
+      testing::expect_same_tables(layout, wanted);
+      EXPECT_EQ(layout.report.node_spacing, options.node_spacing);
+      EXPECT_EQ(layout.report.resolution_scale, options.resolution_scale);
+    }
+}
+
+TEST(MemoryBudget, ACapMakesWhatIsTooMuchCoarserAndNoMoreThanItMust) {
+  const Scene scene;
+  for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper})
+    for (const bool cluster : {false, true})
+      for (const float share : {0.99f, 0.9f, 0.3f, 0.03f}) {
+        GateOptions options;
+        options.rule = rule;
+        options.cluster = cluster;
+        options.node_spacing = 0.05f;
+        options.resolution_scale = 0.7f;
+        options.stack = {kAdaptive, adaptive_part(4), adaptive_part(16)};
+        const GateLayout wanted = build_gate_layout(scene.surfaces, options);
+        options.memory_budget =
+            static_cast<std::uint64_t>(share * static_cast<float>(testing::feature_bytes(wanted, options)));
+        if (options.memory_budget < least_bytes(scene.surfaces, options)) continue;
+        options.budget_is_cap = true;
+        const GateLayout layout = build_gate_layout(scene.surfaces, options);
+        EXPECT_LE(testing::feature_bytes(layout, options), options.memory_budget);
+        GateOptions finer = options;
+        finer.memory_budget = 0;
+        if (rule == ResolutionRule::uniform) {
+          EXPECT_GT(layout.report.node_spacing, options.node_spacing);
+          finer.node_spacing = layout.report.node_spacing / 1.02f;
+        } else {
+          EXPECT_LT(layout.report.resolution_scale, options.resolution_scale);
+          finer.resolution_scale = layout.report.resolution_scale * 1.02f;
+        }
+        EXPECT_GT(testing::feature_bytes(build_gate_layout(scene.surfaces, finer), finer),
+                  options.memory_budget);
+      }
+}
+
+TEST(MemoryBudget, WhereACapHoldsNotEvenTheCoarsestItIsOverlooked) {
+  const Scene scene;
+  for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
+    for (const bool cluster : {false, true})
+      for (const float spacing : {0.1f, 1e30f, std::numeric_limits<float>::max()}) {
+        GateOptions options;
+        options.rule = rule;
+        options.cluster = cluster;
+        options.node_spacing = spacing;
+        const GateLayout wanted = build_gate_layout(scene.surfaces, options);
+        options.memory_budget = 100;
+        options.budget_is_cap = true;
+        testing::expect_same_tables(build_gate_layout(scene.surfaces, options), wanted);
+      }
 }
 
 TEST(MemoryBudget, LevelsOfAllInstancesHaveClustersOfTheirOwn) {

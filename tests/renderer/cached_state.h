@@ -30,8 +30,12 @@ inline renderer::CacheState any_cache_state(const neural::Model& model,
                                             const neural::TrainingOptions& options, std::uint64_t seed) {
   using neural::Sides;
   renderer::CacheState state;
-  state.setup = {
-      {Sides::front, Sides::both, Sides::back, Sides::none, Sides::front}, 0.1f, 0.3f, 5.5f, 1e-7f};
+  state.setup = {{Sides::front, Sides::both, Sides::back, Sides::none, Sides::front},
+                 0.1f,
+                 {1.0f, 0.5f, 2.0f, 1.0f, 3.0f},
+                 0.3f,
+                 5.5f,
+                 1e-7f};
   state.model = neural::testing::any_state(model, options, seed);
   state.steps = 1234 + seed;
   state.triangle_counts = {7, 0, 0xffffffffu, static_cast<std::uint32_t>(seed)};
