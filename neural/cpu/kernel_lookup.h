@@ -217,7 +217,16 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
         edges_read = true;
       }
       const LaneBases bases = same ? lane_bases(one) : gather_bases(e.surface_levels, at);
-      const VirtualTriangle t = virtual_triangle(b, level.resolution);
+      VirtualTriangle t = virtual_triangle(b, level.resolution);
+      if (e.per_triangle == 0) {
+        // As where all have R = 1: a point's bits do not depend on its neighbours.
+        const Mask plain = equal_int(level.resolution, broadcast_int(1));
+        for (uint32_t n = 0; n < 3; ++n) {
+          t.weight[n] = select(plain, b[n], t.weight[n]);
+          for (uint32_t c = 0; c < 3; ++c)
+            t.node[n][c] = select_int(plain, broadcast_int(n == c ? 1 : 0), t.node[n][c]);
+        }
+      }
       for (uint32_t n = 0; n < 3; ++n) {
         const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
                                              : shared_node(t.node[n], level, bases, corners, edges, triangle);

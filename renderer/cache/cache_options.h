@@ -62,10 +62,10 @@ struct CacheOptions {
 
   // What it is. The input encodings and the hash grid's bounds follow from the scene.
   neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
-  /// Each level four times as coarse as the one before, also where triangles are small and their vertices
+  /// Each level three times as coarse as the one before, also where triangles are small and their vertices
   /// clustered: what few records a preview has teach the coarse ones first.
-  neural::GateOptions gate = {
-      .stack = {neural::kAdaptive, neural::adaptive_part(4), neural::adaptive_part(16)}};
+  neural::GateOptions gate = {.stack = {neural::kAdaptive, neural::adaptive_part(3), neural::adaptive_part(9),
+                                        neural::adaptive_part(27)}};
   neural::HashGridOptions hash_grid;
   std::uint64_t memory_bytes = 0;  ///< of all features, for either encoding; 0: none
   neural::MlpOptions mlp;

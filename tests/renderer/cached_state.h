@@ -45,8 +45,9 @@ inline renderer::CacheState any_cache_state(const neural::Model& model,
 }
 
 inline bool same_bits(const renderer::CacheSetup& a, const renderer::CacheSetup& b) {
-  return a.sides == b.sides && a.node_spacing == b.node_spacing && a.target_scale == b.target_scale &&
-         a.records_per_path == b.records_per_path && a.records_per_short_path == b.records_per_short_path;
+  return a.sides == b.sides && a.spacing_scales == b.spacing_scales && a.node_spacing == b.node_spacing &&
+         a.target_scale == b.target_scale && a.records_per_path == b.records_per_path &&
+         a.records_per_short_path == b.records_per_short_path;
 }
 
 inline bool same_bits(const renderer::CacheState& a, const renderer::CacheState& b) {

@@ -52,7 +52,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) {
          o.cache.gate.stack = {0, 2};
        },
-       "stack: file adaptive,adaptive/4,adaptive/16, expected adaptive,2"},
+       "stack: file adaptive,adaptive/3,adaptive/9,adaptive/27, expected adaptive,2"},
       {[](O o, C) { o.cache.gate.rule = neural::ResolutionRule::paper; }, "resolution: file uniform"},
       {[](O o, C) { o.cache.encoding = neural::FeatureEncoding::hash_grid; },
        "encoding: file gate, expected hashgrid"},

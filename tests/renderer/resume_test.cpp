@@ -32,7 +32,7 @@ RenderOptions picture(Integrator integrator) {
   options.spp = 5;
   options.nan_policy = NanPolicy::drop;
   options.clamp = 2.0f;
-  options.cache.train_steps = 10;
+  options.cache.train_steps = 8;  // groups of 1, 1, 2, 4
   options.cache.batch = 600;
   options.cache.candidates = 4;
   options.cache.self_training.start_step = 4;
@@ -139,7 +139,7 @@ TEST_P(Resume, APictureThatWasStoppedHasTheBitsOfOneThatWasNot) {
   const Result straight = render(s, options);
   EXPECT_FALSE(straight.statistics.interrupted);
   const bool trains = uses_cache(options.integrator);
-  for (const int first_stop : {1, 4, trains ? 10 : 5, trains ? 11 : 7}) {
+  for (const int first_stop : {1, trains ? 2 : 4, trains ? 4 : 5, trains ? 5 : 7}) {
     SCOPED_TRACE(first_stop);
     const TemporaryFolder folder;
     options.checkpoint.file = folder / "picture";
@@ -219,7 +219,7 @@ TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
   EXPECT_THAT(resuming([](RenderOptions& o) { o.seed = 7; }),
               AllOf(HasSubstr("/picture'"), HasSubstr("seed: file 0, expected 7")));
   EXPECT_THAT(resuming([](RenderOptions& o) { o.cache.train_steps = 11; }),
-              HasSubstr("train-steps: file 10, expected 11"));
+              HasSubstr("train-steps: file 8, expected 11"));
   EXPECT_THAT(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }),
               HasSubstr("camera: file"));
   EXPECT_THAT(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
@@ -246,7 +246,7 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
     const TemporaryFolder folder;
     RenderOptions options = picture(integrator);
     const Result straight = render(s, options);
-    options.cache.cache_out = folder / "ten";
+    options.cache.cache_out = folder / "eight";
     render(s, options);
     options.cache.cache_in = options.cache.cache_out;
     options.cache.cache_out = folder / "more";
@@ -256,11 +256,11 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
     EXPECT_EQ(loaded.picture.layers[0].values, straight.picture.layers[0].values);
     EXPECT_EQ(loaded.statistics.cache.steps, 0);
     EXPECT_EQ(loaded.statistics.cache.steps_wanted, 0);
-    EXPECT_EQ(read_file(folder / "more"), read_file(folder / "ten"));
+    EXPECT_EQ(read_file(folder / "more"), read_file(folder / "eight"));
 
-    options.cache.train_steps = 6;
+    options.cache.train_steps = 8;
     const Result more = render(s, options);
-    EXPECT_EQ(more.statistics.cache.steps, 6);
+    EXPECT_EQ(more.statistics.cache.steps, 8);
     RenderOptions whole = picture(integrator);
     whole.cache.train_steps = 16;
     const Result sixteen = render(s, whole);
@@ -272,7 +272,7 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
     options.width = 20;
     options.cache.batch = 500;
     options.cache.training.adam.learning_rate = 1e-3f;
-    EXPECT_EQ(render(s, options).statistics.cache.steps, 6);
+    EXPECT_EQ(render(s, options).statistics.cache.steps, 8);
   }
 }
 
@@ -280,23 +280,23 @@ TEST(CacheFiles, ACheckpointGoesOnWithALoadedCache) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   RenderOptions options = picture(Integrator::nrc);
-  options.cache.cache_out = folder / "ten";
+  options.cache.cache_out = folder / "eight";
   render(s, options);
   options.cache.cache_in = options.cache.cache_out;
   options.cache.cache_out = folder / "more";
-  options.cache.train_steps = 6;
+  options.cache.train_steps = 24;  // groups of 8, 16
   const Result straight = render(s, options);
   const std::string saved = read_file(folder / "more");
-  for (const int stop : {3, 6, 8}) {
+  for (const int stop : {1, 2, 4}) {
     options.checkpoint.file = folder / "picture";
     options.checkpoint.resume = true;
     std::filesystem::remove(folder / "picture");
     std::filesystem::remove(folder / "more");
     EXPECT_TRUE(render(s, options, stop).statistics.interrupted);
-    EXPECT_EQ(std::filesystem::exists(folder / "more"), stop >= 6) << "half a cache was saved";
-    std::filesystem::rename(folder / "ten", folder / "away");
+    EXPECT_EQ(std::filesystem::exists(folder / "more"), stop >= 2) << "half a cache was saved";
+    std::filesystem::rename(folder / "eight", folder / "away");
     expect_same(render(s, options), straight);
-    std::filesystem::rename(folder / "away", folder / "ten");
+    std::filesystem::rename(folder / "away", folder / "eight");
     EXPECT_EQ(read_file(folder / "more"), saved);
   }
 }
