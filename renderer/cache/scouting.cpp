@@ -31,8 +31,8 @@ std::vector<double> areas_of(const scene::Scene& scene) {
     const scene::Instance& instance = scene.instances[i];
     const std::size_t triangles = scene.mesh_of(instance).triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) {
-      const std::array<Vec3, 3> p = scene::world_triangle(scene, instance, static_cast<std::uint32_t>(t));
-      const double area = 0.5 * static_cast<double>((p[1] - p[0]).cross(p[2] - p[0]).norm());
+      const Vec3 normal = scene::world_normal(scene, instance, static_cast<std::uint32_t>(t));
+      const double area = 0.5 * static_cast<double>(normal.norm());
       if (std::isfinite(area)) areas[i] += area;
     }
   });
