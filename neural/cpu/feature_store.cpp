@@ -62,19 +62,17 @@ FeatureStore::FeatureStore(const Model& model, const TrainingOptions& options)
   for_range(nodes_, [&](std::uint64_t node) {
     for (std::uint32_t f = 0; f < features_; ++f) {
       const float feature = initial_feature(options, node * features_ + f);
-      const std::uint64_t to = node * feature_stride_ + f;
-      if (!half) {
-        floats_[to] = feature;
-        if (averages_ != nullptr) averages_[to] = feature;
-        continue;
-      }
-      const std::uint16_t rounded = float_to_half(feature);
-      halves_[to] = rounded;
-      if (average_halves_ != nullptr) average_halves_[to] = rounded;
-      if (floats) floats_[to] = half_to_float(rounded);
-      if (averages_ != nullptr) averages_[to] = half_to_float(rounded);
+      const float held = half ? half_to_float(float_to_half(feature)) : feature;
+      set(node * feature_stride_ + f, held, held);
     }
   });
+}
+
+void FeatureStore::set(std::uint64_t at, float feature, float average) {
+  if (!floats_.empty()) floats_[at] = feature;
+  if (!halves_.empty()) halves_[at] = float_to_finite_half(feature);
+  if (averages_ != nullptr) averages_[at] = average;
+  if (average_halves_ != nullptr) average_halves_[at] = float_to_finite_half(average);
 }
 
 // One node stands in where there are none, so that lookups may read node 0.
@@ -133,11 +131,8 @@ void FeatureStore::import_from(const ModelState& state) {
   for_range(nodes_, [&](std::uint64_t node) {
     float* m = moments_.data() + node * moment_stride_;
     for (std::uint32_t f = 0; f < features_; ++f) {
-      const std::uint64_t from = node * features_ + f, to = node * feature_stride_ + f;
-      if (!floats_.empty()) floats_[to] = state.parameters[from];
-      if (!halves_.empty()) halves_[to] = float_to_finite_half(state.parameters[from]);
-      if (averages_ != nullptr) averages_[to] = state.averages[from];
-      if (average_halves_ != nullptr) average_halves_[to] = float_to_finite_half(state.averages[from]);
+      const std::uint64_t from = node * features_ + f;
+      set(node * feature_stride_ + f, state.parameters[from], state.averages[from]);
       m[f] = state.first_moments[from];
       m[f + features_] = state.second_moments[from];
     }

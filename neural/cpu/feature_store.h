@@ -30,6 +30,8 @@ class FeatureStore {
   std::uint64_t optimizer_bytes() const;
 
  private:
+  /// at: node * feature_stride_ + feature.
+  void set(std::uint64_t at, float feature, float average);
   std::uint64_t floats_of(std::uint64_t per_node) const;
 
   std::uint64_t count_;      // of floats
