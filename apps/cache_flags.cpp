@@ -204,7 +204,7 @@ void add_shape_flags(CLI::App& app, CacheOptions& o) {
              "The network reads the direction of view; auto: where a material of the scene depends on it")
       ->group(group);
   add_choice(app, "--normal-input", o.normal_input, input_choices(),
-             "The network reads the normal; auto: with the hash grid")
+             "The network reads the normal; auto: yes, but as in the paper where gate has --resolution paper")
       ->group(group);
   add_choice(app, "--albedo-input", o.albedo_input, input_choices(),
              "The network reads the albedo; auto: with the hash grid")

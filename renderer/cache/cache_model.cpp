@@ -32,7 +32,10 @@ neural::RequiredInputs required_inputs(const World& world, const RenderOptions& 
   // Occlusion is the same from everywhere.
   required.direction = cache.direction_input.value_or(options.integrator == Integrator::nrc &&
                                                       world.requirements.view_dependent);
-  required.normal = cache.normal_input.value_or(hash_grid);
+  // Features of small triangles are constant over a cluster; the normal bends what they answer. The paper has
+  // none.
+  required.normal =
+      cache.normal_input.value_or(hash_grid || cache.gate.rule != neural::ResolutionRule::paper);
   required.albedo = cache.albedo_input.value_or(hash_grid && options.integrator == Integrator::nrc);
   return required;
 }
@@ -62,8 +65,7 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
   if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
   const WeldedMeshes meshes(world.scene);
   const neural::SurfaceLayout surfaces = meshes.layout(world.scene, setup.sides, setup.spacing_scales);
-  if (!cache.node_spacing && cache.memory_bytes == 0 &&
-      config.gate.rule == neural::ResolutionRule::uniform) {
+  if (!cache.node_spacing && cache.memory_bytes == 0 && config.gate.rule == neural::ResolutionRule::uniform) {
     config.gate.memory_budget = kChosenBytes;
     config.gate.budget_is_cap = true;
   }

@@ -1,0 +1,68 @@
+// What the network reads beside the position follows from scene, encoding and preset.
+
+#include "renderer/cache/cache_model.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/cache/presets.h"
+#include "tests/renderer/built_world.h"
+#include "tests/renderer/scene_builder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::BuiltWorld;
+using testing::SceneBuilder;
+
+class CacheModel : public ::testing::Test {
+ protected:
+  const scene::Scene& matte_quad() {
+    builder_.quad(builder_.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3::Zero(),
+                  Vec3::UnitX(), Vec3::UnitY());
+    return builder_.scene();
+  }
+
+  SceneBuilder builder_;
+  BuiltWorld built_{matte_quad()};
+  const World& world_ = built_.world;
+};
+
+TEST_F(CacheModel, TheNormalIsReadUnlessThePapersGateIsAskedFor) {
+  RenderOptions options;
+  EXPECT_TRUE(required_inputs(world_, options).normal);
+  options.cache.encoding = neural::FeatureEncoding::hash_grid;
+  EXPECT_TRUE(required_inputs(world_, options).normal);
+  for (const CachePreset preset : {CachePreset::paper_nao, CachePreset::paper_nrc}) {
+    RenderOptions paper;
+    apply_preset(preset, paper);
+    EXPECT_FALSE(required_inputs(world_, paper).normal);
+    paper.cache.encoding = neural::FeatureEncoding::hash_grid;
+    EXPECT_TRUE(required_inputs(world_, paper).normal);
+    paper.cache.encoding = neural::FeatureEncoding::gate;
+    paper.cache.normal_input = true;
+    EXPECT_TRUE(required_inputs(world_, paper).normal);
+  }
+}
+
+TEST_F(CacheModel, TheDirectionIsReadWhereLightDependsOnIt) {
+  RenderOptions options;
+  options.integrator = Integrator::nrc;
+  EXPECT_FALSE(required_inputs(world_, options).direction);
+  built_.requirements.view_dependent = true;
+  EXPECT_TRUE(required_inputs(world_, options).direction);
+  options.integrator = Integrator::nao;
+  EXPECT_FALSE(required_inputs(world_, options).direction);
+}
+
+TEST_F(CacheModel, OnlyTheHashGridOfRadianceReadsTheAlbedo) {
+  RenderOptions options;
+  options.integrator = Integrator::nrc;
+  EXPECT_FALSE(required_inputs(world_, options).albedo);
+  options.cache.encoding = neural::FeatureEncoding::hash_grid;
+  EXPECT_TRUE(required_inputs(world_, options).albedo);
+  options.integrator = Integrator::nao;
+  EXPECT_FALSE(required_inputs(world_, options).albedo);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
