@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "renderer/errors.h"
 #include "renderer/options.h"
@@ -36,6 +37,18 @@ struct Callbacks {
   std::function<void(const Picture&)> snapshot;
 };
 
+/// The points at which pictures are wanted of one training, or of one plain rendering. Ascending, not empty;
+/// RenderOptions's own train_steps or spp does not count then.
+struct Series {
+  std::vector<int> train_steps;  ///< of nao and nrc, beyond those of a loaded cache; 0: an untrained one
+  std::vector<int> spp;          ///< of path and ao
+};
+
+/// `statistics` are those that a run which ended at this point would have had: training up to there, with
+/// the time that it took alone, and its own picture. Of path and ao rendering up to there.
+using SeriesPicture =
+    std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
+
 struct CacheReport;  // cache/cache_report.h
 
 /// Holds what was built for a scene (acceleration structure, lights, textures), so that several pictures can
@@ -50,6 +63,11 @@ class Renderer {
 
   /// Renders. The same scene, options and Embree ISA give the same bits for any number of threads.
   Picture render(const Callbacks& callbacks = {});
+  /// Calls `picture` with the picture of each point, in order. It has the bits that render() gives with these
+  /// steps or samples. Answers false when callbacks.stop ended it before the last point; a point that was not
+  /// reached is not called. Throws BadOption for points that make no series, and for limits of time,
+  /// checkpoints and cache_out.
+  bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// What the cache would be: scouts, but neither trains nor renders. For integrators with a cache.
   CacheReport report_cache();
   const RenderStatistics& statistics() const;

@@ -27,6 +27,12 @@ struct RayCounts {
     shadow += other.shadow;
     seconds += other.seconds;
   }
+  void subtract(const RayCounts& other) {
+    camera -= other.camera;
+    bounce -= other.bounce;
+    shadow -= other.shadow;
+    seconds -= other.seconds;
+  }
 };
 
 /// What the cache learned and answered; zero for integrators without one. Seconds are wall time.

@@ -134,6 +134,12 @@ std::uint64_t CacheSession::group_end(std::uint64_t step) const {
   return (step / size + 1) * size;
 }
 
+std::uint64_t CacheSession::last_group_end(std::uint64_t steps) const {
+  std::uint64_t last = steps_;
+  while (last < steps && group_end(last) <= steps) last = group_end(last);
+  return last;
+}
+
 RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count) const {
   const SelfTrainingOptions& self = options_.cache.self_training;
   const std::uint64_t records = options_.cache.batch * count;
@@ -302,9 +308,24 @@ void CacheSession::import_state(const CacheState& state) {
   loss_least_ = state.loss_least;
 }
 
+CacheSession::Bookmark CacheSession::bookmark() const {
+  return {export_state(), statistics_, rays(), last_losses_, guarded_steps_};
+}
+
+void CacheSession::return_to(const Bookmark& bookmark) {
+  import_state(bookmark.state);
+  RayCounts abandoned = rays();
+  abandoned.subtract(bookmark.rays);
+  abandoned_rays_.add(abandoned);
+  statistics_ = bookmark.statistics;
+  last_losses_ = bookmark.last_losses;
+  guarded_steps_ = bookmark.guarded_steps;
+}
+
 RayCounts CacheSession::rays() const {
   RayCounts sum = scout_rays_;
   sum.add(records_->rays());
+  sum.subtract(abandoned_rays_);
   return sum;
 }
 

@@ -32,6 +32,20 @@ class CacheSession {
   /// number of threads. Throws NumericalError when the loss grows without end.
   void train(std::uint64_t steps, const Watch& watch);
   std::uint64_t steps() const { return steps_; }
+  /// The last step, not beyond `steps`, at which training from here on is between groups.
+  std::uint64_t last_group_end(std::uint64_t steps) const;
+
+  /// All that training changes, to come back to: what is trained after that has the bits of a training that
+  /// did not go beyond it in between.
+  struct Bookmark {
+    CacheState state;
+    CacheStatistics statistics;
+    RayCounts rays;
+    std::vector<double> last_losses;
+    std::uint64_t guarded_steps = 0;
+  };
+  Bookmark bookmark() const;
+  void return_to(const Bookmark& bookmark);
 
   /// Answers in the picture's units: radiance over reflectance (3 floats a point) or openness (1). Not finite
   /// or negative ones become zero and are counted. One thread at a time.
@@ -77,6 +91,7 @@ class CacheSession {
   std::uint64_t guarded_steps_ = 0;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
+  RayCounts abandoned_rays_;  ///< of steps from which it returned
   CacheStatistics statistics_;
 };
 

@@ -4,50 +4,28 @@
 
 #include <filesystem>
 #include <functional>
-#include <ostream>
 
 #include "neural/cpu/isa.h"
 #include "neural/errors.h"
 #include "renderer/atomic_file.h"
 #include "renderer/render.h"
+#include "tests/renderer/kinds_of_pictures.h"
 #include "tests/renderer/room.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
 
+using kinds::expect_same;
+using kinds::Kind;
+using kinds::kKinds;
+using kinds::picture_of;
+using kinds::Result;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::room;
-using testing::small_picture;
 using tests::read_file;
 using tests::TemporaryFolder;
-
-/// A picture of each kind, small enough to be made a dozen times.
-RenderOptions picture(Integrator integrator) {
-  RenderOptions options = small_picture();
-  options.integrator = integrator;
-  options.width = 33;
-  options.height = 20;
-  options.spp = 5;
-  options.nan_policy = NanPolicy::drop;
-  options.clamp = 2.0f;
-  options.cache.train_steps = 8;  // groups of 1, 1, 2, 4
-  options.cache.batch = 600;
-  options.cache.candidates = 4;
-  options.cache.self_training.start_step = 4;
-  options.cache.mlp.width = 16;
-  if (uses_cache(integrator)) {
-    options.aovs.push_back(Aov::cache_answer);
-    options.aovs.push_back(Aov::training_count);
-  }
-  return options;
-}
-
-struct Result {
-  Picture picture;
-  RenderStatistics statistics;
-};
 
 /// Stops at the n-th time that it is asked whether to; 0: never.
 Result render(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
@@ -62,26 +40,6 @@ Result render(const scene::Scene& scene, const RenderOptions& options, int stop_
   return result;
 }
 
-void expect_same(const Result& a, const Result& b) {
-  ASSERT_EQ(a.picture.layers.size(), b.picture.layers.size());
-  for (std::size_t i = 0; i < a.picture.layers.size(); ++i)
-    EXPECT_TRUE(a.picture.layers[i].values == b.picture.layers[i].values) << a.picture.layers[i].name;
-  const RenderStatistics& x = a.statistics;
-  const RenderStatistics& y = b.statistics;
-  EXPECT_EQ(x.spp, y.spp);
-  EXPECT_EQ(x.samples, y.samples);
-  EXPECT_EQ(x.rays.camera, y.rays.camera);
-  EXPECT_EQ(x.clamped, y.clamped);
-  EXPECT_EQ(x.cache.steps, y.cache.steps);
-  EXPECT_EQ(x.cache.steps_wanted, y.cache.steps_wanted);
-  EXPECT_EQ(x.cache.records, y.cache.records);
-  EXPECT_EQ(x.cache.touched_nodes, y.cache.touched_nodes);
-  EXPECT_EQ(x.cache.training_paths, y.cache.training_paths);
-  EXPECT_EQ(x.cache.queries, y.cache.queries);
-  EXPECT_EQ(x.cache.negative_answers, y.cache.negative_answers);
-  EXPECT_EQ(x.cache.unstored_hits, y.cache.unstored_hits);
-}
-
 std::string refusal(const std::function<void()>& act) {
   try {
     act();
@@ -91,49 +49,11 @@ std::string refusal(const std::function<void()>& act) {
   return "";
 }
 
-struct Kind {
-  const char* name;
-  Integrator integrator;
-  std::function<void(RenderOptions&)> change;
-};
-
-void PrintTo(const Kind& kind, std::ostream* stream) {
-  *stream << kind.name;
-}
-
-const Kind kKinds[] = {
-    {"path", Integrator::path, [](RenderOptions&) {}},
-    {"path_independent_region", Integrator::path,
-     [](RenderOptions& o) {
-       o.sampler = SamplerKind::independent;
-       o.region = {{3, 2, 30, 19}};
-       o.aovs.clear();
-     }},
-    {"ao", Integrator::ao, [](RenderOptions&) {}},
-    {"nao", Integrator::nao, [](RenderOptions&) {}},
-    {"nrc", Integrator::nrc, [](RenderOptions&) {}},
-    {"nrc_spread_uncounted", Integrator::nrc,
-     [](RenderOptions& o) {
-       o.cache.candidates = 1;
-       o.cache.query_at = QueryAt::spread;
-       o.cache.source = TrainingSource::surface;
-       o.aovs.clear();
-     }},
-    {"nrc_hashgrid", Integrator::nrc,
-     [](RenderOptions& o) {
-       o.cache.encoding = neural::FeatureEncoding::hash_grid;
-       o.cache.candidates = 1;
-       o.cache.hash_grid.log2_table_size = 10;
-       o.cache.training.precision = neural::FeaturePrecision::fp16;
-       o.cache.query_at = QueryAt::primary;
-     }},
-};
-
 class Resume : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(Resume, APictureThatWasStoppedHasTheBitsOfOneThatWasNot) {
   const scene::Scene s = room();
-  RenderOptions options = picture(GetParam().integrator);
+  RenderOptions options = picture_of(GetParam().integrator);
   GetParam().change(options);
   options.threads = 2;
   const Result straight = render(s, options);
@@ -165,7 +85,7 @@ TEST_P(Resume, APictureThatWasStoppedHasTheBitsOfOneThatWasNot) {
 TEST_P(Resume, MoreSamplesGoOn) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
-  RenderOptions options = picture(GetParam().integrator);
+  RenderOptions options = picture_of(GetParam().integrator);
   GetParam().change(options);
   const Result straight = render(s, options);
   options.checkpoint.file = folder / "picture";
@@ -187,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Resume, ::testing::ValuesIn(kKinds),
 TEST(Checkpoints, AMissingOneStartsAnewAndWithoutResumeAnOldOneIsNotRead) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
-  RenderOptions options = picture(Integrator::path);
+  RenderOptions options = picture_of(Integrator::path);
   const Result straight = render(s, options);
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
@@ -207,7 +127,7 @@ TEST(Checkpoints, AMissingOneStartsAnewAndWithoutResumeAnOldOneIsNotRead) {
 TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
   scene::Scene s = room();
   const TemporaryFolder folder;
-  RenderOptions options = picture(Integrator::nrc);
+  RenderOptions options = picture_of(Integrator::nrc);
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
   render(s, options, 3);
@@ -244,7 +164,7 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
   const scene::Scene s = room();
   for (const Integrator integrator : {Integrator::nao, Integrator::nrc}) {
     const TemporaryFolder folder;
-    RenderOptions options = picture(integrator);
+    RenderOptions options = picture_of(integrator);
     const Result straight = render(s, options);
     options.cache.cache_out = folder / "eight";
     render(s, options);
@@ -261,7 +181,7 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
     options.cache.train_steps = 8;
     const Result more = render(s, options);
     EXPECT_EQ(more.statistics.cache.steps, 8);
-    RenderOptions whole = picture(integrator);
+    RenderOptions whole = picture_of(integrator);
     whole.cache.train_steps = 16;
     const Result sixteen = render(s, whole);
     EXPECT_EQ(more.picture.layers[0].values, sixteen.picture.layers[0].values);
@@ -279,7 +199,7 @@ TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
 TEST(CacheFiles, ACheckpointGoesOnWithALoadedCache) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
-  RenderOptions options = picture(Integrator::nrc);
+  RenderOptions options = picture_of(Integrator::nrc);
   options.cache.cache_out = folder / "eight";
   render(s, options);
   options.cache.cache_in = options.cache.cache_out;
@@ -304,7 +224,7 @@ TEST(CacheFiles, ACheckpointGoesOnWithALoadedCache) {
 TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
   scene::Scene s = room();
   const TemporaryFolder folder;
-  RenderOptions options = picture(Integrator::nrc);
+  RenderOptions options = picture_of(Integrator::nrc);
   options.cache.cache_out = folder / "a";
   render(s, options);
   options.cache.cache_in = options.cache.cache_out;
