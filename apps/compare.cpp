@@ -17,6 +17,7 @@
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
 #include "renderer/merge.h"
+#include "renderer/ssim.h"
 
 namespace gatelight::apps {
 namespace {
@@ -30,11 +31,13 @@ constexpr const char* kFooter = R"(Over the red, green and blue of the beauty la
   psnr      peak signal to noise ratio in dB, for a peak of 1
   mean      mean of the absolute difference, and of the signed one (test minus reference)
   max       largest absolute difference
+  ssim      mean structural similarity (Wang et al. 2004) of what flip sees, as grey: 1 for equal pictures. A Gaussian
+            window of 11x11 pixels that must lie within the picture, K1 0.01, K2 0.03; none for smaller pictures
   flip      LDR-FLIP (2020), what the eye sees when the pictures alternate: mean, quartiles weighted by the
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
-Pixels that are not finite in one of the pictures are counted and left out; FLIP, which cannot leave them out, is
-left out itself, and refused where --metric or --map names it. PNG files are made linear first.
+Pixels that are not finite in one of the pictures are counted and left out; FLIP and SSIM, which cannot leave them
+out, are left out themselves, and refused where --metric or --map names them. PNG files are made linear first.
 
 With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
 and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
@@ -94,15 +97,18 @@ void check_outputs(const CompareSettings& settings) {
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
 }
 
-void measure_flip(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
-                  bool by_name) {
+void measure_looks(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
+                   bool by_name) {
   if (!by_name && report.errors.nonfinite_reference + report.errors.nonfinite_test > 0) {
-    log_warning("FLIP is left out: it is defined for finite pixels");
+    log_warning("FLIP and SSIM are left out: they are defined for finite pixels");
     return;
   }
+  const renderer::FlipOptions& flip = report.flip_options;
   for (const Metric metric : report.metrics) {
-    if (metric == Metric::flip) report.flip = ldr_flip(reference, test, report.flip_options);
-    if (metric == Metric::hdr_flip) report.hdr_flip = hdr_flip(reference, test, report.flip_options);
+    if (metric == Metric::ssim && (by_name || has_ssim(reference.picture)))
+      report.ssim = ssim(reference, test, {.exposure = flip.exposure, .tonemap = flip.tonemap});
+    if (metric == Metric::flip) report.flip = ldr_flip(reference, test, flip);
+    if (metric == Metric::hdr_flip) report.hdr_flip = hdr_flip(reference, test, flip);
   }
 }
 
@@ -148,7 +154,7 @@ int run_compare(const CompareSettings& settings) {
         {{references.front(), report.references.front()}, {references.back(), report.references.back()}},
         {{tests.front(), report.tests.front()}, {tests.back(), report.tests.back()}});
   }
-  measure_flip(report, reference, test, !settings.metrics.empty());
+  measure_looks(report, reference, test, !settings.metrics.empty());
   if (!settings.error_map.empty()) {
     renderer::write_image(make_map(settings, report, reference, test), settings.error_map);
   }
@@ -173,7 +179,7 @@ Subcommand add_compare_command(CLI::App& root) {
       ->type_name("REF2 TEST2")
       ->expected(2);
   app->add_option("--metric", settings->metrics,
-                  "Which, separated by commas: mse,rel_mse,psnr,mean,max,flip,hdr_flip (default: all)")
+                  "Which, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)")
       ->type_name("LIST");
   app->add_option("--json", settings->json, "Result as JSON; - is stdout")->type_name("FILE|-");
   app->add_option(
@@ -190,8 +196,9 @@ Subcommand add_compare_command(CLI::App& root) {
       "67.02");
   constexpr RealRange kStops{-100.0, 100.0};
   add_real(*app, "--exposure", settings->flip.exposure, kStops, "EV",
-           "For flip: stops by which pictures are brighter", "0");
-  add_choice(*app, "--tonemap", settings->flip.tonemap, tonemap_choices(), "For flip: curve of pictures");
+           "For flip and ssim: stops by which pictures are brighter", "0");
+  add_choice(*app, "--tonemap", settings->flip.tonemap, tonemap_choices(),
+             "For flip and ssim: curve of pictures");
   return {app, [settings] { return run_compare(*settings); }};
 }
 

@@ -15,11 +15,12 @@ namespace {
 using nlohmann::ordered_json;
 using renderer::ErrorMetrics;
 
-constexpr std::array<Choice<Metric>, 7> kMetrics{{{"mse", Metric::mse},
+constexpr std::array<Choice<Metric>, 8> kMetrics{{{"mse", Metric::mse},
                                                   {"rel_mse", Metric::rel_mse},
                                                   {"psnr", Metric::psnr},
                                                   {"mean", Metric::mean},
                                                   {"max", Metric::max},
+                                                  {"ssim", Metric::ssim},
                                                   {"flip", Metric::flip},
                                                   {"hdr_flip", Metric::hdr_flip}}};
 
@@ -41,6 +42,7 @@ std::vector<Value> values_of(Metric metric) {
       return {{"mean_error", &ErrorMetrics::mean_error}, {"mean_difference", &ErrorMetrics::mean_difference}};
     case Metric::max:
       return {{"max_error", &ErrorMetrics::max_error}};
+    case Metric::ssim:
     case Metric::flip:
     case Metric::hdr_flip:
       break;
@@ -59,6 +61,13 @@ bool is_flip(Metric metric) {
 /// Equal pictures have an infinite PSNR, which JSON cannot say: null.
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : nullptr;
+}
+
+ordered_json ssim_json(const CompareReport& report) {
+  if (!report.ssim) return nullptr;
+  return {{"mean", *report.ssim},
+          {"exposure", report.flip_options.exposure},
+          {"tonemap", name_of(tonemap_choices(), report.flip_options.tonemap)}};
 }
 
 ordered_json flip_json(const CompareReport& report, Metric metric) {
@@ -114,6 +123,7 @@ std::string compare_json(const CompareReport& report) {
   for (const Metric metric : report.metrics) {
     for (const Value& value : values_of(metric)) json[value.key] = number(report.errors.*value.member);
     if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
+    if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
     if (is_flip(metric)) json[name_of(metric_choices(), metric)] = flip_json(report, metric);
   }
   if (report.bias_rel_mse) json["bias_rel_mse"] = number(*report.bias_rel_mse);
@@ -127,6 +137,8 @@ std::string compare_text(const CompareReport& report) {
       text += fmt::format("{:<16} {:.6g}{}\n", value.key, report.errors.*value.member,
                           metric == Metric::psnr ? " dB" : "");
     }
+    if (metric == Metric::ssim)
+      text += report.ssim ? fmt::format("{:<16} {:.6g}\n", "ssim", *report.ssim) : "ssim             -\n";
     if (is_flip(metric)) text += flip_text(report, metric);
   }
   if (report.bias_rel_mse) text += fmt::format("{:<16} {:.6g}\n", "bias_rel_mse", *report.bias_rel_mse);

@@ -11,7 +11,7 @@
 
 namespace gatelight::apps {
 
-enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, flip, hdr_flip };
+enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, ssim, flip, hdr_flip };
 
 Choices<Metric> metric_choices();
 
@@ -22,7 +22,8 @@ struct CompareReport {
   int height = 0;
   std::vector<Metric> metrics;  ///< that were asked for, in the order of the report
   renderer::ErrorMetrics errors;
-  renderer::FlipOptions flip_options;
+  renderer::FlipOptions flip_options;  ///< exposure and curve also of ssim
+  std::optional<double> ssim;  ///< none: not asked for, smaller than its window, or pixels are not finite
   std::optional<renderer::FlipResult> flip;  ///< none: not asked for, or pixels are not finite
   std::optional<renderer::FlipResult> hdr_flip;
   std::optional<double> bias_rel_mse;  ///< of halves

@@ -26,11 +26,17 @@ Beauty::Beauty(const NamedPicture& named) {
   }
 }
 
-void require_same_size(const NamedPicture& a, const NamedPicture& b) {
-  if (a.picture.width == b.picture.width && a.picture.height == b.picture.height) return;
-  throw CompareError(fmt::format("the pictures differ in size: '{}' has {}x{} pixels, '{}' has {}x{}", a.name,
-                                 a.picture.width, a.picture.height, b.name, b.picture.width,
-                                 b.picture.height));
+void require_comparable(const NamedPicture& a, const NamedPicture& b) {
+  if (a.picture.width != b.picture.width || a.picture.height != b.picture.height) {
+    throw CompareError(fmt::format("the pictures differ in size: '{}' has {}x{} pixels, '{}' has {}x{}",
+                                   a.name, a.picture.width, a.picture.height, b.name, b.picture.width,
+                                   b.picture.height));
+  }
+  const bool grey = Beauty(a).is_grey();
+  if (grey != Beauty(b).is_grey()) {
+    throw CompareError(fmt::format("the pictures differ in channels: '{}' is grey, '{}' has colours",
+                                   grey ? a.name : b.name, grey ? b.name : a.name));
+  }
 }
 
 }  // namespace gatelight::renderer

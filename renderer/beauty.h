@@ -17,6 +17,7 @@ class Beauty {
   /// outlive this.
   explicit Beauty(const NamedPicture& named);
 
+  bool is_grey() const { return index_[0] == index_[1]; }
   Rgb at(std::size_t pixel) const {
     const float* values = layer_->values.data() + pixel * layer_->channels.size();
     return {values[index_[0]], values[index_[1]], values[index_[2]]};
@@ -35,7 +36,7 @@ inline std::size_t pixel_count(const Picture& picture) {
   return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
 }
 
-/// Throws CompareError.
-void require_same_size(const NamedPicture& a, const NamedPicture& b);
+/// Throws CompareError for different sizes, for one grey and one colour, and without a beauty layer.
+void require_comparable(const NamedPicture& a, const NamedPicture& b);
 
 }  // namespace gatelight::renderer

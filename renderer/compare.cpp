@@ -41,7 +41,7 @@ std::array<float, 3> ramp(float x) {
 }  // namespace
 
 ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture& test) {
-  require_same_size(reference, test);
+  require_comparable(reference, test);
   const Beauty reference_beauty(reference);
   const Beauty test_beauty(test);
   ErrorMetrics metrics;
@@ -78,7 +78,7 @@ ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture&
 
 double squared_bias(const Halves& reference, const Halves& test) {
   for (const NamedPicture* other : {&reference.second, &test.first, &test.second}) {
-    require_same_size(reference.first, *other);
+    require_comparable(reference.first, *other);
   }
   const Beauty reference1(reference.first);
   const Beauty reference2(reference.second);
@@ -103,7 +103,7 @@ double squared_bias(const Halves& reference, const Halves& test) {
 }
 
 Picture error_map(const NamedPicture& reference, const NamedPicture& test) {
-  require_same_size(reference, test);
+  require_comparable(reference, test);
   const Beauty reference_beauty(reference);
   const Beauty test_beauty(test);
   const std::size_t pixels = pixel_count(reference.picture);

@@ -37,8 +37,8 @@ struct NamedPicture {
   std::string name;  ///< for messages
 };
 
-/// Alpha is ignored; a beauty layer of one channel counts as grey. Throws CompareError when the sizes differ
-/// or a picture has no beauty layer.
+/// Alpha is ignored; a beauty layer of one channel is grey. Throws CompareError when the sizes differ, when
+/// one is grey and one has colours, or when a picture has no beauty layer.
 ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture& test);
 
 /// Two pictures of the same with independent noise.

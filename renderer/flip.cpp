@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "renderer/beauty.h"
 #include "renderer/errors.h"
 #include "renderer/flip/color_map.h"
 #include "renderer/flip/exposures.h"
 #include "renderer/flip/filters.h"
 #include "renderer/flip/ldr.h"
+#include "renderer/flip/shown.h"
 #include "renderer/flip/summary.h"
 #include "renderer/srgb.h"
 
@@ -20,39 +18,7 @@ namespace {
 using flip::Plane;
 using flip::RgbPlanes;
 
-/// Negative values, which no screen shows, become 0.
-RgbPlanes read_planes(const NamedPicture& named) {
-  const Beauty beauty(named);
-  const std::size_t pixels = pixel_count(named.picture);
-  if (pixels == 0) throw CompareError(fmt::format("'{}' has no pixels", named.name));
-  RgbPlanes planes;
-  for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
-    plane->resize(named.picture.height, named.picture.width);
-  }
-  std::size_t not_finite = 0;
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const Rgb color = beauty.at(p);
-    not_finite += finite(color) ? 0 : 1;
-    planes.r.data()[p] = static_cast<float>(std::max(color[0], 0.0));
-    planes.g.data()[p] = static_cast<float>(std::max(color[1], 0.0));
-    planes.b.data()[p] = static_cast<float>(std::max(color[2], 0.0));
-  }
-  if (not_finite > 0) {
-    throw CompareError(fmt::format("'{}' has {} pixels that are not finite; FLIP is defined for finite ones",
-                                   named.name, not_finite));
-  }
-  return planes;
-}
-
-void show(RgbPlanes& planes, const FlipOptions& options) {
-  const float scale = exposure_scale(options.exposure);
-  for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
-    *plane = plane->unaryExpr([&](float x) {
-      const float exposed = x * scale;
-      return options.tonemap == Tonemap::filmic ? filmic(exposed) : std::min(exposed, 1.0f);
-    });
-  }
-}
+constexpr const char* kMeasure = "FLIP";
 
 flip::Filters make_checked_filters(const FlipOptions& options) {
   const double ppd = options.pixels_per_degree;
@@ -73,20 +39,18 @@ FlipResult make_result(const Plane& errors) {
 }  // namespace
 
 FlipResult ldr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options) {
-  require_same_size(reference, test);
+  require_comparable(reference, test);
   const flip::Filters filters = make_checked_filters(options);
-  RgbPlanes r = read_planes(reference);
-  RgbPlanes t = read_planes(test);
-  show(r, options);
-  show(t, options);
+  const RgbPlanes r = flip::read_shown(reference, kMeasure, options.exposure, options.tonemap);
+  const RgbPlanes t = flip::read_shown(test, kMeasure, options.exposure, options.tonemap);
   return make_result(flip::ldr_errors(r, t, filters));
 }
 
 FlipResult hdr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options) {
-  require_same_size(reference, test);
+  require_comparable(reference, test);
   const flip::Filters filters = make_checked_filters(options);
-  const RgbPlanes r = read_planes(reference);
-  const RgbPlanes t = read_planes(test);
+  const RgbPlanes r = flip::read_planes(reference, kMeasure);
+  const RgbPlanes t = flip::read_planes(test, kMeasure);
   const flip::Exposures exposures = flip::choose_exposures(r);
   Plane errors = Plane::Zero(r.height(), r.width());
   for (int i = 0; i < exposures.count; ++i) {

@@ -59,10 +59,10 @@ TEST_F(CompareCommand, MetricsAreChosenByName) {
   const json result = json::parse(read_file(path("o.json")));
   EXPECT_TRUE(result["psnr"].is_null()) << "JSON has no infinity";
   EXPECT_FALSE(result.contains("mse"));
-  const Output unknown = run_gatelight({"compare", reference, reference, "--metric", "ssim"});
+  const Output unknown = run_gatelight({"compare", reference, reference, "--metric", "lpips"});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_THAT(unknown.last_error_line(),
-              AllOf(HasSubstr("'ssim'"), HasSubstr("mse|rel_mse|psnr|mean|max|flip|hdr_flip")));
+              AllOf(HasSubstr("'lpips'"), HasSubstr("mse|rel_mse|psnr|mean|max|ssim|flip|hdr_flip")));
 }
 
 TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
@@ -83,6 +83,32 @@ TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
   }
   EXPECT_EQ(result["flip"]["tonemap"], "none");
   EXPECT_EQ(result["hdr_flip"]["exposures"], 2);
+}
+
+TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
+  const std::string black = picture("b.exr", 12, 11, 0.0f);
+  const std::string white = picture("w.exr", 12, 11, 4.0f);
+  EXPECT_THAT(run_gatelight_inside({"compare", black, white}).out, HasSubstr("ssim             9.999e-05\n"));
+  const auto ssim = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"compare", black, white, "--metric", "ssim", "--json", "-"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return json::parse(run_gatelight_inside(arguments).out)["ssim"];
+  };
+  EXPECT_NEAR(ssim({})["mean"], 1e-4 / 1.0001, 1e-9);
+  // 2^-3 of the radiance is 0.5, which sRGB shows as 0.7354.
+  EXPECT_NEAR(ssim({"--exposure", "-3"})["mean"], 1e-4 / (0.7353569 * 0.7353569 + 1e-4), 1e-9);
+  EXPECT_EQ(ssim({"--exposure", "-3"})["exposure"], -3.0);
+  EXPECT_EQ(ssim({"--tonemap", "filmic"})["tonemap"], "filmic");
+
+  const std::string small = picture("s.exr", 12, 10, 1.0f);
+  const Output output = run_gatelight_inside({"compare", small, small, "--json", "-"});
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_EQ(output.err, "");
+  EXPECT_TRUE(json::parse(output.out)["ssim"].is_null());
+  EXPECT_THAT(run_gatelight_inside({"compare", small, small}).out, HasSubstr("ssim             -\n"));
+  const Output by_name = run_gatelight_inside({"compare", small, small, "--metric", "ssim"});
+  EXPECT_EQ(by_name.exit_code, 2);
+  EXPECT_THAT(by_name.last_error_line(), AllOf(HasSubstr("s.exr"), HasSubstr("11x11")));
 }
 
 TEST_F(CompareCommand, FlipFollowsExposureCurveAndPixelsPerDegree) {
@@ -174,6 +200,12 @@ TEST_F(CompareCommand, UnusablePicturesAreCode2) {
   EXPECT_EQ(sizes.exit_code, 2);
   EXPECT_EQ(sizes.out, "");
   EXPECT_THAT(sizes.last_error_line(), AllOf(HasSubstr("r.exr"), HasSubstr("t.exr"), HasSubstr("2x3")));
+  renderer::Picture grey{.width = 2, .height = 2};
+  grey.layers = {{.channels = {"Y"}, .values = std::vector<float>(4, 1.0f)}};
+  renderer::write_image(grey, folder / "grey.exr", {.exr_float = true});
+  const Output channels = run_gatelight_inside({"compare", reference, path("grey.exr")});
+  EXPECT_EQ(channels.exit_code, 2);
+  EXPECT_THAT(channels.last_error_line(), AllOf(HasSubstr("grey.exr' is grey"), HasSubstr("r.exr")));
   const Output missing = run_gatelight_inside({"compare", reference, path("missing.exr")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.exr"));
@@ -191,10 +223,11 @@ TEST_F(CompareCommand, NonFinitePixelsAreReported) {
   EXPECT_TRUE(json::parse(output.out)["flip"].is_null()) << "FLIP cannot leave pixels out";
 }
 
-TEST_F(CompareCommand, FlipByNameRefusesNonFinitePixels) {
+TEST_F(CompareCommand, FlipAndSsimByNameRefuseNonFinitePixels) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, std::nanf(""));
   for (const std::vector<std::string>& flags : {std::vector<std::string>{"--metric", "hdr_flip"},
+                                                {"--metric", "ssim"},
                                                 {"--metric", "mse,flip"},
                                                 {"--error-map", path("e.png")}}) {
     std::vector<std::string> arguments = {"compare", reference, test};

@@ -71,7 +71,9 @@ TEST(Compare, AlphaIsIgnoredAndOneChannelIsGrey) {
   EXPECT_EQ(compare(rgb(1, 1, {1, 2, 3}), rgba).mse, 0.0);
   Picture grey{.width = 1, .height = 1};
   grey.layers = {{.channels = {"Y"}, .values = {2.0f}}};
-  EXPECT_EQ(compare(grey, rgb(1, 1, {2, 2, 2})).mse, 0.0);
+  Picture brighter = grey;
+  brighter.layers[0].values[0] = 2.5f;
+  EXPECT_EQ(compare(grey, brighter).mse, 0.25);
 }
 
 std::string refusal(const Picture& reference, const Picture& test) {
@@ -86,6 +88,17 @@ std::string refusal(const Picture& reference, const Picture& test) {
 TEST(Compare, DifferentSizesNameBothPictures) {
   EXPECT_THAT(refusal(rgb(2, 1, std::vector<float>(6)), rgb(1, 2, std::vector<float>(6))),
               AllOf(HasSubstr("'ref.exr' has 2x1"), HasSubstr("'test.exr' has 1x2")));
+}
+
+TEST(Compare, GreyAndColoursAreRefused) {
+  Picture grey{.width = 1, .height = 1};
+  grey.layers = {{.channels = {"Y", "A"}, .values = {2.0f, 1.0f}}};
+  for (const bool first : {false, true}) {
+    const Picture colours = rgb(1, 1, {2, 2, 2});
+    EXPECT_THAT(first ? refusal(grey, colours) : refusal(colours, grey),
+                AllOf(HasSubstr("differ in channels"),
+                      HasSubstr(first ? "'ref.exr' is grey, 'test.exr'" : "'test.exr' is grey, 'ref.exr'")));
+  }
 }
 
 TEST(Compare, APictureWithoutColoursIsRefusedByName) {
