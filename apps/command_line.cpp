@@ -18,13 +18,15 @@ namespace {
 
 constexpr const char* kFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
-over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 130 and 143 stopped by a
-signal after writing the picture so far. The last line on stderr says what failed, on which file, and what to do.
+over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
+130 and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file,
+and what to do.
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256
   gatelight info room.glb
   gatelight compare reference.exr room.exr
+  gatelight sweep room.glb -o room-sweep
   gatelight render --help)";
 
 const CLI::App* called_subcommand(const CLI::App& root) {
@@ -40,7 +42,7 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error) {
     const std::vector<std::string> rest = root.remaining();
     const std::string got =
         rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
-    return got + ", expected render, compare, info or merge";
+    return got + ", expected render, compare, info, merge or sweep";
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
     return fmt::format("--config: {}, expected flags of '{}' and their values", error.what(),
@@ -83,6 +85,7 @@ int parse_and_run(int argc, const char* const* argv) {
       add_compare_command(root),
       add_info_command(root),
       add_merge_command(root),
+      add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
   };
   try {
     root.parse(argc, argv);

@@ -15,6 +15,7 @@ enum ExitCode : int {
   kMemory = 4,
   kUnavailable = 5,
   kNumerical = 6,
+  kPartly = 7,        ///< some cells of a sweep failed, the others are there
   kSignalBase = 128,  ///< plus the signal's number
 };
 

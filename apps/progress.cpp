@@ -1,7 +1,6 @@
 #include "apps/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "apps/terminal.h"
 #include "apps/text.h"
 
 namespace gatelight::apps {
@@ -17,17 +17,6 @@ namespace {
 /// JSON lines end up in log files: one a second is enough. A bar may move faster.
 constexpr double kJsonInterval = 1.0;
 constexpr double kBarInterval = 0.1;
-
-int terminal_columns() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 80;
-}
-
-void print_json(const nlohmann::ordered_json& object) {
-  fmt::print(stderr, "{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  std::fflush(stderr);
-}
 
 const char* name_of(renderer::Phase phase) {
   switch (phase) {
@@ -69,7 +58,7 @@ ProgressReporter::~ProgressReporter() {
 void ProgressReporter::phase(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (mode_ == ProgressMode::json) {
-    print_json({{"event", "phase"}, {"phase", name}});
+    print_json_line({{"event", "phase"}, {"phase", name}});
   } else if (mode_ == ProgressMode::bar) {
     clear_line();
     fmt::print(stderr, "{} ...", name);
@@ -129,7 +118,7 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
   }
   line["seconds"] = progress.seconds;
   if (rates.eta_seconds >= 0.0) line["eta_seconds"] = rates.eta_seconds;
-  print_json(line);
+  print_json_line(line);
 }
 
 void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
@@ -152,7 +141,7 @@ bool ProgressReporter::done(const std::vector<std::string>& outputs, double seco
   const std::lock_guard lock(mutex_);
   clear_line();
   if (mode_ != ProgressMode::json) return false;
-  print_json({{"event", "done"}, {"outputs", outputs}, {"seconds", seconds}});
+  print_json_line({{"event", "done"}, {"outputs", outputs}, {"seconds", seconds}});
   return true;
 }
 

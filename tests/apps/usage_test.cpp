@@ -38,7 +38,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   const Output root = run_gatelight({"--help"});
   EXPECT_EQ(root.exit_code, 0);
   EXPECT_EQ(root.err, "");
-  for (const char* word : {"render", "compare", "info", "merge", "--config", "Exit codes", "Examples"}) {
+  for (const char* word : {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
     EXPECT_THAT(root.out, HasSubstr(word));
   }
   const Output render = run_gatelight({"render", "--help"});

@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "apps/cache_choices.h"
+#include "apps/errors.h"
+#include "apps/flags.h"
+#include "apps/render_settings.h"
+#include "apps/subcommand.h"
+#include "apps/sweep/presets.h"
+#include "apps/sweep/request.h"
+#include "apps/sweep/sweep_run.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Every combination of the lists is a line in the plots, every step count on it a cell: one picture, compared with a
+reference. One training gives the pictures of all its step counts. Beside each integrator with a cache the one without
+is measured (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture may stand here and
+holds for all cells (--size, --camera, --batch ...; see its --help). A flag that means nothing in a cell, such as
+--features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
+semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
+
+DIR has results.csv and results.json (all cells of this call), pictures and FLIP maps of the first seed, references, and
+cells/, a file for each cell that is done. The same command goes on where it was stopped; cells that are done are not
+made again, failed ones are. Cells are known by the scene's content and all options, so that a DIR can serve several
+sweeps. A cell that fails is told and does not end the rest; the exit code is 7 then. SIGINT and SIGTERM end it after
+writing the results so far (130 or 143).
+
+Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them):
+  paper-table1    GATE and the hash grid at the same memory, 128 steps
+  paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
+  paper-steps     the same as table 1 from 8 to 128 steps
+  paper-adaptive  resolution 4 everywhere against adaptive ones
+  paper-inputs    with and without normal and albedo
+  paper-extra     storage, counters, candidates, precision, stacks, clusters, where the cache is asked, what it holds
+Those of 'gatelight render' (preview, final, paper-nao, paper-nrc) stand for their flags.
+
+Examples:
+  gatelight sweep kitchen.glb -o kitchen
+  gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
+  gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run
+  gatelight sweep kitchen.glb -o kitchen --advise --max-error 0.05
+  gatelight sweep -o kitchen --advise --max-time 10
+  gatelight sweep kitchen.glb -o table1 --preset paper-table1 --size 960x540)";
+
+constexpr IntegerRange kReferenceSpp{2, 1 << 24};
+constexpr RealRange kPositive{.min = 0.0, .max = 1e9, .excludes_min = true};
+
+constexpr Choice<bool> kOnOff[] = {{"on", true}, {"off", false}};
+
+struct SweepCall {
+  SweepWords words;
+  SweepSettings settings;
+};
+
+void add_text(CLI::App& app, const char* flag, const char* unit, const char* help, const char* default_text,
+              std::optional<std::string>& value, const char* group) {
+  add_word(app, flag, unit, help, default_text, [&value](const std::string& text) {
+    value = text;
+  })->group(group);
+}
+
+const char* axis_help(const std::string& name) {
+  if (name == "--integrators") return "nrc, nao, path, ao";
+  if (name == "--encodings") return "gate, hashgrid";
+  if (name == "--features") return "gate: numbers in a feature vector";
+  if (name == "--resolution") return "gate: uniform, paper, fixed:R";
+  if (name == "--stack") return "gate: resolutions of the levels; one stack, or several separated by ';'";
+  if (name == "--cache-memory") {
+    return "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same "
+           "flags, "
+           "same-as-gate/2 half as many";
+  }
+  if (name == "--hidden") return "Width of the network's hidden layers";
+  if (name == "--learning-rate") return "Size of a training step";
+  return "Samples per pixel of pictures with a cache";
+}
+
+const char* axis_default(const std::string& name) {
+  if (name == "--integrators") return "nrc";
+  if (name == "--cache-spp") return "4";
+  return "";
+}
+
+void add_axes(CLI::App& app, SweepWords& words) {
+  const char* group = "Axes";
+  add_text(app, "--train-steps", "LIST", "Training steps, all from one training",
+           "8,16,32,64,128,256,512,1024", words.train_steps, group);
+  for (const AxisFlag& flag : kAxisFlags) {
+    add_word(app, flag.name, "LIST", axis_help(flag.name), axis_default(flag.name),
+             [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); })
+        ->group(group);
+  }
+  app.add_option("--vary", words.vary, "Any other flag of render as an axis; may be given several times")
+      ->type_name("NAME=LIST")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  add_text(app, "--seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds, group);
+  add_text(app, "--spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp,
+           group);
+  app.add_flag("--no-plain", words.no_plain,
+               "Do not measure integrators without a cache beside those with one")
+      ->group(group);
+  std::vector<std::string_view> names = sweep_preset_names();
+  for (const auto& choice : preset_choices()) names.push_back(choice.name);
+  app.add_option("--preset", words.preset,
+                 "Axes and flags at once: " + fmt::format("{}", fmt::join(names, ", ")))
+      ->type_name("NAME")
+      ->group(group);
+}
+
+void add_reference_flags(CLI::App& app, SweepSettings& s) {
+  const char* group = "References";
+  app.add_option("--reference", s.reference_file,
+                 "Compare with this picture; for one scene and one kind of picture")
+      ->type_name("FILE")
+      ->group(group);
+  add_word(app, "--reference-spp", "N",
+           "Samples per pixel of rendered references: two halves, whose difference tells their noise", "1024",
+           [&s](const std::string& text) {
+             const std::int64_t spp = parse_integer("--reference-spp", text, kReferenceSpp);
+             s.reference_spp = static_cast<int>(spp + spp % 2);
+           })
+      ->group(group);
+  app.add_option("--reference-dir", s.reference_folder, "Where they are kept (default: references in DIR)")
+      ->type_name("DIR")
+      ->group(group);
+  add_choice(app, "--hdr-flip", s.hdr_flip, Choices<bool>(kOnOff), "Measure HDR-FLIP of radiance, too")
+      ->group(group);
+}
+
+void add_advice_flags(CLI::App& app, SweepSettings& s) {
+  const char* group = "Advice";
+  app.add_flag(
+         "--advise", s.advise,
+         "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR")
+      ->group(group);
+  add_word(app, "--max-error", "FLIP", "Largest mean FLIP", "", [&s](const std::string& text) {
+    s.limits.max_error = parse_real("--max-error", text, {0.0, 1.0});
+  })->group(group);
+  add_word(
+      app, "--max-time", "SECONDS", "Longest time to train and render", "",
+      [&s](const std::string& text) { s.limits.max_seconds = parse_real("--max-time", text, kPositive); })
+      ->group(group);
+}
+
+void add_output_flags(CLI::App& app, SweepSettings& s) {
+  const char* group = "Output";
+  app.add_option("-o,--output", s.folder, "Folder of the results; is made where it is not there")
+      ->type_name("DIR")
+      ->required()
+      ->group(group);
+  app.add_flag("--dry-run", s.dry_run, "Print the plan and stop")->group(group);
+  add_choice(app, "--progress", s.progress, progress_choices(),
+             "Progress on stderr; auto: a bar on a terminal")
+      ->group(group);
+  app.add_flag("--quiet", s.quiet, "Say nothing but errors")->group(group);
+  app.add_flag("--verbose", s.verbose, "Say more: all options of each run")->group(group);
+}
+
+/// Not in the help: they are those of render.
+void add_base_flags(CLI::App& app, SweepWords& words) {
+  for (const std::string& name : base_flag_names()) {
+    add_word(app, name, "VALUE", "", "", [&words, name](const std::string& text) {
+      set_flag(words.base, name, text);
+    })->group("");
+  }
+}
+
+void check(const SweepCall& call) {
+  const SweepSettings& s = call.settings;
+  const bool limited = s.limits.max_error || s.limits.max_seconds;
+  if (limited && !s.advise) {
+    throw UsageError(fmt::format("{}: it is for advice, expected --advise with it",
+                                 s.limits.max_error ? "--max-error" : "--max-time"));
+  }
+  if (s.advise && !limited)
+    throw UsageError("--advise: a limit is missing, expected --max-error or --max-time");
+  if (call.words.scenes.empty() && !s.advise) {
+    throw UsageError("SCENE: it is missing, expected one or more scenes (without one only --advise works)");
+  }
+  if (s.quiet && s.verbose) throw UsageError("--quiet and --verbose exclude each other, expected one");
+}
+
+}  // namespace
+
+Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command) {
+  CLI::App* app = root.add_subcommand("sweep", "Measure error against time and steps over options");
+  app->footer(kFooter);
+  const auto call = std::make_shared<SweepCall>();
+  app->add_option("SCENE", call->words.scenes, "Scenes, .gltf or .glb")->type_name("");
+  add_output_flags(*app, call->settings);
+  add_axes(*app, call->words);
+  add_reference_flags(*app, call->settings);
+  add_advice_flags(*app, call->settings);
+  add_base_flags(*app, call->words);
+  return {app, [call, command] {
+            check(*call);
+            call->settings.request = make_request(call->words);
+            return run_sweep(call->settings, command);
+          }};
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,113 @@
+#include "apps/sweep/advise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/sweep/cell_record.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string point_text(const ordered_json& cell) {
+  std::string text;
+  if (!cell.at("train_steps").is_null()) text = fmt::format("{} steps, ", cell["train_steps"].get<int>());
+  return text + fmt::format("{} spp", cell.at("spp").get<int>());
+}
+
+bool same(const Configuration& a, const Configuration& b) {
+  return a.scene == b.scene && a.reference == b.reference && a.series == b.series && a.point == b.point;
+}
+
+/// Adds the cell's numbers to the means.
+void add(Configuration& c, double error, double seconds) {
+  c.smallest_error = c.seeds == 0 ? error : std::min(c.smallest_error, error);
+  c.largest_error = c.seeds == 0 ? error : std::max(c.largest_error, error);
+  ++c.seeds;
+  c.error += (error - c.error) / c.seeds;
+  c.seconds += (seconds - c.seconds) / c.seeds;
+}
+
+std::string limits_text(const AdviceLimits& limits) {
+  std::string text;
+  if (limits.max_error) text = fmt::format("FLIP of at most {:.4g}", *limits.max_error);
+  if (limits.max_error && limits.max_seconds) text += " and ";
+  if (limits.max_seconds) text += fmt::format("time of at most {:.4g} s", *limits.max_seconds);
+  return text;
+}
+
+std::string describe(const Configuration& c) {
+  std::string text = fmt::format("{}, {}: FLIP {:.4f}", c.series, c.point, c.error);
+  if (c.seeds > 1) {
+    text += fmt::format(" ({:.4f} to {:.4f} over {} seeds)", c.smallest_error, c.largest_error, c.seeds);
+  }
+  return text + fmt::format(", {:.3g} s", c.seconds);
+}
+
+}  // namespace
+
+std::vector<Configuration> configurations(const ordered_json& results) {
+  std::vector<Configuration> found;
+  for (const ordered_json& cell : results.at("cells")) {
+    if (!is_done(cell) || !cell.at("errors").at("flip").is_number()) continue;
+    Configuration c;
+    c.scene = cell.at("scene").get<std::string>();
+    c.reference = cell.at("reference").get<std::string>();
+    c.series = cell.at("series").get<std::string>();
+    c.point = point_text(cell);
+    auto at = std::find_if(found.begin(), found.end(), [&](const Configuration& o) { return same(o, c); });
+    if (at == found.end()) {
+      c.command = cell.at("command").get<std::string>();
+      at = found.insert(found.end(), c);
+    }
+    add(*at, cell["errors"]["flip"].get<double>(), cell.at("seconds").at("total").get<double>());
+  }
+  return found;
+}
+
+Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits) {
+  const auto good = [&](const Configuration& c) { return !limits.max_error || c.error <= *limits.max_error; };
+  const auto fast = [&](const Configuration& c) {
+    return !limits.max_seconds || c.seconds <= *limits.max_seconds;
+  };
+  const auto faster = [](const Configuration& a, const Configuration& b) { return a.seconds < b.seconds; };
+  const auto better = [](const Configuration& a, const Configuration& b) { return a.error < b.error; };
+  std::vector<Configuration> chosen;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(chosen),
+               [&](const Configuration& c) { return good(c) && fast(c); });
+  if (!chosen.empty()) {
+    const auto best = limits.max_error ? std::min_element(chosen.begin(), chosen.end(), faster)
+                                       : std::min_element(chosen.begin(), chosen.end(), better);
+    return {*best, true};
+  }
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(chosen), fast);
+  if (chosen.empty()) return {*std::min_element(candidates.begin(), candidates.end(), faster), false};
+  return {*std::min_element(chosen.begin(), chosen.end(), better), false};
+}
+
+std::string advice_text(const ordered_json& results, const AdviceLimits& limits) {
+  const std::vector<Configuration> all = configurations(results);
+  if (all.empty()) return "no advice: no cell of this sweep is done\n";
+  std::string text = fmt::format("{}, without loading the scene and building\n", limits_text(limits));
+  std::vector<Configuration> rest = all;
+  while (!rest.empty()) {
+    const Configuration first = rest.front();
+    std::vector<Configuration> group;
+    for (const Configuration& c : rest) {
+      if (c.scene == first.scene && c.reference == first.reference) group.push_back(c);
+    }
+    std::erase_if(rest, [&](const Configuration& c) {
+      return c.scene == first.scene && c.reference == first.reference;
+    });
+    const Advice advice = choose(group, limits);
+    text += fmt::format("{} ({}): {}{}\n  {}\n", first.scene, first.reference,
+                        advice.met ? "" : fmt::format("none of {} met it; the nearest is ", group.size()),
+                        describe(advice.best), advice.best.command);
+  }
+  return text;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,28 @@
+#pragma once
+// What a sweep varies.
+
+#include <string>
+#include <vector>
+
+#include "apps/values.h"
+
+namespace gatelight::apps {
+
+struct SweepAxis {
+  std::string flag;  ///< of `render`, with its dashes
+  std::vector<std::string> values;
+};
+
+/// "a,b" into two values; "a,b;c" into "a,b" and "c". Values that are lists themselves (--stack) are not
+/// taken apart at commas. Throws UsageError for empty and repeated values.
+std::vector<std::string> split_values(const std::string& flag, const std::string& text,
+                                      bool values_are_lists = false);
+
+/// Ascending, each once.
+std::vector<int> split_integers(const std::string& flag, const std::string& text, const IntegerRange& range);
+
+/// "NAME=V1,V2", the text of --vary. NAME is that of a flag of `render`, with or without its dashes. Which
+/// flags may be varied is not checked here.
+SweepAxis parse_vary(const std::string& text);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,151 @@
+#include "apps/sweep/cell_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/cache_choices.h"
+#include "apps/cache_statistics.h"
+#include "apps/recipe.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+using renderer::CacheStatistics;
+
+constexpr double kFullHdPixels = 1920.0 * 1080.0;
+
+/// JSON has no infinity.
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : nullptr;
+}
+ordered_json number(const std::optional<double>& value) {
+  return value ? number(*value) : nullptr;
+}
+ordered_json per(double seconds, double count) {
+  return count > 0.0 ? ordered_json(seconds / count) : nullptr;
+}
+
+ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
+  const CacheStatistics& c = s.cache;
+  const auto of_cache = [&](double value) { return has_cache ? ordered_json(value) : nullptr; };
+  const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
+  return {{"scout", of_cache(c.scout_seconds)},
+          {"setup", of_cache(c.setup_seconds)},
+          {"train", of_cache(c.train_seconds)},
+          {"train_trace", of_cache(c.train_trace_seconds)},
+          {"train_query", of_cache(c.train_query_seconds)},
+          {"train_step", of_cache(c.train_step_seconds)},
+          {"render", s.render_seconds},
+          {"total", before + s.render_seconds}};
+}
+
+void add_speed(ordered_json& json, const CacheStatistics& c, bool has_cache) {
+  json["train_ms_per_step"] = has_cache ? per(1e3 * c.train_seconds, c.steps) : nullptr;
+  json["train_step_ms"] = has_cache ? per(1e3 * c.train_step_seconds, c.steps) : nullptr;
+  json["query_ms_per_2m"] =
+      has_cache ? per(1e3 * kFullHdPixels * c.render_query_seconds, static_cast<double>(c.queries)) : nullptr;
+  json["memory_bytes"] = has_cache ? cache_memory_json(c) : nullptr;
+  json["loss"] = has_cache ? number(c.loss) : nullptr;
+}
+
+void add_errors(ordered_json& json, const CellErrors& e) {
+  json["errors"] = {{"mse", number(e.metrics.mse)},
+                    {"rel_mse", number(e.metrics.rel_mse)},
+                    {"rel_mse_clean", number(e.rel_mse_clean)},
+                    {"psnr", number(e.metrics.psnr)},
+                    {"ssim", nullptr},
+                    {"flip", e.flip ? number(e.flip->summary.mean) : nullptr},
+                    {"hdr_flip", number(e.hdr_flip)}};
+  if (!e.flip) {
+    json["flip_percentiles"] = nullptr;
+    return;
+  }
+  const renderer::FlipSummary& s = e.flip->summary;
+  json["flip_percentiles"] = {
+      {"q25", s.first_quartile}, {"median", s.weighted_median}, {"q75", s.third_quartile}};
+}
+
+}  // namespace
+
+ordered_json planned_record(const CellPlace& place) {
+  const PlannedSeries& series = place.series;
+  const renderer::RenderOptions& o = series.settings.render;
+  const bool has_cache = series.has_cache();
+  ordered_json axes = ordered_json::object();
+  for (const auto& [name, value] : series.axes) axes[name] = value;
+  RenderSettings settings = cell_settings(series, place.scene.file, place.seed, place.point);
+  return {{"id", place.id},
+          {"scene", place.scene.name},
+          {"series", series.label},
+          {"integrator", name_of(integrator_choices(), o.integrator)},
+          {"encoding", has_cache ? ordered_json(name_of(encoding_choices(), o.cache.encoding)) : nullptr},
+          {"axes", axes},
+          {"seed", place.seed},
+          {"train_steps", has_cache ? ordered_json(place.point) : nullptr},
+          {"spp", has_cache ? o.spp : place.point},
+          {"options", resolved_options(settings)},
+          {"reference", name_of(reference_kind_choices(), series.reference)},
+          {"command", cell_command(series, place.scene.file, place.seed, place.point)}};
+}
+
+ordered_json failed_record(const CellPlace& place, const std::string& error) {
+  ordered_json json = planned_record(place);
+  json["status"] = "failed";
+  json["error"] = error;
+  for (const char* key : {"seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes",
+                          "loss", "errors", "flip_percentiles", "picture", "error_map"}) {
+    json[key] = nullptr;
+  }
+  return json;
+}
+
+ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
+                         const CellErrors& errors, bool pictures) {
+  const bool has_cache = place.series.has_cache();
+  ordered_json json = planned_record(place);
+  json["status"] = "done";
+  json["error"] = nullptr;
+  json["seconds"] = seconds_json(statistics, has_cache);
+  add_speed(json, statistics.cache, has_cache);
+  add_errors(json, errors);
+  json["picture"] = pictures ? ordered_json(picture_file(place.id)) : nullptr;
+  json["error_map"] = pictures && errors.flip ? ordered_json(error_map_file(place.id)) : nullptr;
+  return json;
+}
+
+bool is_done(const ordered_json& record) {
+  return record.is_object() && record.value("status", "") == "done";
+}
+
+std::string picture_file(const std::string& id) {
+  return "pictures/" + id + ".png";
+}
+std::string error_map_file(const std::string& id) {
+  return "pictures/" + id + "-flip.png";
+}
+std::string cell_file(const std::string& id) {
+  return "cells/" + id + ".json";
+}
+
+std::optional<ordered_json> read_done_record(const std::string& folder, const CellPlace& place,
+                                             bool with_pictures) {
+  const std::filesystem::path root = folder;
+  std::ifstream file(root / cell_file(place.id));
+  ordered_json record = ordered_json::parse(file, nullptr, false);
+  if (!is_done(record) || record.value("id", "") != place.id) return std::nullopt;
+  // Files are looked for, not believed: somebody may have tidied up.
+  for (const char* key : {"picture", "error_map"}) {
+    const ordered_json& name = record[key];
+    if (name.is_string() && std::filesystem::exists(root / name.get<std::string>())) continue;
+    if (with_pictures && std::string(key) == "picture") return std::nullopt;
+    record[key] = nullptr;
+  }
+  record.update(planned_record(place));
+  return record;
+}
+
+}  // namespace gatelight::apps

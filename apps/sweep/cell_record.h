@@ -1,0 +1,43 @@
+#pragma once
+// What is known of a cell, as the JSON object of cells/ID.json and results.json.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/sweep/measure.h"
+#include "apps/sweep/plan.h"
+#include "renderer/statistics.h"
+
+namespace gatelight::apps {
+
+/// A cell in its plan.
+struct CellPlace {
+  const PlannedScene& scene;
+  const PlannedSeries& series;
+  std::uint32_t seed = 0;
+  int point = 0;  ///< training steps, or samples of a plain integrator
+  std::string id;
+};
+
+/// Without results: what the plan says of it. Written anew over a record that was read, because labels and
+/// axes belong to the sweep, not to the cell.
+nlohmann::ordered_json planned_record(const CellPlace& place);
+nlohmann::ordered_json failed_record(const CellPlace& place, const std::string& error);
+/// pictures: whether they are written under their names.
+nlohmann::ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
+                                   const CellErrors& errors, bool pictures);
+
+/// False for null, too.
+bool is_done(const nlohmann::ordered_json& record);
+
+/// Relative to the sweep's folder.
+std::string picture_file(const std::string& id);
+std::string error_map_file(const std::string& id);
+std::string cell_file(const std::string& id);
+
+/// The record of the file with what the plan says today; of a cell that is not done, or a file that cannot
+/// be read, nothing.
+std::optional<nlohmann::ordered_json> read_done_record(const std::string& folder, const CellPlace& place,
+                                                       bool with_pictures);
+
+}  // namespace gatelight::apps

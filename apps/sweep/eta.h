@@ -1,0 +1,41 @@
+#pragma once
+// How long the rest of a sweep takes, from what its parts have taken so far.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gatelight::apps {
+
+/// A part of the work: a run, or a reference.
+struct SweepTask {
+  std::string kind;     ///< tasks of one kind take time in proportion to their work
+  std::string general;  ///< the same without the scene: for a first guess
+  double work = 1.0;    ///< in units of its kind
+};
+
+class SweepClock {
+ public:
+  /// Replaces all that is not done. Tasks are done in order.
+  void plan_rest(const std::vector<SweepTask>& tasks);
+  std::size_t done() const { return done_; }
+  std::size_t count() const { return tasks_.size(); }
+  void finish(double seconds);
+
+  /// Seconds from now; `elapsed` and `fraction` are of the task under way. Nothing as long as a task is left
+  /// of a kind of which none was finished: no guess is better than a wrong one. (fraction > 0 tells the rest
+  /// of the task under way itself.)
+  std::optional<double> left(double elapsed, double fraction) const;
+
+ private:
+  /// Seconds for a unit of work.
+  std::optional<double> rate(std::string SweepTask::*kind, const std::string& name) const;
+  std::optional<double> expected(const SweepTask& task) const;
+
+  std::vector<SweepTask> tasks_;
+  std::vector<double> seconds_;  ///< of those that are done
+  std::size_t done_ = 0;
+};
+
+}  // namespace gatelight::apps

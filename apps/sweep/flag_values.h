@@ -1,0 +1,20 @@
+#pragma once
+// Flags of `render` with their values, as an order of words.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gatelight::apps {
+
+/// "--features" and "8".
+using FlagValues = std::vector<std::pair<std::string, std::string>>;
+
+const std::string* find_flag(const FlagValues& flags, const std::string& flag);
+/// In the place that it has, or at the end.
+void set_flag(FlagValues& flags, const std::string& flag, const std::string& value);
+/// Answers whether it was there.
+bool drop_flag(FlagValues& flags, const std::string& flag);
+std::vector<std::string> words_of(const FlagValues& flags);
+
+}  // namespace gatelight::apps

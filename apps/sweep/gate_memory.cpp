@@ -1,0 +1,36 @@
+#include "apps/sweep/gate_memory.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "renderer/atomic_file.h"
+#include "renderer/cache/cache_report.h"
+#include "renderer/render.h"
+
+namespace gatelight::apps {
+
+GateMemoryStore::GateMemoryStore(std::string file) : file_(std::move(file)) {
+  std::ifstream stream(file_);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_number_unsigned()) known_[key] = value.get<std::uint64_t>();
+  }
+}
+
+std::uint64_t GateMemoryStore::bytes(const std::string& key, const scene::Scene& scene,
+                                     const renderer::RenderOptions& options) {
+  const auto found = known_.find(key);
+  if (found != known_.end()) return found->second;
+  renderer::Renderer renderer(scene, options);
+  const renderer::CacheReport report = renderer.report_cache();
+  const bool fp32 = options.cache.training.precision == neural::FeaturePrecision::fp32;
+  // Features alone: the network's weights are no part of --cache-memory.
+  const std::uint64_t bytes = report.statistics.cache.nodes * options.cache.gate.features * (fp32 ? 4u : 2u);
+  known_[key] = bytes;
+  renderer::write_file_atomically(file_, nlohmann::json(known_).dump(1) + "\n");
+  return bytes;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,63 @@
+#include "apps/sweep/identity.h"
+
+#include <fmt/format.h>
+
+#include "renderer/deciding_options.h"
+
+namespace gatelight::apps {
+namespace {
+
+std::string text_of(const scene::Vec3& v) {
+  return fmt::format("{},{},{}", v.x(), v.y(), v.z());
+}
+
+/// What deciding_options() leaves to the scene's camera and fingerprint.
+std::string scene_options(const RenderSettings& settings) {
+  const renderer::CameraOptions& camera = settings.render.camera;
+  const renderer::EnvironmentOptions& environment = settings.render.environment;
+  std::string text = fmt::format("camera '{}'", camera.name);
+  if (camera.look_at) {
+    text += fmt::format(" eye {} target {} up {}", text_of(camera.look_at->eye),
+                        text_of(camera.look_at->target), text_of(camera.look_at->up));
+  }
+  if (camera.fov_degrees) text += fmt::format(" fov {}", *camera.fov_degrees);
+  return text + fmt::format("\nenvironment '{}' {},{},{} rotation {} scale {}\nscene {} variant '{}'",
+                            environment.file, environment.constant.x(), environment.constant.y(),
+                            environment.constant.z(), environment.rotation_degrees, environment.scale,
+                            settings.load.scene, settings.load.variant);
+}
+
+}  // namespace
+
+std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera) {
+  const renderer::RenderOptions& o = settings.render;
+  std::string text;
+  for (const renderer::NamedText& option : renderer::deciding_options(o, camera, {{"isa", o.isa}})) {
+    text += fmt::format("{} {}\n", option.name, option.text);
+  }
+  // FLIP looks at the picture as it is shown; threads and memory limit decide how long it takes, or whether.
+  return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
+                            settings.image.exposure, name_of(tonemap_choices(), settings.image.tonemap),
+                            o.threads, o.memory_limit_bytes, name_of(nan_choices(), o.nan_policy));
+}
+
+std::string deciding_text(const RenderSettings& settings) {
+  return deciding_text(settings, scene::Camera{}) + scene_options(settings);
+}
+
+Identity::Identity(const renderer::SceneFingerprint& scene) {
+  for (const renderer::FingerprintPart& part : renderer::kFingerprintParts) {
+    record_.add_text(scene.*part.digest);
+  }
+}
+
+Identity& Identity::add(const std::string& text) {
+  record_.add_text(text);
+  return *this;
+}
+
+std::string Identity::name() const {
+  return renderer::hexadecimal(record_.digest()).substr(0, 16);
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,30 @@
+#pragma once
+// Names of cells and references by what decides them, so that a sweep can be gone on with.
+
+#include <string>
+
+#include "apps/render_settings.h"
+#include "renderer/digest.h"
+#include "renderer/scene_fingerprint.h"
+#include "scene/scene.h"
+
+namespace gatelight::apps {
+
+/// Every option that decides picture, errors or seconds, seed and number of steps or samples included, but
+/// not what lies in the scene's files. `camera` is the chosen one.
+std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera);
+/// Before a scene is there: the camera by its name.
+std::string deciding_text(const RenderSettings& settings);
+
+/// 16 hexadecimal digits for the scene and further texts.
+class Identity {
+ public:
+  explicit Identity(const renderer::SceneFingerprint& scene);
+  Identity& add(const std::string& text);
+  std::string name() const;
+
+ private:
+  renderer::DigestRecord record_;
+};
+
+}  // namespace gatelight::apps

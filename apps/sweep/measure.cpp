@@ -1,0 +1,17 @@
+#include "apps/sweep/measure.h"
+
+namespace gatelight::apps {
+
+CellErrors measure_errors(const renderer::NamedPicture& reference, std::optional<double> noise,
+                          const renderer::NamedPicture& test, const renderer::ImageWriteOptions& image,
+                          bool with_hdr_flip) {
+  CellErrors errors{.metrics = renderer::compare_pictures(reference, test)};
+  if (noise) errors.rel_mse_clean = errors.metrics.rel_mse - *noise;
+  if (errors.metrics.nonfinite_reference + errors.metrics.nonfinite_test > 0) return errors;
+  const renderer::FlipOptions options{.exposure = image.exposure, .tonemap = image.tonemap};
+  errors.flip = renderer::ldr_flip(reference, test, options);
+  if (with_hdr_flip) errors.hdr_flip = renderer::hdr_flip(reference, test, options).summary.mean;
+  return errors;
+}
+
+}  // namespace gatelight::apps

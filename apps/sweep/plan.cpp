@@ -1,0 +1,306 @@
+#include "apps/sweep/plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "apps/cache_choices.h"
+#include "apps/errors.h"
+#include "apps/render_words.h"
+#include "apps/sweep/identity.h"
+#include "apps/text.h"
+
+namespace gatelight::apps {
+namespace {
+
+using renderer::Integrator;
+
+constexpr Choice<ReferenceKind> kReferenceKinds[] = {
+    {"path", ReferenceKind::path}, {"ao", ReferenceKind::ao}, {"cache", ReferenceKind::cache}};
+constexpr const char* kSameAsGate = "same-as-gate";
+constexpr RealRange kPositive{.min = 0.0, .max = 1e9, .excludes_min = true};
+
+/// Names no file: settings are read before there is a scene.
+const std::string kNoScene = "scene";
+
+ReferenceKind reference_kind(const renderer::RenderOptions& o) {
+  if (o.integrator == Integrator::ao || o.integrator == Integrator::nao) return ReferenceKind::ao;
+  const bool bare = o.integrator == Integrator::nrc && o.cache.view == renderer::CacheView::cache;
+  return bare ? ReferenceKind::cache : ReferenceKind::path;
+}
+
+/// Leaves out flags that would be refused because they have no effect beside the others.
+RenderSettings settle(FlagValues& flags) {
+  RenderSettings settings;
+  for (bool dropped = true; dropped;) {
+    dropped = false;
+    settings = read_render_words(kNoScene, words_of(flags));
+    const renderer::RenderOptions& o = settings.render;
+    const bool has_cache = renderer::uses_cache(o.integrator);
+    const std::set<std::string> unwanted = has_cache ? cache_flags_without_effect(o) : settings.cache_flags;
+    for (const std::string& flag : unwanted) {
+      if (!drop_flag(flags, flag)) continue;
+      dropped = true;
+      // A preset's size stays: pictures are compared with each other.
+      if (flag == "--preset") set_flag(flags, "--size", fmt::format("{}x{}", o.width, o.height));
+    }
+    if (!has_cache) dropped |= drop_flag(flags, "--spp");
+  }
+  complete_settings(settings);
+  return settings;
+}
+
+/// Takes "--cache-memory same-as-gate[/DIVISOR]" out of the flags.
+std::optional<double> take_same_as_gate(FlagValues& flags) {
+  const std::string* value = find_flag(flags, "--cache-memory");
+  if (!value || value->rfind(kSameAsGate, 0) != 0) return std::nullopt;
+  const std::string rest = value->substr(std::string(kSameAsGate).size());
+  double divisor = 1.0;
+  if (!rest.empty()) {
+    if (rest.front() != '/') {
+      throw UsageError(
+          fmt::format("--cache-memory: '{}' is not {} or {}/DIVISOR", *value, kSameAsGate, kSameAsGate));
+    }
+    divisor = parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), kPositive);
+  }
+  drop_flag(flags, "--cache-memory");
+  return divisor;
+}
+
+std::string series_key(const PlannedSeries& series) {
+  const RenderSettings settings = cell_settings(series, kNoScene, 0, 1);
+  std::string key = deciding_text(settings);
+  if (series.memory) {
+    key += fmt::format("memory of gate / {}\n{}", series.memory->divisor,
+                       deciding_text(series.memory->settings));
+  }
+  return key;
+}
+
+std::string name_of_flag(const std::string& flag) {
+  return flag.substr(2);
+}
+
+class Planner {
+ public:
+  explicit Planner(const SweepRequest& request) : request_(request) {
+    for (const SweepBlock& block : request.blocks) {
+      for (const SweepAxis& axis : block.axes) {
+        const bool known = std::find(axes_.begin(), axes_.end(), axis.flag) != axes_.end();
+        if (axis.values.size() > 1 && !known) axes_.push_back(axis.flag);
+      }
+    }
+  }
+
+  std::vector<PlannedSeries> plan() {
+    for (const SweepBlock& block : request_.blocks) combine(block, block.base, 0);
+    name_integrators();
+    make_labels();
+    return std::move(series_);
+  }
+
+ private:
+  void combine(const SweepBlock& block, const FlagValues& flags, std::size_t axis) {
+    if (axis == block.axes.size()) {
+      add(block, flags);
+      return;
+    }
+    for (const std::string& value : block.axes[axis].values) {
+      FlagValues more = flags;
+      set_flag(more, block.axes[axis].flag, value);
+      combine(block, more, axis + 1);
+    }
+  }
+
+  void add(const SweepBlock& block, const FlagValues& flags) {
+    const PlannedSeries series = make_series(block, flags);
+    keep(series);
+    // The bare answer of a cache has no integrator that renders it without one.
+    if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
+    FlagValues plain = flags;
+    set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
+    keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));
+  }
+
+  PlannedSeries make_series(const SweepBlock& block, const FlagValues& asked) const {
+    PlannedSeries series;
+    series.flags = asked;
+    const std::optional<double> divisor = take_same_as_gate(series.flags);
+    FlagValues gate = series.flags;
+    series.settings = settle(series.flags);
+    FlagValues named = series.flags;
+    const bool hash = series.settings.render.cache.encoding == neural::FeatureEncoding::hash_grid;
+    if (divisor && series.has_cache() && hash) {
+      // What decides GATE's memory decides this one's, and tells it from others.
+      set_flag(gate, "--encoding", "gate");
+      series.memory = GateMemory{settle(gate), *divisor};
+      for (const auto& [flag, value] : gate) set_flag(named, flag, value);
+      set_flag(named, "--cache-memory", *find_flag(asked, "--cache-memory"));
+    }
+    for (const std::string& axis : axes_) {
+      const std::string* value = find_flag(named, axis);
+      if (value) series.axes.emplace_back(name_of_flag(axis), *value);
+    }
+    if (!block.row.empty()) series.axes.emplace_back("row", block.row);
+    series.reference = reference_kind(series.settings.render);
+    series.points = series.has_cache() ? block.train_steps : request_.plain_spp;
+    return series;
+  }
+
+  /// Equal ones are one, with the points of both.
+  void keep(PlannedSeries series) {
+    const auto [at, is_new] = by_key_.emplace(series_key(series), series_.size());
+    if (is_new) {
+      series_.push_back(std::move(series));
+      return;
+    }
+    std::vector<int>& points = series_[at->second].points;
+    points.insert(points.end(), series.points.begin(), series.points.end());
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+  }
+
+  /// They vary where plain ones stand beside those with a cache, too.
+  void name_integrators() {
+    std::set<std::string> integrators, encodings;
+    for (const PlannedSeries& s : series_) {
+      integrators.insert(integrator_of(s));
+      if (s.has_cache()) encodings.insert(encoding_of(s));
+    }
+    for (PlannedSeries& s : series_) {
+      drop_flag(s.axes, "integrator");
+      drop_flag(s.axes, "encoding");
+      FlagValues axes;
+      if (integrators.size() > 1) axes.emplace_back("integrator", integrator_of(s));
+      if (encodings.size() > 1 && s.has_cache()) axes.emplace_back("encoding", encoding_of(s));
+      s.axes.insert(s.axes.begin(), axes.begin(), axes.end());
+    }
+  }
+
+  void make_labels() {
+    std::map<std::string, int> seen;
+    for (PlannedSeries& s : series_) {
+      s.label = integrator_of(s);
+      // A row of a table has a name of its own.
+      if (s.has_cache() && !find_flag(s.axes, "row")) s.label += fmt::format(" {}", encoding_of(s));
+      for (const auto& [name, value] : s.axes) {
+        if (name == "integrator" || name == "encoding") continue;
+        s.label += name == "row" ? fmt::format(" {}", value) : fmt::format(" {} {}", name, value);
+      }
+      const int count = ++seen[s.label];
+      if (count > 1) s.label += fmt::format(" #{}", count);
+    }
+  }
+
+  static std::string integrator_of(const PlannedSeries& s) {
+    return name_of(integrator_choices(), s.settings.render.integrator);
+  }
+  static std::string encoding_of(const PlannedSeries& s) {
+    return name_of(encoding_choices(), s.settings.render.cache.encoding);
+  }
+
+  const SweepRequest& request_;
+  std::vector<std::string> axes_;  ///< flags that have several values
+  std::vector<PlannedSeries> series_;
+  std::map<std::string, std::size_t> by_key_;
+};
+
+/// Short names: the file's, with its folder's where two files have the same.
+std::vector<PlannedScene> name_scenes(const std::vector<std::string>& files) {
+  std::map<std::string, int> stems;
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    if (!seen.insert(path).second) {
+      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
+    }
+    ++stems[path.stem().string()];
+  }
+  std::vector<PlannedScene> scenes;
+  std::map<std::string, int> names;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    std::string name = path.stem().string();
+    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
+    const int count = ++names[name];
+    if (count > 1) name += fmt::format("-{}", count);
+    scenes.push_back({std::move(name), file});
+  }
+  return scenes;
+}
+
+std::string plural(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Choices<ReferenceKind> reference_kind_choices() {
+  return kReferenceKinds;
+}
+
+std::size_t SweepPlan::cell_count() const {
+  std::size_t points = 0;
+  for (const PlannedSeries& s : series) points += s.points.size();
+  return scenes.size() * points * seeds.size();
+}
+
+SweepPlan make_plan(const SweepRequest& request) {
+  SweepPlan plan;
+  plan.scenes = name_scenes(request.scenes);
+  plan.series = Planner(request).plan();
+  for (int i = 0; i < request.seeds; ++i) {
+    plan.seeds.push_back(request.first_seed + static_cast<std::uint32_t>(i));
+  }
+  return plan;
+}
+
+RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                             int point) {
+  RenderSettings settings = series.settings;
+  settings.scene = scene;
+  settings.render.seed = seed;
+  if (series.has_cache()) {
+    settings.render.cache.train_steps = point;
+  } else {
+    settings.render.spp = point;
+  }
+  return settings;
+}
+
+std::string cell_command(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                         int point) {
+  std::vector<std::string> words = {"gatelight", "render", scene};
+  const std::vector<std::string> flags = words_of(series.flags);
+  words.insert(words.end(), flags.begin(), flags.end());
+  for (const std::string& word :
+       {std::string(series.has_cache() ? "--train-steps" : "--spp"), std::to_string(point),
+        std::string("--seed"), std::to_string(seed), std::string("-o"), std::string("out.exr")}) {
+    words.push_back(word);
+  }
+  return quote_command(words);
+}
+
+std::string plan_text(const SweepPlan& plan) {
+  std::string text;
+  for (const PlannedScene& scene : plan.scenes)
+    text += fmt::format("scene  {}  {}\n", scene.name, scene.file);
+  std::size_t width = 0;
+  for (const PlannedSeries& s : plan.series) width = std::max(width, s.label.size());
+  for (const PlannedSeries& s : plan.series) {
+    const renderer::RenderOptions& o = s.settings.render;
+    text += fmt::format("  {:<{}}  {:>5}x{:<5} {} {}", s.label, width, o.width, o.height,
+                        s.has_cache() ? "steps" : "spp  ", fmt::join(s.points, ","));
+    if (s.has_cache()) text += fmt::format(", {} spp", o.spp);
+    text += fmt::format(", against {}\n", name_of(reference_kind_choices(), s.reference));
+  }
+  return text + fmt::format("{} x {} x {}: {}, {}\n", plural(plan.scenes.size(), "scene"),
+                            plural(plan.series.size(), "line"), plural(plan.seeds.size(), "seed"),
+                            plural(plan.run_count(), "run"), plural(plan.cell_count(), "cell"));
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,135 @@
+#include "apps/sweep/presets.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// What the paper shows of each step count: its tables at 128, its figure from 8 on.
+const std::vector<int> kTableSteps = {128};
+const std::vector<int> kFigureSteps = {8, 16, 32, 64, 128};
+
+const char* const kPaperPresets[] = {"paper-nao", "paper-nrc"};
+
+// tiny-cuda-nn, which the paper's hash grid is measured with, visits every entry in every step.
+const FlagValues kHashGrid = {{"--encoding", "hashgrid"}, {"--update", "dense"}};
+const FlagValues kSparseHashGrid = {{"--encoding", "hashgrid"}, {"--update", "sparse"}};
+
+struct Row {
+  const char* name;
+  FlagValues flags;
+};
+
+FlagValues joined(FlagValues flags, const FlagValues& more) {
+  for (const auto& [flag, value] : more) set_flag(flags, flag, value);
+  return flags;
+}
+
+/// Each row below a preset of `render`.
+void add_rows(std::vector<SweepBlock>& blocks, const char* preset, const std::vector<Row>& rows,
+              const std::vector<int>& steps) {
+  for (const Row& row : rows) {
+    blocks.push_back({.row = row.name,
+                      .base = joined({{"--preset", preset}}, row.flags),
+                      .axes = {},
+                      .train_steps = steps});
+  }
+}
+
+std::vector<SweepBlock> both(const std::vector<Row>& rows, const std::vector<int>& steps) {
+  std::vector<SweepBlock> blocks;
+  for (const char* preset : kPaperPresets) add_rows(blocks, preset, rows, steps);
+  return blocks;
+}
+
+/// GATE and the hash grid at comparable memory.
+std::vector<Row> equal_memory() {
+  const FlagValues memory = {{"--cache-memory", "same-as-gate"}};
+  return {{"gate", {}},
+          {"hash grid", joined(kHashGrid, memory)},
+          {"hash grid, sparse updates", joined(kSparseHashGrid, memory)}};
+}
+
+/// Sizes of the hash grid: L as large as GATE, M a half of it, S less than 1 MB.
+std::vector<Row> hash_sizes() {
+  return {{"gate", {}},
+          {"hash grid L", joined(kHashGrid, {{"--cache-memory", "same-as-gate"}})},
+          {"hash grid M", joined(kHashGrid, {{"--cache-memory", "same-as-gate/2"}})},
+          {"hash grid S", joined(kHashGrid, {{"--cache-memory", "0.91"}})}};
+}
+
+std::vector<SweepBlock> inputs() {
+  std::vector<SweepBlock> blocks;
+  // Occlusion has no albedo.
+  add_rows(blocks, "paper-nao",
+           {{"gate", {{"--normal-input", "off"}}}, {"gate, normal", {{"--normal-input", "on"}}}},
+           kFigureSteps);
+  add_rows(blocks, "paper-nrc",
+           {{"gate", {{"--normal-input", "off"}, {"--albedo-input", "off"}}},
+            {"gate, normal", {{"--normal-input", "on"}, {"--albedo-input", "off"}}},
+            {"gate, albedo", {{"--normal-input", "off"}, {"--albedo-input", "on"}}},
+            {"gate, normal and albedo", {{"--normal-input", "on"}, {"--albedo-input", "on"}}}},
+           kFigureSteps);
+  return blocks;
+}
+
+/// What the paper leaves open or does not measure, one thing changed at a time.
+std::vector<SweepBlock> extra() {
+  std::vector<SweepBlock> blocks = both({{"as in the paper", {}},
+                                         {"storage per triangle", {{"--storage", "per-triangle"}}},
+                                         {"counters per node", {{"--feature-step", "per-node"}}},
+                                         {"no candidates", {{"--candidates", "1"}}},
+                                         {"4 samples per point", {{"--samples-per-point", "4"}}},
+                                         {"fp16 features", {{"--feature-precision", "fp16"}}},
+                                         {"stack of 1", {{"--stack", "adaptive"}}},
+                                         {"stack of 3", {{"--stack", "adaptive,adaptive/3,1"}}},
+                                         {"clusters", {{"--cluster", "auto"}, {"--resolution", "uniform"}}},
+                                         {"uniform, no clusters", {{"--resolution", "uniform"}}}},
+                                        kTableSteps);
+  // The picture itself, which the paper does not show.
+  const auto picture = [](const FlagValues& flags) {
+    return joined({{"--view", "final"}, {"--spp", "4"}}, flags);
+  };
+  add_rows(blocks, "paper-nrc",
+           {{"picture, primary", picture({{"--query-at", "primary"}})},
+            {"picture, gather", picture({{"--query-at", "gather"}})},
+            {"picture, holds no-delta", picture({{"--query-at", "primary"}, {"--cache-holds", "no-delta"}})},
+            {"picture, holds indirect", picture({{"--query-at", "primary"}, {"--cache-holds", "indirect"}})}},
+           kTableSteps);
+  return blocks;
+}
+
+struct Preset {
+  std::string_view name;
+  std::vector<SweepBlock> (*make)();
+};
+
+const Preset kPresets[] = {
+    {"paper-table1", [] { return both(equal_memory(), kTableSteps); }},
+    {"paper-table2", [] { return both(hash_sizes(), kTableSteps); }},
+    {"paper-steps", [] { return both(equal_memory(), kFigureSteps); }},
+    {"paper-adaptive",
+     [] {
+       return both({{"fixed R = 4", {{"--resolution", "fixed:4"}}},
+                    {"adaptive, paper's rule", {{"--resolution", "paper"}}},
+                    {"adaptive, uniform", {{"--resolution", "uniform"}}}},
+                   kFigureSteps);
+     }},
+    {"paper-inputs", inputs},
+    {"paper-extra", extra},
+};
+
+}  // namespace
+
+std::vector<std::string_view> sweep_preset_names() {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : kPresets) names.push_back(preset.name);
+  return names;
+}
+
+std::vector<SweepBlock> sweep_preset(std::string_view name) {
+  for (const Preset& preset : kPresets) {
+    if (preset.name == name) return preset.make();
+  }
+  return {};
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,20 @@
+#pragma once
+// The experiments of the GATE paper (Boksansky, Meister, Benthin, HPG 2025), as axes.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/sweep/plan.h"
+
+namespace gatelight::apps {
+
+inline constexpr int kPresetSeeds = 3;
+
+/// paper-table1, paper-table2 ...
+std::vector<std::string_view> sweep_preset_names();
+
+/// Empty for another name.
+std::vector<SweepBlock> sweep_preset(std::string_view name);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,213 @@
+#include "apps/sweep/references.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/errors.h"
+#include "apps/log.h"
+#include "apps/sweep/identity.h"
+#include "apps/version.h"
+#include "neural/errors.h"
+#include "renderer/atomic_file.h"
+#include "renderer/camera.h"
+#include "renderer/image_read.h"
+#include "renderer/image_write.h"
+#include "renderer/merge.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using renderer::Picture;
+using renderer::RenderOptions;
+
+/// references/KEY.exr and what lies beside it.
+std::string beside(const std::string& file, const std::string& end) {
+  return (fs::path(file).parent_path() / (fs::path(file).stem().string() + end)).string();
+}
+
+scene::Camera view_of(const scene::Scene& scene, const RenderOptions& o) {
+  return renderer::choose_camera(scene, o.camera, static_cast<float>(o.width) / static_cast<float>(o.height));
+}
+
+/// Nothing where the picture was stopped.
+std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettings& cell,
+                                   RenderOptions options, std::uint32_t seed, const std::string& file,
+                                   const renderer::Callbacks& callbacks) {
+  if (fs::exists(file)) return renderer::read_image(file);
+  options.seed = seed;
+  options.checkpoint = {.file = fs::path(file).replace_extension(".checkpoint").string(), .resume = true};
+  const auto render = [&]() -> std::optional<Picture> {
+    renderer::Renderer renderer(scene, options);
+    Picture picture = renderer.render(callbacks);
+    const renderer::RenderStatistics& statistics = renderer.statistics();
+    if (statistics.interrupted) return std::nullopt;
+    picture.metadata = {{"version", version()},
+                        {"scene", cell.scene},
+                        {"integrator", name_of(integrator_choices(), options.integrator)},
+                        {"seed", std::to_string(seed)},
+                        {"spp", std::to_string(statistics.spp)},
+                        {"render_seconds", fmt::format("{:.3f}", statistics.render_seconds)}};
+    return picture;
+  };
+  std::optional<Picture> picture;
+  try {
+    picture = render();
+  } catch (const neural::CacheFileError& error) {
+    log_warning(fmt::format("{}; the reference is begun anew", error.what()));
+    fs::remove(options.checkpoint.file);
+    picture = render();
+  }
+  if (!picture) return std::nullopt;
+  renderer::write_image(*picture, file, {.exr_float = true});
+  fs::remove(options.checkpoint.file);
+  return picture;
+}
+
+double seconds_of(const Picture& picture) {
+  const auto at = picture.metadata.find("render_seconds");
+  return at == picture.metadata.end() ? 0.0 : std::stod(at->second);
+}
+
+}  // namespace
+
+RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
+  const RenderOptions defaults;
+  RenderOptions o = cell;
+  o.integrator = kind == ReferenceKind::ao      ? renderer::Integrator::ao
+                 : kind == ReferenceKind::cache ? renderer::Integrator::nrc
+                                                : renderer::Integrator::path;
+  o.time_limit_seconds = 0.0;
+  o.sampler = defaults.sampler;
+  o.mis = defaults.mis;
+  o.direct = defaults.direct;
+  o.light_selection = defaults.light_selection;
+  o.min_depth = defaults.min_depth;
+  o.clamp = 0.0f;
+  // Each kind of light has a length of its own.
+  if (kind == ReferenceKind::ao) {
+    o.max_depth = defaults.max_depth;
+  } else {
+    o.ao_distance = defaults.ao_distance;
+  }
+  o.aovs.clear();
+  o.nan_policy = renderer::NanPolicy::drop;
+  o.checkpoint = defaults.checkpoint;
+  o.cache = defaults.cache;
+  if (kind == ReferenceKind::cache) {
+    o.cache.train_steps = 0;
+    o.cache.self_training.start_step = -1;
+    o.cache.query_at = renderer::QueryAt::none;
+    o.cache.view = renderer::CacheView::cache;
+    o.cache.holds = cell.cache.holds;
+    o.cache.min_roughness = cell.cache.min_roughness;
+  }
+  return o;
+}
+
+ordered_json reference_json(const Reference& reference, const std::string& folder) {
+  // Within the sweep's folder its name does not depend on where that lies.
+  const fs::path relative = fs::absolute(reference.file)
+                                .lexically_normal()
+                                .lexically_relative(fs::absolute(folder).lexically_normal());
+  const bool inside = !relative.empty() && *relative.begin() != "..";
+  ordered_json json = {{"kind", name_of(reference_kind_choices(), reference.kind)},
+                       {"spp", nullptr},
+                       {"file", inside ? relative.generic_string() : reference.file},
+                       {"rel_mse_noise", nullptr},
+                       {"seconds", nullptr}};
+  if (reference.spp) json["spp"] = *reference.spp;
+  if (reference.rel_mse_noise) json["rel_mse_noise"] = *reference.rel_mse_noise;
+  if (reference.seconds) json["seconds"] = *reference.seconds;
+  return json;
+}
+
+Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
+                         const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder) {
+  RenderSettings settings = cell;
+  settings.render = reference_options(cell.render, kind);
+  settings.render.seed = 0;
+  settings.render.spp = spp;
+  settings.render.threads = 1;  // no part of the picture
+  settings.render.memory_limit_bytes = 0;
+  settings.image = {};
+  const std::string key = Identity(fingerprint)
+                              .add("reference")
+                              .add(deciding_text(settings, view_of(scene, settings.render)))
+                              .name();
+  return {.kind = kind, .key = key, .file = (fs::path(folder) / (key + ".exr")).string(), .spp = spp};
+}
+
+Reference given_reference(ReferenceKind kind, const std::string& file) {
+  const Picture picture = renderer::read_image(file);
+  renderer::DigestRecord record;
+  for (const renderer::Layer& layer : picture.layers) {
+    record.add(renderer::digest_of(std::as_bytes(std::span(layer.values))));
+  }
+  Reference reference{
+      .kind = kind, .key = renderer::hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
+  const auto spp = picture.metadata.find("spp");
+  if (spp != picture.metadata.end()) {
+    reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
+                                                   spp->second, {1, std::int64_t{1} << 30}));
+  }
+  return reference;
+}
+
+void read_reference_numbers(Reference& reference) {
+  if (reference.given) return;
+  std::ifstream file(beside(reference.file, ".json"));
+  const ordered_json json = ordered_json::parse(file, nullptr, false);
+  if (!json.is_object()) return;
+  const auto number = [&](const char* key) -> std::optional<double> {
+    if (!json.contains(key) || !json[key].is_number()) return std::nullopt;
+    return json[key].get<double>();
+  };
+  reference.rel_mse_noise = number("rel_mse_noise");
+  reference.seconds = number("seconds");
+}
+
+std::optional<Picture> make_reference(Reference& reference, const scene::Scene& scene,
+                                      const RenderSettings& cell, const renderer::Callbacks& callbacks) {
+  if (reference.given) return renderer::read_image(reference.file);
+  read_reference_numbers(reference);
+  if (reference.rel_mse_noise && fs::exists(reference.file)) return renderer::read_image(reference.file);
+
+  RenderOptions options = reference_options(cell.render, reference.kind);
+  options.spp = std::max(1, *reference.spp / 2);
+  std::array<std::string, 2> files = {beside(reference.file, "_a.exr"), beside(reference.file, "_b.exr")};
+  std::array<Picture, 2> halves;
+  for (std::size_t i = 0; i < 2; ++i) {
+    renderer::Callbacks half = callbacks;
+    half.progress = [&](const renderer::Progress& progress) {
+      if (!callbacks.progress) return;
+      renderer::Progress of_both = progress;
+      of_both.fraction = 0.5 * (static_cast<double>(i) + progress.fraction);
+      callbacks.progress(of_both);
+    };
+    std::optional<Picture> picture = render_half(scene, cell, options, kReferenceSeeds[i], files[i], half);
+    if (!picture) return std::nullopt;
+    halves[i] = std::move(*picture);
+  }
+  const renderer::NamedPicture first{halves[0], files[0]};
+  Picture mean = renderer::merge_pictures({first, {halves[1], files[1]}});
+  // (a - m)^2 = ((a - b)/2)^2, which is on average the variance of the mean m.
+  reference.rel_mse_noise = renderer::compare_pictures({mean, reference.file}, first).rel_mse;
+  reference.seconds = seconds_of(halves[0]) + seconds_of(halves[1]);
+  renderer::write_image(mean, reference.file, {.exr_float = true});
+  const ordered_json json = {{"kind", name_of(reference_kind_choices(), reference.kind)},
+                             {"scene", cell.scene},
+                             {"spp", *reference.spp},
+                             {"rel_mse_noise", *reference.rel_mse_noise},
+                             {"seconds", *reference.seconds}};
+  renderer::write_file_atomically(beside(reference.file, ".json"), json.dump(1) + "\n");
+  return mean;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,190 @@
+#include "apps/sweep/request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "apps/cache_choices.h"
+#include "apps/errors.h"
+#include "apps/render_words.h"
+#include "apps/sweep/presets.h"
+#include "apps/sweep/references.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr IntegerRange kSteps{1, std::numeric_limits<int>::max()};
+constexpr IntegerRange kSpp{1, 1 << 24};
+constexpr IntegerRange kSeeds{1, 1000};
+constexpr IntegerRange kSeed{0, 4294967295};
+
+const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
+const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
+constexpr const char* kDefaultCacheSpp = "4";
+
+/// Of files, of one picture's progress, and what makes a picture depend on the time it takes.
+constexpr const char* kNoBaseFlags[] = {
+    "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
+    "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
+    "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
+
+/// With lists, or with names of more presets.
+constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};
+
+struct Instead {
+  const char* flag;
+  const char* use;
+};
+constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
+                                {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
+                                {"--seed", "--seeds N"}};
+/// They decide which scene is loaded.
+constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing"};
+
+template <std::size_t N>
+bool contains(const char* const (&list)[N], const std::string& word) {
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+void check_vary(const std::string& flag) {
+  for (const Instead& other : kInstead) {
+    if (flag == other.flag)
+      throw UsageError(fmt::format("--vary: '{}' has a flag of its own, expected {}", flag, other.use));
+  }
+  if (contains(kOfTheScene, flag)) {
+    throw UsageError(
+        fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
+  }
+  const std::vector<std::string> names = base_flag_names();
+  const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
+                                [&](const AxisFlag& f) { return flag == f.varies; });
+  if (!axis && flag != "--preset" && std::find(names.begin(), names.end(), flag) == names.end()) {
+    throw UsageError(fmt::format(
+        "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help", flag));
+  }
+}
+
+struct NamedAxis {
+  std::string given_as;
+  SweepAxis axis;
+};
+
+std::vector<NamedAxis> read_axes(const SweepWords& words) {
+  std::vector<NamedAxis> axes;
+  for (const auto& [flag, text] : words.axes) {
+    axes.push_back({flag.name, {flag.varies, split_values(flag.name, text, flag.values_are_lists)}});
+  }
+  for (const std::string& text : words.vary) {
+    SweepAxis axis = parse_vary(text);
+    check_vary(axis.flag);
+    axes.push_back({"--vary " + axis.flag.substr(2), std::move(axis)});
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::string& flag = axes[i].axis.flag;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (axes[j].axis.flag != flag) continue;
+      throw UsageError(fmt::format("{}: '{}' is varied by {} too, expected one of them", axes[i].given_as,
+                                   flag, axes[j].given_as));
+    }
+    if (const std::string* value = find_flag(words.base, flag)) {
+      throw UsageError(fmt::format("{}: '{}' for all cells and {} exclude each other, expected one of them",
+                                   flag, *value, axes[i].given_as));
+    }
+  }
+  return axes;
+}
+
+bool names_flag(const SweepBlock& block, const std::string& flag) {
+  return find_flag(block.base, flag) || std::any_of(block.axes.begin(), block.axes.end(),
+                                                    [&](const SweepAxis& axis) { return axis.flag == flag; });
+}
+
+/// Flags on the command line win over those of a preset.
+void override_block(SweepBlock& block, const FlagValues& base, const std::vector<NamedAxis>& axes) {
+  const auto forget = [&](const std::string& flag) {
+    drop_flag(block.base, flag);
+    std::erase_if(block.axes, [&](const SweepAxis& axis) { return axis.flag == flag; });
+  };
+  for (const auto& [flag, value] : base) {
+    forget(flag);
+    block.base.emplace_back(flag, value);
+  }
+  for (const NamedAxis& named : axes) {
+    forget(named.axis.flag);
+    block.axes.push_back(named.axis);
+  }
+}
+
+void add_defaults(SweepBlock& block) {
+  // A preset of `render` says both.
+  if (names_flag(block, "--preset")) return;
+  if (!names_flag(block, "--integrator")) block.base.emplace_back("--integrator", "nrc");
+  if (!names_flag(block, "--spp")) block.base.emplace_back("--spp", kDefaultCacheSpp);
+}
+
+void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
+  request.seeds = preset ? kPresetSeeds : 1;
+  if (words.seeds) request.seeds = static_cast<int>(parse_integer("--seeds", *words.seeds, kSeeds));
+  if (const std::string* seed = find_flag(words.base, "--seed")) {
+    request.first_seed = static_cast<std::uint32_t>(parse_integer("--seed", *seed, kSeed));
+  }
+  const std::uint64_t last =
+      std::uint64_t{request.first_seed} + static_cast<std::uint64_t>(request.seeds) - 1;
+  if (last > static_cast<std::uint64_t>(kSeed.max)) {
+    throw UsageError(fmt::format("--seed: {} seeds from '{}' on go beyond {}", request.seeds,
+                                 request.first_seed, kSeed.max));
+  }
+  for (const std::uint32_t seed : kReferenceSeeds) {
+    if (seed < request.first_seed || seed > last) continue;
+    throw UsageError(
+        fmt::format("--seed: {} is that of the references, expected others for the cells", seed));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> base_flag_names() {
+  std::vector<std::string> names;
+  for (const RenderFlag& flag : render_flags()) {
+    const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
+                                  [&](const AxisFlag& f) { return flag.name == f.name; });
+    if (flag.takes_value && !axis && !contains(kOwnFlags, flag.name) && !contains(kNoBaseFlags, flag.name)) {
+      names.push_back(flag.name);
+    }
+  }
+  return names;
+}
+
+SweepRequest make_request(const SweepWords& words) {
+  SweepRequest request;
+  request.scenes = words.scenes;
+  request.blocks = sweep_preset(words.preset);
+  const bool preset = !request.blocks.empty();
+  FlagValues base = words.base;
+  drop_flag(base, "--seed");
+  if (!words.preset.empty() && !preset) {
+    std::vector<std::string_view> names = sweep_preset_names();
+    for (const auto& choice : preset_choices()) names.push_back(choice.name);
+    if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
+      refuse_choice("--preset", words.preset, join_names(names));
+    }
+    base.emplace_back("--preset", words.preset);
+  }
+  if (!preset) request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps});
+  SweepWords with_preset = words;
+  with_preset.base = base;
+  const std::vector<NamedAxis> axes = read_axes(with_preset);
+  for (SweepBlock& block : request.blocks) {
+    override_block(block, base, axes);
+    if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);
+    add_defaults(block);
+  }
+  request.plain_spp = words.spp ? split_integers("--spp", *words.spp, kSpp) : kDefaultPlainSpp;
+  // The paper has no such rows.
+  request.plain = !words.no_plain && (!preset || words.spp);
+  read_seeds(words, preset, request);
+  return request;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,355 @@
+#include "apps/sweep/scene_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "apps/cache_choices.h"
+#include "apps/errors.h"
+#include "apps/log.h"
+#include "apps/recipe.h"
+#include "apps/signals.h"
+#include "apps/sweep/gate_memory.h"
+#include "apps/sweep/identity.h"
+#include "renderer/camera.h"
+#include "renderer/image_write.h"
+#include "renderer/render.h"
+#include "scene/gltf.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using renderer::Picture;
+using renderer::RenderOptions;
+using renderer::RenderStatistics;
+
+double pixels_of(const RenderOptions& o) {
+  return static_cast<double>(o.width) * o.height;
+}
+
+/// Camera and training paths.
+SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
+  const RenderOptions& o = series.settings.render;
+  std::string general = name_of(integrator_choices(), o.integrator);
+  double work = pixels_of(o) * points.back();
+  if (series.has_cache()) {
+    general += fmt::format(" {}", name_of(encoding_choices(), o.cache.encoding));
+    work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
+           static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
+  }
+  return {.kind = fmt::format("{} {}", scene.name, general), .general = general, .work = work};
+}
+
+SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
+  const std::string general = name_of(reference_kind_choices(), kind);
+  return {
+      .kind = fmt::format("{} {}", scene.name, general), .general = general, .work = pixels_of(cell) * spp};
+}
+
+scene::Camera view_of(const scene::Scene& scene, const RenderOptions& o) {
+  return renderer::choose_camera(scene, o.camera, static_cast<float>(o.width) / static_cast<float>(o.height));
+}
+
+/// One line: lists of cells are read by line.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp) {
+  std::vector<SweepTask> tasks;
+  std::set<ReferenceKind> kinds;
+  for (const PlannedSeries& series : plan.series) {
+    if (kinds.insert(series.reference).second) {
+      tasks.push_back(reference_task(scene, series.settings.render, series.reference, reference_spp));
+    }
+    for (std::size_t seed = 0; seed < plan.seeds.size(); ++seed) {
+      tasks.push_back(run_task(scene, series, series.points));
+    }
+  }
+  return tasks;
+}
+
+SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const SweepSettings& settings,
+                       SweepProgress& progress)
+    : planned_(planned),
+      plan_(plan),
+      settings_(settings),
+      progress_(progress),
+      series_(plan.series),
+      series_errors_(plan.series.size()) {
+  load();
+  decide_memory();
+  name_cells();
+}
+
+void SceneSweep::load() {
+  progress_.phase(fmt::format("load {}", planned_.name));
+  const RenderSettings& settings = series_.front().settings;
+  scene_ = scene::load_gltf(planned_.file, settings.load);
+  for (const std::string& warning : scene_.warnings) warn(warning);
+}
+
+const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSettings& settings) {
+  const renderer::EnvironmentOptions& e = settings.render.environment;
+  const std::string key = fmt::format("{} {},{},{} {} {}", e.file, e.constant.x(), e.constant.y(),
+                                      e.constant.z(), e.rotation_degrees, e.scale);
+  const auto found = fingerprints_.find(key);
+  if (found != fingerprints_.end()) return found->second;
+  return fingerprints_.emplace(key, renderer::compute_scene_fingerprint(scene_, e)).first->second;
+}
+
+void SceneSweep::decide_memory() {
+  GateMemoryStore store(in_folder("gate-memory.json"));
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    PlannedSeries& series = series_[i];
+    if (!series.memory) continue;
+    progress_.phase(fmt::format("memory of {}", series.label));
+    try {
+      const RenderSettings& gate = series.memory->settings;
+      const std::string key = Identity(fingerprint_of(gate))
+                                  .add("memory")
+                                  .add(deciding_text(gate, view_of(scene_, gate.render)))
+                                  .name();
+      const std::uint64_t bytes = store.bytes(key, scene_, gate.render);
+      const auto wanted =
+          static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(bytes) / series.memory->divisor));
+      series.settings.render.cache.memory_bytes = wanted;
+      // All digits, so that the same command gives the same bytes.
+      set_flag(series.flags, "--cache-memory", fmt::format("{}", static_cast<double>(wanted) / 1048576.0));
+    } catch (const renderer::OutputError&) {
+      throw;
+    } catch (...) {
+      series_errors_[i] = one_line(describe_current_exception().message);
+    }
+  }
+}
+
+void SceneSweep::name_cells() {
+  std::optional<Reference> given;
+  if (!settings_.reference_file.empty()) {
+    given = given_reference(series_.front().reference, settings_.reference_file);
+  }
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const PlannedSeries& series = series_[i];
+    const renderer::SceneFingerprint& fingerprint = fingerprint_of(series.settings);
+    const scene::Camera view = view_of(scene_, series.settings.render);
+    Reference reference = given ? *given
+                                : plan_reference(series.settings, series.reference, scene_, fingerprint,
+                                                 settings_.reference_spp, settings_.reference_folder);
+    read_reference_numbers(reference);
+    reference_keys_.push_back(reference.key);
+    for (const std::uint32_t seed : plan_.seeds) {
+      for (const int point : series.points) {
+        const RenderSettings settings = cell_settings(series, planned_.file, seed, point);
+        Identity id(fingerprint);
+        id.add(deciding_text(settings, view)).add(reference.key).add(settings_.hdr_flip ? "hdr" : "");
+        if (!series_errors_[i].empty()) id.add(series.label);
+        Cell cell{.place = {planned_, series, seed, point, id.name()}, .record = nullptr};
+        if (auto record = read_done_record(settings_.folder, cell.place, wants_pictures(cell.place))) {
+          cell.record = std::move(*record);
+        }
+        cells_.push_back(std::move(cell));
+      }
+    }
+    references_.emplace(reference.key, std::move(reference));
+  }
+}
+
+std::vector<SceneSweep::Run> SceneSweep::missing_runs() const {
+  std::vector<Run> runs;
+  std::size_t cell = 0;
+  for (std::size_t series = 0; series < series_.size(); ++series) {
+    for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed) {
+      Run run{series, seed, {}};
+      for (std::size_t point = 0; point < series_[series].points.size(); ++point, ++cell) {
+        if (!is_done(cells_[cell].record)) run.missing.push_back(cell);
+      }
+      if (!run.missing.empty()) runs.push_back(std::move(run));
+    }
+  }
+  // The first seed of everything comes first: a sweep that is stopped early has something of all.
+  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.seed < b.seed; });
+  return runs;
+}
+
+std::vector<SweepTask> SceneSweep::tasks() const {
+  std::vector<SweepTask> tasks;
+  std::set<std::string> referred;
+  for (const Run& run : missing_runs()) {
+    const PlannedSeries& series = series_[run.series];
+    const Reference& reference = reference_of(run.series);
+    const bool made = reference.given || reference.rel_mse_noise;
+    if (!made && referred.insert(reference.key).second) {
+      tasks.push_back(
+          reference_task(planned_, series.settings.render, series.reference, settings_.reference_spp));
+    }
+    std::vector<int> points;
+    for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
+    tasks.push_back(run_task(planned_, series, points));
+  }
+  return tasks;
+}
+
+bool SceneSweep::run(const std::function<void()>& after_run) {
+  for (Run& run : missing_runs()) {
+    if (stop_signal() != 0) return false;
+    const bool finished = make(std::move(run));
+    after_run();
+    if (!finished) return false;
+  }
+  return true;
+}
+
+const Picture* SceneSweep::reference_picture(std::size_t series) {
+  Reference& reference = reference_of(series);
+  const auto found = reference_pictures_.find(reference.key);
+  if (found != reference_pictures_.end()) return &found->second;
+  if (reference_errors_.contains(reference.key)) return nullptr;
+  const bool made = reference.given || reference.rel_mse_noise;
+  const std::string kind = name_of(reference_kind_choices(), reference.kind);
+  if (!made) progress_.begin(fmt::format("{} reference {}", planned_.name, kind), true);
+  try {
+    std::optional<Picture> picture = make_reference(reference, scene_, series_[series].settings, callbacks());
+    if (!picture) return nullptr;
+    if (!made) progress_.end();
+    return &reference_pictures_.emplace(reference.key, std::move(*picture)).first->second;
+  } catch (const renderer::OutputError&) {
+    throw;
+  } catch (...) {
+    reference_errors_[reference.key] =
+        fmt::format("the reference could not be made: {}", one_line(describe_current_exception().message));
+    if (!made) progress_.end();
+    return nullptr;
+  }
+}
+
+void SceneSweep::take_done(Run& run) {
+  std::erase_if(run.missing, [&](std::size_t index) {
+    Cell& cell = cells_[index];
+    auto record = read_done_record(settings_.folder, cell.place, wants_pictures(cell.place));
+    if (record) cell.record = std::move(*record);
+    return record.has_value();
+  });
+}
+
+bool SceneSweep::make(Run run) {
+  const PlannedSeries& series = series_[run.series];
+  const std::string& series_error = series_errors_[run.series];
+  const Picture* reference = series_error.empty() ? reference_picture(run.series) : nullptr;
+  if (!reference && stop_signal() != 0) return false;
+
+  progress_.begin(fmt::format("{}  {}  seed {}", planned_.name, series.label, plan_.seeds[run.seed]), false);
+  // Memory that turns out to be the same makes cells of two series equal.
+  take_done(run);
+  std::size_t next = 0;  // of the cells that are missing
+  bool finished = true;
+  if (!reference) {
+    fail(run.missing,
+         series_error.empty() ? reference_errors_.at(reference_keys_[run.series]) : series_error);
+  } else if (!run.missing.empty()) {
+    std::vector<int> points;
+    for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
+    const RenderSettings settings =
+        cell_settings(series, planned_.file, plan_.seeds[run.seed], points.back());
+    if (settings_.verbose) {
+      progress_.clear();
+      log_detail(fmt::format("options: {}", resolved_options(settings).dump()));
+    }
+    try {
+      progress_.phase("build");
+      renderer::Renderer renderer(scene_, settings.render);
+      const renderer::Series wanted =
+          series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points};
+      finished = renderer.render_series(
+          wanted,
+          [&](int, const Picture& picture, const RenderStatistics& statistics) {
+            Cell& cell = cells_[run.missing[next]];
+            finish_cell(cell, picture, statistics, *reference, reference_of(run.series));
+            ++next;
+          },
+          callbacks());
+    } catch (const renderer::OutputError&) {
+      throw;
+    } catch (...) {
+      fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()},
+           one_line(describe_current_exception().message));
+    }
+  }
+  if (finished) progress_.end();
+  return finished;
+}
+
+void SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderStatistics& statistics,
+                             const Picture& reference, const Reference& named) {
+  const CellPlace& place = cell.place;
+  const RenderSettings& settings = place.series.settings;
+  // Occlusion lies between 0 and 1: it has no exposure.
+  const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
+  const CellErrors errors = measure_errors({reference, named.file}, named.rel_mse_noise,
+                                           {picture, cell_file(place.id)}, settings.image, hdr);
+  const bool pictures = wants_pictures(place);
+  if (pictures) {
+    renderer::write_image(picture, in_folder(picture_file(place.id)), settings.image);
+    if (errors.flip) {
+      renderer::write_image(renderer::flip_map(*errors.flip), in_folder(error_map_file(place.id)));
+    }
+  }
+  cell.record = done_record(place, statistics, errors, pictures);
+  keep(cell);
+}
+
+void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& error) {
+  if (cells.empty()) return;
+  for (const std::size_t index : cells) {
+    Cell& cell = cells_[index];
+    cell.record = failed_record(cell.place, error);
+    keep(cell);
+  }
+  const CellPlace& first = cells_[cells.front()].place;
+  warn(fmt::format("{}, {}, seed {}: {} cell{} failed: {}", planned_.name, first.series.label, first.seed,
+                   cells.size(), cells.size() == 1 ? "" : "s", error));
+}
+
+void SceneSweep::keep(Cell& cell) const {
+  renderer::write_file_atomically(
+      in_folder(cell_file(cell.place.id)),
+      cell.record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  progress_.cell(cell.place.id, cell.record["status"].get<std::string>());
+}
+
+SceneResults SceneSweep::results() const {
+  SceneResults results;
+  results.scene = {{"name", planned_.name}, {"file", planned_.file}};
+  results.scene["references"] = nlohmann::ordered_json::array();
+  for (const auto& [key, reference] : references_) {
+    results.scene["references"].push_back(reference_json(reference, settings_.folder));
+  }
+  for (const Cell& cell : cells_) {
+    if (!cell.record.is_null()) results.cells.push_back(cell.record);
+  }
+  return results;
+}
+
+renderer::Callbacks SceneSweep::callbacks() {
+  return {.progress = [this](const renderer::Progress& progress) { progress_.update(progress); },
+          .stop = [] { return stop_signal() != 0; },
+          .snapshot_wanted = {},
+          .snapshot = {}};
+}
+
+void SceneSweep::warn(const std::string& text) {
+  progress_.clear();
+  log_warning(text);
+}
+
+std::string SceneSweep::in_folder(const std::string& file) const {
+  return (fs::path(settings_.folder) / file).string();
+}
+
+}  // namespace gatelight::apps

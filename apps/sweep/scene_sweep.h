@@ -1,0 +1,85 @@
+#pragma once
+// The cells of one scene: found among those that are done, or made.
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/sweep/cell_record.h"
+#include "apps/sweep/references.h"
+#include "apps/sweep/results.h"
+#include "apps/sweep/sweep_progress.h"
+#include "apps/sweep/sweep_settings.h"
+
+namespace gatelight::apps {
+
+/// What the runs and references of a scene cost, for the time left: before it is known which are done.
+std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp);
+
+class SceneSweep {
+ public:
+  /// Loads the scene, names its cells and reads those that are done. Throws what loading throws.
+  SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const SweepSettings& settings,
+             SweepProgress& progress);
+  SceneSweep(const SceneSweep&) = delete;
+  SceneSweep& operator=(const SceneSweep&) = delete;
+
+  std::vector<SweepTask> tasks() const;
+  /// Makes what is missing, `after_run` after each run. Answers false where a signal ended it. What a cell
+  /// throws is its failure, but for renderer::OutputError: where one file cannot be written, others cannot.
+  bool run(const std::function<void()>& after_run);
+  /// All that is done or failed.
+  SceneResults results() const;
+
+ private:
+  struct Cell {
+    CellPlace place;
+    nlohmann::ordered_json record;  ///< null: not made
+  };
+  /// A series with one seed.
+  struct Run {
+    std::size_t series = 0;
+    std::size_t seed = 0;
+    std::vector<std::size_t> missing;  ///< cells
+  };
+
+  void load();
+  const renderer::SceneFingerprint& fingerprint_of(const RenderSettings& settings);
+  void decide_memory();
+  void name_cells();
+  std::vector<Run> missing_runs() const;
+  Reference& reference_of(std::size_t series) { return references_.at(reference_keys_[series]); }
+  const Reference& reference_of(std::size_t series) const { return references_.at(reference_keys_[series]); }
+
+  /// Nothing where a signal ended it, or where it failed.
+  const renderer::Picture* reference_picture(std::size_t series);
+  /// Those that another run made meanwhile.
+  void take_done(Run& run);
+  bool make(Run run);
+  void finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
+                   const renderer::Picture& reference, const Reference& named);
+  void fail(const std::vector<std::size_t>& cells, const std::string& error);
+  void keep(Cell& cell) const;
+  bool wants_pictures(const CellPlace& place) const { return place.seed == plan_.seeds.front(); }
+  renderer::Callbacks callbacks();
+  void warn(const std::string& text);
+  std::string in_folder(const std::string& file) const;
+
+  const PlannedScene& planned_;
+  const SweepPlan& plan_;
+  const SweepSettings& settings_;
+  SweepProgress& progress_;
+  scene::Scene scene_;
+  std::map<std::string, renderer::SceneFingerprint> fingerprints_;  ///< by environment
+  std::vector<PlannedSeries> series_;                               ///< with memory decided
+  std::vector<std::string> series_errors_;  ///< why a series cannot be; empty where it can
+  std::map<std::string, Reference> references_;
+  std::vector<std::string> reference_keys_;  ///< of each series
+  std::map<std::string, renderer::Picture> reference_pictures_;
+  std::map<std::string, std::string> reference_errors_;
+  std::vector<Cell> cells_;  ///< by series, seed and point
+};
+
+}  // namespace gatelight::apps

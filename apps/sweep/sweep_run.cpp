@@ -1,0 +1,212 @@
+#include "apps/sweep/sweep_run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "apps/errors.h"
+#include "apps/log.h"
+#include "apps/results.h"
+#include "apps/signals.h"
+#include "apps/stopwatch.h"
+#include "apps/sweep/advise.h"
+#include "apps/sweep/results.h"
+#include "apps/sweep/scene_sweep.h"
+#include "renderer/atomic_file.h"
+#include "renderer/image_format.h"
+#include "renderer/image_write.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Between two writings of the results of a sweep that is under way.
+constexpr double kResultsInterval = 30.0;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw renderer::OutputError(fmt::format("cannot make the folder '{}': {}", folder.string(),
+                                            error ? error.message() : "there is a file of this name"));
+  }
+}
+
+void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
+  for (const PlannedScene& scene : plan.scenes) {
+    for (const PlannedSeries& series : plan.series) {
+      check_files(cell_settings(series, scene.file, plan.seeds.front(), series.points.front()));
+    }
+  }
+  if (settings.reference_file.empty()) return;
+  std::set<ReferenceKind> kinds;
+  for (const PlannedSeries& series : plan.series) kinds.insert(series.reference);
+  if (plan.scenes.size() > 1 || kinds.size() > 1) {
+    throw UsageError(fmt::format(
+        "--reference: '{}' is one picture, but there are {} scenes with {} kinds of pictures, expected "
+        "--reference-spp",
+        settings.reference_file, plan.scenes.size(), kinds.size()));
+  }
+}
+
+class SweepRun {
+ public:
+  SweepRun(const SweepSettings& settings, const SweepPlan& plan, std::vector<std::string> command)
+      : settings_(settings),
+        plan_(plan),
+        command_(std::move(command)),
+        progress_(settings.progress, settings.quiet),
+        scenes_(plan.scenes.size()) {
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      const PlannedScene& scene = plan.scenes[i];
+      scenes_[i].scene = {{"name", scene.name}, {"file", scene.file}, {"references", ordered_json::array()}};
+    }
+  }
+
+  int run();
+  ordered_json results() const {
+    return make_results(command_, plan_.series.front().settings.render.threads, scenes_);
+  }
+
+ private:
+  void prepare_folders() const;
+  void plan_tasks(std::size_t scene, const std::vector<SweepTask>& of_scene);
+  /// Answers false where a signal ended it.
+  bool run_scene(std::size_t index);
+  /// What cannot be loaded fails with all its cells; the other scenes go on.
+  void fail_scene(std::size_t index, const std::string& error);
+  void write_results() const;
+
+  const SweepSettings& settings_;
+  const SweepPlan& plan_;
+  std::vector<std::string> command_;
+  SweepProgress progress_;
+  std::vector<SceneResults> scenes_;
+};
+
+int SweepRun::run() {
+  prepare_folders();
+  bool finished = true;
+  for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) finished = run_scene(i);
+  write_results();
+  std::size_t cells = 0, failed = 0;
+  for (const SceneResults& scene : scenes_) {
+    cells += scene.cells.size();
+    for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
+  }
+  if (!finished) {
+    progress_.clear();
+    print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
+                             stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
+    return kSignalBase + stop_signal();
+  }
+  progress_.done(settings_.folder, cells, failed);
+  if (failed > 0) {
+    print_failure(
+        {kPartly,
+         fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
+         "the same command tries them again"});
+    return kPartly;
+  }
+  return kDone;
+}
+
+void SweepRun::prepare_folders() const {
+  const fs::path folder = settings_.folder;
+  for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
+  if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
+  for (const char* file : {"results.json", "results.csv"}) renderer::check_writable(folder / file);
+}
+
+void SweepRun::plan_tasks(std::size_t scene, const std::vector<SweepTask>& of_scene) {
+  std::vector<SweepTask> tasks = of_scene;
+  for (std::size_t i = scene + 1; i < plan_.scenes.size(); ++i) {
+    const std::vector<SweepTask> more = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
+    tasks.insert(tasks.end(), more.begin(), more.end());
+  }
+  progress_.plan_rest(tasks);
+}
+
+bool SweepRun::run_scene(std::size_t index) {
+  const PlannedScene& planned = plan_.scenes[index];
+  plan_tasks(index, all_tasks(planned, plan_, settings_.reference_spp));
+  std::optional<SceneSweep> scene;
+  try {
+    scene.emplace(planned, plan_, settings_, progress_);
+  } catch (const renderer::OutputError&) {
+    throw;
+  } catch (...) {
+    // A bad word alone on the line is an error like any other.
+    if (plan_.scenes.size() == 1) throw;
+    fail_scene(index, describe_current_exception().message);
+    return stop_signal() == 0;
+  }
+  plan_tasks(index, scene->tasks());
+  Stopwatch since_written;
+  const bool finished = scene->run([&] {
+    scenes_[index] = scene->results();
+    if (since_written.seconds() < kResultsInterval) return;
+    write_results();
+    since_written = Stopwatch();
+  });
+  scenes_[index] = scene->results();
+  return finished;
+}
+
+void SweepRun::fail_scene(std::size_t index, const std::string& error) {
+  const PlannedScene& planned = plan_.scenes[index];
+  for (const PlannedSeries& series : plan_.series) {
+    for (const std::uint32_t seed : plan_.seeds) {
+      for (const int point : series.points) {
+        // No scene, no fingerprint: a name that no cell of a scene has.
+        const std::string id =
+            fmt::format("{}-{}-{}-{}", planned.name, &series - plan_.series.data(), seed, point);
+        scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id}, error));
+      }
+    }
+  }
+  progress_.clear();
+  log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
+}
+
+void SweepRun::write_results() const {
+  const fs::path folder = settings_.folder;
+  const ordered_json all = results();
+  renderer::write_file_atomically(folder / "results.json",
+                                  all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  renderer::write_file_atomically(folder / "results.csv", results_csv(all));
+}
+
+}  // namespace
+
+int run_sweep(const SweepSettings& given, const std::vector<std::string>& command) {
+  SweepSettings settings = given;
+  if (settings.reference_folder.empty()) {
+    settings.reference_folder = (fs::path(settings.folder) / "references").string();
+  }
+  set_log_level(settings.quiet     ? LogLevel::errors
+                : settings.verbose ? LogLevel::details
+                                   : LogLevel::warnings);
+  if (settings.request.scenes.empty()) {
+    write_text("-", advice_text(read_results(settings.folder), settings.limits));
+    return kDone;
+  }
+  const SweepPlan plan = make_plan(settings.request);
+  check_inputs(settings, plan);
+  if (settings.dry_run) {
+    write_text("-", plan_text(plan));
+    return kDone;
+  }
+  install_signal_handlers();
+  SweepRun run(settings, plan, command);
+  const int code = run.run();
+  if (settings.advise && code < kSignalBase) write_text("-", advice_text(run.results(), settings.limits));
+  return code;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,153 @@
+// Lists of values, and the words of a sweep.
+
+#include "apps/sweep/axes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/errors.h"
+#include "apps/sweep/request.h"
+
+namespace gatelight::apps {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pair;
+
+template <typename Call>
+std::string refusal(Call call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SweepAxes, CommasSeparateValuesUnlessThereAreSemicolons) {
+  EXPECT_THAT(split_values("--features", "2,4,8"), ElementsAre("2", "4", "8"));
+  EXPECT_THAT(split_values("--stack", "adaptive,1;adaptive"), ElementsAre("adaptive,1", "adaptive"));
+  EXPECT_THAT(split_values("--stack", "adaptive,1", true), ElementsAre("adaptive,1"));
+  EXPECT_THAT(split_values("--stack", "adaptive;1", true), ElementsAre("adaptive", "1"));
+  EXPECT_THAT(split_integers("--spp", "16,1,4", {1, 100}), ElementsAre(1, 4, 16));
+}
+
+TEST(SweepAxes, VaryNamesAFlagWithOrWithoutDashes) {
+  for (const char* text : {"batch=1,2", "--batch=1,2"}) {
+    const SweepAxis axis = parse_vary(text);
+    EXPECT_EQ(axis.flag, "--batch");
+    EXPECT_THAT(axis.values, ElementsAre("1", "2"));
+  }
+  EXPECT_THAT(parse_vary("environment=1,1,1;none").values, ElementsAre("1,1,1", "none"));
+  EXPECT_THAT(parse_vary("camera=a=b,c").values, ElementsAre("a=b", "c"));
+  EXPECT_THAT(parse_vary("stack=adaptive,1").values, ElementsAre("adaptive,1"));
+}
+
+TEST(SweepAxes, BadListsAreRefusedWithFlagAndValue) {
+  for (const char* text : {"2,,4", "", "2,", ","}) {
+    EXPECT_THAT(refusal([&] { split_values("--features", text); }),
+                AllOf(HasSubstr("--features"), HasSubstr(std::string("'") + text + "'")));
+  }
+  EXPECT_THAT(refusal([] { split_values("--features", "2,4,2"); }), HasSubstr("'2' twice"));
+  EXPECT_THAT(refusal([] { split_integers("--spp", "1,x", {1, 9}); }), HasSubstr("'x'"));
+  for (const char* text : {"batch", "=1", ""}) {
+    EXPECT_THAT(refusal([&] { parse_vary(text); }), HasSubstr("NAME=V1,V2"));
+  }
+}
+
+SweepWords words_for(FlagValues base, std::vector<std::string> vary = {}) {
+  SweepWords words;
+  words.scenes = {"room.glb"};
+  words.base = std::move(base);
+  words.vary = std::move(vary);
+  return words;
+}
+
+std::string refused(const SweepWords& words) {
+  return refusal([&] { make_request(words); });
+}
+
+TEST(SweepRequest, DefaultsAreAnAcceleratedPictureFromFewToManySteps) {
+  const SweepRequest request = make_request(words_for({}));
+  ASSERT_EQ(request.blocks.size(), 1u);
+  EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
+  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--integrator", "nrc"), Pair("--spp", "4")));
+  EXPECT_THAT(request.plain_spp, ElementsAre(1, 4, 16, 64));
+  EXPECT_TRUE(request.plain);
+  EXPECT_EQ(request.seeds, 1);
+  EXPECT_EQ(request.first_seed, 1u);
+}
+
+TEST(SweepRequest, APresetOfRenderSaysIntegratorAndSamplesItself) {
+  SweepWords words = words_for({});
+  words.preset = "final";
+  EXPECT_THAT(make_request(words).blocks[0].base, ElementsAre(Pair("--preset", "final")));
+  EXPECT_THAT(make_request(words_for({}, {"preset=preview,final"})).blocks[0].base, ElementsAre());
+}
+
+TEST(SweepRequest, WhatIsBothFixedAndVariedIsRefused) {
+  SweepWords both = words_for({{"--encoding", "gate"}});
+  both.axes = {{kAxisFlags[1], "gate,hashgrid"}};
+  EXPECT_THAT(refused(both), AllOf(HasSubstr("--encoding"), HasSubstr("--encodings"), HasSubstr("'gate'")));
+  EXPECT_THAT(refused(words_for({{"--batch", "7"}}, {"batch=1,2"})), HasSubstr("--vary batch"));
+  EXPECT_THAT(refused(words_for({}, {"batch=1,2", "batch=3"})), HasSubstr("varied by"));
+  SweepWords twice = words_for({}, {"features=2,4"});
+  twice.axes = {{kAxisFlags[2], "8"}};
+  EXPECT_THAT(refused(twice), AllOf(HasSubstr("--features"), HasSubstr("--vary features")));
+  SweepWords preset = words_for({}, {"preset=preview,final"});
+  preset.preset = "preview";
+  EXPECT_THAT(refused(preset), HasSubstr("--preset"));
+}
+
+TEST(SweepRequest, WhatCannotBeVariedIsRefusedWithWhatToUse) {
+  EXPECT_THAT(refused(words_for({}, {"seed=1,2"})), HasSubstr("--seeds N"));
+  EXPECT_THAT(refused(words_for({}, {"spp=1,2"})), HasSubstr("--cache-spp"));
+  EXPECT_THAT(refused(words_for({}, {"train-steps=1,2"})), HasSubstr("--train-steps LIST"));
+  for (const char* flag :
+       {"output", "cache-in", "checkpoint", "time-limit", "train-time", "aov", "variant", "frob"}) {
+    EXPECT_THAT(refused(words_for({}, {std::string(flag) + "=a,b"})), HasSubstr(flag)) << flag;
+  }
+  EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})), "");
+}
+
+TEST(SweepRequest, SeedsBeginWhereTheySay) {
+  SweepWords words = words_for({{"--seed", "40"}});
+  words.seeds = "3";
+  const SweepRequest request = make_request(words);
+  EXPECT_EQ(request.first_seed, 40u);
+  EXPECT_EQ(request.seeds, 3);
+  EXPECT_THAT(request.blocks[0].base, Not(Contains(Pair("--seed", "40"))));
+  words.seeds = "0";
+  EXPECT_THAT(refused(words), HasSubstr("'0'"));
+  words.seeds = "2";
+  words.base = {{"--seed", "4294967295"}};
+  EXPECT_THAT(refused(words), HasSubstr("beyond"));
+  words.base = {{"--seed", "4000000006"}};
+  EXPECT_THAT(refused(words), HasSubstr("references"));
+}
+
+TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
+  SweepWords words = words_for({{"--size", "64x36"}, {"--update", "sparse"}});
+  words.preset = "paper-table1";
+  words.train_steps = "4,2";
+  const SweepRequest request = make_request(words);
+  EXPECT_GE(request.blocks.size(), 6u);
+  EXPECT_EQ(request.seeds, 3);
+  EXPECT_FALSE(request.plain);
+  for (const SweepBlock& block : request.blocks) {
+    EXPECT_THAT(block.base, Contains(Pair("--size", "64x36")));
+    EXPECT_THAT(block.base, Contains(Pair("--update", "sparse")));
+    EXPECT_THAT(block.base, Not(Contains(Pair("--update", "dense"))));
+    EXPECT_THAT(block.train_steps, ElementsAre(2, 4));
+  }
+  words.preset = "paper-table3";
+  EXPECT_THAT(refused(words),
+              AllOf(HasSubstr("'paper-table3'"), HasSubstr("paper-table1"), HasSubstr("preview")));
+}
+
+}  // namespace
+}  // namespace gatelight::apps

@@ -1,0 +1,376 @@
+// Small sweeps through the real program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "renderer/image_read.h"
+#include "tests/apps/process.h"
+#include "tests/apps/tiny_scene.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class SweepCommand : public ::testing::Test {
+ protected:
+  using Words = std::vector<std::string>;
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  static std::string cornell() { return std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb"; }
+
+  /// A sweep of seconds; `more` wins.
+  Words words(const std::string& out, const Words& more, const std::string& scene = cornell()) const {
+    Words all = {"sweep", scene, "-o", path(out), "--quiet"};
+    const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp", "1,4",
+                            "--batch", "256",   "--reference-spp", "8"};
+    for (std::size_t i = 0; i < defaults.size(); i += 2) {
+      if (std::find(more.begin(), more.end(), defaults[i]) != more.end()) continue;
+      all.insert(all.end(), {defaults[i], defaults[i + 1]});
+    }
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  json results(const std::string& out) const {
+    return json::parse(read_file(folder / (out + "/results.json")));
+  }
+
+  TemporaryFolder folder;
+};
+
+/// Without what no two runs have in common.
+json without_seconds(json results) {
+  results.erase("command");
+  for (json& scene : results["scenes"]) {
+    for (json& reference : scene["references"]) reference.erase("seconds");
+  }
+  for (json& cell : results["cells"]) {
+    for (const char* key : {"seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m"})
+      cell.erase(key);
+  }
+  return results;
+}
+
+std::size_t count(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST_F(SweepCommand, MeasuresEveryCellAgainstItsReference) {
+  const Output output =
+      run_gatelight_inside(words("out", {"--encodings", "gate,hashgrid", "--cache-memory", "same-as-gate",
+                                         "--seeds", "2", "--integrators", "nrc,nao"}));
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(output.out + output.err, "");
+  const json all = results("out");
+  // Two integrators by two encodings, path and ao: six lines with two points and two seeds each.
+  ASSERT_EQ(all["cells"].size(), 24u);
+  EXPECT_EQ(count(folder / "out/cells"), 24u);
+  EXPECT_EQ(count(folder / "out/pictures"), 24u) << "a picture and a map of the first seed";
+  std::map<std::string, std::set<std::size_t>> parameters;
+  for (const json& cell : all["cells"]) {
+    EXPECT_EQ(cell["status"], "done");
+    EXPECT_GT(cell["errors"]["flip"], 0.0);
+    EXPECT_LT(cell["errors"]["rel_mse_clean"], cell["errors"]["rel_mse"]);
+    EXPECT_GT(cell["seconds"]["total"], 0.0);
+    EXPECT_EQ(cell["picture"].is_null(), cell["seed"] != 1);
+    EXPECT_EQ(cell["errors"]["hdr_flip"].is_null(), cell["reference"] == "ao");
+    if (cell["encoding"].is_string()) {
+      const std::size_t bytes = cell["memory_bytes"]["parameters"];
+      parameters[cell["integrator"].get<std::string>()].insert(bytes);
+      if (cell["encoding"] == "hashgrid") {
+        EXPECT_GT(cell["options"]["cache-memory"], 0.0);
+      }
+    }
+    if (!cell["picture"].is_null()) {
+      EXPECT_EQ(renderer::read_image(folder / ("out/" + cell["picture"].get<std::string>())).width, 24);
+      EXPECT_EQ(renderer::read_image(folder / ("out/" + cell["error_map"].get<std::string>())).width, 24);
+    }
+  }
+  // As near as the sizes of tables allow.
+  for (const auto& [integrator, bytes] : parameters) {
+    EXPECT_LT(static_cast<double>(*bytes.rbegin()), 1.3 * static_cast<double>(*bytes.begin())) << integrator;
+  }
+  ASSERT_EQ(all["scenes"].size(), 1u);
+  EXPECT_EQ(all["scenes"][0]["name"], "cornell-box");
+  ASSERT_EQ(all["scenes"][0]["references"].size(), 2u);
+  for (const json& reference : all["scenes"][0]["references"]) {
+    EXPECT_GT(reference["rel_mse_noise"], 0.0);
+    EXPECT_EQ(reference["spp"], 8);
+    EXPECT_TRUE(fs::exists(folder / ("out/" + reference["file"].get<std::string>())));
+  }
+  EXPECT_EQ(std::count(all["command"].begin(), all["command"].end(), "sweep"), 1);
+}
+
+TEST_F(SweepCommand, ACellIsThePictureThatItsCommandMakes) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--features", "2,4"})).exit_code, 0);
+  const json all = results("out");
+  for (const json& cell : all["cells"]) {
+    std::istringstream line(cell["command"].get<std::string>());
+    Words command;
+    for (std::string word; line >> word;) command.push_back(word);
+    command.erase(command.begin());
+    command.back() = path("cell.png");
+    command.push_back("--quiet");
+    ASSERT_EQ(run_gatelight_inside(command).exit_code, 0) << line.str();
+    EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
+        << line.str();
+  }
+}
+
+TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  const json first = results("out");
+  const auto times = [&] {
+    std::map<std::string, fs::file_time_type> found;
+    for (const char* sub : {"cells", "pictures", "references"}) {
+      for (const auto& entry : fs::directory_iterator(folder / (std::string("out/") + sub))) {
+        found[entry.path().string()] = entry.last_write_time();
+      }
+    }
+    return found;
+  };
+  const auto before = times();
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  EXPECT_EQ(times(), before);
+  EXPECT_EQ(results("out"), first);
+  // More of the same adds what is missing alone.
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--hidden", "16,32"})).exit_code, 0);
+  EXPECT_GT(times().size(), before.size());
+  for (const auto& [file, time] : before) EXPECT_EQ(times().at(file), time) << file;
+  // A cell whose picture somebody has deleted is made again.
+  const std::string picture = path("out/" + first["cells"][0]["picture"].get<std::string>());
+  fs::remove(picture);
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  EXPECT_TRUE(fs::exists(picture));
+}
+
+TEST_F(SweepCommand, AnotherSceneOfTheSameNameIsNotMixedUp) {
+  const std::string scene = path("room.gltf");
+  folder.write("room.gltf", tiny_scene());
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--environment", "1,1,1"}, scene)).exit_code, 0);
+  const json first = results("out");
+  std::string changed = tiny_scene();
+  changed.replace(changed.find("[0.5, 0.5, 0.5, 1]"), 18, "[0.1, 0.1, 0.1, 1]");
+  folder.write("room.gltf", changed);
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--environment", "1,1,1"}, scene)).exit_code, 0);
+  const json second = results("out");
+  ASSERT_EQ(second["cells"].size(), first["cells"].size());
+  for (std::size_t i = 0; i < first["cells"].size(); ++i) {
+    EXPECT_NE(second["cells"][i]["id"], first["cells"][i]["id"]);
+  }
+}
+
+TEST_F(SweepCommand, AFailedCellDoesNotEndTheRest) {
+  const Output output = run_gatelight_inside(words("out", {"--learning-rate", "1e30,0.01"}));
+  EXPECT_EQ(output.exit_code, 7);
+  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("cells failed"), HasSubstr("tries them again")));
+  const json all = results("out");
+  ASSERT_EQ(all["cells"].size(), 6u);
+  int failed = 0;
+  for (const json& cell : all["cells"]) {
+    const bool bad = cell["status"] == "failed";
+    failed += bad ? 1 : 0;
+    EXPECT_FALSE(bad && cell["axes"]["learning-rate"] != "1e30");
+    if (bad) {
+      EXPECT_THAT(cell["error"].get<std::string>(), HasSubstr("training step"));
+    }
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr("failed"));
+  // It is tried again, and fails again.
+  EXPECT_EQ(run_gatelight_inside(words("out", {"--learning-rate", "1e30,0.01"})).exit_code, 7);
+}
+
+TEST_F(SweepCommand, ASceneThatCannotBeReadDoesNotEndTheRest) {
+  folder.write("broken.gltf", "{");
+  Words both = words("out", {}, path("broken.gltf"));
+  both.insert(both.begin() + 2, cornell());
+  const Output output = run_gatelight_inside(both);
+  EXPECT_EQ(output.exit_code, 7);
+  const json all = results("out");
+  ASSERT_EQ(all["cells"].size(), 8u);
+  for (const json& cell : all["cells"]) {
+    EXPECT_EQ(cell["status"], cell["scene"] == "broken" ? "failed" : "done");
+  }
+  // Alone it is an error like any other.
+  EXPECT_EQ(run_gatelight_inside(words("alone", {}, path("broken.gltf"))).exit_code, 2);
+}
+
+TEST_F(SweepCommand, InterruptedAndGoneOnWithItHasTheSameResults) {
+  const Words flags = {"--seeds", "2", "--hidden", "16,32"};
+  ASSERT_EQ(run_gatelight_inside(words("straight", flags)).exit_code, 0);
+  Words loud = words("stopped", flags);
+  std::erase(loud, "--quiet");
+  loud.insert(loud.end(), {"--progress", "json"});
+  const struct {
+    const char* moment;
+    int signal;
+    int code;
+  } stops[] = {
+      {"reference path", SIGINT, 130}, {"\"event\":\"cell\"", SIGTERM, 143}, {"seed 2", SIGKILL, 137}};
+  for (const auto& stop : stops) {
+    Process process(loud);
+    process.wait_for_error_text(stop.moment);
+    process.send(stop.signal);
+    const Output output = process.finish();
+    EXPECT_TRUE(output.exit_code == stop.code || output.exit_code == 0) << output.err;
+    if (output.exit_code == 130 || output.exit_code == 143) {
+      EXPECT_THAT(output.last_error_line(), HasSubstr("the same command goes on"));
+      EXPECT_LT(results("stopped")["cells"].size(), 12u);
+    }
+  }
+  ASSERT_EQ(run_gatelight_inside(words("stopped", flags)).exit_code, 0);
+  EXPECT_EQ(without_seconds(results("stopped")), without_seconds(results("straight")));
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "stopped")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_THAT(name, AllOf(Not(HasSubstr(".tmp")), Not(HasSubstr("checkpoint"))));
+  }
+  for (const auto& entry : fs::directory_iterator(folder / "stopped/references")) {
+    if (entry.path().extension() != ".exr") continue;
+    EXPECT_EQ(
+        renderer::read_image(entry.path()).layers[0].values,
+        renderer::read_image(folder / "straight/references" / entry.path().filename()).layers[0].values);
+  }
+}
+
+TEST_F(SweepCommand, ThePlanIsPrintedAndNothingIsDone) {
+  const Output output =
+      run_gatelight_inside(words("out", {"--dry-run", "--features", "2,4", "--seeds", "3"}));
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_THAT(output.out, AllOf(HasSubstr("cornell-box"), HasSubstr("nrc gate features 2"),
+                                HasSubstr("steps 2,4"), HasSubstr("9 runs, 18 cells")));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(SweepCommand, BadWordsAreCode1BeforeAnythingIsDone) {
+  const auto refused = [&](const Words& more) {
+    const Output output = run_gatelight_inside(words("out", more));
+    EXPECT_EQ(output.exit_code, 1) << output.err;
+    EXPECT_FALSE(fs::exists(folder / "out"));
+    return output.last_error_line();
+  };
+  EXPECT_THAT(refused({"--features", "2,17"}), HasSubstr("--features: '17'"));
+  EXPECT_THAT(refused({"--encoding", "gate", "--encodings", "gate,hashgrid"}), HasSubstr("--encodings"));
+  EXPECT_THAT(refused({"--frob", "1"}), HasSubstr("--frob"));
+  EXPECT_THAT(refused({"--max-error", "0.1"}), HasSubstr("--advise"));
+  EXPECT_THAT(refused({"--advise"}), HasSubstr("--max-error"));
+  EXPECT_THAT(refused({"--vary", "frob=1"}), HasSubstr("frob"));
+  EXPECT_THAT(refused({"--reference", path("r.exr"), "--integrators", "nrc,nao"}),
+              HasSubstr("--reference-spp"));
+  EXPECT_THAT(run_gatelight_inside({"sweep", "-o", path("out")}).last_error_line(), HasSubstr("SCENE"));
+  EXPECT_EQ(run_gatelight_inside(words("out", {}, path("none.glb"))).exit_code, 2);
+  EXPECT_EQ(run_gatelight_inside(words("out", {"--camera", "none such"})).exit_code, 1);
+}
+
+TEST_F(SweepCommand, AFolderThatCannotBeWrittenIsCode3) {
+  folder.write("file", "");
+  EXPECT_EQ(run_gatelight_inside(words("file", {})).exit_code, 3);
+  EXPECT_EQ(run_gatelight_inside(words("file/sub", {})).exit_code, 3);
+}
+
+TEST_F(SweepCommand, AReferenceOfOnesOwnIsCompared) {
+  ASSERT_EQ(run_gatelight_inside({"render", cornell(), "-o", path("r.exr"), "--size", "24x16", "--spp", "16",
+                                  "--seed", "77", "--quiet"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--reference", path("r.exr"), "--no-plain"})).exit_code, 0);
+  const json all = results("out");
+  EXPECT_EQ(all["cells"].size(), 2u);
+  EXPECT_TRUE(all["cells"][0]["errors"]["rel_mse_clean"].is_null());
+  EXPECT_EQ(all["scenes"][0]["references"][0]["file"], path("r.exr"));
+  EXPECT_EQ(all["scenes"][0]["references"][0]["spp"], 16);
+  EXPECT_FALSE(fs::exists(folder / "out/references"));
+  // One of another size fits no cell.
+  const Output other =
+      run_gatelight_inside(words("out", {"--reference", path("r.exr"), "--no-plain", "--size", "20x16"}));
+  EXPECT_EQ(other.exit_code, 7);
+  EXPECT_THAT(results("out")["cells"][0]["error"].get<std::string>(),
+              AllOf(HasSubstr("24x16"), HasSubstr("20x16")));
+  const Output missing = run_gatelight_inside(words("out", {"--reference", path("none.exr"), "--no-plain"}));
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.last_error_line(), HasSubstr("none.exr"));
+}
+
+TEST_F(SweepCommand, TheBareCacheIsComparedWithWhatItShouldAnswer) {
+  ASSERT_EQ(
+      run_gatelight_inside(words("out", {"--preset", "paper-nrc", "--train-steps", "8", "--batch", "1024"}))
+          .exit_code,
+      0);
+  const json all = results("out");
+  ASSERT_EQ(all["cells"].size(), 1u);
+  EXPECT_EQ(all["cells"][0]["reference"], "cache");
+  EXPECT_EQ(all["scenes"][0]["references"][0]["kind"], "cache");
+  EXPECT_LT(all["cells"][0]["errors"]["flip"], 0.9);
+}
+
+TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  const Output one = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "1"});
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.out, AllOf(HasSubstr("cornell-box (path): "), HasSubstr("\n  gatelight render "),
+                             HasSubstr("-o out.exr\n")));
+  const Output none = run_gatelight_inside(words("out", {"--advise", "--max-error", "0"}));
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_THAT(none.out, HasSubstr("none of 4 met it; the nearest is"));
+  EXPECT_EQ(run_gatelight_inside({"sweep", "-o", path("nothing"), "--advise", "--max-time", "1"}).exit_code,
+            2);
+}
+
+TEST_F(SweepCommand, ProgressTellsCellsTasksAndTimeLeft) {
+  Words loud = words("out", {"--progress", "json"});
+  std::erase(loud, "--quiet");
+  const Output output = run_gatelight_inside(loud);
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  std::istringstream lines(output.err);
+  std::map<std::string, int> events;
+  json last_task;
+  for (std::string line; std::getline(lines, line);) {
+    const json event = json::parse(line);
+    ++events[event["event"].get<std::string>()];
+    if (event["event"] == "task") last_task = event;
+  }
+  EXPECT_EQ(events["cell"], 4);
+  EXPECT_EQ(events["task"], 3);
+  EXPECT_EQ(events["done"], 1);
+  EXPECT_GT(events["progress"], 0);
+  EXPECT_EQ(last_task["tasks_done"], 3);
+  EXPECT_EQ(last_task["tasks"], 3);
+  EXPECT_EQ(last_task["eta_seconds"], 0.0);
+}
+
+TEST_F(SweepCommand, AConfigurationFileMayHoldAxes) {
+  const std::string file =
+      folder
+          .write("sweep.toml",
+                 "train-steps = [2, 4]\nvary = [\"hidden=16,32\", \"features=2\"]\nsize = \"24x16\"\n")
+          .string();
+  const Output output = run_gatelight_inside(
+      {"sweep", cornell(), "-o", path("out"), "--config", file, "--dry-run", "--no-plain"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_THAT(output.out, AllOf(HasSubstr("nrc gate hidden 16"), HasSubstr("24x16"), HasSubstr("steps 2,4")));
+}
+
+TEST_F(SweepCommand, HelpNamesAxesOutputAndPresets) {
+  const Output output = run_gatelight_inside({"sweep", "--help"});
+  EXPECT_EQ(output.exit_code, 0);
+  for (const char* word :
+       {"--train-steps LIST", "--encodings LIST", "--vary NAME=LIST", "--seeds N", "--reference FILE",
+        "--advise", "--max-error FLIP", "--dry-run", "paper-table1", "results.csv", "Examples:"}) {
+    EXPECT_THAT(output.out, HasSubstr(word));
+  }
+  EXPECT_THAT(output.out, Not(HasSubstr("--batch N")));
+}
+
+}  // namespace
+}  // namespace gatelight::tests

@@ -1,0 +1,177 @@
+// References: what they have in common with the cells, their noise, and that they can be stopped.
+
+#include "apps/sweep/references.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/sweep/gate_memory.h"
+#include "renderer/cache/cache_report.h"
+#include "renderer/image_read.h"
+#include "renderer/image_write.h"
+#include "scene/gltf.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using renderer::Integrator;
+using renderer::Picture;
+using tests::TemporaryFolder;
+
+class SweepReferences : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scene_ = new scene::Scene(scene::load_gltf(GATELIGHT_SOURCE_DIR "/data/cornell-box.glb"));
+  }
+  static void TearDownTestSuite() { delete scene_; }
+
+  static RenderSettings settings(Integrator integrator) {
+    RenderSettings s;
+    s.scene = "cornell-box.glb";
+    s.render.integrator = integrator;
+    s.render.width = 24;
+    s.render.height = 16;
+    return s;
+  }
+  static const renderer::SceneFingerprint& fingerprint() {
+    static const renderer::SceneFingerprint print = renderer::compute_scene_fingerprint(*scene_, {});
+    return print;
+  }
+  Reference plan(const RenderSettings& s, ReferenceKind kind, int spp = 16) const {
+    return plan_reference(s, kind, *scene_, fingerprint(), spp, folder.path().string());
+  }
+
+  static scene::Scene* scene_;
+  TemporaryFolder folder;
+};
+
+scene::Scene* SweepReferences::scene_ = nullptr;
+
+TEST_F(SweepReferences, AreSharedByCellsThatEstimateTheSame) {
+  const RenderSettings cell = settings(Integrator::nrc);
+  const std::string key = plan(cell, ReferenceKind::path).key;
+  std::vector<RenderSettings> same(8, cell);
+  same[0].render.integrator = Integrator::path;
+  same[1].render.clamp = 2.0f;
+  same[2].render.sampler = renderer::SamplerKind::independent;
+  same[3].render.cache.gate.features = 8;
+  same[4].render.seed = 9;
+  same[5].render.threads = 3;
+  same[6].image.exposure = 1.0f;
+  same[7].render.ao_distance = 1.0f;
+  for (const RenderSettings& other : same) EXPECT_EQ(plan(other, ReferenceKind::path).key, key);
+  std::vector<RenderSettings> different(4, cell);
+  different[0].render.max_depth = 3;
+  different[1].render.width = 25;
+  different[2].render.filter = renderer::PixelFilter::box;
+  different[3].render.camera.look_at = renderer::LookAt{};
+  for (const RenderSettings& other : different) EXPECT_NE(plan(other, ReferenceKind::path).key, key);
+  EXPECT_NE(plan(cell, ReferenceKind::path, 32).key, key);
+  EXPECT_NE(plan(cell, ReferenceKind::ao).key, key);
+  RenderSettings reach = cell;
+  reach.render.ao_distance = 1.0f;
+  EXPECT_NE(plan(reach, ReferenceKind::ao).key, plan(cell, ReferenceKind::ao).key);
+  // What the cache holds is what it should answer, and matters to its bare view alone.
+  RenderSettings holds = cell;
+  holds.render.cache.holds = renderer::CacheHolds::all;
+  EXPECT_EQ(plan(holds, ReferenceKind::path).key, key);
+  EXPECT_NE(plan(holds, ReferenceKind::cache).key, plan(cell, ReferenceKind::cache).key);
+}
+
+TEST_F(SweepReferences, TellTheirNoiseByTheirHalves) {
+  for (const ReferenceKind kind : {ReferenceKind::path, ReferenceKind::ao, ReferenceKind::cache}) {
+    const RenderSettings cell = settings(kind == ReferenceKind::ao ? Integrator::nao : Integrator::nrc);
+    Reference reference = plan(cell, kind);
+    const Picture mean = *make_reference(reference, *scene_, cell, {});
+    const Picture a = renderer::read_image(folder / (reference.key + "_a.exr"));
+    const Picture b = renderer::read_image(folder / (reference.key + "_b.exr"));
+    EXPECT_NE(a.layers[0].values, b.layers[0].values);
+    EXPECT_EQ(mean.metadata.at("spp"), "16");
+    double noise = 0.0;
+    const std::size_t count = mean.layers[0].values.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const double half = 0.5 * (a.layers[0].values[i] - b.layers[0].values[i]);
+      const double m = mean.layers[0].values[i];
+      noise += half * half / (m * m + 0.01) / static_cast<double>(count);
+    }
+    ASSERT_TRUE(reference.rel_mse_noise.has_value());
+    EXPECT_GT(noise, 0.0);
+    EXPECT_NEAR(*reference.rel_mse_noise, noise, 1e-5 * noise);
+    // Read, not rendered, the second time.
+    Reference again = plan(cell, kind);
+    renderer::Callbacks never;
+    never.progress = [](const renderer::Progress&) { ADD_FAILURE() << "it renders"; };
+    EXPECT_EQ(make_reference(again, *scene_, cell, never)->layers[0].values, mean.layers[0].values);
+    EXPECT_EQ(again.rel_mse_noise, reference.rel_mse_noise);
+    EXPECT_EQ(again.seconds, reference.seconds);
+  }
+}
+
+TEST_F(SweepReferences, StoppedAgainAndAgainTheyHaveTheSameBits) {
+  const RenderSettings cell = settings(Integrator::path);
+  Reference reference = plan(cell, ReferenceKind::path);
+  const Picture straight = *make_reference(reference, *scene_, cell, {});
+  const TemporaryFolder other;
+  Reference stopped =
+      plan_reference(cell, ReferenceKind::path, *scene_, fingerprint(), 16, other.path().string());
+  renderer::Callbacks callbacks;
+  callbacks.stop = [] { return true; };
+  int calls = 0;
+  std::optional<Picture> picture;
+  while (!(picture = make_reference(stopped, *scene_, cell, callbacks)) && ++calls < 100) {
+  }
+  EXPECT_GT(calls, 2) << "each call is one pass";
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->layers[0].values, straight.layers[0].values);
+  EXPECT_EQ(other.count_files(), 4u) << "two halves, their mean and its numbers";
+}
+
+TEST_F(SweepReferences, ACheckpointThatIsDamagedIsBegunAnew) {
+  const RenderSettings cell = settings(Integrator::path);
+  Reference reference = plan(cell, ReferenceKind::path);
+  folder.write(reference.key + "_a.checkpoint", "not a checkpoint");
+  EXPECT_TRUE(make_reference(reference, *scene_, cell, {}).has_value());
+  EXPECT_EQ(folder.count_files(), 4u);
+}
+
+TEST_F(SweepReferences, OnesOwnIsKnownByItsPixels) {
+  Picture picture{.width = 1, .height = 1, .metadata = {{"spp", "7"}}};
+  picture.layers = {{.channels = {"R", "G", "B"}, .values = {1.0f, 2.0f, 3.0f}}};
+  const std::string file = (folder / "r.exr").string();
+  renderer::write_image(picture, file, {.exr_float = true});
+  const Reference first = given_reference(ReferenceKind::path, file);
+  EXPECT_EQ(first.spp, 7);
+  EXPECT_FALSE(first.rel_mse_noise.has_value());
+  picture.layers[0].values[2] = 3.5f;
+  renderer::write_image(picture, file, {.exr_float = true});
+  EXPECT_NE(given_reference(ReferenceKind::path, file).key, first.key);
+}
+
+TEST_F(SweepReferences, NamesAreRelativeWithinTheFolder) {
+  const Reference inside{.file = "/a/b/references/k.exr"};
+  EXPECT_EQ(reference_json(inside, "/a/b")["file"], "references/k.exr");
+  EXPECT_EQ(reference_json(inside, "/a/c/")["file"], "/a/b/references/k.exr");
+}
+
+TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsRemembered) {
+  renderer::RenderOptions options = settings(Integrator::nrc).render;
+  options.cache.gate.features = 3;
+  const std::string file = (folder / "memory.json").string();
+  const std::uint64_t bytes = GateMemoryStore(file).bytes("k", *scene_, options);
+  const renderer::CacheReport report = renderer::report_cache(*scene_, options);
+  EXPECT_EQ(bytes, report.statistics.cache.nodes * 3 * 4);
+  EXPECT_LE(bytes, report.statistics.cache.parameter_bytes);
+  EXPECT_GT(bytes + 64 * 1024, report.statistics.cache.parameter_bytes) << "the network is small";
+  // Another key is another cache; a known one is not asked for again.
+  options.cache.gate.features = 1;
+  EXPECT_EQ(GateMemoryStore(file).bytes("k", *scene_, options), bytes);
+  EXPECT_LT(GateMemoryStore(file).bytes("other", *scene_, options), bytes);
+}
+
+}  // namespace
+}  // namespace gatelight::apps
