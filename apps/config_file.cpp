@@ -22,7 +22,8 @@ class SubcommandConfig final : public CLI::ConfigTOML {
           is_subcommand(item.parents.front())) {
         continue;
       }
-      if (item.inputs.size() > 1 && item.name != "output" && item.name != "vary" && item.name != "SCENE")
+      if (item.inputs.size() > 1 && item.name != "output" && item.name != "vary" && item.name != "for" &&
+          item.name != "SCENE")
         item.inputs = {CLI::detail::join(item.inputs, ",")};
       kept.push_back(std::move(item));
     }

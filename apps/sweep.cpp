@@ -42,6 +42,7 @@ Those of 'gatelight render' (preview, final, paper-nao, paper-nrc) stand for the
 Examples:
   gatelight sweep kitchen.glb -o kitchen
   gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
+  gatelight sweep kitchen.glb sponza.glb -o both --for sponza:camera=hall --for sponza:environment=0.65,0.8,1
   gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run
   gatelight sweep kitchen.glb -o kitchen --advise --max-error 0.05
   gatelight sweep -o kitchen --advise --max-time 10
@@ -97,6 +98,11 @@ void add_axes(CLI::App& app, SweepWords& words) {
   }
   app.add_option("--vary", words.vary, "Any other flag of render as an axis; may be given several times")
       ->type_name("NAME=LIST")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  app.add_option("--for", words.scene_flags, "A flag for one scene alone; may be given several times")
+      ->type_name("SCENE:NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);

@@ -57,7 +57,7 @@ void add_errors(ordered_json& json, const CellErrors& e) {
                     {"rel_mse", number(e.metrics.rel_mse)},
                     {"rel_mse_clean", number(e.rel_mse_clean)},
                     {"psnr", number(e.metrics.psnr)},
-                    {"ssim", nullptr},
+                    {"ssim", number(e.ssim)},
                     {"flip", e.flip ? number(e.flip->summary.mean) : nullptr},
                     {"hdr_flip", number(e.hdr_flip)}};
   if (!e.flip) {

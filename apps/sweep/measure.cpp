@@ -1,5 +1,7 @@
 #include "apps/sweep/measure.h"
 
+#include "renderer/ssim.h"
+
 namespace gatelight::apps {
 
 CellErrors measure_errors(const renderer::NamedPicture& reference, std::optional<double> noise,
@@ -10,6 +12,9 @@ CellErrors measure_errors(const renderer::NamedPicture& reference, std::optional
   if (errors.metrics.nonfinite_reference + errors.metrics.nonfinite_test > 0) return errors;
   const renderer::FlipOptions options{.exposure = image.exposure, .tonemap = image.tonemap};
   errors.flip = renderer::ldr_flip(reference, test, options);
+  if (renderer::has_ssim(test.picture)) {
+    errors.ssim = renderer::ssim(reference, test, {.exposure = image.exposure, .tonemap = image.tonemap});
+  }
   if (with_hdr_flip) errors.hdr_flip = renderer::hdr_flip(reference, test, options).summary.mean;
   return errors;
 }

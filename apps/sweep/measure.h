@@ -15,10 +15,11 @@ struct CellErrors {
   std::optional<double> rel_mse_clean;       ///< without the reference's noise, where that is known
   std::optional<renderer::FlipResult> flip;  ///< none: pixels are not finite
   std::optional<double> hdr_flip;
+  std::optional<double> ssim;  ///< none: as for FLIP, or the picture is smaller than a window
 };
 
-/// noise: the rel_mse that the reference has of its own. FLIP sees the pictures as the settings' exposure and
-/// curve show them; HDR-FLIP is for radiance alone.
+/// noise: the rel_mse that the reference has of its own. FLIP and SSIM see the pictures with the exposure and
+/// curve of `image`; HDR-FLIP is for radiance alone.
 CellErrors measure_errors(const renderer::NamedPicture& reference, std::optional<double> noise,
                           const renderer::NamedPicture& test, const renderer::ImageWriteOptions& image,
                           bool with_hdr_flip);

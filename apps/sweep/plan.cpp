@@ -87,7 +87,8 @@ std::string name_of_flag(const std::string& flag) {
 
 class Planner {
  public:
-  explicit Planner(const SweepRequest& request) : request_(request) {
+  Planner(const SweepRequest& request, const FlagValues& scene_flags)
+      : request_(request), scene_flags_(scene_flags) {
     for (const SweepBlock& block : request.blocks) {
       for (const SweepAxis& axis : block.axes) {
         const bool known = std::find(axes_.begin(), axes_.end(), axis.flag) != axes_.end();
@@ -97,7 +98,11 @@ class Planner {
   }
 
   std::vector<PlannedSeries> plan() {
-    for (const SweepBlock& block : request_.blocks) combine(block, block.base, 0);
+    for (const SweepBlock& block : request_.blocks) {
+      FlagValues base = block.base;
+      for (const auto& [flag, value] : scene_flags_) set_flag(base, flag, value);
+      combine(block, base, 0);
+    }
     name_integrators();
     make_labels();
     return std::move(series_);
@@ -204,34 +209,11 @@ class Planner {
   }
 
   const SweepRequest& request_;
+  const FlagValues& scene_flags_;
   std::vector<std::string> axes_;  ///< flags that have several values
   std::vector<PlannedSeries> series_;
   std::map<std::string, std::size_t> by_key_;
 };
-
-/// Short names: the file's, with its folder's where two files have the same.
-std::vector<PlannedScene> name_scenes(const std::vector<std::string>& files) {
-  std::map<std::string, int> stems;
-  std::set<std::filesystem::path> seen;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    if (!seen.insert(path).second) {
-      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
-    }
-    ++stems[path.stem().string()];
-  }
-  std::vector<PlannedScene> scenes;
-  std::map<std::string, int> names;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    std::string name = path.stem().string();
-    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
-    const int count = ++names[name];
-    if (count > 1) name += fmt::format("-{}", count);
-    scenes.push_back({std::move(name), file});
-  }
-  return scenes;
-}
 
 std::string plural(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -243,16 +225,48 @@ Choices<ReferenceKind> reference_kind_choices() {
   return kReferenceKinds;
 }
 
+std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
+  std::map<std::string, int> stems;
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    if (!seen.insert(path).second) {
+      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
+    }
+    ++stems[path.stem().string()];
+  }
+  std::vector<SweepScene> scenes;
+  std::map<std::string, int> names;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    std::string name = path.stem().string();
+    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
+    const int count = ++names[name];
+    if (count > 1) name += fmt::format("-{}", count);
+    scenes.push_back({std::move(name), file, {}});
+  }
+  return scenes;
+}
+
+std::size_t SweepPlan::run_count() const {
+  std::size_t count = 0;
+  for (const PlannedScene& scene : scenes) count += scene.series.size();
+  return count * seeds.size();
+}
+
 std::size_t SweepPlan::cell_count() const {
   std::size_t points = 0;
-  for (const PlannedSeries& s : series) points += s.points.size();
-  return scenes.size() * points * seeds.size();
+  for (const PlannedScene& scene : scenes) {
+    for (const PlannedSeries& s : scene.series) points += s.points.size();
+  }
+  return points * seeds.size();
 }
 
 SweepPlan make_plan(const SweepRequest& request) {
   SweepPlan plan;
-  plan.scenes = name_scenes(request.scenes);
-  plan.series = Planner(request).plan();
+  for (const SweepScene& scene : request.scenes) {
+    plan.scenes.push_back({scene.name, scene.file, Planner(request, scene.flags).plan()});
+  }
   for (int i = 0; i < request.seeds; ++i) {
     plan.seeds.push_back(request.first_seed + static_cast<std::uint32_t>(i));
   }
@@ -287,20 +301,21 @@ std::string cell_command(const PlannedSeries& series, const std::string& scene, 
 
 std::string plan_text(const SweepPlan& plan) {
   std::string text;
-  for (const PlannedScene& scene : plan.scenes)
-    text += fmt::format("scene  {}  {}\n", scene.name, scene.file);
-  std::size_t width = 0;
-  for (const PlannedSeries& s : plan.series) width = std::max(width, s.label.size());
-  for (const PlannedSeries& s : plan.series) {
-    const renderer::RenderOptions& o = s.settings.render;
-    text += fmt::format("  {:<{}}  {:>5}x{:<5} {} {}", s.label, width, o.width, o.height,
-                        s.has_cache() ? "steps" : "spp  ", fmt::join(s.points, ","));
-    if (s.has_cache()) text += fmt::format(", {} spp", o.spp);
-    text += fmt::format(", against {}\n", name_of(reference_kind_choices(), s.reference));
+  for (const PlannedScene& scene : plan.scenes) {
+    text += fmt::format("{}  {}\n", scene.name, scene.file);
+    std::size_t width = 0;
+    for (const PlannedSeries& s : scene.series) width = std::max(width, s.label.size());
+    for (const PlannedSeries& s : scene.series) {
+      const renderer::RenderOptions& o = s.settings.render;
+      text += fmt::format("  {:<{}}  {}x{}, {} {}", s.label, width, o.width, o.height,
+                          s.has_cache() ? "steps" : "spp", fmt::join(s.points, ","));
+      if (s.has_cache()) text += fmt::format(", {} spp", o.spp);
+      text += fmt::format(", against {}\n", name_of(reference_kind_choices(), s.reference));
+    }
   }
-  return text + fmt::format("{} x {} x {}: {}, {}\n", plural(plan.scenes.size(), "scene"),
-                            plural(plan.series.size(), "line"), plural(plan.seeds.size(), "seed"),
-                            plural(plan.run_count(), "run"), plural(plan.cell_count(), "cell"));
+  return text + fmt::format("{} with {}: {}, {}\n", plural(plan.scenes.size(), "scene"),
+                            plural(plan.seeds.size(), "seed"), plural(plan.run_count(), "run"),
+                            plural(plan.cell_count(), "cell"));
 }
 
 }  // namespace gatelight::apps

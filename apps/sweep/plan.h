@@ -29,8 +29,18 @@ struct SweepBlock {
   std::vector<int> train_steps;
 };
 
+struct SweepScene {
+  std::string name;  ///< short, different from the others'
+  std::string file;
+  FlagValues flags;  ///< of this scene alone: its camera, its sky
+};
+
+/// By their files' names, with those of their folders where two files have the same. Throws UsageError for a
+/// file that is named twice.
+std::vector<SweepScene> name_scenes(const std::vector<std::string>& files);
+
 struct SweepRequest {
-  std::vector<std::string> scenes;
+  std::vector<SweepScene> scenes;
   std::vector<SweepBlock> blocks;
   std::vector<int> plain_spp;
   bool plain = true;  ///< beside each integrator with a cache the one that it stands in for
@@ -59,17 +69,17 @@ struct PlannedSeries {
 };
 
 struct PlannedScene {
-  std::string name;  ///< short, different from the others'
+  std::string name;
   std::string file;
+  std::vector<PlannedSeries> series;
 };
 
-/// Each scene with each series with each seed.
+/// Each series with each seed.
 struct SweepPlan {
   std::vector<PlannedScene> scenes;
-  std::vector<PlannedSeries> series;
   std::vector<std::uint32_t> seeds;
 
-  std::size_t run_count() const { return scenes.size() * series.size() * seeds.size(); }
+  std::size_t run_count() const;
   std::size_t cell_count() const;
 };
 

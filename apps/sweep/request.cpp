@@ -95,6 +95,35 @@ std::vector<NamedAxis> read_axes(const SweepWords& words) {
   return axes;
 }
 
+/// "SCENE:NAME=VALUE": the value that a flag has for one of the scenes.
+void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes, SweepRequest& request) {
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = equals == std::string::npos ? equals : text.rfind(':', equals);
+  if (colon == std::string::npos || equals < colon + 2) {
+    throw UsageError(
+        fmt::format("--for: '{}' is not SCENE:NAME=VALUE with the name of a flag of render", text));
+  }
+  const std::string name = text.substr(0, colon);
+  const auto scene = std::find_if(request.scenes.begin(), request.scenes.end(),
+                                  [&](const SweepScene& s) { return s.name == name || s.file == name; });
+  if (scene == request.scenes.end()) {
+    std::vector<std::string_view> names;
+    for (const SweepScene& s : request.scenes) names.push_back(s.name);
+    refuse_choice("--for", name, join_names(names));
+  }
+  const std::string word = text.substr(colon + 1, equals - colon - 1);
+  const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
+  const std::vector<std::string> known = base_flag_names();
+  if (flag == "--seed" || std::find(known.begin(), known.end(), flag) == known.end()) {
+    throw UsageError(fmt::format("--for: '{}' is no flag that all cells of a scene can have", flag));
+  }
+  for (const NamedAxis& named : axes) {
+    if (named.axis.flag != flag) continue;
+    throw UsageError(fmt::format("--for: '{}' is varied by {}, expected one of them", flag, named.given_as));
+  }
+  set_flag(scene->flags, flag, text.substr(equals + 1));
+}
+
 bool names_flag(const SweepBlock& block, const std::string& flag) {
   return find_flag(block.base, flag) || std::any_of(block.axes.begin(), block.axes.end(),
                                                     [&](const SweepAxis& axis) { return axis.flag == flag; });
@@ -158,7 +187,7 @@ std::vector<std::string> base_flag_names() {
 
 SweepRequest make_request(const SweepWords& words) {
   SweepRequest request;
-  request.scenes = words.scenes;
+  request.scenes = name_scenes(words.scenes);
   request.blocks = sweep_preset(words.preset);
   const bool preset = !request.blocks.empty();
   FlagValues base = words.base;
@@ -175,6 +204,7 @@ SweepRequest make_request(const SweepWords& words) {
   SweepWords with_preset = words;
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);
+  for (const std::string& text : words.scene_flags) read_scene_flag(text, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
     if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);

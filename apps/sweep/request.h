@@ -33,6 +33,7 @@ struct SweepWords {
   FlagValues base;
   std::vector<std::pair<AxisFlag, std::string>> axes;
   std::vector<std::string> vary;
+  std::vector<std::string> scene_flags;  ///< "sponza:camera=hall"
   std::optional<std::string> train_steps;
   std::optional<std::string> spp;
   std::optional<std::string> seeds;

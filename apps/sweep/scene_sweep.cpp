@@ -64,7 +64,7 @@ std::string one_line(std::string text) {
 std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp) {
   std::vector<SweepTask> tasks;
   std::set<ReferenceKind> kinds;
-  for (const PlannedSeries& series : plan.series) {
+  for (const PlannedSeries& series : scene.series) {
     if (kinds.insert(series.reference).second) {
       tasks.push_back(reference_task(scene, series.settings.render, series.reference, reference_spp));
     }
@@ -81,8 +81,8 @@ SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const
       plan_(plan),
       settings_(settings),
       progress_(progress),
-      series_(plan.series),
-      series_errors_(plan.series.size()) {
+      series_(planned.series),
+      series_errors_(planned.series.size()) {
   load();
   decide_memory();
   name_cells();

@@ -39,13 +39,15 @@ void make_folder(const fs::path& folder) {
 
 void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
   for (const PlannedScene& scene : plan.scenes) {
-    for (const PlannedSeries& series : plan.series) {
+    for (const PlannedSeries& series : scene.series) {
       check_files(cell_settings(series, scene.file, plan.seeds.front(), series.points.front()));
     }
   }
   if (settings.reference_file.empty()) return;
   std::set<ReferenceKind> kinds;
-  for (const PlannedSeries& series : plan.series) kinds.insert(series.reference);
+  for (const PlannedScene& scene : plan.scenes) {
+    for (const PlannedSeries& series : scene.series) kinds.insert(series.reference);
+  }
   if (plan.scenes.size() > 1 || kinds.size() > 1) {
     throw UsageError(fmt::format(
         "--reference: '{}' is one picture, but there are {} scenes with {} kinds of pictures, expected "
@@ -70,7 +72,7 @@ class SweepRun {
 
   int run();
   ordered_json results() const {
-    return make_results(command_, plan_.series.front().settings.render.threads, scenes_);
+    return make_results(command_, plan_.scenes.front().series.front().settings.render.threads, scenes_);
   }
 
  private:
@@ -160,12 +162,12 @@ bool SweepRun::run_scene(std::size_t index) {
 
 void SweepRun::fail_scene(std::size_t index, const std::string& error) {
   const PlannedScene& planned = plan_.scenes[index];
-  for (const PlannedSeries& series : plan_.series) {
+  for (const PlannedSeries& series : planned.series) {
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         // No scene, no fingerprint: a name that no cell of a scene has.
         const std::string id =
-            fmt::format("{}-{}-{}-{}", planned.name, &series - plan_.series.data(), seed, point);
+            fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
         scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id}, error));
       }
     }

@@ -81,6 +81,7 @@ TEST_F(SweepCommand, MeasuresEveryCellAgainstItsReference) {
   for (const json& cell : all["cells"]) {
     EXPECT_EQ(cell["status"], "done");
     EXPECT_GT(cell["errors"]["flip"], 0.0);
+    EXPECT_LT(cell["errors"]["ssim"], 1.0);
     EXPECT_LT(cell["errors"]["rel_mse_clean"], cell["errors"]["rel_mse"]);
     EXPECT_GT(cell["seconds"]["total"], 0.0);
     EXPECT_EQ(cell["picture"].is_null(), cell["seed"] != 1);

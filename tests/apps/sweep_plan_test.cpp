@@ -39,7 +39,7 @@ SweepPlan plan_of(FlagValues base, std::vector<std::string> vary = {}, bool no_p
 
 std::vector<std::string> labels(const SweepPlan& plan) {
   std::vector<std::string> labels;
-  for (const PlannedSeries& series : plan.series) labels.push_back(series.label);
+  for (const PlannedSeries& series : plan.scenes[0].series) labels.push_back(series.label);
   return labels;
 }
 
@@ -47,9 +47,9 @@ TEST(SweepPlan, CombinesAllValuesOfAllAxes) {
   const SweepPlan plan = plan_of({}, {"features=2,4", "hidden=16,32"});
   EXPECT_THAT(labels(plan), ElementsAre("nrc gate features 2 hidden 16", "nrc gate features 2 hidden 32",
                                         "nrc gate features 4 hidden 16", "nrc gate features 4 hidden 32"));
-  EXPECT_THAT(plan.series[1].axes, ElementsAre(Pair("features", "2"), Pair("hidden", "32")));
-  EXPECT_EQ(plan.series[1].settings.render.cache.gate.features, 2u);
-  EXPECT_EQ(plan.series[1].settings.render.cache.mlp.width, 32u);
+  EXPECT_THAT(plan.scenes[0].series[1].axes, ElementsAre(Pair("features", "2"), Pair("hidden", "32")));
+  EXPECT_EQ(plan.scenes[0].series[1].settings.render.cache.gate.features, 2u);
+  EXPECT_EQ(plan.scenes[0].series[1].settings.render.cache.mlp.width, 32u);
   EXPECT_EQ(plan.run_count(), 4u);
   EXPECT_EQ(plan.cell_count(), 8u);
 }
@@ -58,25 +58,26 @@ TEST(SweepPlan, AFlagWithoutEffectIsLeftOutAndEqualCellsAreOne) {
   const SweepPlan plan = plan_of({}, {"encoding=gate,hashgrid", "features=2,4", "hash-levels=4,8"});
   EXPECT_THAT(labels(plan), ElementsAre("nrc gate features 2", "nrc gate features 4",
                                         "nrc hashgrid hash-levels 4", "nrc hashgrid hash-levels 8"));
-  EXPECT_THAT(plan.series[2].axes, ElementsAre(Pair("encoding", "hashgrid"), Pair("hash-levels", "4")));
+  EXPECT_THAT(plan.scenes[0].series[2].axes,
+              ElementsAre(Pair("encoding", "hashgrid"), Pair("hash-levels", "4")));
 }
 
 TEST(SweepPlan, BaseFlagsOfACacheDoNotReachPlainIntegrators) {
   const SweepPlan plan = plan_of({{"--batch", "512"}, {"--max-depth", "3"}}, {"integrator=path,nrc"});
   ASSERT_THAT(labels(plan), ElementsAre("path", "nrc gate"));
-  EXPECT_THAT(plan.series[0].flags,
+  EXPECT_THAT(plan.scenes[0].series[0].flags,
               UnorderedElementsAre(Pair("--integrator", "path"), Pair("--max-depth", "3")));
-  EXPECT_EQ(plan.series[0].settings.render.max_depth, 3);
-  EXPECT_THAT(plan.series[0].points, ElementsAre(1, 4, 16, 64));
-  EXPECT_THAT(plan.series[1].points, ElementsAre(8, 16));
-  EXPECT_EQ(plan.series[1].settings.render.cache.batch, 512u);
+  EXPECT_EQ(plan.scenes[0].series[0].settings.render.max_depth, 3);
+  EXPECT_THAT(plan.scenes[0].series[0].points, ElementsAre(1, 4, 16, 64));
+  EXPECT_THAT(plan.scenes[0].series[1].points, ElementsAre(8, 16));
+  EXPECT_EQ(plan.scenes[0].series[1].settings.render.cache.batch, 512u);
 }
 
 TEST(SweepPlan, ThePlainIntegratorStandsBesideEachCache) {
   const SweepPlan plan = plan_of({}, {"integrator=nrc,nao", "features=2,4"}, false);
   EXPECT_THAT(labels(plan), UnorderedElementsAre("nrc gate features 2", "nrc gate features 4", "path",
                                                  "nao gate features 2", "nao gate features 4", "ao"));
-  for (const PlannedSeries& s : plan.series) {
+  for (const PlannedSeries& s : plan.scenes[0].series) {
     const bool radiance = s.label.starts_with("nrc") || s.label == "path";
     EXPECT_EQ(s.reference, radiance ? ReferenceKind::path : ReferenceKind::ao) << s.label;
   }
@@ -89,18 +90,18 @@ TEST(SweepPlan, ThePlainIntegratorStandsBesideEachCache) {
 TEST(SweepPlan, TheBareCacheHasAReferenceOfItsOwnAndNoPlainRow) {
   const SweepPlan plan = plan_of({}, {"view=final,cache"}, false);
   ASSERT_THAT(labels(plan), ElementsAre("nrc gate view final", "path", "nrc gate view cache"));
-  EXPECT_EQ(plan.series[2].reference, ReferenceKind::cache);
+  EXPECT_EQ(plan.scenes[0].series[2].reference, ReferenceKind::cache);
 }
 
 TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {
   const SweepPlan plan = plan_of({}, {"preset=preview,paper-nao"}, false);
   ASSERT_THAT(labels(plan),
               ElementsAre("nrc gate preset preview", "path", "nao gate preset paper-nao", "ao"));
-  EXPECT_EQ(plan.series[0].settings.render.spp, 4);
-  EXPECT_EQ(plan.series[2].settings.render.cache.batch, 49152u);
+  EXPECT_EQ(plan.scenes[0].series[0].settings.render.spp, 4);
+  EXPECT_EQ(plan.scenes[0].series[2].settings.render.cache.batch, 49152u);
   // The plain picture has the preset's size, so that it can be compared.
-  EXPECT_EQ(plan.series[3].settings.render.width, 1920);
-  EXPECT_THAT(plan.series[3].flags, Contains(Pair("--size", "1920x1080")));
+  EXPECT_EQ(plan.scenes[0].series[3].settings.render.width, 1920);
+  EXPECT_THAT(plan.scenes[0].series[3].flags, Contains(Pair("--size", "1920x1080")));
 }
 
 TEST(SweepPlan, MemoryOfGateIsAskedForWithAllThatDecidesIt) {
@@ -114,12 +115,12 @@ TEST(SweepPlan, MemoryOfGateIsAskedForWithAllThatDecidesIt) {
                   "nrc hashgrid features 2 cache-memory same-as-gate/2", "nrc hashgrid cache-memory 3",
                   "nrc hashgrid features 4 cache-memory same-as-gate",
                   "nrc hashgrid features 4 cache-memory same-as-gate/2"));
-  const PlannedSeries& like = plan.series[8];
+  const PlannedSeries& like = plan.scenes[0].series[8];
   ASSERT_TRUE(like.memory.has_value());
   EXPECT_EQ(like.memory->divisor, 2.0);
   EXPECT_EQ(like.memory->settings.render.cache.gate.features, 4u);
   EXPECT_EQ(like.memory->settings.render.cache.encoding, neural::FeatureEncoding::gate);
-  EXPECT_FALSE(plan.series[0].memory.has_value());
+  EXPECT_FALSE(plan.scenes[0].series[0].memory.has_value());
   EXPECT_THROW(plan_of({{"--cache-memory", "same-as-gate*2"}}), UsageError);
   EXPECT_THROW(plan_of({{"--cache-memory", "same-as-gate/0"}}), UsageError);
 }
@@ -143,8 +144,8 @@ TEST(SweepPlan, ABadValueInAnyCellIsRefusedAtOnce) {
 TEST(SweepPlan, TheCommandMakesTheCell) {
   const SweepPlan plan = plan_of({{"--camera", "it's here"}, {"--exposure", "-1"}},
                                  {"stack=adaptive,1;adaptive", "preset=preview,paper-nrc"}, false);
-  ASSERT_EQ(plan.series.size(), 5u);
-  for (const PlannedSeries& series : plan.series) {
+  ASSERT_EQ(plan.scenes[0].series.size(), 5u);
+  for (const PlannedSeries& series : plan.scenes[0].series) {
     const int point = series.points.back();
     const std::string command = cell_command(series, "a room.glb", 7, point);
     EXPECT_THAT(command, AllOf(HasSubstr("gatelight render 'a room.glb' "), HasSubstr("'it'\\''s here'"),
@@ -165,25 +166,45 @@ TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
   std::set<std::string> texts;
   const SweepPlan plan = plan_of({}, {"features=2,4", "exposure=0,1", "threads=1,2", "camera=a,b",
                                       "environment=none;1,1,1", "tonemap=none,filmic"});
-  for (const PlannedSeries& s : plan.series) texts.insert(deciding_text(s.settings));
+  for (const PlannedSeries& s : plan.scenes[0].series) texts.insert(deciding_text(s.settings));
   EXPECT_EQ(texts.size(), 64u);
 }
 
 TEST(SweepPlan, ScenesOfOneNameAreToldApart) {
-  SweepRequest request = make_request({.scenes = {"a/room.glb", "b/room.glb", "hall.glb"}});
-  const SweepPlan plan = make_plan(request);
   std::vector<std::string> names;
-  for (const PlannedScene& scene : plan.scenes) names.push_back(scene.name);
+  for (const SweepScene& scene : name_scenes({"a/room.glb", "b/room.glb", "hall.glb"})) {
+    names.push_back(scene.name);
+  }
   EXPECT_THAT(names, ElementsAre("a-room", "b-room", "hall"));
-  request.scenes = {"a/room.glb", "a/./room.glb"};
-  EXPECT_THROW(make_plan(request), UsageError);
+  EXPECT_THROW(name_scenes({"a/room.glb", "a/./room.glb"}), UsageError);
+}
+
+TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
+  SweepWords words;
+  words.scenes = {"room.glb", "a/hall.glb"};
+  words.vary = {"features=2,4"};
+  words.base = {{"--camera", "front"}};
+  words.scene_flags = {"hall:camera=gate=1", "a/hall.glb:environment=1,1,1"};
+  const SweepPlan plan = make_plan(make_request(words));
+  EXPECT_EQ(plan.scenes[0].series[0].settings.render.camera.name, "front");
+  EXPECT_TRUE(plan.scenes[0].series[0].settings.render.environment.none());
+  for (const PlannedSeries& series : plan.scenes[1].series) {
+    EXPECT_EQ(series.settings.render.camera.name, "gate=1");
+    EXPECT_FALSE(series.settings.render.environment.none());
+    EXPECT_THAT(series.flags, Contains(Pair("--camera", "gate=1")));
+  }
+  for (const char* bad : {"hall", "hall:", "hall:=1", "cellar:camera=a", "hall:features=2", "hall:seed=1",
+                          "hall:output=a.exr", "hall:frob=1"}) {
+    words.scene_flags = {bad};
+    EXPECT_THROW(make_request(words), UsageError) << bad;
+  }
 }
 
 TEST(SweepPresets, EachIsAPlanOfRowsForBothOfThePapersCaches) {
   for (const std::string_view name : sweep_preset_names()) {
     const SweepPlan plan = plan_of({{"--size", "64x36"}}, {}, false, std::string(name));
     std::set<std::string> integrators;
-    for (const PlannedSeries& s : plan.series) {
+    for (const PlannedSeries& s : plan.scenes[0].series) {
       EXPECT_EQ(s.settings.render.width, 64);
       integrators.insert(std::string(s.label.substr(0, 3)));
       EXPECT_THAT(s.label, Not(HasSubstr("#"))) << name;
@@ -191,14 +212,14 @@ TEST(SweepPresets, EachIsAPlanOfRowsForBothOfThePapersCaches) {
     }
     EXPECT_THAT(integrators, ElementsAre("nao", "nrc")) << name;
     EXPECT_EQ(plan.seeds.size(), 3u);
-    EXPECT_GE(plan.series.size(), 6u) << name;
+    EXPECT_GE(plan.scenes[0].series.size(), 6u) << name;
   }
   const SweepPlan table = plan_of({}, {}, false, "paper-table2");
   EXPECT_THAT(labels(table),
               ElementsAre("nao gate", "nao hash grid L", "nao hash grid M", "nao hash grid S", "nrc gate",
                           "nrc hash grid L", "nrc hash grid M", "nrc hash grid S"));
-  EXPECT_EQ(table.series[3].settings.render.cache.memory_bytes, 954205u);
-  EXPECT_EQ(table.series[0].settings.render.width, 1920);
+  EXPECT_EQ(table.scenes[0].series[3].settings.render.cache.memory_bytes, 954205u);
+  EXPECT_EQ(table.scenes[0].series[0].settings.render.width, 1920);
 }
 
 }  // namespace

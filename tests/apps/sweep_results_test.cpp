@@ -54,6 +54,7 @@ CellErrors errors() {
   e.metrics.rel_mse = 0.02;
   e.metrics.psnr = std::numeric_limits<double>::infinity();
   e.rel_mse_clean = 0.015;
+  e.ssim = 0.9;
   e.flip.emplace();
   e.flip->summary = {.mean = 0.1, .weighted_median = 0.3, .first_quartile = 0.2, .third_quartile = 0.4};
   return e;
@@ -61,7 +62,7 @@ CellErrors errors() {
 
 TEST(SweepRecord, HoldsWhatWasMeasured) {
   const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.series[0], 1, 8, "0123"};
+  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123"};
   const ordered_json r = done_record(place, statistics(), errors(), true);
   EXPECT_EQ(r["status"], "done");
   EXPECT_EQ(r["seconds"]["total"], 3.75);
@@ -79,13 +80,14 @@ TEST(SweepRecord, HoldsWhatWasMeasured) {
   EXPECT_TRUE(r["errors"]["psnr"].is_null());
   EXPECT_TRUE(r["errors"]["hdr_flip"].is_null());
   EXPECT_EQ(r["errors"]["flip"], 0.1);
+  EXPECT_EQ(r["errors"]["ssim"], 0.9);
   EXPECT_EQ(r["flip_percentiles"], ordered_json({{"q25", 0.2}, {"median", 0.3}, {"q75", 0.4}}));
   EXPECT_EQ(r["picture"], "pictures/0123.png");
 }
 
 TEST(SweepRecord, OfAPlainIntegratorHasNoCache) {
   const SweepPlan plan = small_plan();
-  const PlannedSeries& series = plan.series[1];
+  const PlannedSeries& series = plan.scenes[0].series[1];
   ASSERT_EQ(series.label, "path");
   renderer::RenderStatistics s = statistics();
   const ordered_json r = done_record({plan.scenes[0], series, 1, 16, "0123"}, s, errors(), false);
@@ -102,7 +104,8 @@ TEST(SweepRecord, PixelsThatAreNotFiniteHaveNoFlip) {
   const SweepPlan plan = small_plan();
   CellErrors e = errors();
   e.flip.reset();
-  const ordered_json r = done_record({plan.scenes[0], plan.series[0], 1, 8, "0123"}, statistics(), e, true);
+  const ordered_json r =
+      done_record({plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123"}, statistics(), e, true);
   EXPECT_TRUE(r["errors"]["flip"].is_null());
   EXPECT_TRUE(r["flip_percentiles"].is_null());
   EXPECT_TRUE(r["error_map"].is_null());
@@ -113,7 +116,7 @@ TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
   const TemporaryFolder folder;
   const std::string root = folder.path().string();
   const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.series[0], 1, 8, "0123"};
+  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123"};
   const auto read = [&](bool pictures) { return read_done_record(root, place, pictures); };
   EXPECT_FALSE(read(false).has_value());
   ordered_json record = done_record(place, statistics(), errors(), true);
@@ -123,7 +126,7 @@ TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
   EXPECT_TRUE((*read(false))["picture"].is_null());
   folder.write("pictures/0123.png", "");
   const ordered_json found = *read(true);
-  EXPECT_EQ(found["series"], plan.series[0].label);
+  EXPECT_EQ(found["series"], plan.scenes[0].series[0].label);
   EXPECT_EQ(found["errors"], record["errors"]);
   EXPECT_EQ(found["seconds"], record["seconds"]);
   EXPECT_EQ(found["picture"], "pictures/0123.png");
@@ -164,11 +167,12 @@ TEST(SweepResults, TheTableSaysWhatTheJsonSays) {
   const SweepPlan plan = small_plan();
   SceneResults scene;
   scene.scene = {{"name", "a"}};
-  scene.cells.push_back(failed_record({plan.scenes[0], plan.series[0], 1, 4, "f"}, "it, \"broke\""));
   scene.cells.push_back(
-      done_record({plan.scenes[0], plan.series[0], 1, 8, "d"}, statistics(), errors(), true));
+      failed_record({plan.scenes[0], plan.scenes[0].series[0], 1, 4, "f"}, "it, \"broke\""));
   scene.cells.push_back(
-      done_record({plan.scenes[0], plan.series[1], 1, 8, "p"}, statistics(), errors(), false));
+      done_record({plan.scenes[0], plan.scenes[0].series[0], 1, 8, "d"}, statistics(), errors(), true));
+  scene.cells.push_back(
+      done_record({plan.scenes[0], plan.scenes[0].series[1], 1, 8, "p"}, statistics(), errors(), false));
   const ordered_json results = make_results({"gatelight", "sweep"}, 2, {scene});
   EXPECT_EQ(results["schema"], 1);
   EXPECT_EQ(results["machine"]["threads"], 2);
