@@ -201,7 +201,8 @@ void add_shape_flags(CLI::App& app, CacheOptions& o) {
   add_choice(app, "--bias", o.mlp.biases, on_off_choices(), "Whether the network's layers have biases")
       ->group(group);
   add_choice(app, "--direction-input", o.direction_input, input_choices(),
-             "The network reads the direction of view; auto: where a material of the scene depends on it")
+             "The network reads the direction of view; auto: where a material of the scene depends on it and "
+             "--cache-roughness is below 0.5")
       ->group(group);
   add_choice(app, "--normal-input", o.normal_input, input_choices(),
              "The network reads the normal; auto: yes, but as in the paper where gate has --resolution paper")

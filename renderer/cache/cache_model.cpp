@@ -18,6 +18,9 @@ namespace {
 /// became 99 MB with the same error (squared bias 0.016), and the run took 2 s less; with 46 MB it was 0.019.
 constexpr std::uint64_t kChosenBytes = std::uint64_t{96} << 20;
 
+/// Lobes at least this rough are learned as well without the direction of view: CACHE.md, "Defaults".
+constexpr float kRoughForAll = 0.5f;
+
 std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
   if (options.isa == "auto") return std::nullopt;
   return neural::cpu::parse_isa(options.isa);
@@ -30,8 +33,9 @@ neural::RequiredInputs required_inputs(const World& world, const RenderOptions& 
   const bool hash_grid = cache.encoding == neural::FeatureEncoding::hash_grid;
   neural::RequiredInputs required;
   // Occlusion is the same from everywhere.
-  required.direction = cache.direction_input.value_or(options.integrator == Integrator::nrc &&
-                                                      world.requirements.view_dependent);
+  required.direction =
+      cache.direction_input.value_or(options.integrator == Integrator::nrc &&
+                                     world.requirements.view_dependent && cache.min_roughness < kRoughForAll);
   // Features of small triangles are constant over a cluster; the normal bends what they answer. The paper has
   // none.
   required.normal =

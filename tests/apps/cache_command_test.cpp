@@ -77,7 +77,8 @@ TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
     EXPECT_GT(stats["train"]["loss"], 0.0);
     EXPECT_GT(stats["train"]["touched_nodes"], 0);
     EXPECT_EQ(stats["train"]["rejected"], 0);
-    for (const char* part : {"scout", "setup", "train", "train_trace", "train_step", "render_trace", "render_query"}) {
+    for (const char* part :
+         {"scout", "setup", "train", "train_trace", "train_step", "render_trace", "render_query"}) {
       EXPECT_GT(stats["seconds"][part], 0.0) << part;
     }
     EXPECT_LE(stats["seconds"]["train_step"], stats["seconds"]["train"]);
@@ -224,7 +225,8 @@ TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
 
 TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
   const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/material-grid.glb";
-  const Words flags = {"--integrator", "nrc", "--size", "24x16", "--stack", "adaptive,1"};
+  const Words flags = {"--integrator",      "nrc", "--size", "24x16", "--stack", "adaptive,1",
+                       "--cache-roughness", "0.25"};
   Words asking = {"info", scene};
   asking.insert(asking.end(), flags.begin(), flags.end());
   const Output text = run_gatelight(asking);

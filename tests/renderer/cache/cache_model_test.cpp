@@ -44,12 +44,16 @@ TEST_F(CacheModel, TheNormalIsReadUnlessThePapersGateIsAskedFor) {
   }
 }
 
-TEST_F(CacheModel, TheDirectionIsReadWhereLightDependsOnIt) {
+TEST_F(CacheModel, TheDirectionIsReadWhereLightThatTheCacheHoldsDependsOnIt) {
   RenderOptions options;
   options.integrator = Integrator::nrc;
+  options.cache.min_roughness = 0.25f;
   EXPECT_FALSE(required_inputs(world_, options).direction);
   built_.requirements.view_dependent = true;
   EXPECT_TRUE(required_inputs(world_, options).direction);
+  options.cache.min_roughness = 0.5f;
+  EXPECT_FALSE(required_inputs(world_, options).direction);
+  options.cache.min_roughness = 0.25f;
   options.integrator = Integrator::nao;
   EXPECT_FALSE(required_inputs(world_, options).direction);
 }
