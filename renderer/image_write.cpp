@@ -13,25 +13,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The beauty layer as RGB bytes; a layer of one channel is grey.
-std::vector<std::uint8_t> to_display(const Picture& picture, const ImageWriteOptions& options) {
-  const Layer& beauty = picture.layers.front();
-  const std::size_t channels = beauty.channels.size();
-  const std::size_t pixels =
-      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  const float scale = exposure_scale(options.exposure);
-  std::vector<std::uint8_t> bytes(3 * pixels);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = beauty.values[p * channels + std::min(c, channels - 1)];
-      bytes[3 * p + c] = display_byte(value, scale, options.tonemap);
-    }
-  }
-  return bytes;
-}
-
 void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions& options) {
-  const std::vector<std::uint8_t> bytes = to_display(picture, options);
+  const std::vector<std::uint8_t> bytes = display_bytes(picture, options);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
   if (!output) throw std::runtime_error(OIIO::geterror());
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
@@ -64,6 +47,22 @@ ImageFormat image_format(const std::filesystem::path& path) {
   if (extension == ".png") return ImageFormat::png;
   if (extension == ".hdr") return ImageFormat::hdr;
   return ImageFormat::unknown;
+}
+
+std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWriteOptions& options) {
+  const Layer& beauty = picture.layers.front();
+  const std::size_t channels = beauty.channels.size();
+  const std::size_t pixels =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const float scale = exposure_scale(options.exposure);
+  std::vector<std::uint8_t> bytes(3 * pixels);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = beauty.values[p * channels + std::min(c, channels - 1)];
+      bytes[3 * p + c] = display_byte(value, scale, options.tonemap);
+    }
+  }
+  return bytes;
 }
 
 void check_image_output(const std::filesystem::path& path) {

@@ -1,8 +1,10 @@
 #pragma once
 // Pictures into files. The extension chooses the format: .exr or .png.
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 #include "renderer/atomic_file.h"
 #include "renderer/picture.h"
@@ -23,6 +25,9 @@ struct UnknownFormat : std::invalid_argument {
 
 /// Throws UnknownFormat or OutputError if write_image() could not write there.
 void check_image_output(const std::filesystem::path& path);
+
+/// The beauty layer as a screen shows it: R, G, B of each pixel in sRGB; a layer of one channel is grey.
+std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWriteOptions& options = {});
 
 /// EXR: every layer, data window = the picture, display window = the full picture, metadata in the header,
 /// zip compression; the same picture gives the same bytes. PNG: the beauty layer, 8 bits, sRGB. The file is

@@ -1,0 +1,22 @@
+# cmake -DOUTPUT=<file.inc> -P EmbedTexts.cmake NAME=FILE[,FILE...] ...
+#
+# Writes each list of text files, one after the other, as a string literal: constexpr char NAME[].
+cmake_minimum_required(VERSION 3.25)
+set(content "")
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(i RANGE ${last})
+  if(NOT CMAKE_ARGV${i} MATCHES "^(k[A-Za-z]+)=(.+)$")
+    continue()
+  endif()
+  string(APPEND content "constexpr char ${CMAKE_MATCH_1}[] = ")
+  string(REPLACE "," ";" files "${CMAKE_MATCH_2}")
+  foreach(file IN LISTS files)
+    file(READ "${file}" text)
+    if(text MATCHES "\\)gatelight_page\"")
+      message(FATAL_ERROR "'${file}' holds the end of the string literal that it is to become")
+    endif()
+    string(APPEND content "R\"gatelight_page(${text})gatelight_page\"\n")
+  endforeach()
+  string(APPEND content ";\n")
+endforeach()
+file(WRITE "${OUTPUT}" "${content}")
