@@ -29,7 +29,7 @@ function logTicks(min, max) {
     for (let i = Math.ceil(min / nice); i * nice <= max; ++i) ticks.push(Number((i * nice).toPrecision(12)));
     return ticks;
   }
-  const digits = decades < 1 ? [1, 1.5, 2, 3, 4, 5, 7] : decades < 3.2 ? [1, 2, 5] : [1];
+  const digits = decades < 0.7 ? [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8] : decades < 1 ? [1, 1.5, 2, 3, 4, 5, 7] : decades < 3.2 ? [1, 2, 5] : [1];
   const skip = Math.ceil(decades / 8);
   const ticks = [];
   for (let power = Math.floor(Math.log10(min)); power <= Math.log10(max); ++power) {

@@ -76,6 +76,7 @@ function drawStepsChart(series, all) {
   if (trained.length === 0) return;
   const steps = c => c.at;
   const distinct = [...new Set(trained.map(steps))].sort((a, b) => a - b);
+  const roomy = distinct.length <= 12 && distinct.every((x, i) => i === 0 || x >= 1.4 * distinct[i - 1]);
   const learning = series.filter(s => !s.plain);
   const levels = series.filter(s => s.plain).flatMap(s => s.points.map(c => ({
     error: c.error,
@@ -88,7 +89,7 @@ function drawStepsChart(series, all) {
     metric: state.metric,
     xs: distinct,
     ys: errorsIn(all),
-    ticks: distinct.length <= 12 ? distinct : undefined,
+    ticks: roomy ? distinct : undefined,
     datasets: learning.map(s => dataset(s, styles.get(s.name), steps, true)),
     extras: {bands: learning.flatMap(s => bandsOf(s, styles.get(s.name), steps)), levels},
     description: `${state.metric.label} against training steps of ${plural(learning.length, "series")}; the table of all pictures has the numbers`,
