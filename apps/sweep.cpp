@@ -24,8 +24,8 @@ holds for all cells (--size, --camera, --batch ...; see its --help). A flag that
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-DIR has results.csv and results.json (all cells of this call), pictures and FLIP maps of the first seed, references, and
-cells/, a file for each cell that is done. The same command goes on where it was stopped; cells that are done are not
+DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one file
+that opens offline), pictures and FLIP maps of the first seed, references, and cells/, a file for each cell that is done. The same command goes on where it was stopped; cells that are done are not
 made again, failed ones are. Cells are known by the scene's content and all options, so that a DIR can serve several
 sweeps. A cell that fails is told and does not end the rest; the exit code is 7 then. SIGINT and SIGTERM end it after
 writing the results so far (130 or 143).

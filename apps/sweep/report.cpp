@@ -69,6 +69,12 @@ Shown list_pictures(const ordered_json& results) {
   return shown;
 }
 
+/// References may lie outside of the folder; then their path is the one of the command line.
+std::filesystem::path find_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::error_code none;
+  return std::filesystem::exists(folder / name, none) ? folder / name : name;
+}
+
 /// Empty where there is no such picture.
 std::string uri_of(const std::filesystem::path& file, const renderer::ImageWriteOptions& display) {
   try {
@@ -87,7 +93,7 @@ std::string make_report(const ordered_json& results, const std::string& folder) 
   const std::vector<Shown::value_type> files(shown.begin(), shown.end());
   std::vector<std::string> uris(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
-    uris[i] = uri_of(std::filesystem::path(folder) / files[i].first, files[i].second);
+    uris[i] = uri_of(find_file(folder, files[i].first), files[i].second);
   });
   ordered_json pictures = ordered_json::object();
   for (std::size_t i = 0; i < files.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "apps/signals.h"
 #include "apps/stopwatch.h"
 #include "apps/sweep/advise.h"
+#include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/scene_sweep.h"
 #include "renderer/atomic_file.h"
@@ -83,6 +84,7 @@ class SweepRun {
   /// What cannot be loaded fails with all its cells; the other scenes go on.
   void fail_scene(std::size_t index, const std::string& error);
   void write_results() const;
+  void write_report() const;
 
   const SweepSettings& settings_;
   const SweepPlan& plan_;
@@ -96,6 +98,7 @@ int SweepRun::run() {
   bool finished = true;
   for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) finished = run_scene(i);
   write_results();
+  write_report();
   std::size_t cells = 0, failed = 0;
   for (const SceneResults& scene : scenes_) {
     cells += scene.cells.size();
@@ -122,7 +125,8 @@ void SweepRun::prepare_folders() const {
   const fs::path folder = settings_.folder;
   for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
   if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
-  for (const char* file : {"results.json", "results.csv"}) renderer::check_writable(folder / file);
+  for (const char* file : {"results.json", "results.csv", "report.html"})
+    renderer::check_writable(folder / file);
 }
 
 void SweepRun::plan_tasks(std::size_t scene, const std::vector<SweepTask>& of_scene) {
@@ -182,6 +186,11 @@ void SweepRun::write_results() const {
   renderer::write_file_atomically(folder / "results.json",
                                   all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   renderer::write_file_atomically(folder / "results.csv", results_csv(all));
+}
+
+void SweepRun::write_report() const {
+  const fs::path folder = settings_.folder;
+  renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
 }
 
 }  // namespace

@@ -66,6 +66,24 @@ std::size_t count(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
+TEST_F(SweepCommand, TheReportHoldsEveryPicture) {
+  ASSERT_EQ(run_gatelight(words("out", {"--seeds", "2"})).exit_code, 0);
+  const std::string report = read_file(folder / "out/report.html");
+  std::size_t pictures = 0;
+  const auto expect_there = [&](const json& name) {
+    if (!name.is_string()) return;
+    EXPECT_THAT(report, HasSubstr("\"" + name.get<std::string>() + "\":\"data:image/jpeg;base64,"));
+    ++pictures;
+  };
+  const json all = results("out");
+  for (const json& cell : all["cells"]) {
+    expect_there(cell["picture"]);
+    expect_there(cell["error_map"]);
+  }
+  for (const json& reference : all["scenes"][0]["references"]) expect_there(reference["file"]);
+  EXPECT_EQ(pictures, 4u * 2u + 1u);
+}
+
 TEST_F(SweepCommand, MeasuresEveryCellAgainstItsReference) {
   const Output output =
       run_gatelight_inside(words("out", {"--encodings", "gate,hashgrid", "--cache-memory", "same-as-gate",
@@ -379,9 +397,9 @@ TEST_F(SweepCommand, AConfigurationFileMayHoldAxes) {
 TEST_F(SweepCommand, HelpNamesAxesOutputAndPresets) {
   const Output output = run_gatelight_inside({"sweep", "--help"});
   EXPECT_EQ(output.exit_code, 0);
-  for (const char* word :
-       {"--train-steps LIST", "--encodings LIST", "--vary NAME=LIST", "--seeds N", "--reference FILE",
-        "--advise", "--max-error FLIP", "--dry-run", "paper-table1", "results.csv", "Examples:"}) {
+  for (const char* word : {"--train-steps LIST", "--encodings LIST", "--vary NAME=LIST", "--seeds N",
+                           "--reference FILE", "--advise", "--max-error FLIP", "--dry-run", "paper-table1",
+                           "results.csv", "report.html", "Examples:"}) {
     EXPECT_THAT(output.out, HasSubstr(word));
   }
   EXPECT_THAT(output.out, Not(HasSubstr("--batch N")));
