@@ -14,11 +14,12 @@ void SweepClock::finish(double seconds) {
   ++done_;
 }
 
-std::optional<double> SweepClock::rate(std::string SweepTask::*kind, const std::string& name) const {
+std::optional<double> SweepClock::rate(const std::string& kind) const {
   double work = 0.0;
   double seconds = 0.0;
   for (std::size_t i = 0; i < done_; ++i) {
-    if (tasks_[i].*kind != name) continue;
+    const std::vector<std::string>& kinds = tasks_[i].kinds;
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) continue;
     work += tasks_[i].work;
     seconds += seconds_[i];
   }
@@ -27,10 +28,10 @@ std::optional<double> SweepClock::rate(std::string SweepTask::*kind, const std::
 }
 
 std::optional<double> SweepClock::expected(const SweepTask& task) const {
-  std::optional<double> per_work = rate(&SweepTask::kind, task.kind);
-  if (!per_work) per_work = rate(&SweepTask::general, task.general);
-  if (!per_work) return std::nullopt;
-  return *per_work * task.work;
+  for (const std::string& kind : task.kinds) {
+    if (const std::optional<double> per_work = rate(kind)) return *per_work * task.work;
+  }
+  return std::nullopt;
 }
 
 std::optional<double> SweepClock::left(double elapsed, double fraction) const {

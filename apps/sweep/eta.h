@@ -10,9 +10,10 @@ namespace gatelight::apps {
 
 /// A part of the work: a run, or a reference.
 struct SweepTask {
-  std::string kind;     ///< tasks of one kind take time in proportion to their work
-  std::string general;  ///< the same without the scene: for a first guess
-  double work = 1.0;    ///< in units of its kind
+  /// Tasks of one kind take time in proportion to their work. The narrowest first; the wider ones are for a
+  /// first guess.
+  std::vector<std::string> kinds;
+  double work = 1.0;
 };
 
 class SweepClock {
@@ -24,13 +25,13 @@ class SweepClock {
   void finish(double seconds);
 
   /// Seconds from now; `elapsed` and `fraction` are of the task under way. Nothing as long as a task is left
-  /// of a kind of which none was finished: no guess is better than a wrong one. (fraction > 0 tells the rest
+  /// of which no kind was finished: no guess is better than a wrong one. (fraction > 0 tells the rest
   /// of the task under way itself.)
   std::optional<double> left(double elapsed, double fraction) const;
 
  private:
   /// Seconds for a unit of work.
-  std::optional<double> rate(std::string SweepTask::*kind, const std::string& name) const;
+  std::optional<double> rate(const std::string& kind) const;
   std::optional<double> expected(const SweepTask& task) const;
 
   std::vector<SweepTask> tasks_;

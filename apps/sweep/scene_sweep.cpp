@@ -30,23 +30,27 @@ double pixels_of(const RenderOptions& o) {
   return static_cast<double>(o.width) * o.height;
 }
 
-/// Camera and training paths.
+/// Of this scene before those of others.
+std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<std::string>& kinds) {
+  std::vector<std::string> all;
+  for (const std::string& kind : kinds) all.push_back(fmt::format("{} {}", scene.name, kind));
+  all.insert(all.end(), kinds.begin(), kinds.end());
+  return all;
+}
+
 SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
   const RenderOptions& o = series.settings.render;
-  std::string general = name_of(integrator_choices(), o.integrator);
-  double work = pixels_of(o) * points.back();
-  if (series.has_cache()) {
-    general += fmt::format(" {}", name_of(encoding_choices(), o.cache.encoding));
-    work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
-           static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
-  }
-  return {.kind = fmt::format("{} {}", scene.name, general), .general = general, .work = work};
+  const std::string integrator = name_of(integrator_choices(), o.integrator);
+  if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
+  const std::string encoding = name_of(encoding_choices(), o.cache.encoding);
+  // Camera paths and training paths.
+  const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
+                      static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
+  return {kinds_of(scene, {fmt::format("{} {}", integrator, encoding), integrator}), work};
 }
 
 SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
-  const std::string general = name_of(reference_kind_choices(), kind);
-  return {
-      .kind = fmt::format("{} {}", scene.name, general), .general = general, .work = pixels_of(cell) * spp};
+  return {kinds_of(scene, {name_of(reference_kind_choices(), kind)}), pixels_of(cell) * spp};
 }
 
 scene::Camera view_of(const scene::Scene& scene, const RenderOptions& o) {

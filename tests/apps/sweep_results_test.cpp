@@ -293,7 +293,7 @@ TEST(SweepAdvice, IsTextWithACommandForEachSceneAndKind) {
 
 TEST(SweepClock, KnowsTheRestOnceEachKindWasSeen) {
   SweepClock clock;
-  clock.plan_rest({{"a nrc", "nrc", 10.0}, {"a path", "path", 4.0}, {"a nrc", "nrc", 20.0}});
+  clock.plan_rest({{{"a nrc", "nrc"}, 10.0}, {{"a path", "path"}, 4.0}, {{"a nrc", "nrc"}, 20.0}});
   EXPECT_EQ(clock.count(), 3u);
   EXPECT_FALSE(clock.left(1.0, 0.0).has_value());
   EXPECT_FALSE(clock.left(1.0, 0.5).has_value());
@@ -306,8 +306,11 @@ TEST(SweepClock, KnowsTheRestOnceEachKindWasSeen) {
   clock.finish(10.0);
   EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 0.0);
   // Another scene is guessed from this one.
-  clock.plan_rest({{"b nrc", "nrc", 2.0}});
-  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 1.0);
+  clock.plan_rest({{{"b nrc", "nrc"}, 2.0}, {{"b nrc", "nrc"}, 4.0}});
+  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 3.0);
+  // As soon as it has a task of its own, by that.
+  clock.finish(10.0);
+  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 20.0);
 }
 
 }  // namespace
