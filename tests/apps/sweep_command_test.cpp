@@ -72,7 +72,7 @@ TEST_F(SweepCommand, TheReportHoldsEveryPicture) {
   std::size_t pictures = 0;
   const auto expect_there = [&](const json& name) {
     if (!name.is_string()) return;
-    EXPECT_THAT(report, HasSubstr("\"" + name.get<std::string>() + "\":\"data:image/jpeg;base64,"));
+    EXPECT_THAT(report, HasSubstr(name.dump() + ":\"data:image/jpeg;base64,"));
     ++pictures;
   };
   const json all = results("out");
