@@ -22,6 +22,10 @@ function secondsOf(cell) {
   return isNumber(value) ? value : null;
 }
 
+function kindOf(cell) {
+  return cell.reference ?? "path";
+}
+
 function isPlain(cell) {
   return !isNumber(cell.train_steps);
 }

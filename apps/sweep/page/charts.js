@@ -102,7 +102,7 @@ function drawLevels(chart, ctx, area, levels) {
   ctx.textAlign = "right";
   ctx.textBaseline = "bottom";
   let freeAbove = Infinity;
-  const placed = levels.map(level => ({...level, pixel: chart.scales.y.getPixelForValue(level.error)}))
+  const placed = levels.map(level => ({...level, pixel: Math.round(chart.scales.y.getPixelForValue(level.error)) + 0.5}))
     .sort((a, b) => b.pixel - a.pixel);
   for (const level of placed) {
     ctx.strokeStyle = level.color;

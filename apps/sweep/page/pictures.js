@@ -65,14 +65,14 @@ function picturesOf(scene, cells, uris) {
   return [...references, ...made];
 }
 
-/// The most accurate picture with a cache, and the one without that took about as long.
-function defaultPair(pictures) {
-  const made = pictures.filter(p => p.cell);
+/// The most accurate picture with a cache, and the one without that took about as long; both compared with `kind`.
+function defaultPair(pictures, kind) {
+  const made = pictures.filter(p => p.cell && kindOf(p.cell) === kind);
   const best = list => [...list].sort((a, b) => compareValues(a.cell.errors?.flip, b.cell.errors?.flip, 1))[0];
-  const right = best(made.filter(p => !isPlain(p.cell))) ?? best(made) ?? pictures[0];
-  const ratio = p => Math.abs(Math.log((secondsOf(p.cell) ?? Infinity) / (secondsOf(right.cell) ?? 1)));
-  const rivals = made.filter(p => isPlain(p.cell) && p !== right && p.cell.reference === right.cell.reference);
-  const left = rivals.sort((a, b) => ratio(a) - ratio(b))[0] ?? pictures.find(p => !p.cell) ?? right;
+  const right = best(made.filter(p => !isPlain(p.cell))) ?? best(made) ?? pictures[pictures.length - 1];
+  const ratio = p => Math.abs(Math.log((secondsOf(p.cell) ?? Infinity) / (secondsOf(right.cell ?? {}) ?? 1)));
+  const rivals = made.filter(p => isPlain(p.cell) && p !== right);
+  const left = rivals.sort((a, b) => ratio(a) - ratio(b))[0] ?? pictures.find(p => p.id === `reference ${kind}`) ?? right;
   return {left: left.id, right: right.id};
 }
 

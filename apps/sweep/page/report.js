@@ -32,7 +32,7 @@ function drawPictures() {
   const some = pictures.some(p => p.cell);
   at("pictures-section").hidden = !some;
   if (!some) return;
-  const pair = defaultPair(pictures);
+  const pair = defaultPair(pictures, state.kind);
   for (const side of ["left", "right"]) {
     const show = () => showSide(side, pictures.find(p => p.id === at(side).value));
     fillSelect(at(side), pictures, pair[side]);

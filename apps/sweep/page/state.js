@@ -19,10 +19,6 @@ function sceneCells() {
   return cells.filter(cell => cell.scene === state.scene);
 }
 
-function kindOf(cell) {
-  return cell.reference ?? "path";
-}
-
 function shownCells() {
   return sceneCells().filter(cell => kindOf(cell) === state.kind);
 }
