@@ -13,6 +13,10 @@ const char* const kPaperPresets[] = {"paper-nao", "paper-nrc"};
 const FlagValues kHashGrid = {{"--encoding", "hashgrid"}, {"--update", "dense"}};
 const FlagValues kSparseHashGrid = {{"--encoding", "hashgrid"}, {"--update", "sparse"}};
 
+// GATE with other resolutions than the paper's would read the normal by itself.
+const std::pair<std::string, std::string> kNoNormal = {"--normal-input", "off"};
+const FlagValues kUniform = {{"--resolution", "uniform"}, kNoNormal};
+
 struct Row {
   const char* name;
   FlagValues flags;
@@ -81,8 +85,8 @@ std::vector<SweepBlock> extra() {
                                          {"fp16 features", {{"--feature-precision", "fp16"}}},
                                          {"stack of 1", {{"--stack", "adaptive"}}},
                                          {"stack of 3", {{"--stack", "adaptive,adaptive/3,1"}}},
-                                         {"clusters", {{"--cluster", "auto"}, {"--resolution", "uniform"}}},
-                                         {"uniform, no clusters", {{"--resolution", "uniform"}}}},
+                                         {"clusters", joined(kUniform, {{"--cluster", "auto"}})},
+                                         {"uniform, no clusters", kUniform}},
                                         kTableSteps);
   // The picture itself, which the paper does not show.
   const auto picture = [](const FlagValues& flags) {
@@ -108,9 +112,9 @@ const Preset kPresets[] = {
     {"paper-steps", [] { return both(equal_memory(), kFigureSteps); }},
     {"paper-adaptive",
      [] {
-       return both({{"fixed R = 4", {{"--resolution", "fixed:4"}}},
+       return both({{"fixed R = 4", {{"--resolution", "fixed:4"}, kNoNormal}},
                     {"adaptive, paper's rule", {{"--resolution", "paper"}}},
-                    {"adaptive, uniform", {{"--resolution", "uniform"}}}},
+                    {"adaptive, uniform", kUniform}},
                    kFigureSteps);
      }},
     {"paper-inputs", inputs},
