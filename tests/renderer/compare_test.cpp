@@ -6,18 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/renderer/rgb_pictures.h"
+
 namespace gatelight::renderer {
 namespace {
 
+using gatelight::testing::rgb;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-Picture rgb(int width, int height, std::vector<float> values) {
-  Picture picture{.width = width, .height = height};
-  picture.layers = {{.channels = {"R", "G", "B"}, .values = std::move(values)}};
-  return picture;
-}
 
 ErrorMetrics compare(const Picture& reference, const Picture& test) {
   return compare_pictures({reference, "ref.exr"}, {test, "test.exr"});

@@ -15,27 +15,18 @@
 #include "renderer/flip/summary.h"
 #include "renderer/srgb.h"
 #include "tests/renderer/flip_reference.h"
+#include "tests/renderer/rgb_pictures.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
 using gatelight::testing::Random;
+using gatelight::testing::rgb;
+using gatelight::testing::uniform;
 using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
-
-Picture rgb(int width, int height, std::vector<float> values) {
-  Picture picture{.width = width, .height = height};
-  picture.layers = {{.channels = {"R", "G", "B"}, .values = std::move(values)}};
-  return picture;
-}
-
-Picture uniform(int width, int height, std::array<float, 3> color) {
-  std::vector<float> values;
-  for (int i = 0; i < width * height; ++i) values.insert(values.end(), color.begin(), color.end());
-  return rgb(width, height, std::move(values));
-}
 
 /// Blotches with edges, points and noise; in [0, scale].
 Picture pattern(int width, int height, std::uint64_t seed, float scale = 1.0f) {

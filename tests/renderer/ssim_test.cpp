@@ -8,29 +8,20 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/renderer/rgb_pictures.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
 using gatelight::testing::Random;
+using gatelight::testing::rgb;
+using gatelight::testing::uniform;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double kC1 = 1e-4;
 constexpr double kC2 = 9e-4;
-
-Picture rgb(int width, int height, std::vector<float> values) {
-  Picture picture{.width = width, .height = height};
-  picture.layers = {{.channels = {"R", "G", "B"}, .values = std::move(values)}};
-  return picture;
-}
-
-Picture uniform(int width, int height, std::array<float, 3> color) {
-  std::vector<float> values;
-  for (int i = 0; i < width * height; ++i) values.insert(values.end(), color.begin(), color.end());
-  return rgb(width, height, std::move(values));
-}
 
 /// Blotches with edges and noise; some beyond white and below black.
 Picture pattern(int width, int height, std::uint64_t seed) {
