@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/camera.h"
 #include "renderer/deciding_options.h"
 
 namespace gatelight::apps {
@@ -28,6 +29,11 @@ std::string scene_options(const RenderSettings& settings) {
 }
 
 }  // namespace
+
+scene::Camera view_of(const scene::Scene& scene, const renderer::RenderOptions& options) {
+  return renderer::choose_camera(scene, options.camera,
+                                 static_cast<float>(options.width) / static_cast<float>(options.height));
+}
 
 std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera) {
   const renderer::RenderOptions& o = settings.render;

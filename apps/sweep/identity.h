@@ -10,6 +10,9 @@
 
 namespace gatelight::apps {
 
+/// The camera that the options choose in a scene. Throws what renderer::choose_camera() throws.
+scene::Camera view_of(const scene::Scene& scene, const renderer::RenderOptions& options);
+
 /// Every option that decides picture, errors or seconds, seed and number of steps or samples included, but
 /// not what lies in the scene's files. `camera` is the chosen one.
 std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera);

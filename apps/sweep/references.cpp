@@ -14,7 +14,6 @@
 #include "apps/version.h"
 #include "neural/errors.h"
 #include "renderer/atomic_file.h"
-#include "renderer/camera.h"
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
 #include "renderer/merge.h"
@@ -30,10 +29,6 @@ using renderer::RenderOptions;
 /// references/KEY.exr and what lies beside it.
 std::string beside(const std::string& file, const std::string& end) {
   return (fs::path(file).parent_path() / (fs::path(file).stem().string() + end)).string();
-}
-
-scene::Camera view_of(const scene::Scene& scene, const RenderOptions& o) {
-  return renderer::choose_camera(scene, o.camera, static_cast<float>(o.width) / static_cast<float>(o.height));
 }
 
 /// Nothing where the picture was stopped.

@@ -13,7 +13,6 @@
 #include "apps/signals.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "renderer/camera.h"
 #include "renderer/image_write.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
@@ -51,10 +50,6 @@ SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const
 
 SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
   return {kinds_of(scene, {name_of(reference_kind_choices(), kind)}), pixels_of(cell) * spp};
-}
-
-scene::Camera view_of(const scene::Scene& scene, const RenderOptions& o) {
-  return renderer::choose_camera(scene, o.camera, static_cast<float>(o.width) / static_cast<float>(o.height));
 }
 
 /// One line: lists of cells are read by line.
