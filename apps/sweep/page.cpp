@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <nlohmann/json.hpp>
 
 // kPageHtml, kPageStyle, kPageScript and kChartScript: string literals (cmake/EmbedTexts.cmake).
 #include "gatelight_page.inc"
@@ -15,6 +14,30 @@ using nlohmann::ordered_json;
 template <std::size_t size>
 constexpr std::string_view view(const char (&literal)[size]) {
   return {literal, size - 1};
+}
+
+/// Of the element that holds a picture.
+std::string element_id(std::size_t index) {
+  return "picture-" + std::to_string(index);
+}
+
+ordered_json make_index(const std::vector<PagePicture>& pictures) {
+  ordered_json index = ordered_json::array();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    ordered_json entry = pictures[i].entry;
+    entry["bytes"] = pictures[i].uri.size();
+    entry["element"] = element_id(i);
+    index.push_back(std::move(entry));
+  }
+  return index;
+}
+
+std::string picture_elements(const std::vector<PagePicture>& pictures) {
+  std::string text;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    text += "<script type=\"text/plain\" id=\"" + element_id(i) + "\">" + pictures[i].uri + "</script>\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -53,12 +76,22 @@ std::string fill_slots(std::string_view text, std::initializer_list<Slot> slots)
   }
 }
 
-std::string make_page(const ordered_json& results, const ordered_json& pictures) {
+std::string make_page(const ordered_json& results, const std::vector<PagePicture>& pictures) {
   const std::string results_text = json_for_script(results);
-  const std::string pictures_text = json_for_script(pictures);
-  return fill_slots(view(kPageHtml), {{"style", view(kPageStyle)},
+  const std::string index_text = json_for_script(make_index(pictures));
+  const std::string pictures_text = picture_elements(pictures);
+  std::size_t bytes = 0;
+  for (const std::string_view part :
+       {view(kPageHtml), view(kPageStyle), view(kChartScript), view(kPageScript),
+        std::string_view(results_text), std::string_view(index_text), std::string_view(pictures_text)}) {
+    bytes += part.size();
+  }
+  const std::string bytes_text = std::to_string(bytes);
+  return fill_slots(view(kPageHtml), {{"bytes", bytes_text},
+                                      {"style", view(kPageStyle)},
                                       {"chart", view(kChartScript)},
                                       {"results", results_text},
+                                      {"index", index_text},
                                       {"pictures", pictures_text},
                                       {"script", view(kPageScript)}});
 }

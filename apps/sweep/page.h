@@ -1,9 +1,10 @@
 #pragma once
 // The files of page/ and Chart.js as one HTML text, with data inside.
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gatelight::apps {
 
@@ -17,7 +18,12 @@ struct Slot {
 };
 std::string fill_slots(std::string_view text, std::initializer_list<Slot> slots);
 
-/// `pictures`: names of files in `results`, and their data URIs.
-std::string make_page(const nlohmann::ordered_json& results, const nlohmann::ordered_json& pictures);
+struct PagePicture {
+  nlohmann::ordered_json entry;  ///< of the index that the script reads: {"file", ...}
+  std::string uri;
+};
+
+/// The pictures stand beside their index, so that nobody reads more of them than are looked at.
+std::string make_page(const nlohmann::ordered_json& results, const std::vector<PagePicture>& pictures);
 
 }  // namespace gatelight::apps

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "renderer/image_write.h"
@@ -9,8 +10,21 @@ namespace gatelight::apps {
 
 inline constexpr int kMaxPictureWidth = 1280;
 
-/// The picture as its PNG would show it, as a JPEG in a data URI. Wider than kMaxPictureWidth it is made
-/// smaller, by means of light, not of bytes.
-std::string picture_uri(const renderer::Picture& picture, const renderer::ImageWriteOptions& display);
+enum class PictureKind {
+  light,
+  /// Colours that stand for numbers: they are averaged as bytes, and need no more than half their resolution.
+  map,
+};
+
+struct EmbeddedPicture {
+  std::array<int, 2> size{};  ///< of the picture
+  int width = 0;              ///< of the JPEG
+  std::string uri;
+};
+
+/// The picture as its PNG would show it, as a JPEG in a data URI. Wider than max_width it is made smaller;
+/// what is light by means of light, not of bytes.
+EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::ImageWriteOptions& display,
+                              PictureKind kind = PictureKind::light, int max_width = kMaxPictureWidth);
 
 }  // namespace gatelight::apps

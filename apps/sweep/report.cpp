@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "apps/render_settings.h"
@@ -28,76 +30,105 @@ std::string word(const ordered_json& object, const char* key) {
   return value.is_string() ? value.get<std::string>() : "";
 }
 
-/// How the PNG of a cell was made, so that its reference is shown likewise.
-renderer::ImageWriteOptions display_of(const ordered_json& cell) {
-  renderer::ImageWriteOptions display;
-  const ordered_json& options = at(cell, "options");
-  if (!options.is_object()) return display;
-  if (at(options, "exposure").is_number()) display.exposure = at(options, "exposure").get<float>();
-  for (const Choice<renderer::Tonemap>& choice : tonemap_choices()) {
-    if (choice.name == word(options, "tonemap")) display.tonemap = choice.value;
-  }
-  return display;
+/// A picture of the page.
+struct Wanted {
+  std::string file;      ///< as results.json names it
+  ordered_json display;  ///< of a reference: {"exposure", "tonemap"} of the cells beside it; null of a PNG
+  PictureKind kind = PictureKind::light;
+
+  bool operator==(const Wanted&) const = default;
+};
+
+void add(std::vector<Wanted>& pictures, Wanted wanted) {
+  if (wanted.file.empty()) return;
+  if (std::find(pictures.begin(), pictures.end(), wanted) == pictures.end())
+    pictures.push_back(std::move(wanted));
 }
 
-/// By the name that results.json has for the file.
-using Shown = std::map<std::string, renderer::ImageWriteOptions>;
+/// Older results know references by their kind alone.
+bool is_compared_with(const ordered_json& cell, const ordered_json& reference) {
+  const std::string id = word(reference, "id");
+  const std::string cells = word(cell, "reference_id");
+  if (!id.empty() && !cells.empty()) return id == cells;
+  return word(cell, "reference") == word(reference, "kind");
+}
 
-void add_references(Shown& shown, const ordered_json& results) {
+/// Once for each way in which the PNGs beside it were made.
+void add_reference(std::vector<Wanted>& pictures, const ordered_json& cells, const std::string& scene,
+                   const ordered_json& reference) {
+  for (const ordered_json& cell : cells) {
+    if (word(cell, "picture").empty() || word(cell, "scene") != scene || !is_compared_with(cell, reference))
+      continue;
+    const ordered_json& options = at(cell, "options");
+    add(pictures, {word(reference, "file"),
+                   {{"exposure", at(options, "exposure")}, {"tonemap", at(options, "tonemap")}}});
+  }
+}
+
+std::vector<Wanted> list_pictures(const ordered_json& results) {
+  std::vector<Wanted> pictures;
+  for (const ordered_json& cell : at(results, "cells")) {
+    add(pictures, {word(cell, "picture"), nullptr});
+    add(pictures, {word(cell, "error_map"), nullptr, PictureKind::map});
+  }
   for (const ordered_json& scene : at(results, "scenes")) {
     for (const ordered_json& reference : at(scene, "references")) {
-      renderer::ImageWriteOptions display;
-      for (const ordered_json& cell : at(results, "cells")) {
-        if (word(cell, "scene") != word(scene, "name") || word(cell, "reference") != word(reference, "kind"))
-          continue;
-        display = display_of(cell);
-        if (!word(cell, "picture").empty()) break;
-      }
-      shown[word(reference, "file")] = display;
+      add_reference(pictures, at(results, "cells"), word(scene, "name"), reference);
     }
   }
+  return pictures;
 }
 
-Shown list_pictures(const ordered_json& results) {
-  Shown shown;
-  for (const ordered_json& cell : at(results, "cells")) {
-    // Written for the screen already.
-    for (const char* key : {"picture", "error_map"}) shown[word(cell, key)] = {};
+renderer::ImageWriteOptions write_options(const ordered_json& display) {
+  renderer::ImageWriteOptions options;
+  if (at(display, "exposure").is_number()) options.exposure = at(display, "exposure").get<float>();
+  for (const Choice<renderer::Tonemap>& choice : tonemap_choices()) {
+    if (choice.name == word(display, "tonemap")) options.tonemap = choice.value;
   }
-  add_references(shown, results);
-  shown.erase("");
-  return shown;
+  return options;
 }
 
-/// References may lie outside of the folder; then their path is the one of the command line.
-std::filesystem::path find_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
-  std::error_code none;
-  return std::filesystem::exists(folder / name, none) ? folder / name : name;
+/// So many pictures are shown at full width, which are about 15 MB; the pixels of more are as many together.
+constexpr double kFullWidthCount = 100.0;
+constexpr int kLeastWidth = 480;
+
+/// Maps stand side by side, and are looked at for where, not for details.
+int max_width(PictureKind kind, std::size_t count) {
+  const double scale = std::sqrt(kFullWidthCount / static_cast<double>(count));
+  const int width = std::clamp(static_cast<int>(kMaxPictureWidth * scale), kLeastWidth, kMaxPictureWidth);
+  return kind == PictureKind::map ? 3 * width / 4 : width;
 }
 
-/// Empty where there is no such picture.
-std::string uri_of(const std::filesystem::path& file, const renderer::ImageWriteOptions& display) {
+/// Nothing where there is no such picture.
+std::optional<PagePicture> read_picture(const Wanted& wanted, const std::filesystem::path& folder,
+                                        std::size_t count) {
+  EmbeddedPicture picture;
   try {
-    return picture_uri(renderer::read_image(file), display);
+    // An absolute path stays what it is.
+    picture = embed_picture(renderer::read_image(folder / wanted.file), write_options(wanted.display),
+                            wanted.kind, max_width(wanted.kind, count));
   } catch (const renderer::ImageError&) {
-    return "";
+    return std::nullopt;
   } catch (const renderer::UnknownFormat&) {
-    return "";
+    return std::nullopt;
   }
+  PagePicture embedded{.entry = {{"file", wanted.file}}, .uri = std::move(picture.uri)};
+  if (wanted.display.is_object()) embedded.entry.update(wanted.display);
+  embedded.entry["size"] = picture.size;
+  embedded.entry["width"] = picture.width;
+  return embedded;
 }
 
 }  // namespace
 
 std::string make_report(const ordered_json& results, const std::string& folder) {
-  const Shown shown = list_pictures(results);
-  const std::vector<Shown::value_type> files(shown.begin(), shown.end());
-  std::vector<std::string> uris(files.size());
-  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
-    uris[i] = uri_of(find_file(folder, files[i].first), files[i].second);
-  });
-  ordered_json pictures = ordered_json::object();
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (!uris[i].empty()) pictures[files[i].first] = std::move(uris[i]);
+  const std::vector<Wanted> wanted = list_pictures(results);
+  std::vector<std::optional<PagePicture>> read(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(),
+                    [&](std::size_t i) { read[i] = read_picture(wanted[i], folder, wanted.size()); });
+  std::vector<PagePicture> pictures;
+  for (std::optional<PagePicture>& picture : read) {
+    if (picture) pictures.push_back(std::move(*picture));
   }
   return make_page(results, pictures);
 }

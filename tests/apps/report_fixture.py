@@ -35,7 +35,8 @@ def cell(scene, series, seed, steps=None, spp=4, kind="path", **changes):
         "train_ms_per_step": None if steps is None else 3.9 * scale, "train_step_ms": None if steps is None else 2.1,
         "query_ms_per_2m": None if steps is None else 41.5,
         "memory_bytes": None if steps is None else {"parameters": 50 << 20, "optimizer": 100 << 20, "layout": 12345678},
-        "loss": None if steps is None else 0.01, "reference": kind,
+        "loss": None if steps is None else 0.01, "reference": kind, "reference_id": reference_id(scene, kind),
+        "version": "1.0.0", "cpu": CPU, "isa": "avx512",
         "errors": {"mse": flip ** 2 / 3, "rel_mse": flip ** 2, "rel_mse_clean": flip ** 2 - 0.001, "psnr": 20 / flip ** 0.5,
                    "ssim": 1 - flip, "flip": flip, "hdr_flip": flip * 1.4},
         "flip_percentiles": {"q25": flip / 2, "median": flip, "q75": flip * 2},
@@ -51,14 +52,22 @@ def hash_of(text):
     return zlib.crc32(text.encode()) * 0x9E3779B97F4A7C15 % (1 << 64)
 
 
+def reference_id(scene, kind, of=""):
+    return f"{hash_of(scene + kind + of):016x}"
+
+
+def reference(scene, kind, of=""):
+    name = reference_id(scene, kind, of)
+    return {"id": name, "kind": kind, "spp": 512, "file": f"references/{name}.png", "rel_mse_noise": 0.001, "seconds": 12.3}
+
+
 def scene(name, kinds=("path",)):
-    return {"name": name, "file": f"/scenes/{name}.glb", "references": [
-        {"kind": kind, "spp": 512, "file": f"references/{hash_of(name + kind):016x}.png", "rel_mse_noise": 0.001, "seconds": 12.3}
-        for kind in kinds]}
+    return {"name": name, "file": f"/scenes/{name}.glb", "references": [reference(name, kind) for kind in kinds]}
 
 
 def results(scenes, cells):
-    return {"schema": 1, "version": "1.0.0", "command": ["gatelight", "sweep", "a scene.glb", "-o", "it's"],
+    return {"schema": 2, "versions": {"gatelight": "1.0.0", "embree": "3.13.5"},
+            "command": ["gatelight", "sweep", "a scene.glb", "-o", "it's"],
             "machine": {"cpu": CPU, "threads": 2, "isa": "avx512"}, "scenes": scenes, "cells": cells}
 
 
@@ -80,8 +89,46 @@ def full():
     return results([scene("kitchen", ("path", "cache")), scene("sponza")], cells)
 
 
+def two_depths():
+    """A reference for each depth. The shallow cells are quicker, and nearer to theirs than the deep ones to theirs."""
+    cells = []
+    for depth in (2, 8):
+        changes = {"axes": {"max-depth": str(depth), "encoding": "gate"}, "reference_id": reference_id("room", "path", str(depth))}
+        for made in [cell("room", f"path max-depth {depth}", 1, spp=spp, **changes) for spp in (1, 4, 16)] + [
+                cell("room", f"nrc gate max-depth {depth}", seed, steps, **changes) for seed in (1, 2, 3) for steps in STEPS]:
+            made["options"] = dict(made["options"], **{"max-depth": depth})
+            if depth == 2:
+                made["seconds"] = {key: value and value / 2 for key, value in made["seconds"].items()}
+                made["errors"] = dict(made["errors"], flip=made["errors"]["flip"] / 4)
+            cells.append(made)
+    room = scene("room")
+    room["references"] = [reference("room", "path", depth) for depth in ("2", "8")]
+    return results([room], cells)
+
+
+def older():
+    """What full() was before references had names and cells their makers."""
+    data = full()
+    for record in data["cells"] + [r for s in data["scenes"] for r in s["references"]]:
+        for key in ("reference_id", "version", "cpu", "isa"):
+            record.pop(key, None)
+    for record in (r for s in data["scenes"] for r in s["references"]):
+        del record["id"]
+    del data["versions"]
+    return dict(data, schema=1, version="1.0.0")
+
+
+def two_exposures():
+    """One reference, beside pictures of two exposures."""
+    cells = []
+    for exposure in (0.0, 2.0):
+        for made in [cell("room", f"nrc gate exposure {exposure:g}", 1, steps) for steps in STEPS]:
+            cells.append(dict(made, options=dict(made["options"], exposure=exposure)))
+    return results([scene("room")], cells)
+
+
 def edges():
-    """Sweeps that lack something, by name."""
+    """Sweeps that lack something or have more than usual, by name."""
     nothing = {key: None for key in ("mse", "rel_mse", "rel_mse_clean", "psnr", "ssim", "flip", "hdr_flip")}
     gate = [cell("room", "nrc gate", 1, steps) for steps in STEPS]
     hostile = "</script><script>window.broken = 1</script><!--\u2028\"'"
@@ -100,18 +147,26 @@ def edges():
         "nothing at all": results([], []),
         "no pictures": results([dict(scene("room"), references=[])], [dict(c, picture=None, error_map=None) for c in gate]),
         "hostile names": results([scene(hostile)], [cell(hostile, hostile, 1, steps) for steps in STEPS]),
+        "two depths": two_depths(),
+        "older results": older(),
+        "two exposures": two_exposures(),
+        "wide pictures": results([scene("room")], gate[:2]),
+        "two makers": results([scene("room")], [dict(c, version="0.9.0" if i < 3 else "1.0.0") for i, c in enumerate(gate)]),
         "twenty series": results([scene("room")], [cell("room", f"nrc gate features={n} with a long name of its own", 1, steps)
                                                    for n in range(20) for steps in STEPS]),
     }
 
 
-def write(folder, data):
+SIZES = {"wide pictures": (1920, 1080)}
+
+
+def write(folder, data, size=(320, 180)):
     """results.json and a picture of its own colour for each that is named."""
     os.makedirs(folder, exist_ok=True)
     files = [c[key] for c in data["cells"] for key in ("picture", "error_map") if c.get(key)]
     files += [r["file"] for s in data["scenes"] for r in s["references"]]
     for file in files:
         number = hash_of(file)
-        write_png(os.path.join(folder, file), (number >> 8 & 255, number >> 16 & 255, number >> 24 & 255))
+        write_png(os.path.join(folder, file), (number >> 8 & 255, number >> 16 & 255, number >> 24 & 255), *size)
     with open(os.path.join(folder, "results.json"), "w", encoding="utf-8") as file:
         json.dump(data, file)

@@ -71,13 +71,24 @@ renderer::Picture flat_picture(int width, int height, std::array<float, 3> color
   return picture;
 }
 
-/// The JSON in the page's element of this id.
-ordered_json data_of(const std::string& page, const std::string& id) {
-  const std::string open = "<script type=\"application/json\" id=\"" + id + "\">";
+/// What stands in the page's script of this id.
+std::string text_of(const std::string& page, const std::string& id) {
+  const std::string open = "\" id=\"" + id + "\">";
   const std::size_t from = page.find(open);
-  if (from == std::string::npos) return nullptr;
+  if (from == std::string::npos) return "null";
   const std::size_t start = from + open.size();
-  return ordered_json::parse(page.substr(start, page.find("</script>", start) - start));
+  return page.substr(start, page.find("</script>", start) - start);
+}
+
+ordered_json data_of(const std::string& page, const std::string& id) {
+  return ordered_json::parse(text_of(page, id));
+}
+
+std::string uri_of(const std::string& page, const std::string& file) {
+  for (const ordered_json& entry : data_of(page, "pictures")) {
+    if (entry["file"] == file) return text_of(page, entry["element"]);
+  }
+  return "";
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -123,7 +134,7 @@ TEST(ReportPage, SlotsAreFilledOnceAndInPlace) {
 }
 
 TEST(ReportPage, HoldsItsScriptsAndTheLicenceOfChartJs) {
-  const std::string page = make_page(one_cell(), ordered_json::object());
+  const std::string page = make_page(one_cell(), {});
   EXPECT_THAT(page, StartsWith("<!doctype html>"));
   EXPECT_THAT(page, HasSubstr("Chart.js v"));
   EXPECT_THAT(page, HasSubstr("Released under the MIT License"));
@@ -137,7 +148,7 @@ TEST(ReportPage, HoldsItsScriptsAndTheLicenceOfChartJs) {
 }
 
 TEST(ReportPage, AsksForNothingOutside) {
-  const std::string page = make_page(one_cell(), ordered_json::object());
+  const std::string page = make_page(one_cell(), {});
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   const std::regex loads(R"re((src|href)\s*=\s*["'](?!data:)|@import|url\(\s*["']?https?:)re");
   std::smatch found;
@@ -145,11 +156,11 @@ TEST(ReportPage, AsksForNothingOutside) {
 }
 
 TEST(ReportPicture, KeepsSizeAndColourOfWhatThePngShows) {
-  const Decoded small = decode(picture_uri(flat_picture(64, 40, {0.5f, 0.1f, 0.02f}), {}));
+  const Decoded small = decode(embed_picture(flat_picture(64, 40, {0.5f, 0.1f, 0.02f}), {}).uri);
   EXPECT_EQ(small.width, 64);
   EXPECT_EQ(small.height, 40);
   const renderer::ImageWriteOptions display{.exposure = 1.0f, .tonemap = renderer::Tonemap::filmic};
-  const Decoded shown = decode(picture_uri(flat_picture(16, 16, {0.5f, 0.1f, 0.02f}), display));
+  const Decoded shown = decode(embed_picture(flat_picture(16, 16, {0.5f, 0.1f, 0.02f}), display).uri);
   for (std::size_t c = 0; c < 3; ++c) {
     const float value = std::array{0.5f, 0.1f, 0.02f}[c];
     EXPECT_NEAR(small.bytes[c], renderer::display_byte(value, 1.0f, renderer::Tonemap::none), 2);
@@ -157,16 +168,36 @@ TEST(ReportPicture, KeepsSizeAndColourOfWhatThePngShows) {
   }
 }
 
-TEST(ReportPicture, WidePicturesShrinkByMeansOfLight) {
-  renderer::Picture stripes = flat_picture(2 * kMaxPictureWidth, 30, {0.0f, 0.0f, 0.0f});
+/// Black and white, one pixel each.
+renderer::Picture striped_picture(int width, int height) {
+  renderer::Picture stripes = flat_picture(width, height, {0.0f, 0.0f, 0.0f});
   std::vector<float>& values = stripes.layers.front().values;
   for (std::size_t i = 0; i < values.size(); i += 6)
     std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(i), 3, 1.0f);
-  const Decoded decoded = decode(picture_uri(stripes, {}));
+  return stripes;
+}
+
+TEST(ReportPicture, WidePicturesShrinkByMeansOfLight) {
+  const EmbeddedPicture picture = embed_picture(striped_picture(2 * kMaxPictureWidth, 30), {});
+  EXPECT_EQ(picture.size, (std::array{2 * kMaxPictureWidth, 30}));
+  EXPECT_EQ(picture.width, kMaxPictureWidth);
+  const Decoded decoded = decode(picture.uri);
   EXPECT_EQ(decoded.width, kMaxPictureWidth);
   EXPECT_EQ(decoded.height, 15);
   // Half the light is byte 188; half the byte would be 128.
   EXPECT_NEAR(decoded.bytes[3 * (7 * kMaxPictureWidth + 640)], 188, 3);
+}
+
+TEST(ReportPicture, MapsShrinkByMeansOfBytesAndAreSmaller) {
+  const renderer::Picture stripes = striped_picture(1280, 32);
+  const Decoded map = decode(embed_picture(stripes, {}, PictureKind::map, 640).uri);
+  EXPECT_EQ(map.width, 640);
+  EXPECT_NEAR(map.bytes[3 * (8 * 640 + 320)], 128, 3);
+  renderer::Picture colors = flat_picture(256, 256, {0.0f, 0.0f, 0.0f});
+  std::vector<float>& values = colors.layers.front().values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i * 7919 % 101) / 100.0f;
+  EXPECT_LT(embed_picture(colors, {}, PictureKind::map).uri.size(),
+            embed_picture(colors, {}, PictureKind::light).uri.size() * 6 / 10);
 }
 
 TEST(Report, EmbedsPicturesMapsAndReferencesByTheirNames) {
@@ -179,13 +210,104 @@ TEST(Report, EmbedsPicturesMapsAndReferencesByTheirNames) {
   const ordered_json results = one_cell({{"error_map", "pictures/1-flip.png"}});
   const std::string page = make_report(results, folder.path().string());
   EXPECT_EQ(data_of(page, "results"), results);
-  const ordered_json pictures = data_of(page, "pictures");
-  ASSERT_EQ(pictures.size(), 3u);
-  EXPECT_NEAR(decode(pictures["pictures/1.png"]).bytes[0], 188, 2);
-  EXPECT_NEAR(decode(pictures["pictures/1-flip.png"]).bytes[1], 255, 2);
+  ASSERT_EQ(data_of(page, "pictures").size(), 3u);
+  EXPECT_NEAR(decode(uri_of(page, "pictures/1.png")).bytes[0], 188, 2);
+  EXPECT_NEAR(decode(uri_of(page, "pictures/1-flip.png")).bytes[1], 255, 3);
   // Shown as the cells' PNGs were made: a stop brighter, with the curve.
-  EXPECT_NEAR(decode(pictures["references/r.exr"]).bytes[0],
+  EXPECT_NEAR(decode(uri_of(page, "references/r.exr")).bytes[0],
               renderer::display_byte(0.5f, 1.0f, renderer::Tonemap::filmic), 2);
+}
+
+TEST(Report, ShowsAReferenceAsEachOfThePicturesBesideIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "references");
+  renderer::write_image(flat_picture(8, 8, {0.1f, 0.1f, 0.1f}), folder / "references/r.exr");
+  ordered_json results = one_cell();
+  results["cells"][0]["options"]["tonemap"] = "none";
+  results["cells"].push_back(results["cells"][0]);
+  results["cells"][1]["picture"] = "pictures/2.png";
+  results["cells"][1]["options"]["exposure"] = 2.0;
+  // Neither has a picture to stand beside.
+  results["cells"].push_back(results["cells"][0]);
+  results["cells"][2]["picture"] = nullptr;
+  results["cells"][2]["options"]["exposure"] = 3.0;
+  const std::string page = make_report(results, folder.path().string());
+  const ordered_json index = data_of(page, "pictures");
+  ASSERT_EQ(index.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(index[i]["file"], "references/r.exr");
+    EXPECT_EQ(index[i]["exposure"], results["cells"][i]["options"]["exposure"]);
+    EXPECT_EQ(index[i]["tonemap"], "none");
+    EXPECT_NEAR(decode(text_of(page, index[i]["element"])).bytes[0],
+                renderer::display_byte(i == 0 ? 0.2f : 0.4f, 1.0f, renderer::Tonemap::none), 2);
+  }
+}
+
+TEST(Report, AReferenceIsThatOfTheCellsThatNameIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "references");
+  ordered_json results = one_cell({{"reference_id", "b"}});
+  results["scenes"][0]["references"] = ordered_json::array();
+  for (const std::string id : {"a", "b"}) {
+    renderer::write_image(flat_picture(8, 8, {0.1f, 0.1f, 0.1f}), folder / ("references/" + id + ".exr"));
+    results["scenes"][0]["references"].push_back(
+        {{"id", id}, {"kind", "path"}, {"file", "references/" + id + ".exr"}});
+  }
+  const auto files = [&] {
+    std::vector<std::string> names;
+    for (const ordered_json& entry : data_of(make_report(results, folder.path().string()), "pictures"))
+      names.push_back(entry["file"]);
+    return names;
+  };
+  EXPECT_THAT(files(), testing::ElementsAre("references/b.exr"));
+  results["cells"][0].erase("reference_id");
+  EXPECT_THAT(files(), testing::ElementsAre("references/a.exr", "references/b.exr"));
+}
+
+TEST(Report, AnAbsolutePathIsTakenAsItIs) {
+  const TemporaryFolder folder;
+  const TemporaryFolder other;
+  renderer::write_image(flat_picture(8, 8, {1.0f, 1.0f, 1.0f}), other / "r.exr");
+  renderer::write_image(flat_picture(8, 8, {0.0f, 0.0f, 0.0f}), folder / "r.exr");
+  ordered_json results = one_cell({{"options", nullptr}});
+  for (const auto& [file, byte] : {std::pair{(other / "r.exr").string(), 255}, {std::string("r.exr"), 0}}) {
+    results["scenes"][0]["references"][0]["file"] = file;
+    EXPECT_EQ(decode(uri_of(make_report(results, folder.path().string()), file)).bytes[0], byte);
+  }
+}
+
+TEST(Report, ManyPicturesAreSmaller) {
+  const TemporaryFolder folder;
+  const renderer::Picture wide = flat_picture(1300, 4, {0.5f, 0.5f, 0.5f});
+  renderer::write_image(wide, folder / "1.png");
+  ordered_json results = one_cell();
+  const auto widths = [&](int count) {
+    results["cells"].clear();
+    for (int i = 0; i < count / 2; ++i) {
+      ordered_json cell = {{"picture", std::to_string(i) + "/../1.png"},
+                           {"error_map", std::to_string(i) + "/.././1.png"}};
+      std::filesystem::create_directories(folder / std::to_string(i));
+      results["cells"].push_back(cell);
+    }
+    const ordered_json index = data_of(make_report(results, folder.path().string()), "pictures");
+    EXPECT_EQ(index.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(index[0]["size"], ordered_json({1300, 4}));
+    return std::pair(index[0]["width"].get<int>(), index[1]["width"].get<int>());
+  };
+  EXPECT_EQ(widths(100), std::pair(1280, 960));
+  EXPECT_EQ(widths(400), std::pair(640, 480));
+  EXPECT_EQ(widths(800), std::pair(480, 360));
+}
+
+TEST(Report, KnowsItsSize) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "pictures");
+  renderer::write_image(flat_picture(64, 64, {0.5f, 0.5f, 0.5f}), folder / "pictures/1.png");
+  const std::string page = make_report(one_cell(), folder.path().string());
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(page, found, std::regex("<body data-bytes=\"([0-9]+)\">")));
+  EXPECT_NEAR(std::stod(found[1]), static_cast<double>(page.size()), 100.0);
+  EXPECT_EQ(data_of(page, "pictures")[0]["bytes"], uri_of(page, "pictures/1.png").size());
 }
 
 TEST(Report, LeavesOutPicturesThatCannotBeRead) {

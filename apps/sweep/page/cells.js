@@ -2,12 +2,16 @@
 // From cells to what is drawn: configurations (the seeds of one picture together), series, fronts.
 
 const kMetrics = [
-  {key: "flip", label: "FLIP", of: errors => errors.flip},
-  {key: "hdr_flip", label: "HDR-FLIP", of: errors => errors.hdr_flip},
-  {key: "rel_mse", label: "relative MSE", of: errors => errors.rel_mse},
-  {key: "rel_mse_clean", label: "relative MSE, less the reference's noise", of: errors => errors.rel_mse_clean},
-  {key: "ssim", label: "1 − SSIM", of: errors => (isNumber(errors.ssim) ? 1 - errors.ssim : null)},
-  {key: "mse", label: "MSE", of: errors => errors.mse},
+  {key: "flip", label: "FLIP", of: errors => errors.flip,
+    means: "how different two pictures look to somebody who flips between them; 0 is no difference, 1 the greatest"},
+  {key: "hdr_flip", label: "HDR-FLIP", of: errors => errors.hdr_flip, means: "FLIP over all exposures that show something, for each pixel the largest"},
+  {key: "rel_mse", label: "relative MSE", of: errors => errors.rel_mse,
+    means: "mean squared difference of radiance, where dark pixels count as much as bright ones"},
+  {key: "rel_mse_clean", label: "relative MSE, less the reference's noise", of: errors => errors.rel_mse_clean,
+    means: "what is left of it for the picture alone"},
+  {key: "ssim", label: "1 − SSIM", of: errors => (isNumber(errors.ssim) ? 1 - errors.ssim : null),
+    means: "how little of the structure is kept; 0 is all of it"},
+  {key: "mse", label: "MSE", of: errors => errors.mse, means: "mean squared difference of radiance: bright pixels decide it"},
 ];
 
 const kKinds = {path: "path tracing", ao: "ambient occlusion", cache: "what the cache is to hold"};
@@ -22,8 +26,40 @@ function secondsOf(cell) {
   return isNumber(value) ? value : null;
 }
 
-function kindOf(cell) {
-  return cell.reference ?? "path";
+/// Errors against different references are different things. Older results name the kind alone.
+function referenceOf(cell) {
+  return cell.reference_id ?? cell.reference ?? "path";
+}
+
+/// Of an entry of a scene's "references", as cells name it.
+function keyOf(reference) {
+  return reference.id ?? reference.kind;
+}
+
+/// What is the same in all cells of a group and not in all groups: axes, else options.
+function differencesOf(groups) {
+  for (const of of [cell => cell.axes ?? {}, cell => cell.options ?? {}]) {
+    const text = (cell, name) => (of(cell)[name] === undefined ? undefined : String(of(cell)[name]));
+    const names = [...new Set(groups.flat().flatMap(cell => Object.keys(of(cell))))].filter(name =>
+      groups.every(group => group.every(cell => text(cell, name) !== undefined && text(cell, name) === text(group[0], name))) &&
+      groups.some(group => text(group[0], name) !== text(groups[0][0], name)));
+    const word = (cell, name) => (name === "row" ? text(cell, name) : `${name} ${text(cell, name)}`);
+    if (names.length > 0) return groups.map(group => names.map(name => word(group[0], name)).join(", "));
+  }
+  return groups.map((_, i) => `#${i + 1}`);
+}
+
+/// Of a scene's cells: what each is compared with, by referenceOf(), in words. Several of a kind are told apart by what
+/// their cells differ in.
+function referenceNames(cells) {
+  const names = new Map();
+  for (const cell of cells) names.set(referenceOf(cell), "");
+  for (const [kind, ofKind] of groupBy(cells, cell => cell.reference ?? "path")) {
+    const groups = groupBy(ofKind, referenceOf);
+    const differences = groups.size > 1 ? differencesOf([...groups.values()]) : [""];
+    [...groups.keys()].forEach((key, i) => names.set(key, [kKinds[kind] ?? kind, differences[i]].filter(Boolean).join(", ")));
+  }
+  return names;
 }
 
 function isPlain(cell) {
@@ -97,6 +133,18 @@ function frontOf(configurations) {
     if (front.length === 0 || c.error < front[front.length - 1].error) front.push(c);
   }
   return front;
+}
+
+/// What `gatelight sweep --advise` would say of these: the quickest of which no seed was above the error, or without an error
+/// the most accurate within the seconds. Where none meets the limits, the one that comes nearest. null: no limit.
+function adviceOf(configurations, {error, seconds}) {
+  const least = (list, ...keys) => [...list].sort((a, b) => keys.reduce((order, key) => order || a[key] - b[key], 0))[0];
+  const fast = configurations.filter(c => seconds === null || c.seconds <= seconds);
+  const chosen = fast.filter(c => error === null || c.high <= error);
+  if (chosen.length > 0) {
+    return {best: error === null ? least(chosen, "error", "seconds") : least(chosen, "seconds", "error"), met: true};
+  }
+  return {best: fast.length > 0 ? least(fast, "error", "seconds") : least(configurations, "seconds", "error"), met: false};
 }
 
 /// Seconds that a front takes to an error, by power laws between its points. {below} or {above}: it is quicker or slower

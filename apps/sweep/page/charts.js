@@ -1,5 +1,5 @@
 "use strict";
-// Charts with logarithmic axes, and what Chart.js does not draw: bands, levels and fronts.
+// Charts with logarithmic axes, and what Chart.js does not draw: bands, levels, fronts and limits.
 
 const kMarkers = ["circle", "rect", "triangle", "rectRot"];
 const kColors = 7;
@@ -141,6 +141,30 @@ function drawFront(chart, ctx, area, front) {
   ctx.stroke();
 }
 
+/// What is asked for as lines, and a ring around the answer.
+function drawLimits(chart, ctx, area, {error, seconds, chosen, color}) {
+  const {x, y} = chart.scales;
+  ctx.strokeStyle = color;
+  ctx.lineWidth = 1.5;
+  ctx.setLineDash([2, 3]);
+  ctx.beginPath();
+  if (error !== null) {
+    ctx.moveTo(area.left, y.getPixelForValue(error));
+    ctx.lineTo(area.right, y.getPixelForValue(error));
+  }
+  if (seconds !== null) {
+    ctx.moveTo(x.getPixelForValue(seconds), area.top);
+    ctx.lineTo(x.getPixelForValue(seconds), area.bottom);
+  }
+  ctx.stroke();
+  if (!chosen) return;
+  ctx.setLineDash([]);
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  ctx.arc(x.getPixelForValue(chosen.seconds), y.getPixelForValue(chosen.error), 11, 0, 2 * Math.PI);
+  ctx.stroke();
+}
+
 const kExtras = {
   id: "extras",
   beforeDatasetsDraw(chart) {
@@ -148,6 +172,7 @@ const kExtras = {
     for (const band of extras.bands ?? []) clipped(chart, ctx => drawBand(chart, ctx, band));
     if (extras.levels) clipped(chart, (ctx, area) => drawLevels(chart, ctx, area, extras.levels));
     for (const front of extras.fronts ?? []) clipped(chart, (ctx, area) => drawFront(chart, ctx, area, front));
+    if (extras.limits) clipped(chart, (ctx, area) => drawLimits(chart, ctx, area, extras.limits));
   },
 };
 
@@ -162,9 +187,9 @@ function tooltipLines(item) {
 const charts = new Map();
 
 /// Replaces what the canvas showed. `xs`, `ys`: values that are to fit; `ticks` of the x axis where not just any will do;
-/// `extras`: bands, levels and fronts.
+/// `extras`: bands, levels, fronts and limits.
 function drawChart(id, {title, metric, xs, ys, ticks, datasets, extras, description}) {
-  const canvas = document.getElementById(id);
+  const canvas = at(id);
   charts.get(id)?.destroy();
   canvas.setAttribute("aria-label", description);
   const tooltip = {

@@ -1,5 +1,5 @@
 "use strict";
-// The charts of the page, their legend and the table of the front.
+// The charts of the page and their legend, and what is read off them: the advice and the table of the front.
 
 function swatch(style) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
@@ -43,6 +43,27 @@ function drawLegend(series) {
   }
   at("legend").replaceChildren(...buttons);
   if (focused) buttons.find(button => button.dataset.series === focused)?.focus();
+}
+
+const kWords = {
+  path: "path tracing without a cache",
+  ao: "ambient occlusion without a cache",
+  nrc: "path tracing whose paths end in a cache: a small network that has learned from some of them first",
+  nao: "ambient occlusion that such a network has learned",
+  gate: "what the network reads lies on the triangles of the scene",
+  hashgrid: "what the network reads lies in a table over space",
+};
+
+function drawWords() {
+  const used = new Set(shownCells().flatMap(cell => [cell.integrator, cell.encoding]));
+  const plain = shownCells().some(isPlain);
+  const trained = shownCells().some(cell => !isPlain(cell));
+  describe(at("word-list"), [
+    ...Object.entries(kWords).filter(([word]) => used.has(word)),
+    ["steps", trained ? "training steps of the cache" : ""],
+    ["spp", plain ? "samples per pixel" : ""],
+    ...availableMetrics().map(metric => [metric.label, metric.means]),
+  ]);
 }
 
 function errorsIn(configurations) {
@@ -98,7 +119,7 @@ function drawStepsChart(series, all) {
     (levels.length > 0 ? " Dashed levels: without a cache, with samples a pixel and seconds." : "");
 }
 
-function drawParetoChart(series, all, shown) {
+function drawParetoChart(series, all, shown, limits) {
   const fronts = [true, false].map(plain => ({
     points: frontOf(shown.filter(c => c.plain === plain)),
     color: cssColor(plain ? "--plain" : "--ink"),
@@ -116,19 +137,76 @@ function drawParetoChart(series, all, shown) {
     xs: all.map(c => c.seconds),
     ys: errorsIn(all),
     datasets: scatter,
-    extras: {fronts},
+    extras: {fronts, limits: {...limits, color: cssColor("--accent")}},
     description: `${state.metric.label} against seconds of ${plural(shown.length, "configuration")}, with the Pareto front of those with and without a cache`,
   });
   const both = fronts.every(front => front.points.length > 0);
   at("pareto-caption").textContent = `${plural(shown.length, "configuration")}, each the mean of its seeds. ` +
     (both ? "Solid: the front of those with a cache; dashed: of those without." : "The line is their front.") +
-    " Large points lie on a front: no other is both quicker and more accurate.";
+    ` Large points lie on a front: no other${both ? " of its kind" : ""} is both quicker and more accurate.` +
+    (limits.chosen ? " The ring is around the one to take." : "");
+}
+
+/// What the front without a cache takes to the same error; null for what has no cache either.
+function rivalOf(configuration, shown) {
+  return configuration.plain ? null : secondsAtError(frontOf(shown.filter(c => c.plain)), configuration.error);
+}
+
+function sign(rival) {
+  return rival.above ? "> " : rival.below ? "< " : "";
+}
+
+/// A limit to begin with, in two digits: what the middle of the front keeps.
+function suggestedError(shown) {
+  const front = frontOf(shown);
+  if (front.length === 0) return "";
+  const error = front[Math.floor(front.length / 2)].high;
+  const step = 10 ** (Math.floor(Math.log10(error)) - 1);
+  return String(Number((Math.ceil(error / step) * step).toPrecision(2)));
+}
+
+function limitOf(text) {
+  const value = Number(text);
+  return value > 0 && Number.isFinite(value) ? value : null;
+}
+
+/// Fills the form with what was typed for this error, or a limit to begin with, and answers it: {error, seconds, chosen}.
+function drawAdvice(shown) {
+  const typed = state.limits.errors.get(state.metric.key) ?? suggestedError(shown);
+  if (at("max-error").value !== typed) at("max-error").value = typed;
+  at("max-error-label").textContent = `${state.metric.label} at most`;
+  const limits = {error: limitOf(typed), seconds: limitOf(state.limits.seconds)};
+  at("advice-answer").hidden = shown.length === 0;
+  if (shown.length === 0 || (limits.error === null && limits.seconds === null)) {
+    at("advice-answer").replaceChildren(shown.length === 0 ? "" : "Give an error, a time or both.");
+    at("advice-command").hidden = at("advice-note").hidden = true;
+    return {...limits, chosen: null};
+  }
+  const {best, met} = adviceOf(shown, limits);
+  const seeds = best.cells.length;
+  const rival = rivalOf(best, shown);
+  at("advice-answer").replaceChildren(
+    met ? "" : `None of ${plural(shown.length, "configuration")} keeps that. The nearest: `,
+    element("strong", {textContent: `${best.series}, ${best.point}`}),
+    `: ${formatSeconds(best.seconds)}, ${state.metric.label} ${formatNumber(best.error)}` +
+      (seeds > 1 ? ` (${formatNumber(best.low)} to ${formatNumber(best.high)} over ${plural(seeds, "seed")})` : "") +
+      (rival ? `. Without a cache the same error takes ${sign(rival)}${formatSeconds(rival.seconds)}.` : "."),
+  );
+  const command = best.cells[0].command;
+  at("advice-command").hidden = false;
+  at("advice-command").replaceChildren(...(command ? [element("code", {textContent: command})] : []),
+    element("span", {className: "buttons"}, ...(command ? [copyButton(command, {show: false})] : []),
+      ...(pictureOf(best) ? [lookButton(best)] : [])));
+  at("advice-note").hidden = false;
+  at("advice-note").textContent = (limits.error !== null
+    ? `The quickest of ${plural(shown.length, "configuration")} of which no seed was above the error.`
+    : `The most accurate of ${plural(shown.length, "configuration")} within the time.`) +
+    " Times are without loading the scene and building.";
+  return {...limits, chosen: best};
 }
 
 function drawFrontTable(shown) {
-  const rivals = frontOf(shown.filter(c => c.plain));
-  const rows = frontOf(shown).map(c => ({...c, rival: c.plain ? null : secondsAtError(rivals, c.error)}));
-  const sign = rival => (rival.above ? "> " : rival.below ? "< " : "");
+  const rows = frontOf(shown).map(c => ({...c, rival: rivalOf(c, shown)}));
   const columns = [
     {label: "Configuration", value: c => `${c.series}, ${c.point}`},
     {label: "Time", unit: "s", number: true, value: c => c.seconds},
@@ -139,6 +217,7 @@ function drawFrontTable(shown) {
       show: (value, c) => (c.rival ? sign(c.rival) + formatNumber(value, 2) : kNone)},
     {label: "Command", fixed: true, value: c => c.cells[0].command, show: value => copyButton(value)},
   ];
+  if (rows.some(pictureOf)) columns.push({label: "Picture", fixed: true, value: c => c, show: lookButton});
   makeTable("front-table", columns, rows);
   const compared = rows.some(c => c.rival);
   at("front-note").hidden = !compared;
@@ -149,7 +228,7 @@ function drawCharts() {
   const {shown: all, leftOut} = configurationsOf(shownCells(), state.metric);
   const some = all.length > 0;
   at("nothing").hidden = some;
-  at("convergence").hidden = at("pareto").hidden = !some;
+  at("advice").hidden = at("convergence").hidden = at("pareto").hidden = !some;
   if (!some) return;
   const everySeries = seriesOf(all);
   const series = everySeries.filter(s => !state.hidden.has(s.name));
@@ -159,7 +238,7 @@ function drawCharts() {
   const ranges = shown.length > 0 ? shown : all;
   drawTimeChart(series, ranges);
   drawStepsChart(series, ranges);
-  drawParetoChart(series, ranges, shown);
+  drawParetoChart(series, ranges, shown, drawAdvice(shown));
   if (leftOut > 0) at("time-caption").textContent += ` Not shown: ${plural(leftOut, "configuration")} with an error of zero or below.`;
   drawFrontTable(shown);
 }

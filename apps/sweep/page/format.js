@@ -17,8 +17,9 @@ function formatNumber(x, digits = 3) {
   return text.replace("-", "−");
 }
 
+/// The unit stays with its number.
 function formatSeconds(x) {
-  return isNumber(x) ? `${formatNumber(x)} s` : kNone;
+  return isNumber(x) ? `${formatNumber(x)}\u00a0s` : kNone;
 }
 
 function formatBytes(bytes) {

@@ -91,11 +91,20 @@ function shellWord(word) {
   return /^[\w\-+=.\/:,@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
+/// Pictures that were kept from other programs or machines are named by those; nothing where there is one.
+function makersText() {
+  const done = cells.filter(cell => cell.status === "done");
+  const makers = groupBy(done, cell => [cell.version ? `gatelight ${cell.version}` : "", cell.cpu, cell.isa].filter(Boolean).join(", "));
+  if (makers.size < 2) return "";
+  return [...makers].map(([name, made]) => `${name || "unknown"}: ${plural(made.length, "picture")}`).join("; ");
+}
+
 function drawProvenance() {
   const machine = results.machine ?? {};
   const scene = scenes.find(s => s.name === state.scene) ?? {};
+  const names = referenceNames(sceneCells());
   const references = (scene.references ?? []).map(r => [
-    `Reference, ${kKinds[r.kind] ?? r.kind}`,
+    `Reference, ${names.get(keyOf(r)) ?? kKinds[r.kind] ?? r.kind}`,
     [isNumber(r.spp) ? `${r.spp} spp` : "", formatSeconds(r.seconds),
       isNumber(r.rel_mse_noise) ? `noise ${formatNumber(r.rel_mse_noise)} (relative MSE)` : "", r.file]
       .filter(text => text && text !== kNone).join(", "),
@@ -104,7 +113,9 @@ function drawProvenance() {
     ["Scene", [scene.name, scene.file].filter(Boolean).join(": ")],
     ...references,
     ["Machine", [machine.cpu, isNumber(machine.threads) ? plural(machine.threads, "thread") : "", machine.isa].filter(Boolean).join(", ")],
-    ["Version", results.version ? `gatelight ${results.version}` : ""],
+    ["Versions", Object.entries(results.versions ?? {gatelight: results.version}).filter(([, version]) => version)
+      .map(([name, version]) => `${name} ${[version].flat().join(" and ")}`).join(", ")],
+    ["Measured by", makersText()],
     ["Command", element("code", {textContent: (results.command ?? []).map(shellWord).join(" ")})],
   ]);
   const options = sceneCells().filter(cell => cell.status === "done").map(cell => cell.options ?? {});

@@ -15,12 +15,13 @@ function fillScenes() {
 
 /// Keeps what was chosen where the scene has it.
 function fillChoices() {
-  const kinds = [...new Set(sceneCells().map(kindOf))];
-  if (!kinds.includes(state.kind)) state.kind = kinds[0] ?? "path";
-  at("kind-label").hidden = kinds.length < 2;
-  at("kind").replaceChildren(...kinds.map(kind => element("option", {value: kind, textContent: kKinds[kind] ?? kind, selected: kind === state.kind})));
+  const names = referenceNames(sceneCells());
+  if (!names.has(state.reference)) state.reference = [...names.keys()][0] ?? "path";
+  at("reference-label").hidden = names.size < 2;
+  at("reference").replaceChildren(...[...names].map(([key, name]) =>
+    element("option", {value: key, textContent: name, selected: key === state.reference})));
 
-  const metrics = kMetrics.filter(metric => shownCells().some(cell => errorOf(cell, metric) !== null));
+  const metrics = availableMetrics();
   if (!metrics.includes(state.metric)) state.metric = metrics[0] ?? kMetrics[0];
   at("metric-label").hidden = metrics.length === 0;
   at("metric").replaceChildren(...metrics.map(metric => element("option", {value: metric.key, textContent: metric.label, selected: metric === state.metric})));
@@ -28,19 +29,12 @@ function fillChoices() {
 
 function drawPictures() {
   const scene = scenes.find(s => s.name === state.scene) ?? {};
-  const pictures = picturesOf(scene, sceneCells(), uris);
+  const pictures = picturesOf(scene, sceneCells());
   const some = pictures.some(p => p.cell);
   at("pictures-section").hidden = !some;
   if (!some) return;
-  const pair = defaultPair(pictures, state.kind);
-  for (const side of ["left", "right"]) {
-    const show = () => showSide(side, pictures.find(p => p.id === at(side).value));
-    fillSelect(at(side), pictures, pair[side]);
-    at(side).onchange = show;
-    show();
-  }
   at("zoom").value = "fit";
-  zoomStage("fit");
+  showPictures(pictures, defaultPair(pictures, state.reference));
 }
 
 function drawHead() {
@@ -53,11 +47,15 @@ function drawHead() {
     `${plural(styles.size, "series")}, ${plural(seeds, "seed")}` +
     `${failed > 0 ? `, ${failed} failed` : ""}. How far each is from a reference, and what it took.`;
   at("chart-version").textContent = `Chart.js ${Chart.version}`;
+  const bytes = pictureIndex.reduce((sum, entry) => sum + entry.bytes, 0);
+  at("page-size").textContent = `${formatBytes(Number(document.body.dataset.bytes))}` +
+    (pictureIndex.length > 0 ? `, of which ${formatBytes(bytes)} are ${plural(pictureIndex.length, "picture")} and maps` : "");
 }
 
 // A change of scene or reference changes everything, of the error only the charts.
 function update() {
   fillChoices();
+  drawWords();
   drawCharts();
   drawPictures();
   drawCosts();
@@ -66,18 +64,30 @@ function update() {
   drawProvenance();
 }
 
-at("kind").addEventListener("change", () => {
-  state.kind = at("kind").value;
+at("reference").addEventListener("change", () => {
+  state.reference = at("reference").value;
   update();
 });
 at("metric").addEventListener("change", () => {
   state.metric = kMetrics.find(metric => metric.key === at("metric").value);
   drawCharts();
 });
-at("zoom").addEventListener("change", () => zoomStage(at("zoom").value));
+at("max-error").addEventListener("input", () => {
+  state.limits.errors.set(state.metric.key, at("max-error").value);
+  drawCharts();
+});
+at("max-seconds").addEventListener("input", () => {
+  state.limits.seconds = at("max-seconds").value;
+  drawCharts();
+});
+at("limits").addEventListener("submit", event => event.preventDefault());
+at("zoom").addEventListener("change", zoomStage);
+addEventListener("resize", zoomStage);
 at("filter").addEventListener("input", drawCells);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawCharts);
-listenToBorder();
+listenToKeys();
+listenToPointer();
+listenToCopied();
 moveBorder(50);
 drawHead();
 fillScenes();

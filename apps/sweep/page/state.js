@@ -2,10 +2,11 @@
 // The results, and what of them is shown.
 
 const results = JSON.parse(document.getElementById("results").textContent);
-const uris = JSON.parse(document.getElementById("pictures").textContent);
+const pictureIndex = JSON.parse(document.getElementById("pictures").textContent);
 const scenes = results.scenes ?? [];
 const cells = results.cells ?? [];
-const state = {scene: scenes[0]?.name, kind: null, metric: kMetrics[0], hidden: new Set()};
+/// limits: what is asked for, as it was typed; of the error for each metric.
+const state = {scene: scenes[0]?.name, reference: null, metric: kMetrics[0], hidden: new Set(), limits: {errors: new Map(), seconds: ""}};
 const at = id => document.getElementById(id);
 
 const styles = new Map();
@@ -20,5 +21,10 @@ function sceneCells() {
 }
 
 function shownCells() {
-  return sceneCells().filter(cell => kindOf(cell) === state.kind);
+  return sceneCells().filter(cell => referenceOf(cell) === state.reference);
+}
+
+/// Errors that some picture of those has.
+function availableMetrics() {
+  return kMetrics.filter(metric => shownCells().some(cell => errorOf(cell, metric) !== null));
 }

@@ -1,5 +1,5 @@
 "use strict";
-// Tables that sort by a click on a column's head.
+// Tables that sort by a click on a column's head, and buttons in them.
 
 function element(name, properties = {}, ...children) {
   const made = Object.assign(document.createElement(name), properties);
@@ -8,33 +8,52 @@ function element(name, properties = {}, ...children) {
 }
 
 function say(text) {
-  document.getElementById("said").textContent = text;
+  at("said").textContent = text;
 }
 
+/// Whether it is in the clipboard.
 async function copyText(text) {
   try {
     await navigator.clipboard.writeText(text);
+    return true;
   } catch {
     // Where the page may not use the clipboard of its own accord.
     const area = element("textarea", {value: text, className: "unseen"});
+    const focused = document.activeElement;
     document.body.append(area);
     area.select();
-    document.execCommand("copy");
+    const copied = document.execCommand("copy");
     area.remove();
+    focused?.focus({preventScroll: true});
+    return copied;
   }
 }
 
-function copyButton(command) {
+/// Copies, and shows what it copied: a phone has no other way to see it, and some have no clipboard for such pages.
+function copyButton(command, {show = true} = {}) {
   if (!command) return kNone;
-  const button = element("button", {type: "button", className: "copy", textContent: "copy", title: command});
+  const button = element("button", {type: "button", className: "small", textContent: "copy", title: command});
   button.setAttribute("aria-label", "Copy the command");
   button.addEventListener("click", async () => {
-    await copyText(command);
-    button.textContent = "copied";
-    say("The command is in the clipboard");
-    setTimeout(() => { button.textContent = "copy"; }, 1500);
+    const copied = await copyText(command);
+    const text = copied ? "The command is in the clipboard" : "The clipboard is closed to this page: select the command";
+    if (copied) {
+      button.textContent = "copied";
+      setTimeout(() => { button.textContent = "copy"; }, 1500);
+    }
+    say(text);
+    if (!show) return;
+    at("copied-note").textContent = `${text}.`;
+    at("copied-command").textContent = command;
+    at("copied").hidden = false;
   });
   return button;
+}
+
+function listenToCopied() {
+  const close = () => { at("copied").hidden = true; };
+  at("copied-close").addEventListener("click", close);
+  document.addEventListener("keydown", event => { if (event.key === "Escape") close(); });
 }
 
 /// Nothing last, whichever the direction.
@@ -47,7 +66,7 @@ function compareValues(a, b, direction) {
 /// columns: {label, unit, number, value: row => number|string|null, show: (value, row) => text or node, fixed: does not
 /// sort}. Columns of numbers without any are left out. The order that was chosen outlives the rows.
 function makeTable(id, columns, rows) {
-  const host = document.getElementById(id);
+  const host = at(id);
   const shown = columns.filter(c => !c.number || rows.some(row => isNumber(c.value(row))));
   const order = host.order ?? {};
   const sorted = [...rows];
