@@ -66,7 +66,7 @@ def scene(name, kinds=("path",)):
 
 
 def results(scenes, cells):
-    return {"schema": 2, "versions": {"gatelight": "1.0.0", "embree": "3.13.5"},
+    return {"schema": 2, "versions": {"gatelight": "1.0.0", "embree": "3.13.5", "of_cells": ["1.0.0"]},
             "command": ["gatelight", "sweep", "a scene.glb", "-o", "it's"],
             "machine": {"cpu": CPU, "threads": 2, "isa": "avx512"}, "scenes": scenes, "cells": cells}
 

@@ -296,7 +296,7 @@ TEST(Report, ManyPicturesAreSmaller) {
   };
   EXPECT_EQ(widths(100), std::pair(1280, 960));
   EXPECT_EQ(widths(400), std::pair(640, 480));
-  EXPECT_EQ(widths(800), std::pair(480, 360));
+  EXPECT_EQ(widths(720), std::pair(480, 360));
 }
 
 TEST(Report, KnowsItsSize) {

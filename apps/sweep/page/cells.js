@@ -8,7 +8,7 @@ const kMetrics = [
   {key: "rel_mse", label: "relative MSE", of: errors => errors.rel_mse,
     means: "mean squared difference of radiance, where dark pixels count as much as bright ones"},
   {key: "rel_mse_clean", label: "relative MSE, less the reference's noise", of: errors => errors.rel_mse_clean,
-    means: "what is left of it for the picture alone"},
+    means: "the same without what the reference's own noise adds"},
   {key: "ssim", label: "1 − SSIM", of: errors => (isNumber(errors.ssim) ? 1 - errors.ssim : null),
     means: "how little of the structure is kept; 0 is all of it"},
   {key: "mse", label: "MSE", of: errors => errors.mse, means: "mean squared difference of radiance: bright pixels decide it"},
@@ -138,13 +138,14 @@ function frontOf(configurations) {
 /// What `gatelight sweep --advise` would say of these: the quickest of which no seed was above the error, or without an error
 /// the most accurate within the seconds. Where none meets the limits, the one that comes nearest. null: no limit.
 function adviceOf(configurations, {error, seconds}) {
+  const worse = error === null ? "error" : "high";
   const least = (list, ...keys) => [...list].sort((a, b) => keys.reduce((order, key) => order || a[key] - b[key], 0))[0];
   const fast = configurations.filter(c => seconds === null || c.seconds <= seconds);
   const chosen = fast.filter(c => error === null || c.high <= error);
   if (chosen.length > 0) {
-    return {best: error === null ? least(chosen, "error", "seconds") : least(chosen, "seconds", "error"), met: true};
+    return {best: error === null ? least(chosen, worse, "seconds") : least(chosen, "seconds", worse), met: true};
   }
-  return {best: fast.length > 0 ? least(fast, "error", "seconds") : least(configurations, "seconds", "error"), met: false};
+  return {best: fast.length > 0 ? least(fast, worse, "seconds") : least(configurations, "seconds", worse), met: false};
 }
 
 /// Seconds that a front takes to an error, by power laws between its points. {below} or {above}: it is quicker or slower

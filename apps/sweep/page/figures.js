@@ -48,10 +48,10 @@ function drawLegend(series) {
 const kWords = {
   path: "path tracing without a cache",
   ao: "ambient occlusion without a cache",
-  nrc: "path tracing whose paths end in a cache: a small network that has learned from some of them first",
-  nao: "ambient occlusion that such a network has learned",
-  gate: "what the network reads lies on the triangles of the scene",
-  hashgrid: "what the network reads lies in a table over space",
+  nrc: "path tracing whose paths end in a neural cache, which learned from some of them first",
+  nao: "ambient occlusion out of a neural cache",
+  gate: "the cache keeps what it learned on the triangles of the scene",
+  hashgrid: "the cache keeps what it learned in a table over space",
 };
 
 function drawWords() {
@@ -198,10 +198,9 @@ function drawAdvice(shown) {
     element("span", {className: "buttons"}, ...(command ? [copyButton(command, {show: false})] : []),
       ...(pictureOf(best) ? [lookButton(best)] : [])));
   at("advice-note").hidden = false;
-  at("advice-note").textContent = (limits.error !== null
-    ? `The quickest of ${plural(shown.length, "configuration")} of which no seed was above the error.`
-    : `The most accurate of ${plural(shown.length, "configuration")} within the time.`) +
-    " Times are without loading the scene and building.";
+  const why = limits.error === null ? "The most accurate within the time" : "The quickest of which no seed was above the error";
+  at("advice-note").textContent = (met ? `${why}, of ${plural(shown.length, "configuration")}. ` : "") +
+    "Times are without loading the scene and building.";
   return {...limits, chosen: best};
 }
 

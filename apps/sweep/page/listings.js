@@ -113,8 +113,8 @@ function drawProvenance() {
     ["Scene", [scene.name, scene.file].filter(Boolean).join(": ")],
     ...references,
     ["Machine", [machine.cpu, isNumber(machine.threads) ? plural(machine.threads, "thread") : "", machine.isa].filter(Boolean).join(", ")],
-    ["Versions", Object.entries(results.versions ?? {gatelight: results.version}).filter(([, version]) => version)
-      .map(([name, version]) => `${name} ${[version].flat().join(" and ")}`).join(", ")],
+    ["Versions", Object.entries(results.versions ?? {gatelight: results.version}).filter(([, version]) => typeof version === "string")
+      .map(([name, version]) => `${name} ${version}`).join(", ")],
     ["Measured by", makersText()],
     ["Command", element("code", {textContent: (results.command ?? []).map(shellWord).join(" ")})],
   ]);

@@ -2,7 +2,7 @@
 // Two pictures with a border that moves, and their FLIP maps.
 
 /// Of a finger: below this it is a tap.
-const kSlop = 5;
+const kSlop = 8;
 
 /// What stands at each side now.
 const sides = {left: null, right: null};
