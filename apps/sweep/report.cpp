@@ -88,8 +88,9 @@ renderer::ImageWriteOptions write_options(const ordered_json& display) {
   return options;
 }
 
-/// So many pictures are shown at full width, which are about 15 MB; the pixels of more are as many together.
-constexpr double kFullWidthCount = 100.0;
+/// So many pictures and maps are shown at full width, which is about 15 MB where they are noisy; of more the
+/// pixels are as many together.
+constexpr double kFullWidthCount = 60.0;
 constexpr int kLeastWidth = 480;
 
 /// Maps stand side by side, and are looked at for where, not for details.

@@ -294,9 +294,9 @@ TEST(Report, ManyPicturesAreSmaller) {
     EXPECT_EQ(index[0]["size"], ordered_json({1300, 4}));
     return std::pair(index[0]["width"].get<int>(), index[1]["width"].get<int>());
   };
-  EXPECT_EQ(widths(100), std::pair(1280, 960));
-  EXPECT_EQ(widths(400), std::pair(640, 480));
-  EXPECT_EQ(widths(720), std::pair(480, 360));
+  EXPECT_EQ(widths(60), std::pair(1280, 960));
+  EXPECT_EQ(widths(240), std::pair(640, 480));
+  EXPECT_EQ(widths(428), std::pair(480, 360));
 }
 
 TEST(Report, KnowsItsSize) {
