@@ -1,0 +1,171 @@
+"""The paper's claims beside what was measured: the first table of RESULTS.md. Verdicts follow from the figures."""
+
+from paper_figures import ADAPTIVE_MB, TABLE1, TABLE2
+from results_data import NAMES, difference
+from results_tables import table
+
+# Times and sizes differ by more than this, or they count as the same.
+SAME = 1.1
+
+
+def span(values, digits=2):
+    values = [value for value in values if value is not None]
+    low, high = min(values), max(values)
+    return f"{low:.{digits}g}" if f"{low:.{digits}g}" == f"{high:.{digits}g}" else f"{low:.{digits}g} to {high:.{digits}g}"
+
+
+def pairs(result, integrator, a, b, steps=128):
+    """(scene, group of row a, group of row b) where both were measured."""
+    for scene in result.scenes():
+        groups = [result.get(scene, integrator, row, steps) for row in (a, b)]
+        if all(group is not None and group.mean("flip") is not None for group in groups):
+            yield NAMES.get(scene, scene), *groups
+
+
+def verdict(good, total):
+    if total == 0:
+        return "not measured"
+    return "holds" if good == total else "does not hold" if good == 0 else f"holds in {good} of {total}"
+
+
+def lower_flip(result, integrator, a, b):
+    """Ours and verdict of: row a has the lower FLIP."""
+    found = list(pairs(result, integrator, a, b))
+    signs = [difference(x, y, "flip") for _, x, y in found]
+    text = "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found)
+    return text, verdict(signs.count(-1), len(signs))
+
+
+def paper_lower_flip(integrator):
+    return "; ".join(f"{scene} {row['gate'][3]:.3f} and {row['hash grid'][3]:.3f}"
+                     for (kind, scene), row in TABLE1.items() if kind == integrator)
+
+
+def times(result, integrator, column, a="hash grid", b="gate"):
+    """Ours and verdict of: row a takes longer than row b."""
+    found = list(pairs(result, integrator, a, b))
+    ratios = [x.median(column) / y.median(column) for _, x, y in found]
+    if not ratios:
+        return "", "not measured"
+    text = "; ".join(f"{name} {ratio:.2g}" for (name, _, _), ratio in zip(found, ratios))
+    return text, verdict(sum(ratio > SAME for ratio in ratios), len(ratios))
+
+
+def paper_times(integrator, index):
+    return span([row["hash grid"][index] / row["gate"][index] for (kind, _), row in TABLE1.items() if kind == integrator])
+
+
+def table1_claims(result):
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        ours, held = lower_flip(result, integrator, "gate", "hash grid")
+        yield (f"At equal memory GATE's FLIP is lower than the hash grid's ({word})", paper_lower_flip(integrator), ours, held)
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        for column, index, what in (("kernel_ms", 0, "A training step takes the hash grid longer"),
+                                    ("query_ms", 1, "Answers take the hash grid longer")):
+            ours, held = times(result, integrator, column)
+            yield f"{what} ({word}): times GATE's", paper_times(integrator, index), ours, held
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        ours, held = times(result, integrator, "kernel_ms", "hash grid", "hash grid, sparse updates")
+        yield (f"What costs the hash grid is that every entry is visited in every step ({word}): step, times one with sparse updates",
+               "not measured", ours, held)
+
+
+def table2_claims(result):
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        paper = TABLE2[integrator]
+        ours, held = lower_flip(result, integrator, "gate", "hash grid S")
+        yield (f"GATE's FLIP is lower than that of a hash grid below 1 MB ({word})",
+               f"Bistro {paper['gate'][3]:.3f} and {paper['hash grid S'][3]:.3f}", ours, held)
+        for column, index, what in (("kernel_ms", 0, "A step of a hash grid below 1 MB takes longer"),
+                                    ("query_ms", 1, "Answers of a hash grid below 1 MB take longer")):
+            ours, held = times(result, integrator, column, "hash grid S", "gate")
+            yield f"{what} ({word}): times GATE's", f"{paper['hash grid S'][index] / paper['gate'][index]:.2g}", ours, held
+        ours, held = lower_flip(result, integrator, "hash grid L", "hash grid S")
+        yield (f"A larger hash grid errs less ({word}): FLIP of L and S",
+               f"Bistro {paper['hash grid L'][3]:.3f} and {paper['hash grid S'][3]:.3f}", ours, held)
+
+
+def gain(result, scene, integrator, row, first, last):
+    groups = [result.get(scene, integrator, row, steps) for steps in (first, last)]
+    values = [group.mean("flip") if group else None for group in groups]
+    return None if None in values else 1.0 - values[1] / values[0]
+
+
+def steps_claims(result):
+    steps = result.steps()
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        found = []
+        for scene in result.scenes():
+            gains = [gain(result, scene, integrator, row, steps[0], steps[-1]) for row in ("gate", "hash grid")]
+            if None not in gains:
+                found.append((NAMES.get(scene, scene), gains))
+        yield (f"From {steps[0]} to {steps[-1]} steps GATE keeps improving and the hash grid gains little ({word}): "
+               "FLIP falls by, GATE and hash grid", "shown for Bistro, without figures",
+               "; ".join(f"{name} {100 * a:.0f} % and {100 * b:.0f} %" for name, (a, b) in found),
+               verdict(sum(a > b for _, (a, b) in found), len(found)))
+
+
+def adaptive_claims(result):
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        found = list(pairs(result, integrator, "fixed R = 4", "adaptive, paper's rule"))
+        ratios = [x.mebibytes() / y.mebibytes() for _, x, y in found]
+        yield (f"Resolution 4 everywhere takes more memory than adaptive resolutions ({word}): times",
+               f"Country Kitchen {ADAPTIVE_MB[0] / ADAPTIVE_MB[1]:.2f}",
+               "; ".join(f"{name} {ratio:.2g}" for (name, _, _), ratio in zip(found, ratios)),
+               verdict(sum(ratio > SAME for ratio in ratios), len(ratios)))
+        signs = [difference(y, x, "flip") for _, x, y in found]
+        yield (f"... at similar quality ({word}): FLIP of 4 everywhere and adaptive", "no visible difference",
+               "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found),
+               verdict(sum(sign <= 0 for sign in signs), len(signs)))
+        ours, held = lower_flip(result, integrator, "adaptive, uniform", "adaptive, paper's rule")
+        yield f"Our rule of uniform density errs less than the paper's ({word})", "not of the paper", ours, held
+
+
+def inputs_claims(result):
+    for integrator, row in (("nao", "gate, normal"), ("nrc", "gate, normal and albedo")):
+        word = "occlusion: normal" if integrator == "nao" else "radiance: normal and albedo"
+        ours, held = lower_flip(result, integrator, row, "gate")
+        found = list(pairs(result, integrator, row, "gate"))
+        signs = [difference(x, y, "flip") for _, x, y in found]
+        yield (f"GATE gains nothing from more inputs ({word}): FLIP with and without", "the same in the end", ours,
+               verdict(sum(sign >= 0 for sign in signs), len(signs)))
+        ours, held = times(result, integrator, "kernel_ms", row, "gate")
+        yield f"More inputs slow a step down ({word}): times", "not printed", ours, held
+
+
+def extra_claims(result):
+    base = "as in the paper"
+    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+        for row, claim in (("stack of 1", "Two stacked resolutions err less than one"),
+                           ("no candidates", "Choosing among 16 candidates errs less than taking the first"),
+                           ("storage per triangle", "Shared storage errs less than vectors of each triangle's own"),
+                           ("counters per node", "Step counters of triangles err less than those of nodes"),
+                           ("4 samples per point", "One path a record errs less than the mean of four")):
+            ours, held = lower_flip(result, integrator, base, row)
+            yield f"{claim} ({word})", "stated or implied, no figure", ours, held
+        found = list(pairs(result, integrator, base, "fp16 features"))
+        signs = [difference(x, y, "flip") for _, x, y in found]
+        yield (f"Features in fp16 lose nothing visible ({word}): FLIP with fp32 and fp16", "an outlook",
+               "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found),
+               verdict(sum(sign >= 0 for sign in signs), len(signs)))
+        ours, held = lower_flip(result, integrator, "clusters", "uniform, no clusters")
+        yield f"Clusters on tiny triangles err less ({word}): FLIP with and without, uniform density", "an outlook", ours, held
+
+
+CLAIMS = {
+    "paper-table1": table1_claims,
+    "paper-table2": table2_claims,
+    "paper-steps": steps_claims,
+    "paper-adaptive": adaptive_claims,
+    "paper-inputs": inputs_claims,
+    "paper-extra": extra_claims,
+}
+
+
+def section(results):
+    rows = []
+    for preset, claims in CLAIMS.items():
+        if preset in results:
+            rows += [[claim, paper, ours, f"**{held}**"] for claim, paper, ours, held in claims(results[preset]) if ours]
+    return ("## Claim by claim\n\nLower is lower by more than two standard errors of the difference, longer is longer by more than a tenth.\n\n" +
+            table(["claim", "paper", "here", "verdict"], rows, left=4))
