@@ -36,8 +36,8 @@ constexpr const char* kFooter = R"(Over the red, green and blue of the beauty la
   flip      LDR-FLIP (2020), what the eye sees when the pictures alternate: mean, quartiles weighted by the
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
-Pixels that are not finite in one of the pictures are counted and left out; FLIP and SSIM, which cannot leave them
-out, are left out themselves, and refused where --metric or --map names them. PNG files are made linear first.
+Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
+(mse, rel_mse, psnr, mean, max); then they are counted and told. PNG files are made linear first.
 
 With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
 and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
@@ -97,12 +97,29 @@ void check_outputs(const CompareSettings& settings) {
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
 }
 
+/// Whether it is a mean over pixels, so that some can be left out.
+bool leaves_pixels_out(Metric metric) {
+  return metric != Metric::ssim && metric != Metric::flip && metric != Metric::hdr_flip;
+}
+
+void check_finite(const CompareSettings& settings, const CompareReport& report) {
+  const renderer::ErrorMetrics& errors = report.errors;
+  if (errors.nonfinite_reference + errors.nonfinite_test == 0) return;
+  const std::string counts =
+      fmt::format("pixels that are not finite: {} in '{}', {} in '{}'", errors.nonfinite_reference,
+                  settings.reference, errors.nonfinite_test, settings.test);
+  const bool possible = std::all_of(report.metrics.begin(), report.metrics.end(), leaves_pixels_out) &&
+                        (settings.error_map.empty() || settings.map == Map::relative);
+  if (!possible) {
+    throw InputError(fmt::format(
+        "{}; expected none for ssim, flip and hdr_flip (--metric mse,rel_mse,psnr,mean,max leaves them out)",
+        counts));
+  }
+  log_warning(fmt::format("{}; they are left out", counts));
+}
+
 void measure_looks(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
                    bool by_name) {
-  if (!by_name && report.errors.nonfinite_reference + report.errors.nonfinite_test > 0) {
-    log_warning("FLIP and SSIM are left out: they are defined for finite pixels");
-    return;
-  }
   const renderer::FlipOptions& flip = report.flip_options;
   for (const Metric metric : report.metrics) {
     if (metric == Metric::ssim && (by_name || has_ssim(reference.picture)))
@@ -144,11 +161,7 @@ int run_compare(const CompareSettings& settings) {
   report.width = reference_picture.width;
   report.height = reference_picture.height;
   report.errors = renderer::compare_pictures(reference, test);
-  if (report.errors.nonfinite_reference + report.errors.nonfinite_test > 0) {
-    log_warning(fmt::format("pixels that are not finite: {} in '{}', {} in '{}'; they are left out",
-                            report.errors.nonfinite_reference, settings.reference,
-                            report.errors.nonfinite_test, settings.test));
-  }
+  check_finite(settings, report);
   if (!settings.halves.empty()) {
     report.bias_rel_mse = renderer::squared_bias(
         {{references.front(), report.references.front()}, {references.back(), report.references.back()}},

@@ -50,8 +50,8 @@ std::vector<Value> values_of(Metric metric) {
   return {};
 }
 
-const std::optional<renderer::FlipResult>& flip_of(const CompareReport& report, Metric metric) {
-  return metric == Metric::flip ? report.flip : report.hdr_flip;
+const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) {
+  return metric == Metric::flip ? report.flip.value() : report.hdr_flip.value();
 }
 
 bool is_flip(Metric metric) {
@@ -71,9 +71,8 @@ ordered_json ssim_json(const CompareReport& report) {
 }
 
 ordered_json flip_json(const CompareReport& report, Metric metric) {
-  const std::optional<renderer::FlipResult>& flip = flip_of(report, metric);
-  if (!flip) return nullptr;
-  const renderer::FlipSummary& s = flip->summary;
+  const renderer::FlipResult& flip = flip_of(report, metric);
+  const renderer::FlipSummary& s = flip.summary;
   ordered_json json = {{"mean", s.mean},
                        {"weighted_median", s.weighted_median},
                        {"first_quartile", s.first_quartile},
@@ -85,18 +84,16 @@ ordered_json flip_json(const CompareReport& report, Metric metric) {
     json["exposure"] = report.flip_options.exposure;
     json["tonemap"] = name_of(tonemap_choices(), report.flip_options.tonemap);
   } else {
-    json["start_exposure"] = flip->start_exposure;
-    json["stop_exposure"] = flip->stop_exposure;
-    json["exposures"] = flip->exposures;
+    json["start_exposure"] = flip.start_exposure;
+    json["stop_exposure"] = flip.stop_exposure;
+    json["exposures"] = flip.exposures;
   }
   return json;
 }
 
 std::string flip_text(const CompareReport& report, Metric metric) {
   const std::string name = name_of(metric_choices(), metric);
-  const std::optional<renderer::FlipResult>& flip = flip_of(report, metric);
-  if (!flip) return fmt::format("{:<16} -\n", name);
-  const renderer::FlipSummary& s = flip->summary;
+  const renderer::FlipSummary& s = flip_of(report, metric).summary;
   return fmt::format("{:<16} {:.6g}, weighted quartiles {:.6g} {:.6g} {:.6g}, from {:.6g} to {:.6g}\n", name,
                      s.mean, s.first_quartile, s.weighted_median, s.third_quartile, s.min, s.max);
 }

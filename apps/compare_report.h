@@ -22,9 +22,9 @@ struct CompareReport {
   int height = 0;
   std::vector<Metric> metrics;  ///< that were asked for, in the order of the report
   renderer::ErrorMetrics errors;
-  renderer::FlipOptions flip_options;  ///< exposure and curve also of ssim
-  std::optional<double> ssim;  ///< none: not asked for, smaller than its window, or pixels are not finite
-  std::optional<renderer::FlipResult> flip;  ///< none: not asked for, or pixels are not finite
+  renderer::FlipOptions flip_options;        ///< exposure and curve also of ssim
+  std::optional<double> ssim;                ///< none: not asked for, or smaller than its window
+  std::optional<renderer::FlipResult> flip;  ///< there where it is asked for, as hdr_flip
   std::optional<renderer::FlipResult> hdr_flip;
   std::optional<double> bias_rel_mse;  ///< of halves
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "renderer/image_read.h"
@@ -213,30 +214,41 @@ TEST_F(CompareCommand, UnusablePicturesAreCode2) {
   EXPECT_EQ(run_gatelight_inside({"compare", reference, path("broken.png")}).exit_code, 2);
 }
 
-TEST_F(CompareCommand, NonFinitePixelsAreReported) {
-  const std::string reference = picture("r.exr", 2, 1, 1.0f);
-  const Output output =
-      run_gatelight_inside({"compare", reference, picture("t.exr", 2, 1, std::nanf("")), "--json", "-"});
-  EXPECT_EQ(output.exit_code, 0);
-  EXPECT_THAT(output.err, HasSubstr("2 in '" + path("t.exr") + "'"));
-  EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 2);
-  EXPECT_TRUE(json::parse(output.out)["flip"].is_null()) << "FLIP cannot leave pixels out";
+TEST_F(CompareCommand, NonFinitePixelsAreRefusedWithTheirCounts) {
+  const std::string reference = picture("r.exr", 12, 11, 1.0f);
+  const std::string test = picture("t.exr", 12, 11, std::nanf(""));
+  const std::vector<std::vector<std::string>> calls = {{},
+                                                       {"--metric", "hdr_flip"},
+                                                       {"--metric", "ssim"},
+                                                       {"--metric", "mse,flip"},
+                                                       {"--metric", "mse", "--error-map", path("e.png")}};
+  for (const std::vector<std::string>& flags : calls) {
+    for (const auto& [first, second] : {std::pair(reference, test), std::pair(test, reference)}) {
+      std::vector<std::string> arguments = {"compare", first, second, "--json", path("o.json")};
+      arguments.insert(arguments.end(), flags.begin(), flags.end());
+      const Output output = run_gatelight_inside(arguments);
+      EXPECT_EQ(output.exit_code, 2);
+      EXPECT_EQ(output.out, "");
+      EXPECT_THAT(output.last_error_line(),
+                  AllOf(HasSubstr("132 in '" + test + "'"), HasSubstr("0 in '" + reference + "'"),
+                        HasSubstr("not finite"), HasSubstr("--metric mse,rel_mse,psnr,mean,max")));
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("o.json")));
+  EXPECT_FALSE(std::filesystem::exists(path("e.png")));
 }
 
-TEST_F(CompareCommand, FlipAndSsimByNameRefuseNonFinitePixels) {
+TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, std::nanf(""));
-  for (const std::vector<std::string>& flags : {std::vector<std::string>{"--metric", "hdr_flip"},
-                                                {"--metric", "ssim"},
-                                                {"--metric", "mse,flip"},
-                                                {"--error-map", path("e.png")}}) {
-    std::vector<std::string> arguments = {"compare", reference, test};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    const Output output = run_gatelight_inside(arguments);
-    EXPECT_EQ(output.exit_code, 2);
-    EXPECT_EQ(output.out, "");
-    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("t.exr"), HasSubstr("not finite")));
-  }
+  const Output output =
+      run_gatelight_inside({"compare", reference, test, "--metric", "mse,rel_mse,psnr,mean,max", "--json",
+                            "-", "--error-map", path("e.png"), "--map", "relative"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_THAT(output.err, AllOf(HasSubstr("2 in '" + test + "'"), HasSubstr("left out")));
+  EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 2);
+  EXPECT_EQ(json::parse(output.out)["pixels"], 0);
+  EXPECT_TRUE(std::filesystem::exists(path("e.png")));
 }
 
 }  // namespace
