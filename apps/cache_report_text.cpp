@@ -27,11 +27,11 @@ std::string row(const std::string& name, const std::string& value) {
   return fmt::format("{:<14} {}\n", name, value);
 }
 
-std::string inputs_text(const CacheReport& report) {
+std::string inputs_text(const CacheStatistics& s) {
   std::vector<std::string_view> names = {"features"};
-  if (report.direction_input) names.push_back("direction of view");
-  if (report.normal_input) names.push_back("normal");
-  if (report.albedo_input) names.push_back("albedo");
+  if (s.direction_input) names.push_back("direction of view");
+  if (s.normal_input) names.push_back("normal");
+  if (s.albedo_input) names.push_back("albedo");
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -79,7 +79,7 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
               fmt::format("parameters {}, optimiser {}, layout {}; parameters without scouting {}",
                           format_bytes(s.parameter_bytes), format_bytes(s.optimizer_bytes),
                           format_bytes(s.layout_bytes), format_bytes(report.bytes_without_scouting)));
-  text += row("network reads", inputs_text(report));
+  text += row("network reads", inputs_text(s));
   text += row("sides stored", fmt::format("{} of {} possible", s.surfaces_stored, s.surfaces_possible));
   if (options.cache.encoding == neural::FeatureEncoding::gate) {
     text += row("node spacing", fmt::format("{:.4g} m", s.node_spacing));
@@ -96,9 +96,7 @@ ordered_json cache_report_json(const CacheReport& report, const renderer::Render
                        {"encoding", name_of(encoding_choices(), options.cache.encoding)}};
   json["memory_bytes"] = cache_memory_json(s);
   json["memory_bytes"]["parameters_without_scouting"] = report.bytes_without_scouting;
-  json["inputs"] = {{"direction", report.direction_input},
-                    {"normal", report.normal_input},
-                    {"albedo", report.albedo_input}};
+  json["inputs"] = {{"direction", s.direction_input}, {"normal", s.normal_input}, {"albedo", s.albedo_input}};
   const ordered_json all = cache_json(s);
   for (const char* key : {"nodes", "surfaces_stored", "surfaces_possible", "resolution_histogram",
                           "node_spacing", "records_per_path"}) {

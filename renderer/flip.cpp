@@ -47,6 +47,11 @@ FlipResult ldr_flip(const NamedPicture& reference, const NamedPicture& test, con
 }
 
 FlipResult hdr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options) {
+  return *hdr_flip(reference, test, options, [](double) { return true; });
+}
+
+std::optional<FlipResult> hdr_flip(const NamedPicture& reference, const NamedPicture& test,
+                                   const FlipOptions& options, const std::function<bool(double)>& go_on) {
   require_comparable(reference, test);
   const flip::Filters filters = make_checked_filters(options);
   const RgbPlanes r = flip::read_planes(reference, kMeasure);
@@ -54,6 +59,7 @@ FlipResult hdr_flip(const NamedPicture& reference, const NamedPicture& test, con
   const flip::Exposures exposures = flip::choose_exposures(r);
   Plane errors = Plane::Zero(r.height(), r.width());
   for (int i = 0; i < exposures.count; ++i) {
+    if (!go_on(static_cast<double>(i) / exposures.count)) return std::nullopt;
     const double stops = exposures.at(i);
     errors = errors.max(flip::ldr_errors(flip::expose(r, stops), flip::expose(t, stops), filters));
   }

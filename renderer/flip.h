@@ -4,7 +4,9 @@
 // Alternating Images", HPG 2020. HDR: Andersson, Nilsson, Shirley, Akenine-Moller, "Visualizing Errors in
 // Rendered High Dynamic Range Images", Eurographics 2021.
 
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "renderer/compare.h"
@@ -57,6 +59,10 @@ FlipResult ldr_flip(const NamedPicture& reference, const NamedPicture& test, con
 /// ldr_flip(); options.exposure and tonemap are not used. Where at least half of the reference is black, the
 /// median is that of the rest; a black reference is compared at exposure 0.
 FlipResult hdr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options = {});
+/// For the length of a picture with many stops: `go_on` is told the fraction that is done before each
+/// exposure, and where it answers false there is no result.
+std::optional<FlipResult> hdr_flip(const NamedPicture& reference, const NamedPicture& test,
+                                   const FlipOptions& options, const std::function<bool(double)>& go_on);
 
 /// The errors in the published colours (magma): black 0, violet, red, orange, pale yellow 1. Shows them when
 /// it is written as a PNG without exposure and curve.

@@ -34,6 +34,14 @@ CacheReport Renderer::report_cache() {
   return report;
 }
 
+CacheStatistics Renderer::set_up_cache() {
+  Implementation& self = *implementation_;
+  CacheStatistics statistics;
+  self.arena.execute(
+      [&] { statistics = CacheSession(*self.world, self.camera, self.region, self.options).statistics(); });
+  return statistics;
+}
+
 Picture Renderer::render(const Callbacks& callbacks) {
   Implementation& self = *implementation_;
   const RenderOptions& options = self.options;

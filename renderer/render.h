@@ -70,6 +70,8 @@ class Renderer {
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// What the cache would be: scouts, but neither trains nor renders. For integrators with a cache.
   CacheReport report_cache();
+  /// The same without instances, and without the cache that it is compared with.
+  CacheStatistics set_up_cache();
   const RenderStatistics& statistics() const;
 
  private:

@@ -58,11 +58,14 @@ struct CacheStatistics {
   std::uint64_t negative_answers = 0;  ///< clamped to zero: points with a negative channel
   std::uint64_t unstored_hits = 0;     ///< vertices without storage where the path was traced on
   std::uint64_t nodes = 0;
-  std::uint64_t surfaces_stored = 0;                ///< sides of instances with storage
-  std::uint64_t surfaces_possible = 0;              ///< with two sides where materials show two
-  float node_spacing = 0.0f;                        ///< metres, resolved
-  float target_scale = 1.0f;                        ///< targets are radiance times this
-  double records_per_path = 0.0;                    ///< that scouting found
+  std::uint64_t surfaces_stored = 0;    ///< sides of instances with storage
+  std::uint64_t surfaces_possible = 0;  ///< with two sides where materials show two
+  float node_spacing = 0.0f;            ///< metres, resolved
+  float target_scale = 1.0f;            ///< targets are radiance times this
+  double records_per_path = 0.0;        ///< that scouting found
+  bool direction_input = false;         ///< what the network reads beside the features
+  bool normal_input = false;
+  bool albedo_input = false;
   std::vector<std::uint64_t> resolution_histogram;  ///< instances by R
   std::size_t parameter_bytes = 0;
   std::size_t optimizer_bytes = 0;

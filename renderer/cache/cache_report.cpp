@@ -58,10 +58,6 @@ CacheReport report_cache(const World& world, const Camera& camera, const PixelRe
   CacheReport report;
   const CacheSession session(world, camera, region, options);
   report.statistics.cache = session.statistics();
-  const neural::RequiredInputs inputs = required_inputs(world, options);
-  report.direction_input = inputs.direction;
-  report.normal_input = inputs.normal;
-  report.albedo_input = inputs.albedo;
   report.bytes_without_scouting = report.statistics.cache.parameter_bytes;
   if (options.cache.encoding != neural::FeatureEncoding::gate) return report;
   for (std::size_t i = 0; i < world.scene.instances.size(); ++i)

@@ -25,9 +25,6 @@ struct CacheInstanceReport {
 struct CacheReport {
   RenderStatistics statistics;  ///< its `cache`: memory, nodes, sides, node spacing; and what building took
   std::vector<CacheInstanceReport> instances;  ///< in the scene's order; empty for a hash grid
-  bool direction_input = false;                ///< what the network reads beside the features
-  bool normal_input = false;
-  bool albedo_input = false;
   std::uint64_t bytes_without_scouting = 0;  ///< parameters, had all possible sides storage
 };
 

@@ -115,6 +115,10 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.node_spacing = gate ? cache_model->gate.report.node_spacing : 0.0f;
   statistics_.target_scale = setup_.target_scale;
   statistics_.records_per_path = static_cast<double>(setup_.records_per_path);
+  const neural::RequiredInputs required = required_inputs(world, options);
+  statistics_.direction_input = required.direction;
+  statistics_.normal_input = required.normal;
+  statistics_.albedo_input = required.albedo;
   statistics_.resolution_histogram = cache_model->gate.report.resolution_histogram;
   statistics_.layout_bytes = cache_model->gate.report.topology_bytes + cache_model->gate.report.table_bytes;
   statistics_.parameter_bytes = trainer_->backend().parameter_bytes();

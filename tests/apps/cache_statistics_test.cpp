@@ -125,7 +125,7 @@ renderer::CacheReport some_report() {
                                 .sides = 1,
                                 .nodes = 1000 * i});
   }
-  report.direction_input = true;
+  report.statistics.cache.direction_input = true;
   report.bytes_without_scouting = 8 << 20;
   return report;
 }

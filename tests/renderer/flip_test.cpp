@@ -213,6 +213,23 @@ TEST(HdrFlip, ExposuresShowTheBrightestAndTheMedianJustBelowWhite) {
   EXPECT_EQ(hdr_of_greys({1.0f, 1.0f, 1.0f}).exposures, 2);
 }
 
+TEST(HdrFlip, IsToldOfAndCanBeEndedBeforeEachExposure) {
+  const Picture a = rgb(5, 1, {0.25f, 0.25f, 0.25f, 20, 20, 20, 0.5f, 0.5f, 0.5f, 0.1f, 0.1f, 0.1f, 7, 7, 7});
+  const Picture b = disturbed(a, 14, 20.0f);
+  std::vector<double> told;
+  const auto call = [&](std::size_t most) {
+    told.clear();
+    return hdr_flip({a, "a.exr"}, {b, "b.exr"}, {}, [&](double fraction) {
+      told.push_back(fraction);
+      return told.size() <= most;
+    });
+  };
+  EXPECT_EQ(call(100)->errors, hdr(a, b).errors);
+  EXPECT_THAT(told, ::testing::ElementsAre(0.0, 1.0 / 6, 2.0 / 6, 3.0 / 6, 4.0 / 6, 5.0 / 6));
+  EXPECT_FALSE(call(2).has_value());
+  EXPECT_EQ(told.size(), 3u);
+}
+
 TEST(HdrFlip, BlackReferencesHaveExposuresToo) {
   const FlipResult mostly = hdr_of_greys({0, 0, 0, 0, 0, 8.0f, 2.0f, 1.0f});
   EXPECT_NEAR(shown_at(2.0, mostly.stop_exposure), 0.85, 1e-5) << "the median of what is not black";
