@@ -17,7 +17,6 @@ using neural::HashGridOptions;
 using renderer::CacheOptions;
 
 constexpr RealRange kNotNegative{0.0, 3.4e38};
-constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = true};
 constexpr RealRange kFraction{0.0, 1.0};
 constexpr RealRange kGrowth{1.0, 1024.0};
 constexpr RealRange kMebibytes{0.0, 1099511627776.0};

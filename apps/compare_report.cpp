@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/json_numbers.h"
 #include "apps/render_settings.h"
 
 namespace gatelight::apps {
@@ -56,11 +56,6 @@ const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) 
 
 bool is_flip(Metric metric) {
   return metric == Metric::flip || metric == Metric::hdr_flip;
-}
-
-/// Equal pictures have an infinite PSNR, which JSON cannot say: null.
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : nullptr;
 }
 
 ordered_json ssim_json(const CompareReport& report) {
@@ -118,12 +113,12 @@ std::string compare_json(const CompareReport& report) {
     json["halves"] = {report.references.back(), report.tests.back()};
   }
   for (const Metric metric : report.metrics) {
-    for (const Value& value : values_of(metric)) json[value.key] = number(report.errors.*value.member);
+    for (const Value& value : values_of(metric)) json[value.key] = json_number(report.errors.*value.member);
     if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
     if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
     if (is_flip(metric)) json[name_of(metric_choices(), metric)] = flip_json(report, metric);
   }
-  if (report.bias_rel_mse) json["bias_rel_mse"] = number(*report.bias_rel_mse);
+  if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

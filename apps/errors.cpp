@@ -51,9 +51,13 @@ Failure describe_current_exception() {
   }
 }
 
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 void print_failure(const Failure& failure) {
-  std::string line = failure.message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::string line = one_line(failure.message);
   if (!failure.advice.empty()) line += "; " + failure.advice;
   fmt::print(stderr, "gatelight: error: {}\n", line);
 }

@@ -39,6 +39,9 @@ struct Failure {
 /// What the exception being handled means. Call it in a catch block.
 Failure describe_current_exception();
 
+/// Failures are read line by line, on stderr and in lists of them.
+std::string one_line(std::string text);
+
 /// Prints the last line of stderr.
 void print_failure(const Failure& failure);
 

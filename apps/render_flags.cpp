@@ -10,7 +10,6 @@ namespace gatelight::apps {
 namespace {
 
 constexpr RealRange kNotNegative{0.0, 3.4e38};
-constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = true};
 constexpr RealRange kFov{.min = 0.0, .max = 180.0, .excludes_min = true, .excludes_max = true};
 /// Beyond it 2^EV leaves the range of float.
 constexpr RealRange kStops{-100.0, 100.0};

@@ -49,9 +49,6 @@ Examples:
   gatelight sweep kitchen.glb -o table1 --preset paper-table1 --size 960x540)";
 
 constexpr IntegerRange kReferenceSpp{2, 1 << 24};
-constexpr RealRange kPositive{.min = 0.0, .max = 1e9, .excludes_min = true};
-
-constexpr Choice<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 struct SweepCall {
   SweepWords words;
@@ -136,7 +133,7 @@ void add_reference_flags(CLI::App& app, SweepSettings& s) {
   app.add_option("--reference-dir", s.reference_folder, "Where they are kept (default: references in DIR)")
       ->type_name("DIR")
       ->group(group);
-  add_choice(app, "--hdr-flip", s.hdr_flip, Choices<bool>(kOnOff), "Measure HDR-FLIP of radiance, too")
+  add_choice(app, "--hdr-flip", s.hdr_flip, on_off_choices(), "Measure HDR-FLIP of radiance, too")
       ->group(group);
 }
 

@@ -28,6 +28,7 @@ struct RealRange {
 
 /// Any number that a float can hold.
 inline constexpr RealRange kAnyFloat{-3.4e38, 3.4e38};
+inline constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = true};
 
 std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range);
 double parse_real(const std::string& flag, const std::string& text, const RealRange& range);

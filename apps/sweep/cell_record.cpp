@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "apps/cache_choices.h"
 #include "apps/cache_statistics.h"
+#include "apps/json_numbers.h"
 #include "apps/recipe.h"
+#include "apps/sweep/cell_command.h"
 
 namespace gatelight::apps {
 namespace {
@@ -18,13 +19,6 @@ using renderer::CacheStatistics;
 
 constexpr double kFullHdPixels = 1920.0 * 1080.0;
 
-/// JSON has no infinity.
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : nullptr;
-}
-ordered_json number(const std::optional<double>& value) {
-  return value ? number(*value) : nullptr;
-}
 ordered_json per(double seconds, double count) {
   return count > 0.0 ? ordered_json(seconds / count) : nullptr;
 }
@@ -49,17 +43,17 @@ void add_speed(ordered_json& json, const CacheStatistics& c, bool has_cache) {
   json["query_ms_per_2m"] =
       has_cache ? per(1e3 * kFullHdPixels * c.render_query_seconds, static_cast<double>(c.queries)) : nullptr;
   json["memory_bytes"] = has_cache ? cache_memory_json(c) : nullptr;
-  json["loss"] = has_cache ? number(c.loss) : nullptr;
+  json["loss"] = has_cache ? json_number(c.loss) : nullptr;
 }
 
 void add_errors(ordered_json& json, const CellErrors& e) {
-  json["errors"] = {{"mse", number(e.metrics.mse)},
-                    {"rel_mse", number(e.metrics.rel_mse)},
-                    {"rel_mse_clean", number(e.rel_mse_clean)},
-                    {"psnr", number(e.metrics.psnr)},
-                    {"ssim", number(e.ssim)},
-                    {"flip", e.flip ? number(e.flip->summary.mean) : nullptr},
-                    {"hdr_flip", number(e.hdr_flip)}};
+  json["errors"] = {{"mse", json_number(e.metrics.mse)},
+                    {"rel_mse", json_number(e.metrics.rel_mse)},
+                    {"rel_mse_clean", json_number(e.rel_mse_clean)},
+                    {"psnr", json_number(e.metrics.psnr)},
+                    {"ssim", json_number(e.ssim)},
+                    {"flip", e.flip ? json_number(e.flip->summary.mean) : nullptr},
+                    {"hdr_flip", json_number(e.hdr_flip)}};
   if (!e.flip) {
     json["flip_percentiles"] = nullptr;
     return;

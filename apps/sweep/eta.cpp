@@ -10,26 +10,22 @@ void SweepClock::plan_rest(const std::vector<SweepTask>& tasks) {
 }
 
 void SweepClock::finish(double seconds) {
-  seconds_.push_back(seconds);
-  ++done_;
-}
-
-std::optional<double> SweepClock::rate(const std::string& kind) const {
-  double work = 0.0;
-  double seconds = 0.0;
-  for (std::size_t i = 0; i < done_; ++i) {
-    const std::vector<std::string>& kinds = tasks_[i].kinds;
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) continue;
-    work += tasks_[i].work;
-    seconds += seconds_[i];
+  if (done_ < tasks_.size()) {
+    const SweepTask& task = tasks_[done_];
+    for (const std::string& kind : task.kinds) {
+      Sum& sum = sums_[kind];
+      sum.work += task.work;
+      sum.seconds += seconds;
+    }
   }
-  if (work <= 0.0) return std::nullopt;
-  return seconds / work;
+  ++done_;
 }
 
 std::optional<double> SweepClock::expected(const SweepTask& task) const {
   for (const std::string& kind : task.kinds) {
-    if (const std::optional<double> per_work = rate(kind)) return *per_work * task.work;
+    const auto sum = sums_.find(kind);
+    if (sum != sums_.end() && sum->second.work > 0.0)
+      return sum->second.seconds / sum->second.work * task.work;
   }
   return std::nullopt;
 }

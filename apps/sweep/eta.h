@@ -2,6 +2,7 @@
 // How long the rest of a sweep takes, from what its parts have taken so far.
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,13 +31,16 @@ class SweepClock {
   std::optional<double> left(double elapsed, double fraction) const;
 
  private:
-  /// Seconds for a unit of work.
-  std::optional<double> rate(const std::string& kind) const;
+  struct Sum {
+    double work = 0.0;
+    double seconds = 0.0;
+  };
+
   std::optional<double> expected(const SweepTask& task) const;
 
   std::vector<SweepTask> tasks_;
-  std::vector<double> seconds_;  ///< of those that are done
   std::size_t done_ = 0;
+  std::map<std::string, Sum> sums_;  ///< of the tasks that are done, by kind
 };
 
 }  // namespace gatelight::apps

@@ -4,15 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "apps/cache_choices.h"
 #include "apps/errors.h"
 #include "apps/render_words.h"
+#include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
-#include "apps/text.h"
 
 namespace gatelight::apps {
 namespace {
@@ -22,7 +21,6 @@ using renderer::Integrator;
 constexpr Choice<ReferenceKind> kReferenceKinds[] = {
     {"path", ReferenceKind::path}, {"ao", ReferenceKind::ao}, {"cache", ReferenceKind::cache}};
 constexpr const char* kSameAsGate = "same-as-gate";
-constexpr RealRange kPositive{.min = 0.0, .max = 1e9, .excludes_min = true};
 
 /// Names no file: settings are read before there is a scene.
 const std::string kNoScene = "scene";
@@ -225,29 +223,6 @@ Choices<ReferenceKind> reference_kind_choices() {
   return kReferenceKinds;
 }
 
-std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
-  std::map<std::string, int> stems;
-  std::set<std::filesystem::path> seen;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    if (!seen.insert(path).second) {
-      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
-    }
-    ++stems[path.stem().string()];
-  }
-  std::vector<SweepScene> scenes;
-  std::map<std::string, int> names;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    std::string name = path.stem().string();
-    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
-    const int count = ++names[name];
-    if (count > 1) name += fmt::format("-{}", count);
-    scenes.push_back({std::move(name), file, {}});
-  }
-  return scenes;
-}
-
 std::size_t SweepPlan::run_count() const {
   std::size_t count = 0;
   for (const PlannedScene& scene : scenes) count += scene.series.size();
@@ -271,32 +246,6 @@ SweepPlan make_plan(const SweepRequest& request) {
     plan.seeds.push_back(request.first_seed + static_cast<std::uint32_t>(i));
   }
   return plan;
-}
-
-RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
-                             int point) {
-  RenderSettings settings = series.settings;
-  settings.scene = scene;
-  settings.render.seed = seed;
-  if (series.has_cache()) {
-    settings.render.cache.train_steps = point;
-  } else {
-    settings.render.spp = point;
-  }
-  return settings;
-}
-
-std::string cell_command(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
-                         int point) {
-  std::vector<std::string> words = {"gatelight", "render", scene};
-  const std::vector<std::string> flags = words_of(series.flags);
-  words.insert(words.end(), flags.begin(), flags.end());
-  for (const std::string& word :
-       {std::string(series.has_cache() ? "--train-steps" : "--spp"), std::to_string(point),
-        std::string("--seed"), std::to_string(seed), std::string("-o"), std::string("out.exr")}) {
-    words.push_back(word);
-  }
-  return quote_command(words);
 }
 
 std::string plan_text(const SweepPlan& plan) {

@@ -9,6 +9,7 @@
 #include "apps/render_settings.h"
 #include "apps/sweep/axes.h"
 #include "apps/sweep/flag_values.h"
+#include "apps/sweep/scene_names.h"
 
 namespace gatelight::apps {
 
@@ -28,16 +29,6 @@ struct SweepBlock {
   std::vector<SweepAxis> axes;  ///< --spp among them is for integrators with a cache
   std::vector<int> train_steps;
 };
-
-struct SweepScene {
-  std::string name;  ///< short, different from the others'
-  std::string file;
-  FlagValues flags;  ///< of this scene alone: its camera, its sky
-};
-
-/// By their files' names, with those of their folders where two files have the same. Throws UsageError for a
-/// file that is named twice.
-std::vector<SweepScene> name_scenes(const std::vector<std::string>& files);
 
 struct SweepRequest {
   std::vector<SweepScene> scenes;
@@ -85,13 +76,6 @@ struct SweepPlan {
 
 /// Checks every cell; throws UsageError naming the bad value.
 SweepPlan make_plan(const SweepRequest& request);
-
-/// Of one cell: the series' settings with scene, seed and point.
-RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
-                             int point);
-/// `gatelight render` for it, ready for a shell.
-std::string cell_command(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
-                         int point);
 
 /// The plan for people: --dry-run.
 std::string plan_text(const SweepPlan& plan);

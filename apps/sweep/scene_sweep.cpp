@@ -6,13 +6,14 @@
 #include <filesystem>
 #include <set>
 
-#include "apps/cache_choices.h"
 #include "apps/errors.h"
 #include "apps/log.h"
 #include "apps/recipe.h"
 #include "apps/signals.h"
+#include "apps/sweep/cell_command.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/tasks.h"
 #include "renderer/image_write.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
@@ -22,57 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using renderer::Picture;
-using renderer::RenderOptions;
 using renderer::RenderStatistics;
 
-double pixels_of(const RenderOptions& o) {
-  return static_cast<double>(o.width) * o.height;
-}
-
-/// Of this scene before those of others.
-std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<std::string>& kinds) {
-  std::vector<std::string> all;
-  for (const std::string& kind : kinds) all.push_back(fmt::format("{} {}", scene.name, kind));
-  all.insert(all.end(), kinds.begin(), kinds.end());
-  return all;
-}
-
-SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
-  const RenderOptions& o = series.settings.render;
-  const std::string integrator = name_of(integrator_choices(), o.integrator);
-  if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
-  const std::string encoding = name_of(encoding_choices(), o.cache.encoding);
-  // Camera paths and training paths.
-  const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
-                      static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
-  return {kinds_of(scene, {fmt::format("{} {}", integrator, encoding), integrator}), work};
-}
-
-SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
-  return {kinds_of(scene, {name_of(reference_kind_choices(), kind)}), pixels_of(cell) * spp};
-}
-
-/// One line: lists of cells are read by line.
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 }  // namespace
-
-std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp) {
-  std::vector<SweepTask> tasks;
-  std::set<ReferenceKind> kinds;
-  for (const PlannedSeries& series : scene.series) {
-    if (kinds.insert(series.reference).second) {
-      tasks.push_back(reference_task(scene, series.settings.render, series.reference, reference_spp));
-    }
-    for (std::size_t seed = 0; seed < plan.seeds.size(); ++seed) {
-      tasks.push_back(run_task(scene, series, series.points));
-    }
-  }
-  return tasks;
-}
 
 SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const SweepSettings& settings,
                        SweepProgress& progress)

@@ -15,9 +15,6 @@
 
 namespace gatelight::apps {
 
-/// What the runs and references of a scene cost, for the time left: before it is known which are done.
-std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp);
-
 class SceneSweep {
  public:
   /// Loads the scene, names its cells and reads those that are done. Throws what loading throws.

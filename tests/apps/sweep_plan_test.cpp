@@ -9,6 +9,7 @@
 
 #include "apps/errors.h"
 #include "apps/render_words.h"
+#include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
