@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "apps/cache_choices.h"
 #include "apps/errors.h"
@@ -124,6 +125,29 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   set_flag(scene->flags, flag, text.substr(equals + 1));
 }
 
+/// A row of a preset is what its name says: flags that make it one, or tell it from others, have no other
+/// value.
+void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>& rows,
+                          const std::vector<NamedAxis>& axes, const SweepRequest& request) {
+  // Which of the caches it is follows from the preset of `render` that each row has.
+  std::set<std::string> flags = {"--integrator"};
+  for (const SweepBlock& row : rows) {
+    for (const auto& [flag, value] : row.base) flags.insert(flag);
+    for (const SweepAxis& axis : row.axes) flags.insert(axis.flag);
+  }
+  const auto check = [&](const std::string& flag, const std::string& given_as) {
+    if (!flags.contains(flag)) return;
+    throw UsageError(
+        fmt::format("{}: '{}' is what rows of --preset {} are named after, expected other flags or no preset",
+                    given_as, flag, words.preset));
+  };
+  for (const auto& [flag, value] : words.base) check(flag, flag);
+  for (const NamedAxis& named : axes) check(named.axis.flag, named.given_as);
+  for (const SweepScene& scene : request.scenes) {
+    for (const auto& [flag, value] : scene.flags) check(flag, "--for " + scene.name);
+  }
+}
+
 bool names_flag(const SweepBlock& block, const std::string& flag) {
   return find_flag(block.base, flag) || std::any_of(block.axes.begin(), block.axes.end(),
                                                     [&](const SweepAxis& axis) { return axis.flag == flag; });
@@ -205,6 +229,7 @@ SweepRequest make_request(const SweepWords& words) {
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);
   for (const std::string& text : words.scene_flags) read_scene_flag(text, axes, request);
+  if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
     if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);

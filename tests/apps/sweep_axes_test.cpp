@@ -131,7 +131,7 @@ TEST(SweepRequest, SeedsBeginWhereTheySay) {
 }
 
 TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
-  SweepWords words = words_for({{"--size", "64x36"}, {"--update", "sparse"}});
+  SweepWords words = words_for({{"--size", "64x36"}, {"--batch", "512"}}, {"hidden=16,32"});
   words.preset = "paper-table1";
   words.train_steps = "4,2";
   const SweepRequest request = make_request(words);
@@ -140,13 +140,36 @@ TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
   EXPECT_FALSE(request.plain);
   for (const SweepBlock& block : request.blocks) {
     EXPECT_THAT(block.base, Contains(Pair("--size", "64x36")));
-    EXPECT_THAT(block.base, Contains(Pair("--update", "sparse")));
-    EXPECT_THAT(block.base, Not(Contains(Pair("--update", "dense"))));
+    EXPECT_THAT(block.base, Contains(Pair("--batch", "512")));
+    EXPECT_EQ(block.axes.back().flag, "--hidden");
     EXPECT_THAT(block.train_steps, ElementsAre(2, 4));
   }
   words.preset = "paper-table3";
   EXPECT_THAT(refused(words),
               AllOf(HasSubstr("'paper-table3'"), HasSubstr("paper-table1"), HasSubstr("preview")));
+}
+
+TEST(SweepRequest, WhatARowIsNamedAfterHasNoOtherValue) {
+  const auto refused_by = [](const std::string& preset, FlagValues base, std::vector<std::string> vary = {}) {
+    SweepWords words = words_for(std::move(base), std::move(vary));
+    words.preset = preset;
+    return refused(words);
+  };
+  EXPECT_THAT(refused_by("paper-table1", {{"--update", "sparse"}}),
+              AllOf(HasSubstr("--update"), HasSubstr("rows of --preset paper-table1")));
+  EXPECT_THAT(refused_by("paper-table1", {}, {"preset=preview,final"}), HasSubstr("--vary preset"));
+  EXPECT_THAT(refused_by("paper-adaptive", {{"--resolution", "uniform"}}), HasSubstr("--resolution"));
+  EXPECT_EQ(refused_by("paper-table1", {{"--resolution", "uniform"}}), "") << "no row is named after it";
+  EXPECT_EQ(refused_by("paper-table1", {{"--normal-input", "on"}}), "");
+  SweepWords axes = words_for({});
+  axes.preset = "paper-table1";
+  axes.axes = {{kAxisFlags[1], "gate,hashgrid"}};
+  EXPECT_THAT(refused(axes), AllOf(HasSubstr("--encodings"), HasSubstr("'--encoding'")));
+  axes.axes = {{kAxisFlags[0], "nrc"}};
+  EXPECT_THAT(refused(axes), HasSubstr("--integrators"));
+  axes.axes.clear();
+  axes.scene_flags = {"room:update=sparse"};
+  EXPECT_THAT(refused(axes), HasSubstr("--for room"));
 }
 
 }  // namespace
