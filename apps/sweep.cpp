@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "apps/cache_choices.h"
 #include "apps/errors.h"
@@ -25,12 +26,14 @@ holds for all cells (--size, --camera, --batch ...; see its --help). A flag that
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one file
-that opens offline), pictures and FLIP maps of the first seed, references, and cells/, a file for each cell that is done. The same command goes on where it was stopped; cells that are done are not
-made again, failed ones are. Cells are known by the scene's content and all options, so that a DIR can serve several
-sweeps. A cell that fails is told and does not end the rest; the exit code is 7 then. SIGINT and SIGTERM end it after
-writing the results so far (130 or 143).
+that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (what same-as-gate has found),
+and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells that are
+done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and its
+instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end the
+rest; the exit code is 7 then. SIGINT and SIGTERM end it after writing the results so far (130 or 143).
 
-Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them):
+Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row is
+named after):
   paper-table1    GATE and the hash grid at the same memory, 128 steps
   paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
   paper-steps     the same as table 1 from 8 to 128 steps
@@ -143,9 +146,11 @@ void add_advice_flags(CLI::App& app, SweepSettings& s) {
          "--advise", s.advise,
          "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR")
       ->group(group);
-  add_word(app, "--max-error", "FLIP", "Largest mean FLIP", "", [&s](const std::string& text) {
-    s.limits.max_error = parse_real("--max-error", text, {0.0, 1.0});
-  })->group(group);
+  add_word(app, "--max-error", "FLIP", "Largest mean FLIP of a picture, with every seed", "",
+           [&s](const std::string& text) {
+             s.limits.max_error = parse_real("--max-error", text, {0.0, 1.0});
+           })
+      ->group(group);
   add_word(
       app, "--max-time", "SECONDS", "Longest time to train and render", "",
       [&s](const std::string& text) { s.limits.max_seconds = parse_real("--max-time", text, kPositive); })
@@ -175,7 +180,23 @@ void add_base_flags(CLI::App& app, SweepWords& words) {
   }
 }
 
-void check(const SweepCall& call) {
+/// Without a scene there is nothing that they could change.
+void refuse_flags_of_scenes(const CLI::App& app) {
+  const std::set<std::string> allowed = {"--output",   "--advise", "--max-error", "--max-time",
+                                         "--progress", "--quiet",  "--verbose"};
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0) continue;
+    // A flag without a place in the help tells no name.
+    const std::string name = "--" + option->get_lnames().front();
+    if (allowed.contains(name)) continue;
+    throw UsageError(fmt::format(
+        "{}: without SCENE it has no effect, expected SCENE with it, or only --advise, its limits and "
+        "--output",
+        name));
+  }
+}
+
+void check(const SweepCall& call, const CLI::App& app) {
   const SweepSettings& s = call.settings;
   const bool limited = s.limits.max_error || s.limits.max_seconds;
   if (limited && !s.advise) {
@@ -187,6 +208,7 @@ void check(const SweepCall& call) {
   if (call.words.scenes.empty() && !s.advise) {
     throw UsageError("SCENE: it is missing, expected one or more scenes (without one only --advise works)");
   }
+  if (call.words.scenes.empty()) refuse_flags_of_scenes(app);
   if (s.quiet && s.verbose) throw UsageError("--quiet and --verbose exclude each other, expected one");
 }
 
@@ -202,8 +224,8 @@ Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& com
   add_reference_flags(*app, call->settings);
   add_advice_flags(*app, call->settings);
   add_base_flags(*app, call->words);
-  return {app, [call, command] {
-            check(*call);
+  return {app, [call, command, app] {
+            check(*call, *app);
             call->settings.request = make_request(call->words);
             return run_sweep(call->settings, command);
           }};

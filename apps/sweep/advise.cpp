@@ -19,7 +19,35 @@ std::string point_text(const ordered_json& cell) {
 }
 
 bool same(const Configuration& a, const Configuration& b) {
-  return a.scene == b.scene && a.reference == b.reference && a.series == b.series && a.point == b.point;
+  return a.scene == b.scene && a.reference_id == b.reference_id && a.series == b.series && a.point == b.point;
+}
+
+/// Whether an error of the one says anything about an error of the other.
+bool comparable(const Configuration& a, const Configuration& b) {
+  return a.scene == b.scene && a.reference_id == b.reference_id;
+}
+
+/// "path", or "path, max-depth 2": where a scene has several references of a kind, the axes that all of
+/// `group` have in common and others have not.
+std::string reference_text(const std::vector<Configuration>& group, const std::vector<Configuration>& all) {
+  const Configuration& first = group.front();
+  std::vector<const Configuration*> others;
+  for (const Configuration& c : all) {
+    if (c.scene == first.scene && c.reference == first.reference && !comparable(c, first))
+      others.push_back(&c);
+  }
+  if (others.empty()) return first.reference;
+  std::string text;
+  for (const auto& [axis, value] : first.axes) {
+    const auto has = [&, &axis = axis, &value = value](const Configuration& c) {
+      const std::string* of_other = find_flag(c.axes, axis);
+      return of_other && *of_other == value;
+    };
+    const bool of_all = std::all_of(group.begin(), group.end(), has);
+    if (of_all && std::none_of(others.begin(), others.end(), [&](const Configuration* c) { return has(*c); }))
+      text += fmt::format(", {} {}", axis, value);
+  }
+  return first.reference + (text.empty() ? fmt::format(", reference {}", first.reference_id) : text);
 }
 
 /// Adds the cell's numbers to the means.
@@ -33,7 +61,7 @@ void add(Configuration& c, double error, double seconds) {
 
 std::string limits_text(const AdviceLimits& limits) {
   std::string text;
-  if (limits.max_error) text = fmt::format("FLIP of at most {:.4g}", *limits.max_error);
+  if (limits.max_error) text = fmt::format("FLIP of at most {:.4g} with every seed", *limits.max_error);
   if (limits.max_error && limits.max_seconds) text += " and ";
   if (limits.max_seconds) text += fmt::format("time of at most {:.4g} s", *limits.max_seconds);
   return text;
@@ -56,11 +84,14 @@ std::vector<Configuration> configurations(const ordered_json& results) {
     Configuration c;
     c.scene = cell.at("scene").get<std::string>();
     c.reference = cell.at("reference").get<std::string>();
+    c.reference_id = cell.at("reference_id").get<std::string>();
     c.series = cell.at("series").get<std::string>();
     c.point = point_text(cell);
     auto at = std::find_if(found.begin(), found.end(), [&](const Configuration& o) { return same(o, c); });
     if (at == found.end()) {
       c.command = cell.at("command").get<std::string>();
+      for (const auto& [axis, value] : cell.at("axes").items())
+        c.axes.emplace_back(axis, value.get<std::string>());
       at = found.insert(found.end(), c);
     }
     add(*at, cell["errors"]["flip"].get<double>(), cell.at("seconds").at("total").get<double>());
@@ -69,12 +100,17 @@ std::vector<Configuration> configurations(const ordered_json& results) {
 }
 
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits) {
-  const auto good = [&](const Configuration& c) { return !limits.max_error || c.error <= *limits.max_error; };
+  // The command has one of the seeds.
+  const auto good = [&](const Configuration& c) {
+    return !limits.max_error || c.largest_error <= *limits.max_error;
+  };
   const auto fast = [&](const Configuration& c) {
     return !limits.max_seconds || c.seconds <= *limits.max_seconds;
   };
   const auto faster = [](const Configuration& a, const Configuration& b) { return a.seconds < b.seconds; };
-  const auto better = [](const Configuration& a, const Configuration& b) { return a.error < b.error; };
+  const auto better = [&](const Configuration& a, const Configuration& b) {
+    return limits.max_error ? a.largest_error < b.largest_error : a.error < b.error;
+  };
   std::vector<Configuration> chosen;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(chosen),
                [&](const Configuration& c) { return good(c) && fast(c); });
@@ -97,13 +133,11 @@ std::string advice_text(const ordered_json& results, const AdviceLimits& limits)
     const Configuration first = rest.front();
     std::vector<Configuration> group;
     for (const Configuration& c : rest) {
-      if (c.scene == first.scene && c.reference == first.reference) group.push_back(c);
+      if (comparable(c, first)) group.push_back(c);
     }
-    std::erase_if(rest, [&](const Configuration& c) {
-      return c.scene == first.scene && c.reference == first.reference;
-    });
+    std::erase_if(rest, [&](const Configuration& c) { return comparable(c, first); });
     const Advice advice = choose(group, limits);
-    text += fmt::format("{} ({}): {}{}\n  {}\n", first.scene, first.reference,
+    text += fmt::format("{} ({}): {}{}\n  {}\n", first.scene, reference_text(group, all),
                         advice.met ? "" : fmt::format("none of {} met it; the nearest is ", group.size()),
                         describe(advice.best), advice.best.command);
   }

@@ -12,8 +12,10 @@ namespace gatelight::apps {
 /// The cells of a series with the same number of steps (samples): means over the seeds.
 struct Configuration {
   std::string scene;
-  std::string reference;  ///< kind: errors of different kinds are not compared
+  std::string reference;     ///< its kind
+  std::string reference_id;  ///< errors against different references are not compared
   std::string series;
+  FlagValues axes;
   std::string point;  ///< "128 steps, 4 spp"
   std::string command;
   int seeds = 0;
@@ -31,12 +33,12 @@ struct Advice {
   bool met = false;  ///< whether it is within the limits; else it is the one that comes nearest
 };
 
-/// Of configurations of one scene and kind, at least one. Within max_error the fastest; within max_seconds
-/// alone that with the smallest error. Where none meets the limits: of those that are fast enough, or of all
-/// where none is, the one with the smallest error (the fastest where no error is asked for).
+/// Of configurations with one reference, at least one. Within max_error (with every seed) the fastest; within
+/// max_seconds alone that with the smallest error. Where none meets the limits: of those that are fast enough
+/// the one with the smallest error, or where none is, the fastest.
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits);
 
-/// For each scene and kind of picture the advice with its command.
+/// For each reference the advice with its command. Throws nlohmann::json::exception where `results` are none.
 std::string advice_text(const nlohmann::ordered_json& results, const AdviceLimits& limits);
 
 }  // namespace gatelight::apps

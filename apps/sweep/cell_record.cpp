@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +11,10 @@
 #include "apps/json_numbers.h"
 #include "apps/recipe.h"
 #include "apps/sweep/cell_command.h"
+#include "apps/sweep/machine.h"
+#include "apps/sweep/results.h"
+#include "apps/version.h"
+#include "renderer/pixel_filter.h"
 
 namespace gatelight::apps {
 namespace {
@@ -63,6 +68,60 @@ void add_errors(ordered_json& json, const CellErrors& e) {
       {"q25", s.first_quartile}, {"median", s.weighted_median}, {"q75", s.third_quartile}};
 }
 
+/// What only a picture that was measured has.
+constexpr const char* kMeasured[] = {
+    "seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes", "loss",
+    "errors",  "flip_percentiles",  "picture",       "error_map"};
+
+/// Options that leave a choice to the run.
+constexpr const char* kFoundOptions[] = {"isa",          "filter-width", "ao-distance", "direction-input",
+                                         "normal-input", "albedo-input", "node-spacing"};
+
+/// With the digits that a float has.
+ordered_json found_number(float value) {
+  if (std::isinf(value)) return "inf";
+  return std::stod(fmt::format("{}", value));
+}
+
+/// `options` with what the run has chosen; what does not apply stays out.
+void add_found(ordered_json& options, const CellPlace& place, const renderer::RenderStatistics& s,
+               float ao_distance) {
+  const renderer::RenderOptions& o = place.series.settings.render;
+  options["isa"] = s.isa;
+  options["filter-width"] = found_number(renderer::FilterSampler(o.filter, o.filter_width).width());
+  if (place.series.reference == ReferenceKind::ao) options["ao-distance"] = found_number(ao_distance);
+  const auto set = [&](const char* key, const ordered_json& value) {
+    if (options.contains(key)) options[key] = value;
+  };
+  set("direction-input", name_of(on_off_choices(), s.cache.direction_input));
+  set("normal-input", name_of(on_off_choices(), s.cache.normal_input));
+  set("albedo-input", name_of(on_off_choices(), s.cache.albedo_input));
+  set("node-spacing", found_number(s.cache.node_spacing));
+}
+
+/// By whom and where; seconds mean little without it.
+void add_origin(ordered_json& json) {
+  json["schema"] = kSweepSchema;
+  json["version"] = version();
+  json["cpu"] = cpu_name();
+  json["isa"] = nullptr;
+  json["backend"] = nullptr;
+}
+
+/// Whether other parts of the program may rely on its keys.
+bool is_whole(const ordered_json& record) {
+  for (const char* key : kMeasured) {
+    if (!record.contains(key)) return false;
+  }
+  for (const char* key : {"version", "cpu", "isa"}) {
+    if (!record.contains(key) || !record[key].is_string()) return false;
+  }
+  const ordered_json& errors = record["errors"];
+  const ordered_json& seconds = record["seconds"];
+  return errors.is_object() && errors.contains("flip") && seconds.is_object() && seconds.contains("total") &&
+         seconds["total"].is_number();
+}
+
 }  // namespace
 
 ordered_json planned_record(const CellPlace& place) {
@@ -83,6 +142,7 @@ ordered_json planned_record(const CellPlace& place) {
           {"spp", has_cache ? o.spp : place.point},
           {"options", resolved_options(settings)},
           {"reference", name_of(reference_kind_choices(), series.reference)},
+          {"reference_id", place.reference_key},
           {"command", cell_command(series, place.scene.file, place.seed, place.point)}};
 }
 
@@ -90,19 +150,21 @@ ordered_json failed_record(const CellPlace& place, const std::string& error) {
   ordered_json json = planned_record(place);
   json["status"] = "failed";
   json["error"] = error;
-  for (const char* key : {"seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes",
-                          "loss", "errors", "flip_percentiles", "picture", "error_map"}) {
-    json[key] = nullptr;
-  }
+  add_origin(json);
+  for (const char* key : kMeasured) json[key] = nullptr;
   return json;
 }
 
 ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
-                         const CellErrors& errors, bool pictures) {
+                         const CellErrors& errors, bool pictures, float ao_distance) {
   const bool has_cache = place.series.has_cache();
   ordered_json json = planned_record(place);
   json["status"] = "done";
   json["error"] = nullptr;
+  add_origin(json);
+  json["isa"] = statistics.isa;
+  if (has_cache) json["backend"] = statistics.cache.backend;
+  add_found(json["options"], place, statistics, ao_distance);
   json["seconds"] = seconds_json(statistics, has_cache);
   add_speed(json, statistics.cache, has_cache);
   add_errors(json, errors);
@@ -112,7 +174,8 @@ ordered_json done_record(const CellPlace& place, const renderer::RenderStatistic
 }
 
 bool is_done(const ordered_json& record) {
-  return record.is_object() && record.value("status", "") == "done";
+  const auto status = record.is_object() ? record.find("status") : record.end();
+  return status != record.end() && *status == "done";
 }
 
 std::string picture_file(const std::string& id) {
@@ -130,7 +193,9 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
   const std::filesystem::path root = folder;
   std::ifstream file(root / cell_file(place.id));
   ordered_json record = ordered_json::parse(file, nullptr, false);
-  if (!is_done(record) || record.value("id", "") != place.id) return std::nullopt;
+  if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record)) {
+    return std::nullopt;
+  }
   // Files are looked for, not believed: somebody may have tidied up.
   for (const char* key : {"picture", "error_map"}) {
     const ordered_json& name = record[key];
@@ -138,7 +203,12 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
     if (with_pictures && std::string(key) == "picture") return std::nullopt;
     record[key] = nullptr;
   }
-  record.update(planned_record(place));
+  ordered_json planned = planned_record(place);
+  const ordered_json& found = record["options"];
+  for (const char* key : kFoundOptions) {
+    if (found.is_object() && found.contains(key)) planned["options"][key] = found[key];
+  }
+  record.update(planned);
   return record;
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "renderer/atomic_file.h"
-#include "renderer/cache/cache_report.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
@@ -23,11 +22,10 @@ std::uint64_t GateMemoryStore::bytes(const std::string& key, const scene::Scene&
                                      const renderer::RenderOptions& options) {
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
-  renderer::Renderer renderer(scene, options);
-  const renderer::CacheReport report = renderer.report_cache();
+  const std::uint64_t nodes = renderer::Renderer(scene, options).set_up_cache().nodes;
   const bool fp32 = options.cache.training.precision == neural::FeaturePrecision::fp32;
   // Features alone: the network's weights are no part of --cache-memory.
-  const std::uint64_t bytes = report.statistics.cache.nodes * options.cache.gate.features * (fp32 ? 4u : 2u);
+  const std::uint64_t bytes = nodes * options.cache.gate.features * (fp32 ? 4u : 2u);
   known_[key] = bytes;
   renderer::write_file_atomically(file_, nlohmann::json(known_).dump(1) + "\n");
   return bytes;

@@ -15,6 +15,7 @@ class GateMemoryStore {
  public:
   explicit GateMemoryStore(std::string file);
 
+  bool knows(const std::string& key) const { return known_.contains(key); }
   /// key: of scene and options. Throws what renderer::Renderer throws, and OutputError.
   std::uint64_t bytes(const std::string& key, const scene::Scene& scene,
                       const renderer::RenderOptions& options);

@@ -66,4 +66,9 @@ std::string Identity::name() const {
   return renderer::hexadecimal(record_.digest()).substr(0, 16);
 }
 
+std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
+                      const std::string& reference, const std::string& machine, bool hdr_flip) {
+  return Identity(scene).add(deciding).add(reference).add(machine).add(hdr_flip ? "hdr" : "").name();
+}
+
 }  // namespace gatelight::apps

@@ -30,4 +30,9 @@ class Identity {
   renderer::DigestRecord record_;
 };
 
+/// The ID of a cell: of the scene, deciding_text(), the key of its reference, machine_text() and what is
+/// measured.
+std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
+                      const std::string& reference, const std::string& machine, bool hdr_flip);
+
 }  // namespace gatelight::apps

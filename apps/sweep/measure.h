@@ -1,6 +1,7 @@
 #pragma once
 // How far the picture of a cell is from its reference.
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,9 +20,11 @@ struct CellErrors {
 };
 
 /// noise: the rel_mse that the reference has of its own. FLIP and SSIM see the pictures with the exposure and
-/// curve of `image`; HDR-FLIP is for radiance alone.
-CellErrors measure_errors(const renderer::NamedPicture& reference, std::optional<double> noise,
-                          const renderer::NamedPicture& test, const renderer::ImageWriteOptions& image,
-                          bool with_hdr_flip);
+/// curve of `image`; HDR-FLIP is for radiance alone. It takes long where the reference has many stops:
+/// `go_on` is told how much of it is done, and where it answers false, nothing is answered.
+std::optional<CellErrors> measure_errors(const renderer::NamedPicture& reference, std::optional<double> noise,
+                                         const renderer::NamedPicture& test,
+                                         const renderer::ImageWriteOptions& image, bool with_hdr_flip,
+                                         const std::function<bool(double)>& go_on);
 
 }  // namespace gatelight::apps

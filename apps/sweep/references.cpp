@@ -31,11 +31,22 @@ std::string beside(const std::string& file, const std::string& end) {
   return (fs::path(file).parent_path() / (fs::path(file).stem().string() + end)).string();
 }
 
+/// Nothing where there is none, or one that cannot be read: it is made anew.
+std::optional<Picture> read_made(const std::string& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    return renderer::read_image(file);
+  } catch (const renderer::ImageError& error) {
+    log_warning(fmt::format("{}; the reference is made anew", error.what()));
+    return std::nullopt;
+  }
+}
+
 /// Nothing where the picture was stopped.
 std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettings& cell,
                                    RenderOptions options, std::uint32_t seed, const std::string& file,
                                    const renderer::Callbacks& callbacks) {
-  if (fs::exists(file)) return renderer::read_image(file);
+  if (std::optional<Picture> made = read_made(file)) return made;
   options.seed = seed;
   options.checkpoint = {.file = fs::path(file).replace_extension(".checkpoint").string(), .resume = true};
   const auto render = [&]() -> std::optional<Picture> {
@@ -63,6 +74,23 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
   renderer::write_image(*picture, file, {.exr_float = true});
   fs::remove(options.checkpoint.file);
   return picture;
+}
+
+/// What a comparison with a cell would refuse, after hours.
+void check_given(const renderer::NamedPicture& given, const RenderOptions& cell) {
+  Picture blank{.width = cell.width, .height = cell.height};
+  if (cell.region) {
+    const auto& [x0, y0, x1, y1] = *cell.region;
+    blank.width = x1 - x0;
+    blank.height = y1 - y0;
+  }
+  const std::size_t pixels = static_cast<std::size_t>(blank.width) * static_cast<std::size_t>(blank.height);
+  blank.layers = {{.channels = {"R", "G", "B"}, .values = std::vector<float>(3 * pixels)}};
+  const renderer::ErrorMetrics metrics =
+      renderer::compare_pictures(given, {blank, "the pictures of this sweep"});
+  if (metrics.nonfinite_reference == 0) return;
+  throw InputError(fmt::format("--reference: '{}' has {} pixels that are not finite, expected none",
+                               given.name, metrics.nonfinite_reference));
 }
 
 double seconds_of(const Picture& picture) {
@@ -108,15 +136,13 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
 
 ordered_json reference_json(const Reference& reference, const std::string& folder) {
   // Within the sweep's folder its name does not depend on where that lies.
-  const fs::path relative = fs::absolute(reference.file)
-                                .lexically_normal()
-                                .lexically_relative(fs::absolute(folder).lexically_normal());
+  const fs::path absolute = fs::absolute(reference.file).lexically_normal();
+  const fs::path relative = absolute.lexically_relative(fs::absolute(folder).lexically_normal());
   const bool inside = !relative.empty() && *relative.begin() != "..";
-  ordered_json json = {{"kind", name_of(reference_kind_choices(), reference.kind)},
-                       {"spp", nullptr},
-                       {"file", inside ? relative.generic_string() : reference.file},
-                       {"rel_mse_noise", nullptr},
-                       {"seconds", nullptr}};
+  ordered_json json = {
+      {"id", reference.key},      {"kind", name_of(reference_kind_choices(), reference.kind)},
+      {"spp", nullptr},           {"file", (inside ? relative : absolute).generic_string()},
+      {"rel_mse_noise", nullptr}, {"seconds", nullptr}};
   if (reference.spp) json["spp"] = *reference.spp;
   if (reference.rel_mse_noise) json["rel_mse_noise"] = *reference.rel_mse_noise;
   if (reference.seconds) json["seconds"] = *reference.seconds;
@@ -131,6 +157,7 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
   settings.render.spp = spp;
   settings.render.threads = 1;  // no part of the picture
   settings.render.memory_limit_bytes = 0;
+  settings.render.isa = RenderOptions().isa;  // but of its last digits
   settings.image = {};
   const std::string key = Identity(fingerprint)
                               .add("reference")
@@ -139,8 +166,9 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
   return {.kind = kind, .key = key, .file = (fs::path(folder) / (key + ".exr")).string(), .spp = spp};
 }
 
-Reference given_reference(ReferenceKind kind, const std::string& file) {
+Reference given_reference(ReferenceKind kind, const std::string& file, const RenderOptions& cell) {
   const Picture picture = renderer::read_image(file);
+  check_given({picture, file}, cell);
   renderer::DigestRecord record;
   for (const renderer::Layer& layer : picture.layers) {
     record.add(renderer::digest_of(std::as_bytes(std::span(layer.values))));
@@ -172,7 +200,9 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
                                       const RenderSettings& cell, const renderer::Callbacks& callbacks) {
   if (reference.given) return renderer::read_image(reference.file);
   read_reference_numbers(reference);
-  if (reference.rel_mse_noise && fs::exists(reference.file)) return renderer::read_image(reference.file);
+  if (reference.rel_mse_noise) {
+    if (std::optional<Picture> made = read_made(reference.file)) return made;
+  }
 
   RenderOptions options = reference_options(cell.render, reference.kind);
   options.spp = std::max(1, *reference.spp / 2);

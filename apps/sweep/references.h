@@ -24,7 +24,7 @@ renderer::RenderOptions reference_options(const renderer::RenderOptions& cell, R
 
 struct Reference {
   ReferenceKind kind = ReferenceKind::path;
-  std::string key;     ///< 16 hexadecimal digits, or those of the file's content
+  std::string key;     ///< 16 hexadecimal digits; of one that is given those of its pixels
   std::string file;    ///< of the mean
   bool given = false;  ///< by --reference
   std::optional<int> spp;
@@ -39,12 +39,13 @@ nlohmann::ordered_json reference_json(const Reference& reference, const std::str
 Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
                          const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder);
 
-/// A picture that somebody else has made. Throws renderer::ImageError.
-Reference given_reference(ReferenceKind kind, const std::string& file);
+/// A picture that somebody else has made. Throws renderer::ImageError, renderer::CompareError where it fits
+/// no picture of `cell`, InputError where it has pixels that are not finite.
+Reference given_reference(ReferenceKind kind, const std::string& file, const renderer::RenderOptions& cell);
 
-/// Reads what is there (the numbers of KEY.json into the reference) or renders what is missing: the halves go
-/// on from their checkpoints where an earlier call was stopped. Nothing where callbacks.stop asked for the
-/// end.
+/// Reads what is there (the numbers of KEY.json into the reference) or renders what is missing or cannot be
+/// read: the halves go on from their checkpoints where an earlier call was stopped. Nothing where
+/// callbacks.stop asked for the end.
 std::optional<renderer::Picture> make_reference(Reference& reference, const scene::Scene& scene,
                                                 const RenderSettings& cell,
                                                 const renderer::Callbacks& callbacks);

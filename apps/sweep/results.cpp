@@ -1,30 +1,34 @@
 #include "apps/sweep/results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "apps/errors.h"
+#include "apps/sweep/cell_record.h"
+#include "apps/sweep/machine.h"
+#include "apps/values.h"
 #include "apps/version.h"
 #include "renderer/accel.h"
+#include "renderer/threads.h"
 
 namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
 
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t colon = line.find(':');
-    if (line.rfind("model name", 0) != 0 || colon == std::string::npos) continue;
-    const std::size_t begin = line.find_first_not_of(' ', colon + 1);
-    return begin == std::string::npos ? "" : line.substr(begin);
-  }
-  return "unknown";
-}
+/// Of all rows, whatever they hold, so that programs may rely on them; axes come after them.
+constexpr const char* kColumns =
+    "id,scene,series,integrator,encoding,seed,train_steps,spp,reference,reference_id,command,status,error,"
+    "version,cpu,isa,backend,seconds_scout,seconds_setup,seconds_train,seconds_train_trace,"
+    "seconds_train_query,seconds_train_step,seconds_render,seconds_total,train_ms_per_step,train_step_ms,"
+    "query_ms_per_2m,memory_bytes_parameters,memory_bytes_optimizer,memory_bytes_layout,loss,errors_mse,"
+    "errors_rel_mse,errors_rel_mse_clean,errors_psnr,errors_ssim,errors_flip,errors_hdr_flip,"
+    "flip_percentiles_q25,flip_percentiles_median,flip_percentiles_q75,picture,error_map";
 
 std::string csv_field(const ordered_json& value) {
   if (value.is_null()) return "";
@@ -38,80 +42,87 @@ std::string csv_field(const ordered_json& value) {
   return quoted + '"';
 }
 
-/// The keys of one level, and of objects in them: "seconds_train".
-void flatten(const ordered_json& object, const std::string& prefix, ordered_json& flat) {
-  for (const auto& [key, value] : object.items()) {
-    if (key == "options" || (prefix.empty() && key == "axes")) continue;
-    if (value.is_object()) {
-      flatten(value, prefix + key + "_", flat);
-    } else {
-      flat[prefix + key] = value;
-    }
+/// "seconds_train" for {"seconds": {"train": 1}}.
+const ordered_json* find_value(const ordered_json& cell, const std::string& column) {
+  if (const auto at = cell.find(column); at != cell.end()) return &*at;
+  for (const auto& [key, value] : cell.items()) {
+    if (!value.is_object() || column.rfind(key + "_", 0) != 0) continue;
+    const auto at = value.find(column.substr(key.size() + 1));
+    if (at != value.end()) return &*at;
   }
+  return nullptr;
 }
 
-ordered_json flat_row(const ordered_json& cell) {
-  ordered_json row;
-  flatten(cell, "", row);
-  for (const auto& [axis, value] : cell.at("axes").items()) row["axis_" + axis] = value;
-  return row;
+/// What the cells have at `key`, each once.
+std::set<std::string> words_of_cells(const ordered_json& cells, const char* key) {
+  std::set<std::string> words;
+  for (const ordered_json& cell : cells) {
+    if (is_done(cell)) words.insert(cell.at(key).get<std::string>());
+  }
+  return words;
+}
+
+/// Where the cells were made, as they say it; of this machine where none is.
+ordered_json machine_json(const ordered_json& cells) {
+  int threads = 0;
+  for (const ordered_json& cell : cells) {
+    if (is_done(cell)) threads = std::max(threads, cell.at("options").at("threads").get<int>());
+  }
+  const std::set<std::string> isas = words_of_cells(cells, "isa");
+  return {{"cpu", cpu_name()},
+          {"threads", threads > 0 ? threads : renderer::available_threads()},
+          {"isa", isas.empty() ? renderer::best_isa() : fmt::format("{}", fmt::join(isas, ", "))}};
 }
 
 }  // namespace
 
-ordered_json machine_json(int threads) {
-  return {{"cpu", cpu_name()}, {"threads", threads}, {"isa", renderer::best_isa()}};
-}
-
-ordered_json make_results(const std::vector<std::string>& command, int threads,
-                          const std::vector<SceneResults>& scenes) {
+ordered_json make_results(const std::vector<std::string>& command, const std::vector<SceneResults>& scenes) {
   ordered_json results = {{"schema", kSweepSchema},
                           {"version", version()},
                           {"command", command},
-                          {"machine", machine_json(threads)},
+                          {"machine", nullptr},
+                          {"versions", {{"gatelight", version()}, {"embree", embree_version()}}},
                           {"scenes", ordered_json::array()},
                           {"cells", ordered_json::array()}};
   for (const SceneResults& scene : scenes) {
     results["scenes"].push_back(scene.scene);
     for (const ordered_json& cell : scene.cells) results["cells"].push_back(cell);
   }
+  results["machine"] = machine_json(results["cells"]);
+  results["versions"]["of_cells"] = words_of_cells(results["cells"], "version");
   return results;
 }
 
 std::string results_csv(const ordered_json& results) {
-  // A failed cell has null where others have an object.
-  std::set<std::string> objects;
+  const std::vector<std::string> columns = split_list("columns", kColumns);
+  std::vector<std::string> axes;
   for (const ordered_json& cell : results.at("cells")) {
-    for (const auto& [key, value] : cell.items()) {
-      if (value.is_object()) objects.insert(key);
+    for (const auto& [axis, value] : cell.at("axes").items()) {
+      if (std::find(axes.begin(), axes.end(), axis) == axes.end()) axes.push_back(axis);
     }
   }
-  std::vector<ordered_json> rows;
-  std::vector<std::string> columns;
-  std::set<std::string> known = objects;
-  for (const ordered_json& cell : results.at("cells")) {
-    rows.push_back(flat_row(cell));
-    for (const auto& [key, value] : rows.back().items()) {
-      if (known.insert(key).second) columns.push_back(key);
-    }
-  }
-  std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
+  std::string text = kColumns;
+  for (const std::string& axis : axes) text += ",axis_" + axis;
   text += "\n";
-  for (const ordered_json& row : rows) {
-    bool first = true;
+  for (const ordered_json& cell : results["cells"]) {
+    std::vector<std::string> fields;
     for (const std::string& column : columns) {
-      if (!first) text += ',';
-      first = false;
-      if (row.contains(column)) text += csv_field(row[column]);
+      const ordered_json* value = find_value(cell, column);
+      fields.push_back(value ? csv_field(*value) : "");
     }
-    text += "\n";
+    for (const std::string& axis : axes)
+      fields.push_back(csv_field(cell["axes"].value(axis, ordered_json())));
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
   return text;
 }
 
+std::string results_file(const std::string& folder) {
+  return (std::filesystem::path(folder) / "results.json").string();
+}
+
 ordered_json read_results(const std::string& folder) {
-  const std::string path = (std::filesystem::path(folder) / "results.json").string();
+  const std::string path = results_file(folder);
   std::ifstream file(path);
   if (!file) {
     throw InputError(
@@ -120,7 +131,7 @@ ordered_json read_results(const std::string& folder) {
                     path));
   }
   ordered_json results = ordered_json::parse(file, nullptr, false);
-  if (!results.is_object() || !results.contains("cells") || !results.contains("schema")) {
+  if (!results.is_object() || !results.contains("schema") || !results["cells"].is_array()) {
     throw InputError(fmt::format("cannot read '{}': it is no result of a sweep", path));
   }
   if (results["schema"] != kSweepSchema) {

@@ -8,24 +8,24 @@
 namespace gatelight::apps {
 
 /// Rises when a key changes its meaning or goes away.
-inline constexpr int kSweepSchema = 1;
-
-/// Of this machine: {"cpu", "threads", "isa"}.
-nlohmann::ordered_json machine_json(int threads);
+inline constexpr int kSweepSchema = 2;
 
 struct SceneResults {
   nlohmann::ordered_json scene;  ///< {"name", "file", "references"}
   std::vector<nlohmann::ordered_json> cells;
 };
 
-nlohmann::ordered_json make_results(const std::vector<std::string>& command, int threads,
+/// With the machine and the versions that the cells name, which need not be this program's.
+nlohmann::ordered_json make_results(const std::vector<std::string>& command,
                                     const std::vector<SceneResults>& scenes);
 
-/// A line for each cell, flat columns with the names of results.json's keys; what is null there is empty.
-/// Texts are quoted as in RFC 4180.
+/// A line for each cell, flat columns with the names of results.json's keys: the same for all sweeps, and one
+/// for each axis. What is null there is empty. Texts are quoted as in RFC 4180.
 std::string results_csv(const nlohmann::ordered_json& results);
 
-/// Reads DIR/results.json. Throws InputError.
+/// DIR/results.json.
+std::string results_file(const std::string& folder);
+/// Throws InputError. Of its cells is not known more than that there are some.
 nlohmann::ordered_json read_results(const std::string& folder);
 
 }  // namespace gatelight::apps

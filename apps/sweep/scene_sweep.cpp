@@ -13,7 +13,9 @@
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/machine.h"
 #include "apps/sweep/tasks.h"
+#include "renderer/ao_integrator.h"
 #include "renderer/image_write.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
@@ -34,17 +36,19 @@ SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const
       settings_(settings),
       progress_(progress),
       series_(planned.series),
-      series_errors_(planned.series.size()) {
+      series_errors_(planned.series.size()) {}
+
+bool SceneSweep::open() {
   load();
-  decide_memory();
+  if (!decide_memory()) return false;
   name_cells();
+  return stop_signal() == 0;
 }
 
 void SceneSweep::load() {
   progress_.phase(fmt::format("load {}", planned_.name));
   const RenderSettings& settings = series_.front().settings;
   scene_ = scene::load_gltf(planned_.file, settings.load);
-  for (const std::string& warning : scene_.warnings) warn(warning);
 }
 
 const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSettings& settings) {
@@ -56,7 +60,7 @@ const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSetting
   return fingerprints_.emplace(key, renderer::compute_scene_fingerprint(scene_, e)).first->second;
 }
 
-void SceneSweep::decide_memory() {
+bool SceneSweep::decide_memory() {
   GateMemoryStore store(in_folder("gate-memory.json"));
   for (std::size_t i = 0; i < series_.size(); ++i) {
     PlannedSeries& series = series_[i];
@@ -68,6 +72,8 @@ void SceneSweep::decide_memory() {
                                   .add("memory")
                                   .add(deciding_text(gate, view_of(scene_, gate.render)))
                                   .name();
+      // Building and scouting cannot be stopped.
+      if (!store.knows(key) && stop_signal() != 0) return false;
       const std::uint64_t bytes = store.bytes(key, scene_, gate.render);
       const auto wanted =
           static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(bytes) / series.memory->divisor));
@@ -80,29 +86,49 @@ void SceneSweep::decide_memory() {
       series_errors_[i] = one_line(describe_current_exception().message);
     }
   }
+  return true;
+}
+
+Reference SceneSweep::planned_reference(const PlannedSeries& series) {
+  return plan_reference(series.settings, series.reference, scene_, fingerprint_of(series.settings),
+                        settings_.reference_spp, settings_.reference_folder);
+}
+
+/// One picture stands for one view in one light.
+std::optional<Reference> SceneSweep::find_given() {
+  if (settings_.reference_file.empty()) return std::nullopt;
+  std::set<std::string> wanted;
+  for (const PlannedSeries& series : series_) wanted.insert(planned_reference(series).key);
+  if (wanted.size() > 1) {
+    throw UsageError(
+        fmt::format("--reference: '{}' is one picture, but the cells need {} different ones, expected "
+                    "--reference-spp",
+                    settings_.reference_file, wanted.size()));
+  }
+  const PlannedSeries& any = series_.front();
+  return given_reference(any.reference, settings_.reference_file, any.settings.render);
 }
 
 void SceneSweep::name_cells() {
-  std::optional<Reference> given;
-  if (!settings_.reference_file.empty()) {
-    given = given_reference(series_.front().reference, settings_.reference_file);
-  }
+  const std::optional<Reference> given = find_given();
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const PlannedSeries& series = series_[i];
     const renderer::SceneFingerprint& fingerprint = fingerprint_of(series.settings);
     const scene::Camera view = view_of(scene_, series.settings.render);
-    Reference reference = given ? *given
-                                : plan_reference(series.settings, series.reference, scene_, fingerprint,
-                                                 settings_.reference_spp, settings_.reference_folder);
+    const std::string machine = machine_text(series.settings.render);
+    Reference reference = given ? *given : planned_reference(series);
     read_reference_numbers(reference);
     reference_keys_.push_back(reference.key);
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         const RenderSettings settings = cell_settings(series, planned_.file, seed, point);
-        Identity id(fingerprint);
-        id.add(deciding_text(settings, view)).add(reference.key).add(settings_.hdr_flip ? "hdr" : "");
-        if (!series_errors_[i].empty()) id.add(series.label);
-        Cell cell{.place = {planned_, series, seed, point, id.name()}, .record = nullptr};
+        // A series that cannot be has no memory that tells it from others.
+        const std::string deciding =
+            deciding_text(settings, view) + (series_errors_[i].empty() ? "" : series.label);
+        Cell cell{.place = {planned_, series, seed, point,
+                            cell_name(fingerprint, deciding, reference.key, machine, settings_.hdr_flip),
+                            reference.key},
+                  .record = nullptr};
         if (auto record = read_done_record(settings_.folder, cell.place, wants_pictures(cell.place))) {
           cell.record = std::move(*record);
         }
@@ -149,6 +175,7 @@ std::vector<SweepTask> SceneSweep::tasks() const {
 }
 
 bool SceneSweep::run(const std::function<void()>& after_run) {
+  for (const std::string& warning : scene_.warnings) warn(warning);
   for (Run& run : missing_runs()) {
     if (stop_signal() != 0) return false;
     const bool finished = make(std::move(run));
@@ -218,14 +245,16 @@ bool SceneSweep::make(Run run) {
       renderer::Renderer renderer(scene_, settings.render);
       const renderer::Series wanted =
           series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points};
-      finished = renderer.render_series(
+      renderer.render_series(
           wanted,
-          [&](int, const Picture& picture, const RenderStatistics& statistics) {
-            Cell& cell = cells_[run.missing[next]];
-            finish_cell(cell, picture, statistics, *reference, reference_of(run.series));
-            ++next;
+          [&](int point, const Picture& picture, const RenderStatistics& statistics) {
+            const auto index = static_cast<std::size_t>(point);
+            Cell& cell = cells_[run.missing[index]];
+            if (finish_cell(cell, picture, statistics, *reference, reference_of(run.series)))
+              next = index + 1;
           },
           callbacks());
+      finished = next == run.missing.size();
     } catch (const renderer::OutputError&) {
       throw;
     } catch (...) {
@@ -237,14 +266,22 @@ bool SceneSweep::make(Run run) {
   return finished;
 }
 
-void SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderStatistics& statistics,
+bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderStatistics& statistics,
                              const Picture& reference, const Reference& named) {
   const CellPlace& place = cell.place;
   const RenderSettings& settings = place.series.settings;
   // Occlusion lies between 0 and 1: it has no exposure.
   const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
-  const CellErrors errors = measure_errors({reference, named.file}, named.rel_mse_noise,
-                                           {picture, cell_file(place.id)}, settings.image, hdr);
+  progress_.phase("measure");
+  const auto go_on = [this](double fraction) {
+    progress_.phase("measure", fraction);
+    return stop_signal() == 0;
+  };
+  const std::optional<CellErrors> measured =
+      measure_errors({reference, named.file}, named.rel_mse_noise, {picture, cell_file(place.id)},
+                     settings.image, hdr, go_on);
+  if (!measured) return false;
+  const CellErrors& errors = *measured;
   const bool pictures = wants_pictures(place);
   if (pictures) {
     renderer::write_image(picture, in_folder(picture_file(place.id)), settings.image);
@@ -252,8 +289,10 @@ void SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
       renderer::write_image(renderer::flip_map(*errors.flip), in_folder(error_map_file(place.id)));
     }
   }
-  cell.record = done_record(place, statistics, errors, pictures);
+  cell.record = done_record(place, statistics, errors, pictures,
+                            renderer::resolve_ao_distance(settings.render.ao_distance, scene_.bounds));
   keep(cell);
+  return true;
 }
 
 void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& error) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,15 @@ namespace gatelight::apps {
 
 class SceneSweep {
  public:
-  /// Loads the scene, names its cells and reads those that are done. Throws what loading throws.
   SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const SweepSettings& settings,
              SweepProgress& progress);
   SceneSweep(const SceneSweep&) = delete;
   SceneSweep& operator=(const SceneSweep&) = delete;
 
+  /// Loads the scene, names its cells and reads those that are done. Answers false where a signal ended it.
+  /// Throws what loading throws, and UsageError and others for a --reference that does not fit.
+  bool open();
+  /// What is missing: empty where all cells are done.
   std::vector<SweepTask> tasks() const;
   /// Makes what is missing, `after_run` after each run. Answers false where a signal ended it. What a cell
   /// throws is its failure, but for renderer::OutputError: where one file cannot be written, others cannot.
@@ -44,8 +48,10 @@ class SceneSweep {
 
   void load();
   const renderer::SceneFingerprint& fingerprint_of(const RenderSettings& settings);
-  void decide_memory();
+  bool decide_memory();
+  std::optional<Reference> find_given();
   void name_cells();
+  Reference planned_reference(const PlannedSeries& series);
   std::vector<Run> missing_runs() const;
   Reference& reference_of(std::size_t series) { return references_.at(reference_keys_[series]); }
   const Reference& reference_of(std::size_t series) const { return references_.at(reference_keys_[series]); }
@@ -55,7 +61,8 @@ class SceneSweep {
   /// Those that another run made meanwhile.
   void take_done(Run& run);
   bool make(Run run);
-  void finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
+  /// Answers false where a signal ended it.
+  bool finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
                    const renderer::Picture& reference, const Reference& named);
   void fail(const std::vector<std::size_t>& cells, const std::string& error);
   void keep(Cell& cell) const;

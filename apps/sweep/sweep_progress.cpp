@@ -51,9 +51,9 @@ void SweepProgress::plan_rest(const std::vector<SweepTask>& tasks) {
   clock_.plan_rest(tasks);
 }
 
-void SweepProgress::phase(const std::string& what) {
+void SweepProgress::phase(const std::string& what, double fraction) {
   const std::lock_guard lock(mutex_);
-  show(what, 0.0, true);
+  show(what, fraction, fraction == 0.0);
 }
 
 void SweepProgress::begin(const std::string& task, bool one_piece) {

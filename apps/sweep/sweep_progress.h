@@ -22,8 +22,8 @@ class SweepProgress {
 
   /// The work that is left. Its tasks come in order.
   void plan_rest(const std::vector<SweepTask>& tasks);
-  /// What has no measure: loading, building.
-  void phase(const std::string& what);
+  /// What is no part of rendering: loading, building, measuring.
+  void phase(const std::string& what, double fraction = 0.0);
   /// one_piece: the fraction of its progress is that of the task, not of one of its phases.
   void begin(const std::string& task, bool one_piece);
   void update(const renderer::Progress& progress);

@@ -1,10 +1,11 @@
 #include "apps/sweep/sweep_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "apps/errors.h"
@@ -14,10 +15,12 @@
 #include "apps/stopwatch.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_command.h"
+#include "apps/sweep/folder_lock.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/scene_sweep.h"
 #include "apps/sweep/tasks.h"
+#include "apps/version.h"
 #include "renderer/atomic_file.h"
 #include "renderer/image_format.h"
 #include "renderer/image_write.h"
@@ -66,7 +69,8 @@ class SweepRun {
         plan_(plan),
         command_(std::move(command)),
         progress_(settings.progress, settings.quiet),
-        scenes_(plan.scenes.size()) {
+        scenes_(plan.scenes.size()),
+        tasks_(plan.scenes.size()) {
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       const PlannedScene& scene = plan.scenes[i];
       scenes_[i].scene = {{"name", scene.name}, {"file", scene.file}, {"references", ordered_json::array()}};
@@ -74,16 +78,21 @@ class SweepRun {
   }
 
   int run();
-  ordered_json results() const {
-    return make_results(command_, plan_.scenes.front().series.front().settings.render.threads, scenes_);
-  }
+  ordered_json results() const { return make_results(command_, scenes_); }
 
  private:
   void prepare_folders() const;
-  void plan_tasks(std::size_t scene, const std::vector<SweepTask>& of_scene);
+  /// Finds what is done in all scenes, so that results are whole from the first to the last. Answers false
+  /// where a signal ended it.
+  bool survey();
+  /// Becomes open_, unless it cannot be read (its cells have failed then, and the others go on) or a signal
+  /// ended it.
+  void open_scene(std::size_t index);
+  /// Of this scene and those after it.
+  void plan_tasks(std::size_t scene);
+  void tell_versions() const;
   /// Answers false where a signal ended it.
   bool run_scene(std::size_t index);
-  /// What cannot be loaded fails with all its cells; the other scenes go on.
   void fail_scene(std::size_t index, const std::string& error);
   void write_results() const;
   void write_report() const;
@@ -93,14 +102,35 @@ class SweepRun {
   std::vector<std::string> command_;
   SweepProgress progress_;
   std::vector<SceneResults> scenes_;
+  std::vector<std::vector<SweepTask>> tasks_;  ///< of each scene, what is missing
+  std::unique_ptr<SceneSweep> open_;           ///< one scene at a time is in memory
+  std::size_t open_index_ = 0;
 };
 
 int SweepRun::run() {
   prepare_folders();
+  const FolderLock lock(settings_.folder);
+  if (!survey()) {
+    // What was written by an earlier call knows more.
+    progress_.clear();
+    print_notice(
+        fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
+    return kSignalBase + stop_signal();
+  }
+  tell_versions();
   bool finished = true;
-  for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) finished = run_scene(i);
-  write_results();
-  write_report();
+  bool written = false;
+  for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
+    if (tasks_[i].empty()) continue;
+    finished = run_scene(i);
+    write_results();
+    write_report();
+    written = true;
+  }
+  if (!written) {
+    write_results();
+    write_report();
+  }
   std::size_t cells = 0, failed = 0;
   for (const SceneResults& scene : scenes_) {
     cells += scene.cells.size();
@@ -131,50 +161,90 @@ void SweepRun::prepare_folders() const {
     renderer::check_writable(folder / file);
 }
 
-void SweepRun::plan_tasks(std::size_t scene, const std::vector<SweepTask>& of_scene) {
-  std::vector<SweepTask> tasks = of_scene;
-  for (std::size_t i = scene + 1; i < plan_.scenes.size(); ++i) {
-    const std::vector<SweepTask> more = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
-    tasks.insert(tasks.end(), more.begin(), more.end());
+bool SweepRun::survey() {
+  for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
+    tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
   }
-  progress_.plan_rest(tasks);
+  plan_tasks(0);
+  // The first comes last, and stays open.
+  for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
+    open_scene(i);
+    if (stop_signal() != 0) return false;
+  }
+  return true;
 }
 
-bool SweepRun::run_scene(std::size_t index) {
+void SweepRun::open_scene(std::size_t index) {
   const PlannedScene& planned = plan_.scenes[index];
-  plan_tasks(index, all_tasks(planned, plan_, settings_.reference_spp));
-  std::optional<SceneSweep> scene;
+  open_.reset();
+  auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
   try {
-    scene.emplace(planned, plan_, settings_, progress_);
+    if (!scene->open()) return;
   } catch (const renderer::OutputError&) {
     throw;
   } catch (...) {
     // A bad word alone on the line is an error like any other.
     if (plan_.scenes.size() == 1) throw;
     fail_scene(index, describe_current_exception().message);
-    return stop_signal() == 0;
+    return;
   }
-  plan_tasks(index, scene->tasks());
+  tasks_[index] = scene->tasks();
+  scenes_[index] = scene->results();
+  open_ = std::move(scene);
+  open_index_ = index;
+}
+
+void SweepRun::plan_tasks(std::size_t scene) {
+  std::vector<SweepTask> rest;
+  for (std::size_t i = scene; i < tasks_.size(); ++i) {
+    rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
+  }
+  progress_.plan_rest(rest);
+}
+
+void SweepRun::tell_versions() const {
+  std::size_t count = 0;
+  std::set<std::string> others;
+  for (const SceneResults& scene : scenes_) {
+    for (const ordered_json& cell : scene.cells) {
+      if (!is_done(cell) || cell["version"] == version()) continue;
+      ++count;
+      others.insert(cell["version"].get<std::string>());
+    }
+  }
+  if (count == 0) return;
+  log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
+                          count, count == 1 ? " was" : "s were", fmt::join(others, ", "),
+                          (fs::path(settings_.folder) / "cells").string()));
+}
+
+bool SweepRun::run_scene(std::size_t index) {
+  // A file may have changed since it was looked at: it is opened as if it were new.
+  if (!open_ || open_index_ != index) open_scene(index);
+  if (!open_) return stop_signal() == 0;
+  plan_tasks(index);
   Stopwatch since_written;
-  const bool finished = scene->run([&] {
-    scenes_[index] = scene->results();
+  const bool finished = open_->run([&] {
+    scenes_[index] = open_->results();
     if (since_written.seconds() < kResultsInterval) return;
     write_results();
     since_written = Stopwatch();
   });
-  scenes_[index] = scene->results();
+  scenes_[index] = open_->results();
   return finished;
 }
 
 void SweepRun::fail_scene(std::size_t index, const std::string& error) {
   const PlannedScene& planned = plan_.scenes[index];
+  tasks_[index].clear();
+  scenes_[index].cells.clear();
   for (const PlannedSeries& series : planned.series) {
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         // No scene, no fingerprint: a name that no cell of a scene has.
         const std::string id =
             fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
-        scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id}, error));
+        scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
       }
     }
   }
@@ -195,6 +265,16 @@ void SweepRun::write_report() const {
   renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
 }
 
+std::string advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
+  const ordered_json results = read_results(folder);
+  try {
+    return advice_text(results, limits);
+  } catch (const ordered_json::exception& error) {
+    throw InputError(
+        fmt::format("cannot read '{}': it is no result of a sweep: {}", results_file(folder), error.what()));
+  }
+}
+
 }  // namespace
 
 int run_sweep(const SweepSettings& given, const std::vector<std::string>& command) {
@@ -206,7 +286,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
                 : settings.verbose ? LogLevel::details
                                    : LogLevel::warnings);
   if (settings.request.scenes.empty()) {
-    write_text("-", advice_text(read_results(settings.folder), settings.limits));
+    write_text("-", advice_of_folder(settings.folder, settings.limits));
     return kDone;
   }
   const SweepPlan plan = make_plan(settings.request);

@@ -10,7 +10,7 @@
 namespace gatelight::apps {
 
 struct AdviceLimits {
-  std::optional<double> max_error;    ///< mean FLIP
+  std::optional<double> max_error;    ///< mean FLIP of a picture, with every seed
   std::optional<double> max_seconds;  ///< of scouting, training and rendering
 };
 

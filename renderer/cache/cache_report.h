@@ -25,7 +25,7 @@ struct CacheInstanceReport {
 struct CacheReport {
   RenderStatistics statistics;  ///< its `cache`: memory, nodes, sides, node spacing; and what building took
   std::vector<CacheInstanceReport> instances;  ///< in the scene's order; empty for a hash grid
-  std::uint64_t bytes_without_scouting = 0;  ///< parameters, had all possible sides storage
+  std::uint64_t bytes_without_scouting = 0;    ///< parameters, had all possible sides storage
 };
 
 /// For integrators with a cache. Throws what Renderer throws. The second is for callers that have built a

@@ -1,8 +1,11 @@
 // Small sweeps through the real program.
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -42,12 +45,38 @@ class SweepCommand : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
+  /// Tells cells and tasks as JSON.
+  static Words loud(Words call) {
+    std::erase(call, "--quiet");
+    call.insert(call.end(), {"--progress", "json"});
+    return call;
+  }
   json results(const std::string& out) const {
     return json::parse(read_file(folder / (out + "/results.json")));
   }
 
   TemporaryFolder folder;
 };
+
+/// That the reference of this key has of its own.
+double noise_of(const json& results, const std::string& id) {
+  for (const json& reference : results["scenes"][0]["references"]) {
+    if (reference["id"] == id) return reference["rel_mse_noise"];
+  }
+  ADD_FAILURE() << "there is no reference " << id;
+  return 0.0;
+}
+
+/// When each file in the folders was written.
+std::map<std::string, fs::file_time_type> times_of(const std::vector<fs::path>& folders) {
+  std::map<std::string, fs::file_time_type> found;
+  for (const fs::path& folder : folders) {
+    if (!fs::exists(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder))
+      found[entry.path().string()] = entry.last_write_time();
+  }
+  return found;
+}
 
 /// Without what no two runs have in common.
 json without_seconds(json results) {
@@ -69,19 +98,24 @@ std::size_t count(const fs::path& folder) {
 TEST_F(SweepCommand, TheReportHoldsEveryPicture) {
   ASSERT_EQ(run_gatelight(words("out", {"--seeds", "2"})).exit_code, 0);
   const std::string report = read_file(folder / "out/report.html");
-  std::size_t pictures = 0;
-  const auto expect_there = [&](const json& name) {
-    if (!name.is_string()) return;
-    EXPECT_THAT(report, HasSubstr(name.dump() + ":\"data:image/jpeg;base64,"));
-    ++pictures;
-  };
+  const std::string open = R"(<script type="application/json" id="pictures">)";
+  ASSERT_THAT(report, HasSubstr(open));
+  const std::size_t begin = report.find(open) + open.size();
+  std::set<std::string> shown;
+  for (const json& entry : json::parse(report.substr(begin, report.find("</script>", begin) - begin))) {
+    shown.insert(entry["file"].get<std::string>());
+  }
+  std::set<std::string> named;
   const json all = results("out");
   for (const json& cell : all["cells"]) {
-    expect_there(cell["picture"]);
-    expect_there(cell["error_map"]);
+    for (const char* key : {"picture", "error_map"}) {
+      if (cell[key].is_string()) named.insert(cell[key].get<std::string>());
+    }
   }
-  for (const json& reference : all["scenes"][0]["references"]) expect_there(reference["file"]);
-  EXPECT_EQ(pictures, 4u * 2u + 1u);
+  for (const json& reference : all["scenes"][0]["references"])
+    named.insert(reference["file"].get<std::string>());
+  EXPECT_EQ(named.size(), 4u * 2u + 1u);
+  EXPECT_EQ(shown, named);
 }
 
 TEST_F(SweepCommand, MeasuresEveryCellAgainstItsReference) {
@@ -100,7 +134,8 @@ TEST_F(SweepCommand, MeasuresEveryCellAgainstItsReference) {
     EXPECT_EQ(cell["status"], "done");
     EXPECT_GT(cell["errors"]["flip"], 0.0);
     EXPECT_LT(cell["errors"]["ssim"], 1.0);
-    EXPECT_LT(cell["errors"]["rel_mse_clean"], cell["errors"]["rel_mse"]);
+    EXPECT_NEAR(cell["errors"]["rel_mse"].get<double>() - cell["errors"]["rel_mse_clean"].get<double>(),
+                noise_of(all, cell["reference_id"]), 1e-12);
     EXPECT_GT(cell["seconds"]["total"], 0.0);
     EXPECT_EQ(cell["picture"].is_null(), cell["seed"] != 1);
     EXPECT_EQ(cell["errors"]["hdr_flip"].is_null(), cell["reference"] == "ao");
@@ -151,13 +186,7 @@ TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
   const json first = results("out");
   const auto times = [&] {
-    std::map<std::string, fs::file_time_type> found;
-    for (const char* sub : {"cells", "pictures", "references"}) {
-      for (const auto& entry : fs::directory_iterator(folder / (std::string("out/") + sub))) {
-        found[entry.path().string()] = entry.last_write_time();
-      }
-    }
-    return found;
+    return times_of({folder / "out/cells", folder / "out/pictures", folder / "out/references"});
   };
   const auto before = times();
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
@@ -229,30 +258,39 @@ TEST_F(SweepCommand, ASceneThatCannotBeReadDoesNotEndTheRest) {
 }
 
 TEST_F(SweepCommand, InterruptedAndGoneOnWithItHasTheSameResults) {
-  const Words flags = {"--seeds", "2", "--hidden", "16,32"};
+  const Words flags = {"--seeds", "3", "--hidden", "16,32", "--reference-spp", "256"};
   ASSERT_EQ(run_gatelight_inside(words("straight", flags)).exit_code, 0);
-  Words loud = words("stopped", flags);
-  std::erase(loud, "--quiet");
-  loud.insert(loud.end(), {"--progress", "json"});
   const struct {
     const char* moment;
     int signal;
     int code;
   } stops[] = {
       {"reference path", SIGINT, 130}, {"\"event\":\"cell\"", SIGTERM, 143}, {"seed 2", SIGKILL, 137}};
+  int interruptions = 0;
+  std::map<std::string, fs::file_time_type> kept;
   for (const auto& stop : stops) {
-    Process process(loud);
+    Process process(loud(words("stopped", flags)));
     process.wait_for_error_text(stop.moment);
     process.send(stop.signal);
     const Output output = process.finish();
+    // The program may be quicker than the signal, but not always.
     EXPECT_TRUE(output.exit_code == stop.code || output.exit_code == 0) << output.err;
+    interruptions += output.exit_code == stop.code ? 1 : 0;
     if (output.exit_code == 130 || output.exit_code == 143) {
       EXPECT_THAT(output.last_error_line(), HasSubstr("the same command goes on"));
-      EXPECT_LT(results("stopped")["cells"].size(), 12u);
+      EXPECT_LT(results("stopped")["cells"].size(), 18u);
     }
+    const auto now = times_of({folder / "stopped/cells"});
+    for (const auto& [file, time] : kept) EXPECT_EQ(now.at(file), time) << file;
+    kept = now;
   }
+  EXPECT_GE(interruptions, 1);
+  EXPECT_FALSE(kept.empty());
   ASSERT_EQ(run_gatelight_inside(words("stopped", flags)).exit_code, 0);
   EXPECT_EQ(without_seconds(results("stopped")), without_seconds(results("straight")));
+  const auto finished = times_of({folder / "stopped/cells"});
+  EXPECT_EQ(finished.size(), 18u);
+  for (const auto& [file, time] : kept) EXPECT_EQ(finished.at(file), time) << file;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "stopped")) {
     const std::string name = entry.path().filename().string();
     EXPECT_THAT(name, AllOf(Not(HasSubstr(".tmp")), Not(HasSubstr("checkpoint"))));
@@ -262,6 +300,112 @@ TEST_F(SweepCommand, InterruptedAndGoneOnWithItHasTheSameResults) {
     EXPECT_EQ(
         renderer::read_image(entry.path()).layers[0].values,
         renderer::read_image(folder / "straight/references" / entry.path().filename()).layers[0].values);
+  }
+}
+
+TEST_F(SweepCommand, WhatAnEarlierCallHasMadeStaysInTheResultsOfOneThatIsStopped) {
+  folder.write("room.gltf", tiny_scene());
+  const auto both = [&](const std::string& hidden) {
+    Words call = words("out", {"--hidden", hidden, "--environment", "1,1,1"});
+    call.insert(call.begin() + 2, path("room.gltf"));
+    return call;
+  };
+  const auto of_room = [](const json& all) {
+    std::map<std::string, json> cells;
+    for (const json& cell : all["cells"]) {
+      if (cell["scene"] == "room") cells[cell["id"].get<std::string>()] = cell["errors"];
+    }
+    return cells;
+  };
+  ASSERT_EQ(run_gatelight_inside(both("16")).exit_code, 0);
+  const auto before = of_room(results("out"));
+  ASSERT_EQ(before.size(), 4u);
+  // The room is the second scene of the call, and has not been reached yet.
+  Process process(loud(both("16,32,64,128")));
+  process.wait_for_error_text("\"event\":\"cell\"");
+  process.send(SIGINT);
+  EXPECT_EQ(process.finish().exit_code, 130);
+  const json after = results("out");
+  EXPECT_LT(after["cells"].size(), 20u);
+  for (const auto& [id, errors] : before) EXPECT_EQ(of_room(after).at(id), errors);
+  for (const json& cell : after["cells"])
+    EXPECT_TRUE(cell["integrator"] == "path" || cell["axes"].contains("hidden"));
+  EXPECT_EQ(after["scenes"][1]["references"].size(), 1u);
+  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr(before.begin()->first));
+}
+
+TEST_F(SweepCommand, TheReportIsThereAfterEachScene) {
+  folder.write("room.gltf", tiny_scene());
+  Words call = words("out", {"--environment", "1,1,1", "--seeds", "4"});
+  call.insert(call.begin() + 1, path("room.gltf"));
+  Process process(loud(call));
+  ASSERT_TRUE(process.wait_for_error_text("\"task\":\"cornell-box reference"));
+  process.send(SIGKILL);
+  process.finish();
+  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr("\"scene\":\"room\""));
+}
+
+TEST_F(SweepCommand, OneAtATimeWorksInAFolder) {
+  fs::create_directories(folder / "out");
+  const int descriptor = ::open(path("out/.lock").c_str(), O_CREAT | O_RDWR, 0666);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+  const Output second = run_gatelight_inside(words("out", {}));
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.last_error_line(), AllOf(HasSubstr(path("out")), HasSubstr("another sweep")));
+  EXPECT_EQ(count(folder / "out/cells"), 0u);
+  EXPECT_EQ(run_gatelight_inside(words("out", {"--dry-run"})).exit_code, 0);
+  ::close(descriptor);
+  EXPECT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+}
+
+TEST_F(SweepCommand, CellsOfAnotherVersionAreKeptAndTold) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  const json first = results("out");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string file = "out/cells/" + first["cells"][i]["id"].get<std::string>() + ".json";
+    json cell = json::parse(read_file(folder / file));
+    cell["version"] = "0.0.1";
+    folder.write(file, cell.dump());
+  }
+  const auto before = times_of({folder / "out/cells"});
+  Words call = words("out", {});
+  std::erase(call, "--quiet");
+  const Output output = run_gatelight_inside(call);
+  EXPECT_EQ(output.exit_code, 0);
+  EXPECT_THAT(output.err, HasSubstr("2 cells were made by gatelight 0.0.1; remove their files"));
+  EXPECT_EQ(times_of({folder / "out/cells"}), before);
+  EXPECT_EQ(results("out")["versions"]["of_cells"].size(), 2u);
+  EXPECT_EQ(results("out")["versions"]["gatelight"], first["version"]);
+}
+
+TEST_F(SweepCommand, OtherKernelsAreMeasuredAgain) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  const json first = results("out");
+  ASSERT_EQ(::setenv("GATELIGHT_ISA", "scalar", 1), 0);
+  const int code = run_gatelight_inside(words("out", {})).exit_code;
+  ::unsetenv("GATELIGHT_ISA");
+  ASSERT_EQ(code, 0);
+  const json second = results("out");
+  ASSERT_EQ(second["cells"].size(), first["cells"].size());
+  for (std::size_t i = 0; i < first["cells"].size(); ++i) {
+    EXPECT_EQ(second["cells"][i]["id"] == first["cells"][i]["id"], first["cells"][i]["integrator"] == "path");
+  }
+}
+
+TEST_F(SweepCommand, ResultsTellWhatRanAndWhatWasChosen) {
+  ASSERT_EQ(run_gatelight_inside(words("out", {"--isa", "scalar", "--threads", "1"})).exit_code, 0);
+  const json all = results("out");
+  EXPECT_EQ(all["machine"]["isa"], "scalar");
+  EXPECT_EQ(all["machine"]["threads"], 1);
+  EXPECT_NE(all["versions"]["embree"], "");
+  for (const json& cell : all["cells"]) {
+    EXPECT_EQ(cell["isa"], "scalar");
+    EXPECT_EQ(cell["cpu"], all["machine"]["cpu"]);
+    EXPECT_EQ(cell["version"], all["version"]);
+    EXPECT_EQ(cell["options"]["isa"], "scalar");
+    for (const auto& [option, value] : cell["options"].items()) {
+      EXPECT_TRUE(value != "auto" || option == "cluster") << option;
+    }
   }
 }
 
@@ -312,12 +456,25 @@ TEST_F(SweepCommand, AReferenceOfOnesOwnIsCompared) {
   EXPECT_EQ(all["scenes"][0]["references"][0]["file"], path("r.exr"));
   EXPECT_EQ(all["scenes"][0]["references"][0]["spp"], 16);
   EXPECT_FALSE(fs::exists(folder / "out/references"));
-  // One of another size fits no cell.
-  const Output other =
-      run_gatelight_inside(words("out", {"--reference", path("r.exr"), "--no-plain", "--size", "20x16"}));
-  EXPECT_EQ(other.exit_code, 7);
-  EXPECT_THAT(results("out")["cells"][0]["error"].get<std::string>(),
-              AllOf(HasSubstr("24x16"), HasSubstr("20x16")));
+  EXPECT_EQ(all["cells"][0]["reference_id"], all["scenes"][0]["references"][0]["id"]);
+  // One that fits no cell is told before the first is made.
+  const auto refused = [&](const Words& more) {
+    Words flags = {"--reference", path("r.exr"), "--no-plain"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    const Output output = run_gatelight_inside(words("other", flags));
+    EXPECT_NE(output.exit_code, 0);
+    EXPECT_EQ(count(folder / "other/cells"), 0u);
+    return output;
+  };
+  const Output size = refused({"--size", "20x16"});
+  EXPECT_EQ(size.exit_code, 2);
+  EXPECT_THAT(size.last_error_line(), AllOf(HasSubstr("r.exr"), HasSubstr("24x16"), HasSubstr("20x16")));
+  for (const char* vary : {"max-depth=2,3", "filter=box,tent", "environment=none;1,1,1", "fov=40,50"}) {
+    const Output views = refused({"--vary", vary});
+    EXPECT_EQ(views.exit_code, 1) << vary;
+    EXPECT_THAT(views.last_error_line(), AllOf(HasSubstr("r.exr"), HasSubstr("need 2 different ones")))
+        << vary;
+  }
   const Output missing = run_gatelight_inside(words("out", {"--reference", path("none.exr"), "--no-plain"}));
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.last_error_line(), HasSubstr("none.exr"));
@@ -358,12 +515,42 @@ TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
   EXPECT_THAT(none.out, HasSubstr("none of 4 met it; the nearest is"));
   EXPECT_EQ(run_gatelight_inside({"sweep", "-o", path("nothing"), "--advise", "--max-time", "1"}).exit_code,
             2);
+  // Without a scene nothing else has an effect.
+  for (const Words& more : {Words{"--features", "2"},
+                            {"--seeds", "2"},
+                            {"--batch", "7"},
+                            {"--vary", "batch=1,2"},
+                            {"--dry-run"},
+                            {"--reference", "r.exr"},
+                            {"--preset", "paper-table1"}}) {
+    Words call = {"sweep", "-o", path("out"), "--advise", "--max-error", "1", "--quiet"};
+    call.insert(call.end(), more.begin(), more.end());
+    const Output output = run_gatelight_inside(call);
+    EXPECT_EQ(output.exit_code, 1);
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr(more.front()), HasSubstr("SCENE")));
+  }
+}
+
+TEST_F(SweepCommand, FilesOfAnotherShapeAreNoResults) {
+  fs::create_directories(folder / "out/cells");
+  for (const char* text : {R"({"schema": 2, "cells": [{"status": "done"}]})", R"({"schema": 2, "cells": 7})",
+                           R"({"schema": 2, "cells": [{"status": "done", "errors": []}]})"}) {
+    folder.write("out/results.json", text);
+    const Output output = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "1"});
+    EXPECT_EQ(output.exit_code, 2) << text;
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr(path("out/results.json")), HasSubstr("no result")))
+        << text;
+  }
+  // A cell is made again.
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  const json first = results("out");
+  folder.write("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json", R"({"status": null})");
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  EXPECT_EQ(without_seconds(results("out")), without_seconds(first));
 }
 
 TEST_F(SweepCommand, ProgressTellsCellsTasksAndTimeLeft) {
-  Words loud = words("out", {"--progress", "json"});
-  std::erase(loud, "--quiet");
-  const Output output = run_gatelight_inside(loud);
+  const Output output = run_gatelight_inside(loud(words("out", {})));
   ASSERT_EQ(output.exit_code, 0) << output.err;
   std::istringstream lines(output.err);
   std::map<std::string, int> events;
