@@ -25,15 +25,15 @@ holds for all cells (--size, --camera, --batch ...; see its --help). A flag that
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one file
-that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (what same-as-gate has found),
-and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells that are
-done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and its
-instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end the
-rest; the exit code is 7 then. SIGINT and SIGTERM end it after writing the results so far (130 or 143).
+DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
+file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (what same-as-gate has
+found), and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells
+that are done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and
+its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end
+the rest; the exit code is 7 then. SIGINT and SIGTERM end it after writing the results so far (130 or 143).
 
-Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row is
-named after):
+Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row
+is named after):
   paper-table1    GATE and the hash grid at the same memory, 128 steps
   paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
   paper-steps     the same as table 1 from 8 to 128 steps
