@@ -6,6 +6,7 @@ from results_tables import table
 
 # Times and sizes differ by more than this, or they count as the same.
 SAME = 1.1
+APPLICATIONS = (("nao", "occlusion"), ("nrc", "radiance"))
 
 
 def span(values, digits=2):
@@ -28,12 +29,23 @@ def verdict(good, total):
     return "holds" if good == total else "does not hold" if good == 0 else f"holds in {good} of {total}"
 
 
+def flips(result, integrator, a, b):
+    """FLIP of both rows in words, and the signs of their differences."""
+    found = list(pairs(result, integrator, a, b))
+    text = "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found)
+    return text, [difference(x, y, "flip") for _, x, y in found]
+
+
 def lower_flip(result, integrator, a, b):
     """Ours and verdict of: row a has the lower FLIP."""
-    found = list(pairs(result, integrator, a, b))
-    signs = [difference(x, y, "flip") for _, x, y in found]
-    text = "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found)
+    text, signs = flips(result, integrator, a, b)
     return text, verdict(signs.count(-1), len(signs))
+
+
+def no_lower_flip(result, integrator, a, b):
+    """Ours and verdict of: row a has no lower FLIP than b."""
+    text, signs = flips(result, integrator, a, b)
+    return text, verdict(len(signs) - signs.count(-1), len(signs))
 
 
 def paper_lower_flip(integrator):
@@ -56,22 +68,22 @@ def paper_times(integrator, index):
 
 
 def table1_claims(result):
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         ours, held = lower_flip(result, integrator, "gate", "hash grid")
         yield (f"At equal memory GATE's FLIP is lower than the hash grid's ({word})", paper_lower_flip(integrator), ours, held)
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         for column, index, what in (("kernel_ms", 0, "A training step takes the hash grid longer"),
                                     ("query_ms", 1, "Answers take the hash grid longer")):
             ours, held = times(result, integrator, column)
             yield f"{what} ({word}): times GATE's", paper_times(integrator, index), ours, held
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         ours, held = times(result, integrator, "kernel_ms", "hash grid", "hash grid, sparse updates")
         yield (f"What costs the hash grid is that every entry is visited in every step ({word}): step, times one with sparse updates",
                "not measured", ours, held)
 
 
 def table2_claims(result):
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         paper = TABLE2[integrator]
         ours, held = lower_flip(result, integrator, "gate", "hash grid S")
         yield (f"GATE's FLIP is lower than that of a hash grid below 1 MB ({word})",
@@ -93,7 +105,7 @@ def gain(result, scene, integrator, row, first, last):
 
 def steps_claims(result):
     steps = result.steps()
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         found = []
         for scene in result.scenes():
             gains = [gain(result, scene, integrator, row, steps[0], steps[-1]) for row in ("gate", "hash grid")]
@@ -106,17 +118,15 @@ def steps_claims(result):
 
 
 def adaptive_claims(result):
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         found = list(pairs(result, integrator, "fixed R = 4", "adaptive, paper's rule"))
         ratios = [x.mebibytes() / y.mebibytes() for _, x, y in found]
         yield (f"Resolution 4 everywhere takes more memory than adaptive resolutions ({word}): times",
                f"Country Kitchen {ADAPTIVE_MB[0] / ADAPTIVE_MB[1]:.2f}",
                "; ".join(f"{name} {ratio:.2g}" for (name, _, _), ratio in zip(found, ratios)),
                verdict(sum(ratio > SAME for ratio in ratios), len(ratios)))
-        signs = [difference(y, x, "flip") for _, x, y in found]
-        yield (f"... at similar quality ({word}): FLIP of 4 everywhere and adaptive", "no visible difference",
-               "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found),
-               verdict(sum(sign <= 0 for sign in signs), len(signs)))
+        ours, held = no_lower_flip(result, integrator, "fixed R = 4", "adaptive, paper's rule")
+        yield f"... at similar quality ({word}): FLIP of 4 everywhere and adaptive", "no visible difference", ours, held
         ours, held = lower_flip(result, integrator, "adaptive, uniform", "adaptive, paper's rule")
         yield f"Our rule of uniform density errs less than the paper's ({word})", "not of the paper", ours, held
 
@@ -124,18 +134,15 @@ def adaptive_claims(result):
 def inputs_claims(result):
     for integrator, row in (("nao", "gate, normal"), ("nrc", "gate, normal and albedo")):
         word = "occlusion: normal" if integrator == "nao" else "radiance: normal and albedo"
-        ours, held = lower_flip(result, integrator, row, "gate")
-        found = list(pairs(result, integrator, row, "gate"))
-        signs = [difference(x, y, "flip") for _, x, y in found]
-        yield (f"GATE gains nothing from more inputs ({word}): FLIP with and without", "the same in the end", ours,
-               verdict(sum(sign >= 0 for sign in signs), len(signs)))
+        ours, held = no_lower_flip(result, integrator, row, "gate")
+        yield f"GATE gains nothing from more inputs ({word}): FLIP with and without", "the same in the end", ours, held
         ours, held = times(result, integrator, "kernel_ms", row, "gate")
         yield f"More inputs slow a step down ({word}): times", "not printed", ours, held
 
 
 def extra_claims(result):
     base = "as in the paper"
-    for integrator, word in (("nao", "occlusion"), ("nrc", "radiance")):
+    for integrator, word in APPLICATIONS:
         for better, worse, claim in ((base, "stack of 1", "Two stacked resolutions err less than one"),
                                      (base, "no candidates", "Choosing among 16 candidates errs less than taking the first"),
                                      (base, "storage per triangle", "Shared storage errs less than vectors of each triangle's own"),
@@ -143,11 +150,8 @@ def extra_claims(result):
                                      ("4 samples per point", base, "The mean of four paths a record errs less than one path")):
             ours, held = lower_flip(result, integrator, better, worse)
             yield f"{claim} ({word})", "stated or implied, no figure", ours, held
-        found = list(pairs(result, integrator, base, "fp16 features"))
-        signs = [difference(x, y, "flip") for _, x, y in found]
-        yield (f"Features in fp16 lose nothing visible ({word}): FLIP with fp32 and fp16", "an outlook",
-               "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found),
-               verdict(sum(sign >= 0 for sign in signs), len(signs)))
+        ours, held = no_lower_flip(result, integrator, base, "fp16 features")
+        yield f"Features in fp16 lose nothing visible ({word}): FLIP with fp32 and fp16", "an outlook", ours, held
         ours, held = lower_flip(result, integrator, "clusters", "uniform, no clusters")
         yield f"Clusters on tiny triangles err less ({word}): FLIP with and without, uniform density", "an outlook", ours, held
 
