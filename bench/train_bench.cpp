@@ -10,6 +10,7 @@ struct TrainCase {
   Order order = Order::coherent;
   neural::FeatureUpdate update = neural::FeatureUpdate::sparse;
   neural::FeaturePrecision precision = neural::FeaturePrecision::fp32;
+  bool denormal = false;  ///< weights and targets so small that activations and gradients would be denormal
   friend bool operator==(const TrainCase&, const TrainCase&) = default;
 };
 
@@ -24,9 +25,22 @@ struct Learner {
     neural::TrainingOptions options;
     options.update = c.update;
     options.precision = c.precision;
+    if (c.denormal) {
+      options.loss = neural::Loss::l2;
+      options.start_at_mean = false;
+      options.adam.l2_network = 0.0f;
+    }
     backend = neural::cpu::make_cpu_backend(model, options);
     for (const NeuralPoints& points : training_points(c.order))
       targets.push_back(training_targets(points, model->config.mlp.outputs));
+    if (c.denormal) {
+      neural::ModelState state = backend->export_state();
+      for (float& p : state.parameters) p *= 1e-19f;
+      state.averages = state.parameters;
+      backend->import_state(state);
+      for (std::vector<float>& batch : targets)
+        for (float& t : batch) t *= 1e-38f;
+    }
     for (std::size_t i = 0; i < targets.size(); ++i) step(i);  // warm up: memory, threads, every batch once
   }
 
@@ -85,6 +99,9 @@ const bool registered = [] {
       if (encoding == Encoding::gate) {
         which.precision = neural::FeaturePrecision::fp16;
         add(which, "_fp16");
+        which.precision = neural::FeaturePrecision::fp32;
+        which.denormal = true;
+        add(which, "_denormal");
       }
       if (encoding == Encoding::hash_grid) {
         which.update = neural::FeatureUpdate::dense;

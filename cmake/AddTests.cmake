@@ -38,3 +38,13 @@ function(gatelight_add_tests target)
     set_tests_properties(${folder}.${name} PROPERTIES LABELS ${label} TIMEOUT 900)
   endforeach()
 endfunction()
+
+# gatelight_run_on_lavapipe(<test>...): Vulkan sees Mesa's device in software alone, where it is installed.
+find_file(GATELIGHT_LAVAPIPE NAMES lvp_icd.${CMAKE_SYSTEM_PROCESSOR}.json lvp_icd.json
+  PATHS /usr/share/vulkan/icd.d /usr/local/share/vulkan/icd.d NO_DEFAULT_PATH)
+mark_as_advanced(GATELIGHT_LAVAPIPE)
+function(gatelight_run_on_lavapipe)
+  if(GATELIGHT_LAVAPIPE)
+    set_property(TEST ${ARGN} APPEND PROPERTY ENVIRONMENT "VK_DRIVER_FILES=${GATELIGHT_LAVAPIPE}")
+  endif()
+endfunction()

@@ -3,6 +3,7 @@
 // the reference in double precision.
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <string>
 
@@ -44,8 +45,17 @@ struct QueryOptions {
 class Backend {
  public:
   virtual ~Backend() = default;
-  /// One step over the whole batch. A batch without an accepted record changes nothing.
+  /// One step over the whole batch, while none is started and unfinished. A batch without an accepted record
+  /// changes nothing.
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
+  /// Starts such a step; the batch may be changed at once. What is asked, exported or started afterwards
+  /// comes after it.
+  virtual void start(const TrainingBatch& batch);
+  /// Of the oldest step that was started and not finished yet; waits for it. Throws BadConfiguration where
+  /// there is none.
+  virtual StepStatistics finish();
+  /// Whether start returns while the step is still being made.
+  virtual bool runs_alongside() const { return false; }
   /// out: batch.size x outputs, row-major. Points without storage encode to zero features. A point with an
   /// input that is not finite (and that the model reads) answers NaN, and so 0 unless raw.
   virtual void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const = 0;
@@ -56,6 +66,9 @@ class Backend {
   virtual std::string name() const = 0;
   virtual std::uint64_t parameter_bytes() const = 0;
   virtual std::uint64_t optimizer_bytes() const = 0;  ///< moments, masters, averages, counters
+
+ private:
+  std::deque<StepStatistics> made_;
 };
 
 }  // namespace gatelight::neural

@@ -15,6 +15,21 @@ struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The device stopped working on the way.
+struct DeviceLost : Unavailable {
+  using Unavailable::Unavailable;
+};
+
+/// The device has less memory than is needed. The message names both.
+struct OutOfDeviceMemory : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Vulkan's validation layer found a mistake of the program.
+struct ValidationFailed : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
 /// A cache file that cannot be read or belongs to another model. The message names file and difference.
 struct CacheFileError : std::runtime_error {
   using std::runtime_error::runtime_error;

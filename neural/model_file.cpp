@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "neural/checks.h"
+#include "neural/content_digest.h"
 #include "neural/errors.h"
 #include "neural/half.h"
 #include "neural/model_description.h"
@@ -24,7 +25,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kFormat = "gatelight-cache";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// One tensor's part of the flat parameters.
 struct Part {
@@ -107,6 +108,10 @@ ordered_json description(const SafetensorsReader& file, const std::string& key) 
   if (found == file.metadata().end()) file.fail(fmt::format("metadata '{}' is missing", key));
   ordered_json value = ordered_json::parse(found->second, nullptr, false);
   if (!value.is_object()) file.fail(fmt::format("metadata '{}' is no JSON object", key));
+  for (const auto& [name, entry] : value.items()) {
+    if (!entry.is_primitive())
+      file.fail(fmt::format("metadata '{}': '{}' is no number and no text", key, name));
+  }
   return value;
 }
 
@@ -152,6 +157,24 @@ void expect_text(const SafetensorsReader& file, const std::string& key, const st
     file.fail(fmt::format("{}: file {}, expected '{}'", what, text, expected));
 }
 
+void expect_version(SafetensorsReader& file, int version) {
+  const auto found = file.metadata().find("version");
+  const bool before = found != file.metadata().end() && found->second == fmt::format("{}", version - 1);
+  if (!before) expect_text(file, "version", "format version", fmt::format("{}", version));
+  if (!before || file.metadata().contains(kDigestKey)) expect_digest(file);
+}
+
+void expect_model(const SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
+  expect_same_model(file, model, options);
+  for (const Array& array : kArrays) {
+    for (const Part& part : parts(model.parameters)) {
+      if (!is_stored(array, part, options)) continue;
+      const TensorType type = is_half(array, part, options) ? TensorType::f16 : TensorType::f32;
+      file.expect_shape(tensor_name(array, part), type, part.shape);
+    }
+  }
+}
+
 void expect_no_other_tensors(const SafetensorsReader& file, const Model& model,
                              const TrainingOptions& options, std::set<std::string> others) {
   others.insert({"node_steps", "triangle_steps", "steps"});
@@ -195,7 +218,7 @@ ModelContent make_model_content(const Model& model, const TrainingOptions& optio
 }
 
 ModelState read_model_content(SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
-  expect_same_model(file, model, options);
+  expect_model(file, model, options);
   // Of the right size everywhere, and averages that are not kept are set below.
   ModelState state = initial_state(model, options);
   for (const Array& array : kArrays) {
@@ -228,6 +251,7 @@ void write_model_file(const std::filesystem::path& path, const Model& model, con
   content.metadata["format"] = kFormat;
   content.metadata["version"] = fmt::format("{}", kVersion);
   content.metadata["fingerprint"] = fingerprint;
+  content.metadata[kDigestKey] = content_digest(content.tensors, content.metadata);
   write_safetensors(path, content.tensors, content.metadata);
 }
 
@@ -235,7 +259,7 @@ ModelState read_model_file(const std::filesystem::path& path, const Model& model
                            const TrainingOptions& options, const std::string& fingerprint) {
   SafetensorsReader file(path);
   expect_text(file, "format", "format", kFormat);
-  expect_text(file, "version", "format version", fmt::format("{}", kVersion));
+  expect_version(file, kVersion);
   ModelState state = read_model_content(file, model, options);
   expect_text(file, "fingerprint", "fingerprint", fingerprint);
   expect_no_other_tensors(file, model, options);

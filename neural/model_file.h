@@ -36,6 +36,13 @@ ModelState read_model_content(SafetensorsReader& file, const Model& model, const
 /// Throws CacheFileError unless the metadata holds this text under `key`; `what` is its name in the message.
 void expect_text(const SafetensorsReader& file, const std::string& key, const std::string& what,
                  const std::string& expected);
+/// Throws CacheFileError unless the version is this one and the digest is right, or it is the one before,
+/// which had no digest yet.
+void expect_version(SafetensorsReader& file, int version);
+/// Throws CacheFileError, naming the difference, where read_model_content would refuse the file for its
+/// model, its options, or the type or shape of a tensor. Reads no tensor: a model that is made after a file
+/// takes memory only when the file has the bytes for it.
+void expect_model(const SafetensorsReader& file, const Model& model, const TrainingOptions& options);
 /// Throws CacheFileError where the file holds a tensor that is neither of the model nor one of `others`.
 void expect_no_other_tensors(const SafetensorsReader& file, const Model& model,
                              const TrainingOptions& options, std::set<std::string> others = {});

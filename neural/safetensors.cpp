@@ -28,7 +28,10 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 
 constexpr const char* kMetadataKey = "__metadata__";
 constexpr std::uint64_t kLengthBytes = 8;
-constexpr std::uint64_t kMaxHeaderBytes = 100'000'000;  // as in the format's first implementation
+/// Ours take some kilobytes. As JSON values a header takes up to a hundred times its bytes of memory.
+constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 20;
+/// The header, a tensor's entry, its shape. What is nested deeper would end the stack of whoever prints it.
+constexpr int kMaxHeaderDepth = 3;
 constexpr std::array<std::pair<TensorType, std::string_view>, 5> kTypeNames = {{{TensorType::f16, "F16"},
                                                                                 {TensorType::f32, "F32"},
                                                                                 {TensorType::f64, "F64"},
@@ -213,7 +216,11 @@ void SafetensorsReader::parse_header(const std::string& header, std::uint64_t da
   if (header.find('\0') != std::string::npos) fail("the header holds a NUL byte");
   std::vector<std::set<std::string>> keys;
   std::string duplicate;
-  const auto watch_keys = [&](int, json::parse_event_t event, json& parsed) {
+  const auto watch_keys = [&](int depth, json::parse_event_t event, json& parsed) {
+    const bool opens =
+        event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+    if (opens && depth >= kMaxHeaderDepth)
+      fail(fmt::format("the header is nested deeper than {}", kMaxHeaderDepth));
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
@@ -299,12 +306,18 @@ std::uint64_t SafetensorsReader::length(const std::string& name, TensorType type
   return entry.shape[0];
 }
 
-void SafetensorsReader::read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
-                             std::span<std::byte> out) {
+void SafetensorsReader::expect_shape(const std::string& name, TensorType type,
+                                     std::span<const std::uint64_t> shape) const {
   const Entry& entry = find(name);
   if (entry.type != type || !std::equal(shape.begin(), shape.end(), entry.shape.begin(), entry.shape.end()))
     fail(fmt::format("tensor '{}': {} {}, expected {} {}", name, type_name(entry.type),
                      shape_text(entry.shape), type_name(type), shape_text(shape)));
+}
+
+void SafetensorsReader::read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
+                             std::span<std::byte> out) {
+  expect_shape(name, type, shape);
+  const Entry& entry = find(name);
   assert(out.size() == entry.end - entry.begin);
   file_.seekg(static_cast<std::streamoff>(data_offset_ + entry.begin));
   if (!file_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size())))
@@ -325,7 +338,13 @@ void SafetensorsReader::read_in_pieces(const std::string& name, const ByteSink& 
 }
 
 void SafetensorsReader::fail(const std::string& reason) const {
-  throw CacheFileError(fmt::format("cannot read '{}': {}", path_.string(), reason));
+  constexpr std::size_t kLongest = 1000;
+  std::string line = reason.substr(0, kLongest);
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
+  throw CacheFileError(fmt::format("cannot read '{}': {}", path_.string(), line));
 }
 
 }  // namespace gatelight::neural

@@ -55,6 +55,8 @@ class SafetensorsReader {
   /// lie in the file. Throws CacheFileError where the tensor is missing or of another type or rank.
   std::uint64_t length(const std::string& name, TensorType type) const;
   /// Throws CacheFileError where the tensor is missing or of another type or shape.
+  void expect_shape(const std::string& name, TensorType type, std::span<const std::uint64_t> shape) const;
+  /// Throws as expect_shape does.
   void read(const std::string& name, TensorType type, std::span<const std::uint64_t> shape,
             std::span<std::byte> out);
 
@@ -62,7 +64,7 @@ class SafetensorsReader {
   static constexpr std::size_t kPieceBytes = 1 << 20;
   void read_in_pieces(const std::string& name, const ByteSink& sink);
 
-  /// Throws CacheFileError about this file.
+  /// Throws CacheFileError about this file, in one line: what the reason quotes of it may be anything.
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:

@@ -56,7 +56,8 @@ struct TrainingOptions {
   FeatureStep feature_step = FeatureStep::per_node;
   FeaturePrecision precision = FeaturePrecision::fp32;
   AverageOptions average;
-  /// With biases: the first batch sets the output bias to its mean target before it is learned.
+  /// With biases: the first batch sets the output bias to its mean target (start_mean.h) before it is
+  /// learned.
   bool start_at_mean = true;
   /// Targets beyond this magnitude are clamped to it and counted: sums of squares of gradients stay finite.
   float max_target = 1e9f;

@@ -17,7 +17,8 @@
 #include "neural/cpu/node_references.h"
 #include "neural/cpu/packed_network.h"
 #include "neural/errors.h"
-#include "neural/record_status.h"
+#include "neural/flush_denormals.h"
+#include "neural/start_mean.h"
 
 namespace gatelight::neural::cpu {
 
@@ -120,21 +121,12 @@ float* CpuBackend::scratch(std::uint64_t floats) const {
   return mine.data();
 }
 
-// The first batch's mean target, so that the network starts with the right brightness.
+// So that the network starts with the right brightness.
 void CpuBackend::start_output_at_mean(const TrainingBatch& batch) {
-  const std::size_t outputs = model_->config.mlp.outputs;
-  std::vector<double> sums(outputs, 0.0);
-  std::size_t accepted = 0;
-  for (std::size_t i = 0; i < batch.points.size; ++i) {
-    if (record_status(*model_, batch, i) != RecordStatus::accepted) continue;
-    ++accepted;
-    for (std::size_t c = 0; c < outputs; ++c)
-      sums[c] += std::clamp(batch.targets[i * outputs + c], -options_.max_target, options_.max_target);
-  }
-  if (accepted == 0) return;
+  const std::vector<double> means = start_mean(*model_, batch, options_.max_target);
+  if (means.empty()) return;
   float* biases = network_.data() + (layout_.layers.back().biases - layout_.network);
-  for (std::size_t c = 0; c < outputs; ++c)
-    biases[c] = static_cast<float>(sums[c] / static_cast<double>(accepted));
+  for (std::size_t c = 0; c < means.size(); ++c) biases[c] = static_cast<float>(means[c]);
   raw_.pack(network_);
 }
 
@@ -157,6 +149,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, raw_.kernel());
 
   tbb::parallel_for(0u, chunks.count(), [&](std::uint32_t chunk) {
+    const FlushDenormals flush;
     float* gradients = chunk_gradients_.data() + chunk * gradient_size;
     std::fill_n(gradients, gradient_size, 0.0f);
     KernelTraining t = {};
@@ -262,6 +255,7 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
 
   tbb::parallel_for(0u, buckets_.count, [&](std::uint32_t bucket) {
     if (references_.size(bucket) == 0 && !dense) return;
+    const FlushDenormals flush;
     BucketScratch& mine = bucket_scratch_.local();
     if (mine.sums.empty())
       mine = {HugeBuffer<float>(bucket_nodes * layout_.features),
@@ -302,6 +296,7 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
 
 StepStatistics CpuBackend::train(const TrainingBatch& batch) {
   check_batch(*model_, batch);
+  const FlushDenormals flush;
   // References and places of gradients are numbered with 32 bits.
   const std::uint64_t most =
       std::numeric_limits<std::uint32_t>::max() / std::max(4 * layout_.inputs, model_->nodes_per_point());
@@ -353,6 +348,7 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
   constexpr std::size_t kChunk = 64 * kTile;
   tbb::parallel_for(std::size_t{0}, (batch.size + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const FlushDenormals flush;
     KernelQuery q = {};
     q.encoder = &encoder;
     q.network = &network;
@@ -421,6 +417,7 @@ std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, co
 
 NetworkPass network_pass(Backend& cpu_backend, std::span<const float> inputs,
                          std::span<const float> targets) {
+  const FlushDenormals flush;
   return dynamic_cast<CpuBackend&>(cpu_backend).network_pass(inputs, targets);
 }
 

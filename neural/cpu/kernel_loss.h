@@ -81,8 +81,8 @@ GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uin
     Row4 scaled = difference;
     if (relative) {
       Row4 l = value * luminance;
-      l += __builtin_shuffle(l, Index4{2, 3, 0, 1});
-      l += __builtin_shuffle(l, Index4{1, 0, 3, 2});
+      l += __builtin_shufflevector(l, l, 2, 3, 0, 1);
+      l += __builtin_shufflevector(l, l, 1, 0, 3, 2);
       scaled = difference / (l * l + 0.01f);
     }
     total += difference * scaled;

@@ -102,12 +102,12 @@ GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
 GATELIGHT_INLINE float float_of_half(uint16_t half) {
   const uint32_t sign = static_cast<uint32_t>(half & 0x8000u) << 16;
   const uint32_t magnitude = half & 0x7fffu;
-  // The exponent is rebiased by a product with 2^112, which also normalises subnormals. Halves here are
-  // finite.
-  const uint32_t shifted = magnitude << 13;
+  // Halves here are finite. Subnormals are normalised by the difference of two floats that are normal, so
+  // that it does not matter whether denormal floats are flushed.
+  const uint32_t shifted = (magnitude << 13) + (magnitude < 0x400u ? 113u << 23 : 112u << 23);
   float value;
   __builtin_memcpy(&value, &shifted, 4);
-  value *= 0x1p112f;
+  if (magnitude < 0x400u) value -= 0x1p-14f;
   return sign != 0 ? -value : value;
 }
 GATELIGHT_INLINE uint16_t half_of_float(float value) {

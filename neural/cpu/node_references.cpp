@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "neural/flush_denormals.h"
+
 namespace gatelight::neural::cpu {
 
 Buckets make_buckets(std::uint32_t nodes) {
@@ -45,6 +47,8 @@ void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
   starts_[buckets_.count] = total;
 
   tbb::parallel_for(0u, chunks_.count(), [&](std::uint32_t chunk) {
+    // As where they were counted: a denormal weight is none.
+    const FlushDenormals flush;
     std::uint32_t* const next = counts(chunk);
     KernelReference* const references = references_.data();
     const std::uint32_t slots = slots_, shift = buckets_.shift;

@@ -30,8 +30,9 @@ std::vector<double> coordinates(const AuxiliaryInput& input, const Point& point)
 }  // namespace
 
 std::array<double, 2> spherical(const std::array<double, 3>& direction) {
-  const double theta = std::atan2(std::hypot(direction[0], direction[1]), direction[2]);
-  const double phi = std::atan2(direction[1], direction[0]);
+  // -0 is 0: (-0, -0, 1), which negating a direction makes, is the pole like any other.
+  const double theta = std::atan2(std::hypot(direction[0], direction[1]), direction[2] + 0.0);
+  const double phi = std::atan2(direction[1] + 0.0, direction[0] + 0.0);
   return {theta / std::numbers::pi, phi / (2.0 * std::numbers::pi)};
 }
 

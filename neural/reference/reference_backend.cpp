@@ -13,6 +13,7 @@
 #include "neural/reference/adam.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
+#include "neural/start_mean.h"
 
 namespace gatelight::neural::reference {
 
@@ -88,7 +89,7 @@ class ReferenceBackend final : public Backend {
  private:
   bool is_network(std::size_t parameter) const { return parameter >= model_->parameters.network; }
   std::vector<double> readable(std::vector<double> parameters) const;
-  void start_output_bias(std::span<const Record> records);
+  void start_output_bias(const TrainingBatch& batch);
   void update_network(std::span<const double> gradients, StepStatistics& statistics);
   void update_features(std::span<const Record> records, std::span<const double> gradients,
                        StepStatistics& statistics);
@@ -115,7 +116,7 @@ StepStatistics ReferenceBackend::train(const TrainingBatch& batch) {
   StepStatistics statistics;
   const std::vector<Record> records = accept_records(*model_, batch, options_.max_target, statistics);
   if (records.empty()) return statistics;
-  if (steps_ == 0 && options_.start_at_mean && model_->parameters.biases) start_output_bias(records);
+  if (steps_ == 0 && options_.start_at_mean && model_->parameters.biases) start_output_bias(batch);
 
   const std::vector<double> parameters = readable(parameters_);
   std::vector<double> gradients(parameters.size(), 0.0);
@@ -142,14 +143,11 @@ std::vector<double> ReferenceBackend::readable(std::vector<double> parameters) c
   return parameters;
 }
 
-void ReferenceBackend::start_output_bias(std::span<const Record> records) {
+void ReferenceBackend::start_output_bias(const TrainingBatch& batch) {
   const LayerLayout& layer = model_->parameters.layers.back();
-  for (std::size_t o = 0; o < layer.outputs; ++o) {
-    double sum = 0.0;
-    for (const Record& record : records) sum += record.targets[o];
-    parameters_[layer.biases + o] = sum / static_cast<double>(records.size());
-    averages_[layer.biases + o] = parameters_[layer.biases + o];
-  }
+  const std::vector<double> means = start_mean(*model_, batch, options_.max_target);
+  for (std::size_t o = 0; o < layer.outputs; ++o)
+    parameters_[layer.biases + o] = averages_[layer.biases + o] = means[o];
 }
 
 void ReferenceBackend::count_triangles(std::span<const Record> records) {

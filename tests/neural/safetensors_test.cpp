@@ -112,6 +112,9 @@ TEST(Safetensors, BrokenLengthsAreRefused) {
               HasSubstr("header of 18446744073709551615"));
   EXPECT_THAT(reading(folder, file_bytes(std::uint64_t{1} << 63, "{}")),
               HasSubstr("header of 9223372036854775808"));
+  const std::string large(std::size_t{1} << 20, ' ');
+  EXPECT_THAT(reading(folder, file_bytes("{}" + large, 0)),
+              HasSubstr("header of 1048578 bytes, expected 2 to 1048576"));
   EXPECT_THAT(reading(folder, file_bytes("{}", 0)), "");
 }
 
@@ -134,7 +137,10 @@ TEST(Safetensors, BrokenHeadersAreRefused) {
       {std::string("{}\0\0", 4), 0, "NUL byte"},
       {"{\"\xff\":1}", 0, "no JSON"},
       {std::string(100000, '['), 0, "does not begin"},
-      {"{\"a\":" + std::string(100000, '['), 0, "no JSON"},
+      {"{\"a\":" + std::string(100000, '['), 0, "nested deeper than 3"},
+      {"{\"a\":[[" + std::string(50000, '[') + std::string(50000, ']') + "]]}", 0, "nested deeper than 3"},
+      {entry("[[1]]", "[1]", "[0,8]"), 8, "nested deeper than 3"},
+      {entry("[1]", "[1]", "[0,8]"), 8, "dtype [1], expected F16"},
       {R"({"a":1})", 0, "'a' is no object"},
       {R"({"__metadata__":{"k":1}})", 0, "metadata 'k' is no text"},
       {R"({"__metadata__":"k"})", 0, "'__metadata__' is no object"},

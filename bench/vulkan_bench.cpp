@@ -1,0 +1,140 @@
+// vulkan/train_step and vulkan/query: the same rows as the CPU's on the device that the environment variable
+// GATELIGHT_BENCH_VULKAN names ("" is the best one); without it there are none. Milliseconds of the device
+// are counters, those of the caller the rows' time.
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "bench/neural_rows.h"
+#include "neural/vulkan/measured_limits.h"
+
+namespace gatelight::bench {
+namespace {
+
+namespace vulkan = neural::vulkan;
+
+constexpr std::uint64_t kReadBytes = std::uint64_t{256} << 20;
+/// Steps that are started before the first is waited for.
+constexpr std::size_t kAhead = 2;
+
+std::shared_ptr<vulkan::Machine> shared_machine() {
+  static const std::shared_ptr<vulkan::Machine> opened =
+      vulkan::open_machine({.device = std::getenv("GATELIGHT_BENCH_VULKAN")});
+  return opened;
+}
+
+const vulkan::MeasuredLimits& limits() {
+  static const vulkan::MeasuredLimits measured = vulkan::measure_limits(*shared_machine(), kReadBytes);
+  return measured;
+}
+
+/// Bytes that a step of so many records, which touches so many nodes, has to move, if each went over the bus
+/// once.
+double step_bytes(const neural::Model& model, double records, double touched) {
+  const double vector = 4.0 * model.parameters.features;
+  const double read = records * model.nodes_per_point() * vector;  // interpolation
+  return read + touched * (2 * 4 * vector + 8);                    // feature, two moments, average, counter
+}
+
+void limit_rows(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(limits().bytes_per_second);
+  state.counters["GFLOP/s"] = limits().operations_per_second / 1e9;
+  state.counters["GB/s"] = limits().bytes_per_second / 1e9;
+  state.SetLabel(vulkan::machine_name(*shared_machine()));
+}
+
+void train_step(benchmark::State& state, const NeuralCase& which, Order order) {
+  const auto model = neural_model(which);
+  const auto backend = vulkan::make_vulkan_backend(shared_machine(), model, {});
+  std::vector<std::vector<float>> targets;
+  for (const NeuralPoints& points : training_points(order))
+    targets.push_back(training_targets(points, model->config.mlp.outputs));
+  const auto batch = [&](std::size_t i) -> neural::TrainingBatch {
+    const std::size_t b = i % targets.size();
+    return {training_points(order)[b].query_batch(), targets[b]};
+  };
+  for (std::size_t i = 0; i < targets.size(); ++i) backend->train(batch(i));  // warm up
+  neural::StepStatistics sum;
+  double steps = 0.0, touched = 0.0;
+  const auto take = [&](const neural::StepStatistics& step) {
+    sum.seconds += step.seconds;
+    sum.seconds_network += step.seconds_network;
+    sum.seconds_sort += step.seconds_sort;
+    sum.seconds_update += step.seconds_update;
+    touched += static_cast<double>(step.touched_nodes);
+    steps += 1.0;
+  };
+  std::size_t started = 0, finished = 0;
+  for (auto _ : state) {
+    backend->start(batch(started++));
+    if (started - finished <= kAhead) continue;
+    take(backend->finish());
+    ++finished;
+  }
+  for (; finished < started; ++finished) take(backend->finish());
+  const double records = steps * kBatchRecords;
+  state.counters["device_ms"] = 1e3 * sum.seconds / steps;
+  state.counters["network_ms"] = 1e3 * sum.seconds_network / steps;
+  state.counters["sort_ms"] = 1e3 * sum.seconds_sort / steps;
+  state.counters["update_ms"] = 1e3 * sum.seconds_update / steps;
+  if (sum.seconds == 0.0) return;
+  state.counters["fraction_of_arithmetic"] =
+      records * training_operations(model->parameters) / sum.seconds / limits().operations_per_second;
+  state.counters["fraction_of_bandwidth"] =
+      step_bytes(*model, records, touched) / sum.seconds / limits().bytes_per_second;
+}
+
+void query(benchmark::State& state, const NeuralCase& which, Order order, neural::QueryPrecision precision) {
+  const auto model = neural_model(which);
+  const auto backend = vulkan::make_vulkan_backend(shared_machine(), model, {});
+  const NeuralPoints& points = query_points(order);
+  std::vector<float> out(points.size() * model->config.mlp.outputs);
+  neural::QueryOptions options;
+  options.precision = precision;
+  backend->query(points.query_batch(), options, out);  // warm up
+  vulkan::QuerySeconds sum;
+  double queries = 0.0;
+  for (auto _ : state) {
+    backend->query(points.query_batch(), options, out);
+    const vulkan::QuerySeconds seconds = vulkan::last_query_seconds(*backend);
+    sum.encode += seconds.encode;
+    sum.network += seconds.network;
+    sum.copies += seconds.copies;
+    queries += 1.0;
+  }
+  state.counters["device_ms"] = 1e3 * (sum.encode + sum.network) / queries;
+  state.counters["encode_ms"] = 1e3 * sum.encode / queries;
+  state.counters["network_ms"] = 1e3 * sum.network / queries;
+  state.counters["copies_ms"] = 1e3 * sum.copies / queries;
+  if (sum.network == 0.0) return;
+  const double answers = queries * static_cast<double>(points.size());
+  const double bytes = answers * model->nodes_per_point() * 4.0 * model->parameters.features;
+  state.counters["fraction_of_arithmetic"] = answers * forward_operations(model->parameters) /
+                                             (sum.encode + sum.network) / limits().operations_per_second;
+  state.counters["fraction_of_bandwidth"] = bytes / (sum.encode + sum.network) / limits().bytes_per_second;
+}
+
+const bool registered = [] {
+  if (std::getenv("GATELIGHT_BENCH_VULKAN") == nullptr) return false;
+  benchmark::RegisterBenchmark("vulkan/limits", limit_rows)->Iterations(1);
+  for (const Cache cache : {Cache::nrc, Cache::nao})
+    for (const Encoding encoding : {Encoding::gate, Encoding::hash_grid})
+      for (const Order order : {Order::coherent, Order::random}) {
+        const NeuralCase which{cache, encoding};
+        const std::string tail = case_name(which) + "/" + order_name(order);
+        benchmark::RegisterBenchmark(("vulkan/train_step/" + tail).c_str(), train_step, which, order)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
+        for (const auto& [word, precision] :
+             {std::pair{"fp32", neural::QueryPrecision::fp32}, {"bf16", neural::QueryPrecision::bf16}})
+          benchmark::RegisterBenchmark(fmt::format("vulkan/query/{}/{}", tail, word).c_str(), query, which,
+                                       order, precision)
+              ->Unit(benchmark::kMillisecond)
+              ->UseRealTime();
+      }
+  return true;
+}();
+
+}  // namespace
+}  // namespace gatelight::bench

@@ -1,0 +1,39 @@
+#pragma once
+// A buffer with memory of its own, reached by address.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "neural/vulkan/device.h"
+
+namespace gatelight::neural::vulkan {
+
+enum class BufferUse : std::uint8_t {
+  device,    ///< shaders read and write it
+  upload,    ///< written by the host, copied from
+  readback,  ///< copied to, read by the host
+};
+
+class Buffer {
+ public:
+  Buffer() = default;
+  /// At least one word. Throws OutOfDeviceMemory.
+  Buffer(const Device& device, std::uint64_t bytes, BufferUse use);
+
+  vk::Buffer handle() const { return *buffer_; }
+  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t address() const { return address_; }
+  std::byte* mapped() const { return mapped_; }  ///< null on the device
+
+ private:
+  std::uint64_t bytes_ = 0;
+  std::uint64_t address_ = 0;
+  std::byte* mapped_ = nullptr;
+  vk::raii::DeviceMemory memory_ = nullptr;
+  vk::raii::Buffer buffer_ = nullptr;
+};
+
+/// Makes it longer where it is shorter; what is in it is lost then.
+void reserve(const Device& device, Buffer& buffer, std::uint64_t bytes, BufferUse use);
+
+}  // namespace gatelight::neural::vulkan

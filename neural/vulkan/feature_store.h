@@ -1,0 +1,38 @@
+#pragma once
+// The feature vectors, what Adam keeps of them, and counters, on the device.
+
+#include "neural/state.h"
+#include "neural/vulkan/table.h"
+
+namespace gatelight::neural::vulkan {
+
+/// Of a FeatureStore, without its topology.
+std::uint64_t feature_bytes(const Model& model, const TrainingOptions& options);
+
+class FeatureStore {
+ public:
+  FeatureStore(const Device& device, Transfer& transfer, const Model& model, const TrainingOptions& options,
+               std::uint64_t longest_part);
+
+  void describe(ModelBlock& block) const;
+  /// What forward reads: of the averages or of the parameters.
+  TableBlock readable(bool averaged) const;
+  bool halves() const { return !halves_.empty(); }
+  bool floats() const { return !features_.empty(); }
+  bool averages() const { return !averages_.empty() || !average_halves_.empty(); }
+  bool counts_triangles() const { return !triangle_steps_.empty(); }
+
+  /// The features' part of the arrays, which have their sizes already.
+  void export_to(Transfer& transfer, ModelState& state) const;
+  void import_from(Transfer& transfer, const ModelState& state);
+
+  std::uint64_t parameter_bytes() const;
+  std::uint64_t optimizer_bytes() const;
+
+ private:
+  std::uint64_t nodes_, features_per_node_, triangles_;
+  Table features_, halves_, averages_, average_halves_, moments_, node_steps_, triangle_steps_,
+      triangle_stamps_;
+};
+
+}  // namespace gatelight::neural::vulkan

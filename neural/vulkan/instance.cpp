@@ -1,0 +1,143 @@
+#include "neural/vulkan/instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "neural/errors.h"
+
+namespace gatelight::neural::vulkan {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr std::uint32_t kNoFamily = ~0u;
+
+VKAPI_ATTR VkBool32 VKAPI_CALL take_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                            VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                            void* messages) {
+  static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* messages) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+  return {{},
+          Severity::eWarning | Severity::eError,
+          Type::eValidation | Type::ePerformance,
+          take_message,
+          messages};
+}
+
+vk::raii::Context open_loader() {
+  try {
+    return {};
+  } catch (const std::runtime_error&) {
+    throw Unavailable("there is no Vulkan loader (libvulkan.so.1) on this machine");
+  }
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate,
+                                 std::vector<std::string>* messages) {
+  const vk::ApplicationInfo application("gatelight", 1, nullptr, 0, VK_API_VERSION_1_2);
+  vk::InstanceCreateInfo info({}, &application);
+  const vk::DebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages);
+  const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  // Objects whose memory or order of use is wrong are found by the layer's synchronization checks.
+  const vk::ValidationFeatureEnableEXT synchronization =
+      vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+  vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
+  if (validate) {
+    info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(extension);
+    info.pNext = &features;
+  }
+  try {
+    return {context, info};
+  } catch (const vk::LayerNotPresentError&) {
+    throw Unavailable(
+        fmt::format("the layer {} is missing: install vulkan-validationlayers", kValidationLayer));
+  } catch (const vk::SystemError& error) {
+    throw Unavailable(fmt::format("Vulkan cannot be started: {}",
+                                  vk::to_string(static_cast<vk::Result>(error.code().value()))));
+  }
+}
+
+DeviceKind kind_of(vk::PhysicalDeviceType type) {
+  switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return DeviceKind::discrete;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return DeviceKind::integrated;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return DeviceKind::virtual_gpu;
+    case vk::PhysicalDeviceType::eCpu:
+      return DeviceKind::software;
+    case vk::PhysicalDeviceType::eOther:
+      break;
+  }
+  return DeviceKind::other;
+}
+
+}  // namespace
+
+Instance::Instance(bool validate, std::shared_ptr<std::vector<std::string>> messages)
+    : validate_(validate),
+      messages_(messages != nullptr ? std::move(messages) : std::make_shared<std::vector<std::string>>()),
+      context_(open_loader()),
+      instance_(make_instance(context_, validate, messages_.get())),
+      messenger_(nullptr) {
+  if (validate) messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_, messenger_info(messages_.get()));
+}
+
+std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
+  try {
+    std::vector<vk::raii::PhysicalDevice> found;
+    for (vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance_))
+      found.push_back(std::move(device));
+    return found;
+  } catch (const vk::InitializationFailedError&) {
+    return {};  // the loader found no driver that works
+  }
+}
+
+void Instance::check_messages() {
+  if (messages_->size() == checked_) return;
+  const std::string& first = (*messages_)[checked_];
+  checked_ = messages_->size();
+  throw ValidationFailed("Vulkan validation: " + first);
+}
+
+DeviceFacts facts_of(const vk::raii::PhysicalDevice& device) {
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  DeviceFacts facts;
+  facts.name = properties.deviceName.data();
+  facts.kind = kind_of(properties.deviceType);
+  facts.major = VK_API_VERSION_MAJOR(properties.apiVersion);
+  facts.minor = VK_API_VERSION_MINOR(properties.apiVersion);
+  facts.compute_queue = compute_family(device) != kNoFamily;
+  facts.workgroup_threads = std::min(properties.limits.maxComputeWorkGroupInvocations,
+                                     properties.limits.maxComputeWorkGroupSize[0]);
+  facts.shared_bytes = properties.limits.maxComputeSharedMemorySize;
+  if (properties.apiVersion >= VK_API_VERSION_1_2)
+    facts.buffer_addresses =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>()
+            .get<vk::PhysicalDeviceVulkan12Features>()
+            .bufferDeviceAddress == VK_TRUE;
+  return facts;
+}
+
+std::uint32_t compute_family(const vk::raii::PhysicalDevice& device) {
+  const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
+  std::uint32_t found = kNoFamily;
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (!(families[i].queueFlags & vk::QueueFlagBits::eCompute)) continue;
+    if (!(families[i].queueFlags & vk::QueueFlagBits::eGraphics)) return i;
+    if (found == kNoFamily) found = i;
+  }
+  return found;
+}
+
+}  // namespace gatelight::neural::vulkan

@@ -1,0 +1,40 @@
+#pragma once
+// The loader, an instance, and what the validation layer says.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "neural/vulkan/device_choice.h"
+
+namespace gatelight::neural::vulkan {
+
+class Instance {
+ public:
+  /// Throws Unavailable where there is no loader, or validation is asked for and the layer is missing.
+  /// `messages` may be null.
+  Instance(bool validate, std::shared_ptr<std::vector<std::string>> messages);
+
+  std::vector<vk::raii::PhysicalDevice> devices() const;
+  bool validates() const { return validate_; }
+  /// Throws ValidationFailed with the first message since the last check, if there is one.
+  void check_messages();
+
+ private:
+  bool validate_;
+  std::shared_ptr<std::vector<std::string>> messages_;
+  std::size_t checked_ = 0;
+  vk::raii::Context context_;
+  vk::raii::Instance instance_;
+  vk::raii::DebugUtilsMessengerEXT messenger_;
+};
+
+DeviceFacts facts_of(const vk::raii::PhysicalDevice& device);
+
+/// The first family with compute and, if there is one, without graphics: there work does not wait for a
+/// desktop's.
+std::uint32_t compute_family(const vk::raii::PhysicalDevice& device);
+
+}  // namespace gatelight::neural::vulkan

@@ -1,0 +1,84 @@
+#include "neural/vulkan/machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+
+#include "neural/errors.h"
+#include "neural/vulkan/errors.h"
+
+namespace gatelight::neural::vulkan {
+
+namespace {
+
+bool validation_wanted(const MachineOptions& options) {
+  const char* const variable = std::getenv("GATELIGHT_VULKAN_VALIDATION");
+  return options.validate || (variable != nullptr && *variable != '\0' && std::string_view(variable) != "0");
+}
+
+std::uint64_t submissions_before_loss(const MachineOptions& options) {
+  if (options.lose_after != 0) return options.lose_after;
+  const char* const variable = std::getenv("GATELIGHT_VULKAN_LOSE_AFTER");
+  const std::uint64_t count = variable != nullptr ? std::strtoull(variable, nullptr, 10) : 0;
+  return count != 0 ? count : std::numeric_limits<std::uint64_t>::max();
+}
+
+vk::raii::PhysicalDevice choose(const Instance& instance, const std::string& wanted) {
+  std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
+  std::vector<DeviceFacts> facts;
+  for (const vk::raii::PhysicalDevice& device : devices) facts.push_back(facts_of(device));
+  return std::move(devices[choose_device(facts, wanted)]);
+}
+
+}  // namespace
+
+Machine::Machine(const MachineOptions& options)
+    : instance_(validation_wanted(options), options.messages),
+      device_(choose(instance_, options.device)),
+      pipelines_(device_),
+      longest_part_(options.longest_part != 0
+                        ? std::min(options.longest_part, device_.limits().longest_buffer)
+                        : device_.limits().longest_buffer),
+      lose_after_(submissions_before_loss(options)) {}
+
+void Machine::count_submission() {
+  if (++submissions_ > lose_after_) throw vk::DeviceLostError("lost for a test");
+}
+
+bool is_built_in() {
+  return true;
+}
+
+std::vector<DeviceListing> list_devices() {
+  return translated("Vulkan", "listing devices", [] {
+    const Instance instance(false, nullptr);
+    std::vector<DeviceListing> listings;
+    for (const vk::raii::PhysicalDevice& device : instance.devices()) {
+      const DeviceFacts facts = facts_of(device);
+      listings.push_back({facts.name, std::string(kind_name(facts.kind)),
+                          fmt::format("{}.{}", facts.major, facts.minor),
+                          greatest_device_heap(device.getMemoryProperties()), refusal(facts)});
+    }
+    return listings;
+  });
+}
+
+std::string device_name(const std::string& wanted) {
+  return translated("Vulkan", "listing devices", [&] {
+    const Instance instance(false, nullptr);
+    return facts_of(choose(instance, wanted)).name;
+  });
+}
+
+std::shared_ptr<Machine> open_machine(const MachineOptions& options) {
+  return translated("Vulkan", "opening the device", [&] { return std::make_shared<Machine>(options); });
+}
+
+std::string machine_name(const Machine& machine) {
+  return machine.device().name();
+}
+
+}  // namespace gatelight::neural::vulkan

@@ -1,0 +1,25 @@
+#pragma once
+// What never changes of a model, on the device.
+
+#include "neural/training_options.h"
+#include "neural/vulkan/table.h"
+
+namespace gatelight::neural::vulkan {
+
+class ModelTables {
+ public:
+  /// Throws BadConfiguration for more surfaces than a buffer holds.
+  ModelTables(const Device& device, Transfer& transfer, const Model& model, const TrainingOptions& options,
+              std::uint64_t longest_part);
+
+  /// All but what changes in training.
+  void describe(ModelBlock& block) const;
+
+ private:
+  const Model& model_;
+  const TrainingOptions& options_;
+  Table topology_;
+  Buffer surfaces_, levels_, adam_;
+};
+
+}  // namespace gatelight::neural::vulkan

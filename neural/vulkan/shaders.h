@@ -1,0 +1,31 @@
+#pragma once
+// The SPIR-V that the build makes of shaders/*.comp.
+
+#include <cstdint>
+#include <span>
+
+namespace gatelight::neural::vulkan {
+
+enum class Shader : std::uint8_t {
+  count_triangles,
+  encode,
+  finish_step,
+  forward,
+  limit_fma,
+  limit_read,
+  mark_count,
+  mark_write,
+  pack_network,
+  scan,
+  sort_count,
+  sort_scatter,
+  start_mean,
+  sum_pieces,
+  train_network,
+  update_network,
+  update_nodes,
+};
+
+std::span<const std::uint32_t> shader_code(Shader shader);
+
+}  // namespace gatelight::neural::vulkan

@@ -1,0 +1,19 @@
+#version 460
+// Once a step for each triangle that an accepted record lies on: whoever stamps it first counts.
+#extension GL_GOOGLE_include_directive : require
+
+#include "blocks.glsl"
+
+layout(local_size_x = kThreads) in;
+
+void main() {
+  const uint record = flat_thread();
+  if (record >= batch.size || batch.status.at[record] != kStatusAccepted) return;
+  const uint triangle = batch.record_triangles.at[record];
+  Words stamps = part_of(model.triangle_stamps, triangle);
+  const uint stamp = model.progress.at[0] + 1u;
+  if (atomicExchange(stamps.at[place_in_part(model.triangle_stamps, triangle)], stamp) == stamp) return;
+  Words steps = part_of(model.triangle_steps, triangle);
+  const uint at = place_in_part(model.triangle_steps, triangle);
+  if (steps.at[at] != 0xffffffffu) steps.at[at] += 1u;
+}

@@ -1,0 +1,20 @@
+#version 460
+// As many multiplications and additions as can be: Push::argument rounds of 64 operations for each thread.
+#extension GL_GOOGLE_include_directive : require
+
+#include "blocks.glsl"
+
+layout(local_size_x = kThreads) in;
+
+void main() {
+  const uint thread = flat_thread();
+  const float seed = float(thread & 255u) * 1e-3;
+  vec4 a[8];
+  for (uint i = 0u; i < 8u; ++i) a[i] = vec4(seed + float(i));
+  const vec4 factor = vec4(0.999), addend = vec4(seed);
+  for (uint round = 0u; round < argument; ++round)
+    [[unroll]] for (uint i = 0u; i < 8u; ++i) a[i] = fma(a[i], factor, addend);
+  vec4 sum = vec4(0.0);
+  for (uint i = 0u; i < 8u; ++i) sum += a[i];
+  if (sum.x + sum.y + sum.z + sum.w == -1.0) batch.answers.at[thread] = sum.x;
+}

@@ -1,0 +1,25 @@
+#version 460
+// How many references of each block have each digit, [digit][block].
+#extension GL_GOOGLE_include_directive : require
+
+#include "blocks.glsl"
+#include "sort.glsl"
+
+layout(local_size_x = kThreads) in;
+
+shared uint digit_counts[kDigits];
+
+void main() {
+  const uint block = flat_group();
+  if (block >= batch.blocks) return;
+  if (gl_LocalInvocationIndex < kDigits) digit_counts[gl_LocalInvocationIndex] = 0u;
+  barrier();
+  Words keys = batch.keys[from_array()];
+  for (uint k = 0u; k < kEach; ++k) {
+    const uint i = block * kBlock + k * kThreads + gl_LocalInvocationIndex;
+    if (i < batch.references) atomicAdd(digit_counts[digit_of(keys.at[i])], 1u);
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < kDigits)
+    batch.counts.at[gl_LocalInvocationIndex * batch.blocks + block] = digit_counts[gl_LocalInvocationIndex];
+}

@@ -1,0 +1,56 @@
+#version 460
+// Weight gradients of all workgroups summed in one order, then Adam: 8 parameters a workgroup, sixteen threads
+// for each, of which each takes every sixteenth sum.
+#extension GL_GOOGLE_include_directive : require
+
+#define GATELIGHT_SHAPE_OF_MODEL
+#include "blocks.glsl"
+#include "adam.glsl"
+#include "network.glsl"
+
+layout(local_size_x = kThreads) in;
+
+const uint kSlices = 16;
+const uint kColumns = kThreads / kSlices;
+
+shared float slice_sums[kThreads];
+
+bool is_weight(uint p) {
+  uint layer = kHidden;
+  while (layer > 0u && flat_weights(layer) > p) --layer;
+  return p < flat_biases(layer);
+}
+
+void update(uint p, float sum) {
+  const float before = model.parameters.at[p];
+  const float g = sum * gradient_scale() + (is_weight(p) ? model.adam.l2_network * before : 0.0);
+  if (!finite(g * g)) {
+    atomicAdd(batch.statistics.at[kSkipped], 1u);
+    return;
+  }
+  const AdamStep step = adam_step_of_network();
+  const float m = model.adam.beta1 * model.first_moments.at[p] + (1.0 - model.adam.beta1) * g;
+  const float v = model.adam.beta2 * model.second_moments.at[p] + (1.0 - model.adam.beta2) * g * g;
+  const float after = before - moved(m, v, step);
+  model.first_moments.at[p] = m;
+  model.second_moments.at[p] = v;
+  model.parameters.at[p] = after;
+  if (model.adam.average_network != 0u) {
+    const float average = model.network_average.at[p];
+    model.network_average.at[p] = average + step.average_rate * (after - average);
+  }
+}
+
+void main() {
+  if (batch.statistics.at[kAccepted] == 0u) return;
+  const uint column = gl_LocalInvocationIndex % kColumns, slice = gl_LocalInvocationIndex / kColumns;
+  const uint p = flat_group() * kColumns + column;
+  float sum = 0.0;
+  if (p < model.network_count)
+    for (uint g = slice; g < batch.groups; g += kSlices) sum += batch.partials.at[g * model.network_count + p];
+  slice_sums[gl_LocalInvocationIndex] = sum;
+  barrier();
+  if (slice != 0u || p >= model.network_count) return;
+  for (uint s = 1u; s < kSlices; ++s) sum += slice_sums[s * kColumns + column];
+  update(p, sum);
+}

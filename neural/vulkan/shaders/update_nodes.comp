@@ -1,0 +1,160 @@
+#version 460
+// Adam and averages of feature vectors, a node a thread: of touched nodes with counters of their own, or of
+// every node with the step's number (dense).
+#extension GL_GOOGLE_include_directive : require
+
+#include "blocks.glsl"
+#include "adam.glsl"
+#include "halves.glsl"
+
+layout(local_size_x = kThreads) in;
+layout(constant_id = 0) const uint kFeatures = 1;
+layout(constant_id = 1) const bool kPerTriangle = false;
+layout(constant_id = 2) const bool kDense = false;
+layout(constant_id = 3) const bool kFloats = true;   // parameters or masters
+layout(constant_id = 4) const bool kHalves = false;  // what forward reads
+layout(constant_id = 5) const bool kAverages = true;
+
+const float kMaxHalf = 65504.0;
+const uint kNone = 0xffffffffu;
+
+float gradient[kFeatures];
+float changed[kFeatures];
+float average[kFeatures];
+
+uint run_of(uint node) {
+  uint low = 0u, high = batch.statistics.at[kTouched];
+  while (low < high) {
+    const uint middle = (low + high) / 2u;
+    if (batch.nodes.at[middle] < node)
+      low = middle + 1u;
+    else
+      high = middle;
+  }
+  return low < batch.statistics.at[kTouched] && batch.nodes.at[low] == node ? low : kNone;
+}
+
+void sum_gradient(uint run) {
+  for (uint f = 0u; f < kFeatures; ++f) gradient[f] = 0.0;
+  if (run == kNone) return;
+  const uint end = batch.node_pieces.at[run + 1u];
+  for (uint piece = batch.node_pieces.at[run]; piece < end; ++piece)
+    for (uint f = 0u; f < kFeatures; ++f) gradient[f] += batch.piece_sums.at[piece * kFeatures + f];
+  const float scale = gradient_scale();
+  for (uint f = 0u; f < kFeatures; ++f) gradient[f] *= scale;
+}
+
+bool usable() {
+  for (uint f = 0u; f < kFeatures; ++f)
+    if (!finite(gradient[f] * gradient[f])) return false;
+  return true;
+}
+
+uint triangle_step(uint run) {
+  uint greatest = 0u;
+  for (uint piece = batch.node_pieces.at[run]; piece < batch.node_pieces.at[run + 1u]; ++piece)
+    greatest = max(greatest, batch.piece_steps.at[piece]);
+  return greatest;
+}
+
+float read_float(Table table, uint node, uint f) {
+  return uintBitsToFloat(part_of(table, node).at[place_in_part(table, node) + f]);
+}
+
+float read_half(Table table, uint node, uint f) {
+  const uint word = part_of(table, node).at[place_in_part(table, node) + f / 2u];
+  return f % 2u == 0u ? first_half(word) : second_half(word);
+}
+
+float clamped_to_half(float x) {
+  return clamp(x, -kMaxHalf, kMaxHalf);
+}
+
+void write_floats(Table table, uint node, float values[kFeatures]) {
+  Words part = part_of(table, node);
+  const uint at = place_in_part(table, node);
+  for (uint f = 0u; f < kFeatures; ++f) part.at[at + f] = floatBitsToUint(values[f]);
+}
+
+void write_halves(Table table, uint node, float values[kFeatures]) {
+  Words part = part_of(table, node);
+  const uint at = place_in_part(table, node);
+  for (uint f = 0u; f < kFeatures; f += 2u) {
+    const uint low = float_to_half(clamped_to_half(values[f]));
+    const uint high = f + 1u < kFeatures ? float_to_half(clamped_to_half(values[min(f + 1u, kFeatures - 1u)])) : 0u;
+    part.at[at + f / 2u] = high << 16 | low;
+  }
+}
+
+void move(uint node, AdamStep adam) {
+  Words moments = part_of(model.moments, node);
+  const uint at = place_in_part(model.moments, node);
+  for (uint f = 0u; f < kFeatures; ++f) {
+    const float g = gradient[f];
+    const float m = uintBitsToFloat(moments.at[at + f]) * model.adam.beta1 + g * (1.0 - model.adam.beta1);
+    const float v =
+        uintBitsToFloat(moments.at[at + kFeatures + f]) * model.adam.beta2 + g * g * (1.0 - model.adam.beta2);
+    moments.at[at + f] = floatBitsToUint(m);
+    moments.at[at + kFeatures + f] = floatBitsToUint(v);
+    const float before = kFloats ? read_float(model.features, node, f) : read_half(model.halves, node, f);
+    const float after = before - moved(m, v, adam);
+    changed[f] = kHalves ? clamped_to_half(after) : after;
+  }
+}
+
+// With fp16 alone an average follows what fp16 holds of the feature.
+void follow(uint node, AdamStep adam) {
+  for (uint f = 0u; f < kFeatures; ++f) {
+    const float target = kFloats ? changed[f] : half_to_float(float_to_half(changed[f]));
+    const float before =
+        kFloats ? read_float(model.averages, node, f) : read_half(model.average_halves, node, f);
+    average[f] = before + (target - before) * adam.average_rate;
+  }
+}
+
+void update(uint node, AdamStep adam) {
+  move(node, adam);
+  if (kAverages) follow(node, adam);
+  if (kFloats) write_floats(model.features, node, changed);
+  if (kHalves) write_halves(model.halves, node, changed);
+  if (kAverages && kFloats) write_floats(model.averages, node, average);
+  if (kAverages && kHalves) write_halves(model.average_halves, node, average);
+}
+
+void update_dense(uint node) {
+  sum_gradient(run_of(node));
+  if (usable())
+    update(node, adam_step_of_network());
+  else
+    atomicAdd(batch.statistics.at[kSkipped], 1u);
+}
+
+void update_touched(uint run) {
+  const uint node = batch.nodes.at[run];
+  sum_gradient(run);
+  if (!usable()) {
+    atomicAdd(batch.statistics.at[kSkipped], 1u);
+    return;
+  }
+  Words steps = part_of(model.node_steps, node);
+  const uint at = place_in_part(model.node_steps, node);
+  uint t = steps.at[at];
+  if (kPerTriangle)
+    t = triangle_step(run);
+  else if (t != 0xffffffffu)
+    ++t;
+  steps.at[at] = t;
+  update(node, adam_step(t));
+}
+
+void main() {
+  if (batch.statistics.at[kAccepted] == 0u) return;
+  const uint count = kDense ? model.node_count : batch.statistics.at[kTouched];
+  const uint threads = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kThreads;
+  for (uint i = flat_thread(); i < count; i += threads) {
+    if (kDense)
+      update_dense(i);
+    else
+      update_touched(i);
+  }
+}

@@ -1,0 +1,109 @@
+#include "neural/vulkan/step_scratch.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace gatelight::neural::vulkan {
+
+namespace {
+
+constexpr std::uint64_t kMostTile = 64;
+constexpr std::uint64_t kOutputRows = 16;
+constexpr std::uint64_t kDigits = 16;
+// Workgroups' sums of weight gradients take about so many bytes, within so many workgroups.
+constexpr std::uint64_t kPartialBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kFewestGroups = 16;
+constexpr std::uint64_t kMostGroups = 1024;
+
+// Rows have one float more than records, and a float of each record lies behind them.
+std::uint32_t fitting_tile(std::uint64_t rows, std::uint32_t shared_bytes) {
+  const std::uint64_t floats = shared_bytes / 4;
+  const std::uint64_t most = (floats - rows) / (rows + 1);
+  return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, kMostTile)));
+}
+
+}  // namespace
+
+std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes) {
+  const MlpOptions& mlp = model.config.mlp;
+  return fitting_tile(model.parameters.inputs + mlp.hidden_layers * mlp.width + kOutputRows, shared_bytes);
+}
+
+std::uint32_t query_tile(const Model& model, std::uint32_t shared_bytes) {
+  const std::uint32_t width = model.config.mlp.width;
+  return fitting_tile(std::max(model.parameters.inputs, width) + width, shared_bytes);
+}
+
+StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile) {
+  const std::uint64_t references = records * model.nodes_per_point();
+  const std::uint64_t tiles = (records + tile - 1) / tile;
+  const std::uint64_t groups =
+      std::clamp(kPartialBytes / (4 * model.parameters.network_count()), kFewestGroups, kMostGroups);
+  StepCut cut;
+  cut.size = static_cast<std::uint32_t>(records);
+  cut.references = static_cast<std::uint32_t>(references);
+  cut.tiles = static_cast<std::uint32_t>(tiles);
+  cut.groups = static_cast<std::uint32_t>(std::min(tiles, groups));
+  cut.blocks = static_cast<std::uint32_t>((references + kSortBlock - 1) / kSortBlock);
+  return cut;
+}
+
+std::uint64_t most_records(const Model& model, std::uint64_t longest_buffer) {
+  const ParameterLayout& layout = model.parameters;
+  const std::uint64_t floats =
+      std::max<std::uint64_t>({layout.inputs, model.config.mlp.outputs, 3u,
+                               std::uint64_t{model.nodes_per_point()} * std::max(layout.features, 1u)});
+  return longest_buffer / (4 * floats) - 1;
+}
+
+void StepScratch::reserve(const Device& device, const Model& model, std::uint64_t records,
+                          std::uint32_t tile) {
+  if (records <= capacity_) return;
+  const ParameterLayout& layout = model.parameters;
+  const StepCut cut = cut_step(model, records, tile);
+  const std::uint64_t references = cut.references;
+  const std::uint64_t nodes = std::min<std::uint64_t>(references, layout.node_count);
+  const auto words = [&](Buffer& buffer, std::uint64_t count) {
+    vulkan::reserve(device, buffer, 4 * count, BufferUse::device);
+  };
+  capacity_ = 0;  // where memory runs out on the way
+  words(inputs_, records * layout.inputs);
+  words(status_, records);
+  words(record_triangles_, records);
+  for (Buffer& keys : keys_) words(keys, references);
+  for (Buffer& values : values_) words(values, references);
+  words(weights_, references);
+  words(feature_gradients_, records * layout.feature_inputs);
+  words(losses_, cut.tiles);
+  words(partials_, std::uint64_t{cut.groups} * layout.network_count());
+  words(counts_, kDigits * cut.blocks);
+  words(piece_starts_, references + 1);
+  words(piece_sums_, references * layout.features);
+  words(piece_steps_, references);
+  words(nodes_, nodes);
+  words(node_pieces_, nodes + 1);
+  capacity_ = records;
+}
+
+void StepScratch::describe(BatchBlock& block) const {
+  block.inputs = inputs_.address();
+  block.status = status_.address();
+  block.record_triangles = record_triangles_.address();
+  for (std::size_t i = 0; i < 2; ++i) {
+    block.keys[i] = keys_[i].address();
+    block.values[i] = values_[i].address();
+  }
+  block.weights = weights_.address();
+  block.feature_gradients = feature_gradients_.address();
+  block.losses = losses_.address();
+  block.partials = partials_.address();
+  block.counts = counts_.address();
+  block.piece_starts = piece_starts_.address();
+  block.piece_sums = piece_sums_.address();
+  block.piece_steps = piece_steps_.address();
+  block.nodes = nodes_.address();
+  block.node_pieces = node_pieces_.address();
+  block.capacity = static_cast<std::uint32_t>(capacity_);
+}
+
+}  // namespace gatelight::neural::vulkan

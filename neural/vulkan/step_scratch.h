@@ -1,0 +1,39 @@
+#pragma once
+// How a step's work is cut, and the arrays that it needs beside the batch and the state.
+
+#include "neural/vulkan/blocks.h"
+#include "neural/vulkan/buffer.h"
+
+namespace gatelight::neural::vulkan {
+
+/// Threads of sort.glsl and runs.glsl times what each of them takes.
+inline constexpr std::uint32_t kSortBlock = 2048;
+
+/// Records that a workgroup of train_network (or forward) holds in shared memory at a time: a power of two,
+/// as many as fit.
+std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes);
+std::uint32_t query_tile(const Model& model, std::uint32_t shared_bytes);
+
+/// Depends on the batch's size, the model and the tile alone, so that sums have one order.
+struct StepCut {
+  std::uint32_t size = 0, references = 0, tiles = 0, groups = 0, blocks = 0;
+};
+StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile);
+
+/// The most records of a batch whose arrays each fit `longest_buffer` bytes.
+std::uint64_t most_records(const Model& model, std::uint64_t longest_buffer);
+
+class StepScratch {
+ public:
+  /// For batches of so many records; what is in it is lost where it grows.
+  void reserve(const Device& device, const Model& model, std::uint64_t records, std::uint32_t tile);
+  std::uint64_t capacity() const { return capacity_; }
+  void describe(BatchBlock& block) const;
+
+ private:
+  std::uint64_t capacity_ = 0;
+  Buffer inputs_, status_, record_triangles_, keys_[2], values_[2], weights_, feature_gradients_, losses_,
+      partials_, counts_, piece_starts_, piece_sums_, piece_steps_, nodes_, node_pieces_;
+};
+
+}  // namespace gatelight::neural::vulkan

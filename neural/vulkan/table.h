@@ -1,0 +1,42 @@
+#pragma once
+// An array of entries of some words each, cut into parts that a device can hold in one buffer.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "neural/vulkan/blocks.h"
+#include "neural/vulkan/transfer.h"
+
+namespace gatelight::neural::vulkan {
+
+class Table {
+ public:
+  Table() = default;
+  /// At least one entry, so that there is an address. Parts have 2^k entries, at most `longest_part` bytes.
+  Table(const Device& device, Transfer& transfer, std::uint64_t entries, std::uint32_t stride,
+        std::uint64_t longest_part);
+
+  bool empty() const { return parts_.empty(); }
+  std::uint64_t entries() const { return entries_; }
+  std::uint32_t stride() const { return stride_; }
+  std::uint64_t bytes() const { return 4 * entries_ * stride_; }
+  TableBlock block() const { return {addresses_.address(), shift_, stride_}; }
+
+  /// All entries' words.
+  void write(Transfer& transfer, std::span<const std::uint32_t> words);
+  void read(Transfer& transfer, std::span<std::uint32_t> words) const;
+  void fill(Transfer& transfer, std::uint32_t word);
+
+ private:
+  /// Calls body(part, its words among all).
+  template <class Body>
+  void for_parts(std::uint64_t words, Body&& body) const;
+
+  std::uint64_t entries_ = 0;
+  std::uint32_t stride_ = 0, shift_ = 0;
+  std::vector<Buffer> parts_;
+  Buffer addresses_;
+};
+
+}  // namespace gatelight::neural::vulkan

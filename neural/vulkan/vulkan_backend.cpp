@@ -1,0 +1,380 @@
+#include "neural/vulkan/vulkan_backend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <deque>
+#include <optional>
+
+#include "neural/checks.h"
+#include "neural/errors.h"
+#include "neural/vulkan/barrier.h"
+#include "neural/vulkan/errors.h"
+#include "neural/vulkan/machine.h"
+#include "neural/vulkan/model_tables.h"
+#include "neural/vulkan/network_store.h"
+#include "neural/vulkan/point_upload.h"
+#include "neural/vulkan/step_commands.h"
+
+namespace gatelight::neural::vulkan {
+
+namespace {
+
+/// Steps under way at a time: one computes, one waits for it, one is being filled.
+constexpr std::size_t kSteps = 3;
+/// Chunks of a query under way, and points of one.
+constexpr std::size_t kChunks = 2;
+constexpr std::size_t kChunkPoints = std::size_t{1} << 18;
+
+/// Which packed weights query_forward holds.
+struct PackedFor {
+  bool averaged = false, rounded = false;
+  friend bool operator==(const PackedFor&, const PackedFor&) = default;
+};
+
+class VulkanBackend final : public Backend {
+ public:
+  VulkanBackend(std::shared_ptr<Machine> machine, std::shared_ptr<const Model> model,
+                const TrainingOptions& options);
+  ~VulkanBackend() override;
+
+  StepStatistics train(const TrainingBatch& batch) override;
+  void start(const TrainingBatch& batch) override;
+  StepStatistics finish() override;
+  bool runs_alongside() const override { return true; }
+  const QuerySeconds& query_seconds() const { return query_seconds_; }
+  void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const override;
+  ModelState export_state() const override;
+  void import_state(const ModelState& state) override;
+  std::string name() const override { return fmt::format("vulkan {}", machine_->device().name()); }
+  std::uint64_t parameter_bytes() const override {
+    return features_.parameter_bytes() + network_.parameter_bytes();
+  }
+  std::uint64_t optimizer_bytes() const override {
+    return features_.optimizer_bytes() + network_.optimizer_bytes();
+  }
+
+ private:
+  template <class F>
+  auto guarded(const char* deed, F&& body) const {
+    return translated(machine_->device().name(), deed, std::forward<F>(body));
+  }
+  void describe_model();
+  void submit_step(Submission& step, const TrainingBatch& batch);
+  StepStatistics collect(Submission& step);
+  void collect_oldest();
+  void ask(Submission& chunk, const QueryBatch& batch, const QueryOptions& options, std::size_t begin) const;
+  void answer(Submission& chunk, std::size_t begin, std::span<float> out) const;
+  void abandon_chunks() const;
+  Address packed_for_query(const QueryOptions& options, std::optional<PackedFor>& to_pack) const;
+
+  std::shared_ptr<Machine> machine_;
+  std::shared_ptr<const Model> model_;
+  TrainingOptions options_;
+  mutable Transfer transfer_;
+  ModelTables tables_;
+  FeatureStore features_;
+  NetworkStore network_;
+  Buffer model_block_, pack_block_;
+  std::uint32_t tile_, query_tile_;
+  StepScratch scratch_;
+  std::vector<Submission> steps_;
+  std::uint64_t started_ = 0, collected_ = 0;
+  std::deque<StepStatistics> finished_;
+  bool may_be_first_ = true;
+
+  mutable std::vector<Submission> chunks_;
+  mutable Buffer query_inputs_, query_status_;
+  mutable std::optional<PackedFor> packed_;
+  mutable QuerySeconds query_seconds_;
+};
+
+VulkanBackend::VulkanBackend(std::shared_ptr<Machine> machine, std::shared_ptr<const Model> model,
+                             const TrainingOptions& options)
+    : machine_(std::move(machine)),
+      model_(std::move(model)),
+      options_(options),
+      transfer_(machine_->device()),
+      tables_(machine_->device(), transfer_, *model_, options_, machine_->longest_part()),
+      features_(machine_->device(), transfer_, *model_, options_, machine_->longest_part()),
+      network_(machine_->device(), transfer_, *model_, options_),
+      tile_(training_tile(*model_, machine_->device().limits().shared_bytes)),
+      query_tile_(query_tile(*model_, machine_->device().limits().shared_bytes)) {
+  const Device& device = machine_->device();
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    Submission& step = steps_.emplace_back(device);
+    step.result = Buffer(device, 4 * kStatisticsWords, BufferUse::device);
+    step.readback = Buffer(device, 4 * kStatisticsWords, BufferUse::readback);
+  }
+  for (std::size_t i = 0; i < kChunks; ++i) chunks_.emplace_back(device);
+  describe_model();
+  import_state(initial_state(*model_, options_));
+}
+
+VulkanBackend::~VulkanBackend() {
+  try {
+    machine_->device().handle().waitIdle();
+  } catch (const vk::SystemError&) {
+    // What is lost is not under way.
+  }
+}
+
+void VulkanBackend::describe_model() {
+  ModelBlock block;
+  tables_.describe(block);
+  features_.describe(block);
+  network_.describe(block);
+  model_block_ = Buffer(machine_->device(), sizeof(block), BufferUse::device);
+  transfer_.write(model_block_, std::as_bytes(std::span(&block, 1)));
+  BatchBlock pack;
+  pack.forward = network_.forward();
+  pack_block_ = Buffer(machine_->device(), sizeof(pack), BufferUse::device);
+  transfer_.write(pack_block_, std::as_bytes(std::span(&pack, 1)));
+}
+
+StepStatistics VulkanBackend::train(const TrainingBatch& batch) {
+  start(batch);
+  return finish();
+}
+
+void VulkanBackend::start(const TrainingBatch& batch) {
+  check_batch(*model_, batch);
+  const std::uint64_t most = most_records(*model_, machine_->device().limits().longest_buffer);
+  if (batch.points.size > most)
+    throw BadConfiguration(fmt::format("batch: {} records, expected at most {}", batch.points.size, most));
+  guarded("training", [&] {
+    Submission& step = steps_[started_ % kSteps];
+    if (started_ - collected_ == kSteps) collect_oldest();
+    if (batch.points.size > 0) submit_step(step, batch);
+    ++started_;
+  });
+}
+
+StepStatistics VulkanBackend::finish() {
+  if (finished_.empty() && started_ > collected_) guarded("training", [&] { collect_oldest(); });
+  if (finished_.empty()) throw BadConfiguration("finish: no step was started");
+  const StepStatistics statistics = finished_.front();
+  finished_.pop_front();
+  return statistics;
+}
+
+void VulkanBackend::submit_step(Submission& step, const TrainingBatch& batch) {
+  const Device& device = machine_->device();
+  const std::uint64_t records = batch.points.size;
+  if (records > scratch_.capacity()) {
+    while (started_ > collected_) collect_oldest();  // they use the arrays that are about to grow
+    scratch_.reserve(device, *model_, records, tile_);
+  }
+  const std::uint64_t bytes = upload_bytes(*model_, records, true);
+  reserve(device, step.staging, bytes, BufferUse::upload);
+  reserve(device, step.batch, bytes, BufferUse::device);
+  const StepPlan plan{*model_, options_, features_, cut_step(*model_, records, tile_), tile_, may_be_first_};
+  BatchBlock block;
+  scratch_.describe(block);
+  block.read = features_.readable(false);
+  block.statistics = step.result.address();
+  block.forward = network_.forward();
+  block.size = plan.cut.size;
+  block.references = plan.cut.references;
+  block.tiles = plan.cut.tiles;
+  block.groups = plan.cut.groups;
+  block.blocks = plan.cut.blocks;
+  write_upload(*model_, batch.points, batch.targets, 0, step.batch.address(), block, step.staging.mapped());
+  Commands commands(step.commands.front(), *machine_, model_block_.address(), step.batch.address());
+  record_step(plan, step, bytes, commands);
+  commands.submit(step.fence);
+  step.under_way = true;
+  packed_.reset();
+}
+
+void VulkanBackend::collect_oldest() {
+  finished_.push_back(collect(steps_[collected_ % kSteps]));
+  ++collected_;
+}
+
+StepStatistics VulkanBackend::collect(Submission& step) {
+  if (!step.under_way) return {};
+  step.under_way = false;
+  wait_for(machine_->device(), step.fence);
+  machine_->check();
+  std::array<std::uint32_t, kStatisticsWords> words;
+  std::memcpy(words.data(), step.readback.mapped(), sizeof(words));
+  StepStatistics statistics;
+  statistics.records = words[kAccepted];
+  statistics.rejected = words[kRejected];
+  statistics.unstored = words[kUnstored];
+  statistics.clipped = words[kClipped];
+  statistics.skipped_updates = words[kSkipped];
+  statistics.touched_nodes = words[kTouched];
+  if (statistics.records > 0) {
+    may_be_first_ = false;
+    statistics.loss = static_cast<double>(std::bit_cast<float>(words[kLoss])) /
+                      (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
+  }
+  const Device& device = machine_->device();
+  statistics.seconds_network = seconds_between(device, step, 0, 1);
+  statistics.seconds_sort = seconds_between(device, step, 1, 2);
+  statistics.seconds_update = seconds_between(device, step, 2, 3);
+  statistics.seconds = seconds_between(device, step, 0, 3);
+  return statistics;
+}
+
+void VulkanBackend::query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const {
+  check_batch(*model_, batch, out);
+  guarded("answering", [&] {
+    abandon_chunks();
+    query_seconds_ = {};
+    const std::size_t chunks = (batch.size + kChunkPoints - 1) / kChunkPoints;
+    for (std::size_t k = 0; k < chunks + kChunks; ++k) {
+      Submission& chunk = chunks_[k % kChunks];
+      if (chunk.under_way) answer(chunk, (k - kChunks) * kChunkPoints, out);
+      if (k < chunks) ask(chunk, batch, options, k * kChunkPoints);
+    }
+  });
+}
+
+// Those of a query that an exception ended.
+void VulkanBackend::abandon_chunks() const {
+  for (Submission& chunk : chunks_) {
+    if (!chunk.under_way) continue;
+    chunk.under_way = false;
+    wait_for(machine_->device(), chunk.fence);
+  }
+}
+
+Address VulkanBackend::packed_for_query(const QueryOptions& options,
+                                        std::optional<PackedFor>& to_pack) const {
+  const PackedFor wanted{options.averaged && network_.averages(), options.precision == QueryPrecision::bf16};
+  if (wanted == PackedFor{}) return network_.forward();
+  if (packed_ != wanted) to_pack = wanted;
+  return network_.query_forward();
+}
+
+void VulkanBackend::ask(Submission& chunk, const QueryBatch& batch, const QueryOptions& options,
+                        std::size_t begin) const {
+  const Device& device = machine_->device();
+  const std::size_t size = std::min(kChunkPoints, batch.size - begin);
+  const std::size_t outputs = model_->config.mlp.outputs;
+  const std::uint64_t bytes = upload_bytes(*model_, size, false);
+  reserve(device, chunk.staging, bytes, BufferUse::upload);
+  reserve(device, chunk.batch, bytes, BufferUse::device);
+  reserve(device, chunk.result, 4 * size * outputs, BufferUse::device);
+  reserve(device, chunk.readback, 4 * size * outputs, BufferUse::readback);
+  if (query_status_.bytes() < 4 * size) device.handle().waitIdle();  // the other chunk may use them
+  reserve(device, query_inputs_, 4 * size * model_->parameters.inputs, BufferUse::device);
+  reserve(device, query_status_, 4 * size, BufferUse::device);
+
+  std::optional<PackedFor> to_pack;
+  BatchBlock block;
+  block.read = features_.readable(options.averaged);
+  block.inputs = query_inputs_.address();
+  block.status = query_status_.address();
+  block.answers = chunk.result.address();
+  block.forward = packed_for_query(options, to_pack);
+  block.size = block.capacity = static_cast<std::uint32_t>(size);
+  block.tiles = static_cast<std::uint32_t>((size + query_tile_ - 1) / query_tile_);
+  write_upload(*model_, batch, {}, begin, chunk.batch.address(), block, chunk.staging.mapped());
+
+  Commands commands(chunk.commands.front(), *machine_, model_block_.address(), chunk.batch.address());
+  commands.reset(chunk.stamps, kStamps);
+  commands.stamp(chunk.stamps, 0);
+  commands.copy(chunk.staging, chunk.batch, bytes);
+  commands.barrier();
+  commands.stamp(chunk.stamps, 1);
+  std::vector<std::uint32_t> constants = network_constants(*model_);
+  if (to_pack)
+    commands.dispatch(Shader::pack_network, {}, groups_for(model_->parameters.network_count()),
+                      (to_pack->averaged ? kPackAveraged : 0u) | (to_pack->rounded ? kPackRounded : 0u));
+  commands.dispatch(Shader::encode,
+                    std::array{static_cast<std::uint32_t>(model_->config.encoding),
+                               features_.halves() ? 1u : 0u, 0u, std::max(model_->parameters.features, 1u)},
+                    groups_for(size));
+  commands.barrier();
+  commands.stamp(chunk.stamps, 2);
+  constants.insert(constants.end(),
+                   {query_tile_, std::bit_cast<std::uint32_t>(model_->config.mlp.leaky_slope),
+                    options.precision == QueryPrecision::bf16 ? 1u : 0u});
+  commands.dispatch(Shader::forward, constants, block.tiles, static_cast<std::uint32_t>(options.range));
+  commands.barrier();
+  commands.stamp(chunk.stamps, 3);
+  commands.copy(chunk.result, chunk.readback, 4 * size * outputs);
+  commands.stamp(chunk.stamps, 4);
+  commands.submit(chunk.fence);
+  chunk.under_way = true;
+  if (to_pack) packed_ = to_pack;
+}
+
+void VulkanBackend::answer(Submission& chunk, std::size_t begin, std::span<float> out) const {
+  chunk.under_way = false;
+  wait_for(machine_->device(), chunk.fence);
+  machine_->check();
+  const std::size_t outputs = model_->config.mlp.outputs;
+  const std::size_t floats = std::min(kChunkPoints * outputs, out.size() - begin * outputs);
+  std::memcpy(out.data() + begin * outputs, chunk.readback.mapped(), 4 * floats);
+  const Device& device = machine_->device();
+  query_seconds_.encode += seconds_between(device, chunk, 1, 2);
+  query_seconds_.network += seconds_between(device, chunk, 2, 3);
+  query_seconds_.copies += seconds_between(device, chunk, 0, 1) + seconds_between(device, chunk, 3, 4);
+}
+
+ModelState VulkanBackend::export_state() const {
+  return guarded("reading the state", [&] {
+    ModelState state;
+    for (std::vector<float>* array :
+         {&state.parameters, &state.averages, &state.first_moments, &state.second_moments})
+      array->resize(model_->parameters.count);
+    features_.export_to(transfer_, state);
+    network_.export_to(transfer_, state);
+    machine_->check();
+    return state;
+  });
+}
+
+void VulkanBackend::import_state(const ModelState& state) {
+  check_state(*model_, options_, state);
+  check_state_numbers(state);
+  guarded("writing the state", [&] {
+    abandon_chunks();
+    features_.import_from(transfer_, state);
+    network_.import_from(transfer_, state);
+    Submission& pack = chunks_.front();
+    Commands commands(pack.commands.front(), *machine_, model_block_.address(), pack_block_.address());
+    record_training_pack(*model_, commands);
+    commands.submit(pack.fence);
+    wait_for(machine_->device(), pack.fence);
+    machine_->check();
+  });
+  packed_.reset();
+  may_be_first_ = state.steps == 0;
+}
+
+// Before anything is allocated: some drivers promise more than they have.
+void check_memory(const Device& device, const Model& model, const TrainingOptions& options) {
+  const std::uint64_t needed = feature_bytes(model, options) + model.gate.report.topology_bytes;
+  if (needed > device.limits().device_bytes)
+    throw OutOfDeviceMemory(fmt::format("{}: a cache of {} MiB with its optimiser, on a device of {} MiB",
+                                        device.name(), needed >> 20, device.limits().device_bytes >> 20));
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine> machine,
+                                             std::shared_ptr<const Model> model,
+                                             const TrainingOptions& options) {
+  check_options(*model, options);
+  check_memory(machine->device(), *model, options);
+  const std::string device = machine->device().name();
+  return translated(device, "making the cache", [&] {
+    return std::make_unique<VulkanBackend>(std::move(machine), std::move(model), options);
+  });
+}
+
+QuerySeconds last_query_seconds(const Backend& backend) {
+  return dynamic_cast<const VulkanBackend&>(backend).query_seconds();
+}
+
+}  // namespace gatelight::neural::vulkan

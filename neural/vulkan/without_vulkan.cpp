@@ -1,0 +1,50 @@
+// Stands in for the folder in builds without Vulkan.
+
+#include "neural/errors.h"
+#include "neural/vulkan/measured_limits.h"
+#include "neural/vulkan/vulkan_backend.h"
+
+namespace gatelight::neural::vulkan {
+
+namespace {
+
+[[noreturn]] void refuse() {
+  throw Unavailable("this program was built without Vulkan (GATELIGHT_VULKAN)");
+}
+
+}  // namespace
+
+bool is_built_in() {
+  return false;
+}
+
+std::vector<DeviceListing> list_devices() {
+  refuse();
+}
+
+std::string device_name(const std::string&) {
+  refuse();
+}
+
+std::shared_ptr<Machine> open_machine(const MachineOptions&) {
+  refuse();
+}
+
+std::string machine_name(const Machine&) {
+  refuse();
+}
+
+std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine>, std::shared_ptr<const Model>,
+                                             const TrainingOptions&) {
+  refuse();
+}
+
+QuerySeconds last_query_seconds(const Backend&) {
+  refuse();
+}
+
+MeasuredLimits measure_limits(Machine&, std::uint64_t) {
+  refuse();
+}
+
+}  // namespace gatelight::neural::vulkan

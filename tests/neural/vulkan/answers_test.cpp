@@ -1,0 +1,157 @@
+// Answers of the Vulkan backend agree with the reference.
+
+#include "tests/neural/vulkan/agreement.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+
+class VulkanAnswers : public OnVulkan {
+ protected:
+  static void TearDownTestSuite() { agreement_.reset(); }
+  static Agreement& agreement() {
+    if (agreement_ == nullptr) agreement_ = std::make_unique<Agreement>();
+    return *agreement_;
+  }
+  static inline std::unique_ptr<Agreement> agreement_;
+};
+
+// The others are in every_model_slow_test.cpp.
+TEST_F(VulkanAnswers, OfUsualModels) {
+  std::uint64_t seed = 1;
+  for (const char* name :
+       {"nrc", "nao", "gate_L5_per_triangle_stack_5_a_1", "gate_L8_cells_0", "gate_L2_stack_64", "hash_F4",
+        "hash_memory_target", "plain_with_everything", "mlp_5x128", "outputs_16"}) {
+    const ModelCase c = find_model_case(name);
+    const TrainingOptions options;
+    const ModelState state = random_state(*c.model, options, ++seed, true);
+    for (const std::size_t size : {1u, 63u, 64u, 65u, 130u})
+      agreement().expect_same_answers(
+          c, options,
+          make_batch(*c.model, size, seed,
+                     {.nonfinite = 0.1f, .unstored = 0.1f, .border = 0.3f, .crowded = 0}),
+          state);
+  }
+}
+
+// Where an angle is 0 / 0, and where barycentrics are a node's or huge.
+TEST_F(VulkanAnswers, AtPolesCornersAndFarOutside) {
+  constexpr std::array<std::array<float, 3>, 7> kDirections = {
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, 0, 0}}};
+  constexpr float kBelowOne = 0x1.fffffep-1f;
+  constexpr std::array<std::array<float, 2>, 8> kBarycentrics = {{{0, 0},
+                                                                  {1, 0},
+                                                                  {0, 1},
+                                                                  {1.0f / 3, 1.0f / 3},
+                                                                  {kBelowOne / 3, kBelowOne / 3},
+                                                                  {0x1.555556p-2f, 0x1.555556p-2f},
+                                                                  {1e20f, 1e23f},
+                                                                  {-1e20f, 1e23f}}};
+  for (const char* name : {"nrc", "gate_L5_per_triangle_stack_5_a_1", "plain_with_everything"}) {
+    const ModelCase c = find_model_case(name);
+    OwnedBatch batch = make_batch(*c.model, 7 * 8 * 5, 9);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (!batch.directions.empty()) batch.directions[i] = kDirections[i % 7];
+      if (!batch.normals.empty()) batch.normals[i] = kDirections[(i + 3) % 7];
+      if (!batch.barycentrics.empty()) batch.barycentrics[i] = kBarycentrics[i / 7 % 8];
+    }
+    agreement().expect_same_answers(c, {}, batch, random_state(*c.model, {}, 9, true));
+  }
+}
+
+// A query goes in chunks of 2^18 points.
+TEST_F(VulkanAnswers, OfMorePointsThanAChunk) {
+  const ModelCase c = find_model_case("nao");
+  const TrainingOptions options;
+  const ModelState state = random_state(*c.model, options, 5, true);
+  const OwnedBatch batch = make_batch(*c.model, 600001, 5, {.nonfinite = 0.01f, .unstored = 0.01f});
+  const auto host = cpu::make_cpu_backend(c.model, options);
+  const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
+  host->import_state(state);
+  device->import_state(state);
+  const QueryOptions raw{QueryPrecision::fp32, OutputRange::raw, true};
+  EXPECT_LE(relative_difference(Agreement::answers(*device, *c.model, batch, raw),
+                                Agreement::answers(*host, *c.model, batch, raw)),
+            kVulkanTolerance);
+}
+
+// As for the CPU's kernels (kernel_parity_test.cpp): inputs, weights and activations have eight bits.
+constexpr double kBf16Tolerance = 0.025;
+
+TEST_F(VulkanAnswers, InBf16) {
+  std::uint64_t seed = 600;
+  for (const char* name : {"nrc", "nao", "hash_F4", "gate_with_everything", "mlp_5x128", "outputs_16"}) {
+    const ModelCase c = find_model_case(name);
+    const TrainingOptions options;
+    const ModelState state = random_state(*c.model, options, ++seed, true);
+    const OwnedBatch batch = make_batch(*c.model, 197, seed, {.nonfinite = 0.1f, .unstored = 0.1f});
+    const auto reference = reference::make_reference_backend(c.model, options);
+    const auto host = cpu::make_cpu_backend(c.model, options, cpu::Isa::scalar);
+    const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
+    for (Backend* backend : {reference.get(), host.get(), device.get()}) backend->import_state(state);
+    for (const bool averaged : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}{}", name, averaged ? " averaged" : ""));
+      const QueryOptions bf16{QueryPrecision::bf16, OutputRange::raw, averaged};
+      const QueryOptions fp32{QueryPrecision::fp32, OutputRange::raw, averaged};
+      const std::vector<float> got = Agreement::answers(*device, *c.model, batch, bf16);
+      EXPECT_LE(relative_difference(got, Agreement::answers(*reference, *c.model, batch, bf16)),
+                kBf16Tolerance);
+      // The same numbers are rounded; a sum's last bit may take one of them to the other side.
+      EXPECT_LE(relative_difference(got, Agreement::answers(*host, *c.model, batch, bf16)),
+                0.3 * kBf16Tolerance);
+      EXPECT_NE(got, Agreement::answers(*device, *c.model, batch, fp32)) << "bf16 is to round";
+    }
+  }
+}
+
+TEST_F(VulkanAnswers, RangesClampTheRawOnes) {
+  const ModelCase c = find_model_case("nrc");
+  const TrainingOptions options;
+  ModelState state = random_state(*c.model, options, 4, true);
+  for (std::uint32_t o = 0; o < 3; ++o) state.averages[c.model->parameters.layers.back().biases + o] = 0.4f;
+  const OwnedBatch batch = make_batch(*c.model, 211, 4, {.nonfinite = 0.1f, .unstored = 0.1f});
+  const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
+  device->import_state(state);
+  const auto ask = [&](OutputRange range) {
+    return Agreement::answers(*device, *c.model, batch, {QueryPrecision::fp32, range, true});
+  };
+  const std::vector<float> raw = ask(OutputRange::raw), positive = ask(OutputRange::non_negative),
+                           unit = ask(OutputRange::unit);
+  std::size_t below = 0, above = 0, nan = 0;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const bool usable = std::isfinite(raw[i]);
+    EXPECT_EQ(usable, is_finite(*c.model, batch.points(), i / 3));
+    EXPECT_EQ(positive[i], usable ? std::max(raw[i], 0.0f) : 0.0f);
+    EXPECT_EQ(unit[i], usable ? std::clamp(raw[i], 0.0f, 1.0f) : 0.0f);
+    below += raw[i] < 0 ? 1 : 0;
+    above += raw[i] > 1 ? 1 : 0;
+    nan += usable ? 0 : 1;
+  }
+  EXPECT_GT(below, 0u);
+  EXPECT_GT(above, 0u);
+  EXPECT_GT(nan, 0u);
+}
+
+// Steps, averages and roundings change what is packed for queries.
+TEST_F(VulkanAnswers, FollowEachStep) {
+  const ModelCase c = find_model_case("nrc");
+  const TrainingOptions options;
+  const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
+  const OwnedBatch batch = make_batch(*c.model, 120, 4);
+  for (int step = 0; step < 3; ++step) {
+    device->train(batch.training());
+    const auto fresh = vulkan::make_vulkan_backend(test_machine(), c.model, options);
+    fresh->import_state(device->export_state());
+    for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})
+      for (const bool averaged : {true, false}) {
+        const QueryOptions ask{precision, OutputRange::raw, averaged};
+        EXPECT_EQ(Agreement::answers(*device, *c.model, batch, ask),
+                  Agreement::answers(*fresh, *c.model, batch, ask))
+            << "step " << step << (averaged ? " averaged" : "");
+      }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::neural

@@ -1,0 +1,137 @@
+// The same bits each time, however arrays are cut and steps overlap; and states that move between devices.
+
+#include <unistd.h>
+#include <filesystem>
+
+#include "neural/trainer.h"
+#include "tests/neural/held_state.h"
+#include "tests/neural/vulkan/agreement.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+using vulkan::make_vulkan_backend;
+
+class VulkanDeterminism : public OnVulkan {};
+
+constexpr const char* kModels[] = {"nrc", "gate_L5_per_triangle_stack_5_a_1", "hash_F3"};
+
+std::vector<OwnedBatch> some_batches(const Model& model) {
+  std::vector<OwnedBatch> batches;
+  for (const std::size_t size : {700u, 64u, 0u, 1u, 333u})
+    batches.push_back(make_batch(model, size, 40 + size,
+                                 {.nonfinite = 0.02f, .unstored = 0.02f, .border = 0.1f, .crowded = 0.5f}));
+  return batches;
+}
+
+struct Outcome {
+  ModelState state;
+  std::vector<double> losses;
+  std::vector<float> answers;
+};
+
+Outcome learn(Backend& backend, const Model& model, const std::vector<OwnedBatch>& batches) {
+  Outcome outcome;
+  for (const OwnedBatch& batch : batches) outcome.losses.push_back(backend.train(batch.training()).loss);
+  outcome.state = backend.export_state();
+  outcome.answers = Agreement::answers(backend, model, batches[0], {});
+  return outcome;
+}
+
+void expect_same(const Outcome& a, const Outcome& b) {
+  EXPECT_TRUE(same_bits(a.state, b.state));
+  EXPECT_EQ(a.losses, b.losses);
+  EXPECT_EQ(std::memcmp(a.answers.data(), b.answers.data(), 4 * a.answers.size()), 0);
+}
+
+TEST_F(VulkanDeterminism, StepsRepeatedHaveTheSameBits) {
+  for (const char* name : kModels) {
+    const ModelCase c = find_model_case(name);
+    const auto batches = some_batches(*c.model);
+    for (const OptionsCase& o : all_training_options(*c.model)) {
+      SCOPED_TRACE(std::string(name) + " " + o.name);
+      const auto first = make_vulkan_backend(test_machine(), c.model, o.options);
+      const auto second = make_vulkan_backend(test_machine(), c.model, o.options);
+      expect_same(learn(*first, *c.model, batches), learn(*second, *c.model, batches));
+    }
+  }
+}
+
+TEST_F(VulkanDeterminism, ArraysInManyPartsHaveTheSameBits) {
+  const std::shared_ptr<vulkan::Machine> tiny = open_test_machine(256);
+  for (const char* name : {"nrc", "gate_L5_per_triangle_stack_5_a_1"}) {
+    const ModelCase c = find_model_case(name);
+    const auto batches = some_batches(*c.model);
+    for (const OptionsCase& o : all_training_options(*c.model)) {
+      SCOPED_TRACE(std::string(name) + " " + o.name);
+      const auto whole = make_vulkan_backend(test_machine(), c.model, o.options);
+      const auto parts = make_vulkan_backend(tiny, c.model, o.options);
+      expect_same(learn(*whole, *c.model, batches), learn(*parts, *c.model, batches));
+    }
+  }
+}
+
+TEST_F(VulkanDeterminism, StepsUnderWayTogetherHaveTheBitsOfStepsOneByOne) {
+  const ModelCase c = find_model_case("nrc");
+  const auto batches = some_batches(*c.model);
+  const auto one_by_one = make_vulkan_backend(test_machine(), c.model, {});
+  const Outcome expected = learn(*one_by_one, *c.model, batches);
+  const auto together = make_vulkan_backend(test_machine(), c.model, {});
+  for (const OwnedBatch& batch : batches) together->start(batch.training());
+  Outcome outcome;
+  outcome.answers = Agreement::answers(*together, *c.model, batches[0], {});
+  outcome.state = together->export_state();
+  for (std::size_t i = 0; i < batches.size(); ++i) outcome.losses.push_back(together->finish().loss);
+  EXPECT_THROW(together->finish(), BadConfiguration);
+  expect_same(expected, outcome);
+}
+
+TEST_F(VulkanDeterminism, StatesComeBackFromImportAndGoOnWithTheSameBits) {
+  for (const char* name : {"nrc", "gate_L5", "hash_F2", "plain_direction_identity"}) {
+    const ModelCase c = find_model_case(name);
+    for (const OptionsCase& o : all_training_options(*c.model)) {
+      SCOPED_TRACE(std::string(name) + " " + o.name);
+      const auto backend = make_vulkan_backend(test_machine(), c.model, o.options);
+      EXPECT_EQ(backend->export_state(), initial_state(*c.model, o.options));
+      const ModelState state = random_state(*c.model, o.options, 3, true);
+      backend->import_state(state);
+      const ModelState held = backend->export_state();
+      if (o.options.precision != FeaturePrecision::fp16 && o.options.average.network) {
+        EXPECT_TRUE(same_bits(held, state));
+      }
+      const OwnedBatch batch = make_batch(*c.model, 100, 4);
+      backend->train(batch.training());
+      const ModelState gone_on = backend->export_state();
+      const auto other = make_vulkan_backend(test_machine(), c.model, o.options);
+      other->import_state(held);
+      other->train(batch.training());
+      EXPECT_TRUE(same_bits(other->export_state(), gone_on));
+    }
+  }
+}
+
+TEST_F(VulkanDeterminism, ACacheMovesBetweenDevices) {
+  const ModelCase c = find_model_case("nrc");
+  const TrainingOptions options;
+  Trainer device(c.model, options, make_vulkan_backend(test_machine(), c.model, options));
+  for (const OwnedBatch& batch : some_batches(*c.model)) device.train(batch.training());
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("gatelight_vulkan_{}.safetensors", getpid());
+  device.save(path, "moves");
+  Trainer host(c.model, options, cpu::make_cpu_backend(c.model, options));
+  host.load(path, "moves");
+  EXPECT_TRUE(same_bits(host.backend().export_state(), device.backend().export_state()));
+  const OwnedBatch points = make_batch(*c.model, 500, 8);
+  EXPECT_LT(relative_difference(Agreement::answers(host.backend(), *c.model, points, {}),
+                                Agreement::answers(device.backend(), *c.model, points, {})),
+            1e-5);
+  host.train(points.training());
+  host.save(path, "moves");
+  device.load(path, "moves");
+  EXPECT_TRUE(same_bits(host.backend().export_state(), device.backend().export_state()));
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace gatelight::neural

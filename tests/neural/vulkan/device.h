@@ -1,0 +1,54 @@
+#pragma once
+// The device of the tests: one for the program, with every command validated.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "neural/errors.h"
+#include "neural/vulkan/vulkan_backend.h"
+
+namespace gatelight::neural::testing {
+
+/// What the validation layer said of all machines of this program.
+inline const std::shared_ptr<std::vector<std::string>>& validation_messages() {
+  static const auto messages = std::make_shared<std::vector<std::string>>();
+  return messages;
+}
+
+/// Null where there is no device (or no validation layer) and GATELIGHT_REQUIRE_VULKAN is not set.
+inline std::shared_ptr<vulkan::Machine> open_test_machine(std::uint64_t longest_part = 0) {
+  vulkan::MachineOptions options;
+  options.validate = true;
+  options.messages = validation_messages();
+  options.longest_part = longest_part;
+  if (const char* device = std::getenv("GATELIGHT_TEST_DEVICE")) options.device = device;
+  try {
+    return vulkan::open_machine(options);
+  } catch (const Unavailable&) {
+    if (std::getenv("GATELIGHT_REQUIRE_VULKAN") != nullptr) throw;
+    return nullptr;
+  }
+}
+
+inline const std::shared_ptr<vulkan::Machine>& test_machine() {
+  static const std::shared_ptr<vulkan::Machine> machine = open_test_machine();
+  return machine;
+}
+
+/// Skips without a device; fails where the validation layer has said something by the end of the test.
+class OnVulkan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (test_machine() == nullptr) GTEST_SKIP() << "no Vulkan device with a validation layer";
+  }
+  void TearDown() override {
+    for (const std::string& message : *validation_messages()) ADD_FAILURE() << message;
+    validation_messages()->clear();
+  }
+};
+
+}  // namespace gatelight::neural::testing

@@ -1,0 +1,86 @@
+// What a device can refuse becomes the library's exceptions, and leaves states as they were where it can.
+
+#include <gmock/gmock.h>
+
+#include "neural/vulkan/machine.h"
+#include "tests/neural/vulkan/agreement.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class VulkanFailures : public OnVulkan {};
+
+template <class Error, class F>
+std::string message_of(F&& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return "";
+}
+
+TEST_F(VulkanFailures, ALostDeviceIsSaidByStepsAnswersAndStates) {
+  const ModelCase c = find_model_case("nrc");
+  const OwnedBatch batch = make_batch(*c.model, 50, 1);
+  vulkan::MachineOptions options;
+  options.lose_after = 2;  // making the backend, and a step
+  const auto machine = vulkan::open_machine(options);
+  const auto backend = vulkan::make_vulkan_backend(machine, c.model, {});
+  EXPECT_EQ(backend->train(batch.training()).records, 50u);
+  const std::string message = message_of<DeviceLost>([&] { backend->train(batch.training()); });
+  EXPECT_THAT(message, HasSubstr(vulkan::machine_name(*machine)));
+  EXPECT_THAT(message, HasSubstr("was lost"));
+  std::vector<float> out(batch.size() * 3);
+  EXPECT_THROW(backend->query(batch.points(), {}, out), DeviceLost);
+  EXPECT_THROW(backend->query(batch.points(), {}, out), DeviceLost);
+}
+
+// 2^31 nodes of 16 numbers are 128 GiB, and as much again three times: more than any device has.
+TEST_F(VulkanFailures, TooLittleMemoryIsSaidWithTheDevice) {
+  ModelConfig config = default_hash_config();
+  config.hash_grid.levels = 1;
+  config.hash_grid.features = 16;
+  config.hash_grid.base_resolution = 1290;
+  config.hash_grid.log2_table_size = 31;
+  const auto model = make_model(config);
+  const std::string message =
+      message_of<OutOfDeviceMemory>([&] { vulkan::make_vulkan_backend(test_machine(), model, {}); });
+  EXPECT_THAT(message, HasSubstr(vulkan::machine_name(*test_machine())));
+  EXPECT_THAT(message, HasSubstr("MiB"));
+}
+
+TEST_F(VulkanFailures, DevicesThatAreNotThereAreRefused) {
+  vulkan::MachineOptions options;
+  options.device = "99";
+  EXPECT_THAT(message_of<Unavailable>([&] { vulkan::open_machine(options); }),
+              HasSubstr(vulkan::machine_name(*test_machine())));
+}
+
+// A buffer of no bytes is against the rules, and harmless.
+TEST_F(VulkanFailures, AMessageOfTheValidationLayerEndsTheNextDeed) {
+  vulkan::MachineOptions options;
+  options.validate = true;
+  options.messages = std::make_shared<std::vector<std::string>>();
+  const auto machine = vulkan::open_machine(options);
+  const ModelCase c = find_model_case("nrc");
+  const OwnedBatch batch = make_batch(*c.model, 50, 1);
+  const auto backend = vulkan::make_vulkan_backend(machine, c.model, {});
+  EXPECT_EQ(backend->train(batch.training()).records, 50u);
+  ASSERT_TRUE(options.messages->empty());
+  {
+    const vk::BufferCreateInfo nothing({}, 0, vk::BufferUsageFlagBits::eStorageBuffer);
+    const vk::raii::Buffer buffer(machine->device().handle(), nothing);
+  }
+  ASSERT_FALSE(options.messages->empty());
+  const std::string message = message_of<ValidationFailed>([&] { backend->train(batch.training()); });
+  EXPECT_THAT(message, AllOf(HasSubstr("Vulkan validation"), HasSubstr(options.messages->front())));
+}
+
+}  // namespace
+}  // namespace gatelight::neural
