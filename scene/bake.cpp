@@ -26,13 +26,6 @@ Mesh copy_mesh(const Mesh& source) {
   return copy;
 }
 
-/// No ray can be carried into the mesh's own space: scaled flat, or nearly so.
-bool is_singular(const Affine& transform) {
-  const Eigen::Matrix3f m = transform.linear();
-  const float product = m.col(0).norm() * m.col(1).norm() * m.col(2).norm();
-  return !(std::abs(m.determinant()) > 1e-6f * product) || !std::isnormal(product);
-}
-
 void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
   mesh.positions.reserve(mesh.positions.size() + 1);
   for (Vec3& p : mesh.positions) p = transform * p;
@@ -67,6 +60,12 @@ void unshare(Scene& scene, Instance& instance, std::vector<std::size_t>& uses) {
 
 }  // namespace
 
+bool is_flat(const Affine& transform) {
+  const Eigen::Matrix3f m = transform.linear();
+  const float product = m.col(0).norm() * m.col(1).norm() * m.col(2).norm();
+  return !(std::abs(m.determinant()) > 1e-6f * product) || !std::isnormal(product);
+}
+
 void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
   std::vector<std::size_t> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++uses[static_cast<std::size_t>(instance.mesh)];
@@ -88,7 +87,7 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
   }
   for (Instance& instance : scene.instances) {
     const std::size_t m = static_cast<std::size_t>(instance.mesh);
-    if (!instance.baked && uses[m] > 1 && (copied[m] || is_singular(instance.transform))) {
+    if (!instance.baked && uses[m] > 1 && (copied[m] || is_flat(instance.transform))) {
       unshare(scene, instance, uses);
     }
   }

@@ -11,4 +11,8 @@ namespace gatelight::scene {
 /// a ray more than a few triangles do). Meshes that nobody uses are dropped. Updates Scene::bounds.
 void bake_transforms(Scene& scene, std::size_t copy_budget_triangles = 65536);
 
+/// No ray can be carried into the mesh's own space: scaled flat, or nearly so. Such an instance gets a mesh
+/// of its own.
+bool is_flat(const Affine& transform);
+
 }  // namespace gatelight::scene

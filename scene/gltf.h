@@ -20,8 +20,14 @@ struct LoadOptions {
   std::string variant;  ///< name of a KHR_materials_variants variant; empty: the default materials
   bool missing_is_error =
       true;  ///< an unreadable texture stops the load; else it is replaced by white, with a warning
+  bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
   bool bake_transforms = true;  ///< see scene/bake.h; off keeps every instance an instance
 };
+
+/// A scene that lies further than this many times its radius from the file's origin is moved to its centre,
+/// in double precision (Scene::origin): rays start some units in the last place of the coordinates off a
+/// surface, and at this distance that is a 30 000th of the radius.
+inline constexpr double kFarFromOrigin = 16.0;
 
 /// Loads a .gltf or .glb file. Throws SceneError when the file cannot be read, breaks the specification in a
 /// way that matters for a picture, or requires an extension that is not supported.

@@ -12,7 +12,7 @@ namespace gatelight::scene::gltf {
 namespace {
 
 /// An accessor without data claims zeros for nothing; a bound keeps a line of JSON from filling the memory.
-constexpr std::size_t kMaxZeros = std::size_t{1} << 24;
+constexpr std::size_t kMaxZeros = std::size_t{1} << 20;
 
 std::size_t component_size(int type) {
   return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));

@@ -17,6 +17,11 @@ using nlohmann::json;
 /// JSON libraries recurse; nothing in glTF is nested this deep.
 constexpr int kMaxDepth = 100;
 
+/// A byte of a buffer becomes at most 76 of a mesh (an index of 8 bits per 25 bytes of a vertex), unless
+/// primitives share it. What takes less than this may share as it likes.
+constexpr std::size_t kMostPerByte = 256;
+constexpr std::size_t kSmallScene = std::size_t{1} << 30;
+
 void check_depth(std::string_view text, std::string_view file) {
   int depth = 0;
   bool in_string = false;
@@ -106,8 +111,11 @@ struct Document::Json {
   json root;
 };
 
-Document::Document(const std::filesystem::path& path, Warnings& warnings)
-    : file_(path.string()), folder_(path.parent_path()), container_(open_container(path, warnings)) {
+Document::Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings)
+    : file_(path.string()),
+      uris_{path.parent_path(), allow_external},
+      container_(open_container(path, warnings)),
+      read_bytes_(container_.file.size) {
   Json document{parse_json(container_.json, file_)};
   json& root = document.root;
   check_schema(root, file_);
@@ -145,7 +153,8 @@ void Document::load_buffers(const Json& document) {
     buffer.length = list[i]["byteLength"].get<std::size_t>();
     const bool has_uri = list[i].contains("uri");
     if (has_uri) {
-      buffer.storage = read_uri(list[i]["uri"].get_ref<const std::string&>(), folder_, file_, where + ".uri");
+      buffer.storage = read(list[i]["uri"].get_ref<const std::string&>(), where + ".uri");
+      read_bytes_ += buffer.storage.size;
       buffer.bytes = buffer.storage.bytes();
       buffer.present = true;
     } else if (i == 0 && container_.has_binary) {
@@ -161,6 +170,19 @@ void Document::load_buffers(const Json& document) {
     }
     buffers_.push_back(std::move(buffer));
   }
+}
+
+void Document::claim(std::size_t bytes, std::string_view where) const {
+  const std::size_t most = std::max(kSmallScene, read_bytes_ * kMostPerByte);
+  if (bytes <= most && claimed_ <= most - bytes) {
+    claimed_ += bytes;
+    return;
+  }
+  fail(where,
+       fmt::format(
+           "{:.0f} MiB of vertices, triangles and instances up to here, expected at most {} of a file "
+           "of {} bytes with its buffers",
+           (static_cast<double>(claimed_) + static_cast<double>(bytes)) / 0x1p20, most >> 20, read_bytes_));
 }
 
 void Document::check_views() const {

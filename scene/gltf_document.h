@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/gltf_container.h"
+#include "scene/gltf_uri.h"
 #include "scene/tinygltf.h"
 
 namespace gatelight::scene::gltf {
@@ -24,12 +25,18 @@ class Document {
  public:
   /// Opens and checks everything that can be checked without decoding: schema, extensions, buffers, and that
   /// every buffer view lies in its buffer.
-  Document(const std::filesystem::path& path, Warnings& warnings);
+  Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings);
 
   const tinygltf::Model& model() const { return model_; }
   const std::vector<ImageSource>& images() const { return images_; }
   const std::string& file() const { return file_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  /// The bytes behind a URI of this file. Throws SceneError.
+  OwnedBytes read(std::string_view uri, std::string_view where) const {
+    return read_uri(uri, uris_, file_, where);
+  }
+  /// To be asked, by one thread, before that many bytes are made out of what the file says. Throws SceneError
+  /// where all of them together are more than a file of this size can mean: counts are cheap to write.
+  void claim(std::size_t bytes, std::string_view where) const;
 
   /// tinygltf refuses index accessors without a buffer view; in its model a view past the file's own stands
   /// for "none".
@@ -63,11 +70,13 @@ class Document {
   Bytes range(int buffer, std::size_t offset, std::size_t length, std::string_view where) const;
 
   std::string file_;
-  std::filesystem::path folder_;
+  UriOptions uris_;
   Container container_;
   std::vector<Buffer> buffers_;
   std::vector<ImageSource> images_;
   std::size_t view_count_ = 0;
+  std::size_t read_bytes_ = 0;       ///< of the file and its buffers
+  mutable std::size_t claimed_ = 0;  ///< bytes
   tinygltf::Model model_;
   mutable std::mutex mutex_;                 ///< guards decoded_
   mutable std::vector<OwnedBytes> decoded_;  ///< of compressed views, by view; kept as long as the document

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 
-#include "scene/gltf_uri.h"
 #include "scene/png_chunks.h"
 
 namespace gatelight::scene::gltf {
@@ -80,7 +79,7 @@ Image decode(const Document& document, Bytes bytes, std::string_view where) {
 
 Image read(const Document& document, const ImageSource& source, const std::string& where) {
   if (!source.uri.empty()) {
-    const OwnedBytes bytes = read_uri(source.uri, document.folder(), document.file(), where + ".uri");
+    const OwnedBytes bytes = document.read(source.uri, where + ".uri");
     return decode(document, bytes.bytes(), where + " (" + source.name + ")");
   }
   if (source.buffer_view < 0) throw image_error(document, where, "neither uri nor bufferView");

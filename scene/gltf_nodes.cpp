@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/gltf_accessors.h"
@@ -111,9 +112,13 @@ class Walker {
   void visit(int index, const Transform& world) {
     const tinygltf::Node& node = document_.model().nodes[static_cast<std::size_t>(index)];
     if (node.mesh >= 0) place_mesh(index, node, world);
-    if (node.camera >= 0) graph_.cameras.push_back(make_camera(document_, index, world));
+    if (node.camera >= 0) {
+      graph_.cameras.push_back(make_camera(document_, index, world));
+      graph_.camera_positions.push_back(world.translation());
+    }
     if (const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual")) {
       graph_.lights.push_back(make_light(document_, index, integer_or(*light, "light", 0), world));
+      graph_.light_positions.push_back(world.translation());
     }
   }
 
@@ -130,12 +135,25 @@ class Walker {
     const std::string name = node.name.empty() ? mesh.name : node.name;
     if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
+      claim_instances(*instancing, mesh, where);
       for (const Transform& t : read_instances(document_, *instancing, where)) {
         add(node.mesh, name, checked(base * t, where));
       }
     } else {
       add(node.mesh, name, base);
     }
+  }
+
+  /// Before there are any: a count is cheap to write.
+  void claim_instances(const tinygltf::Value& extension, const tinygltf::Mesh& mesh,
+                       const std::string& where) {
+    const tinygltf::Value& attributes = extension.Get("attributes");
+    std::size_t count = 0;
+    for (const std::string& semantic : attributes.Keys()) {
+      const auto accessor = static_cast<std::size_t>(attributes.Get(semantic).GetNumberAsInt());
+      count = std::max(count, document_.model().accessors[accessor].count);
+    }
+    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
   }
 
   /// The glTF specification places a skinned mesh by its joints alone. In the bind pose all of them agree, so
@@ -152,7 +170,7 @@ class Walker {
   }
 
   void add(int mesh, const std::string& name, const Transform& t) {
-    Placement placement{mesh, name, Affine::Identity()};
+    Placement placement{mesh, name, Affine::Identity(), t.translation()};
     placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
     // Scaled to a line or a point, as one hides things: nothing to see, and nothing a ray could be carried
     // into.

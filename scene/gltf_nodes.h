@@ -13,12 +13,14 @@ struct Placement {
   int mesh = -1;  ///< of the file
   std::string name;
   Affine transform = Affine::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< the transform's, with all its digits
 };
 
 struct Graph {
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
+  std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< of each, with all their digits
 };
 
 /// Walks scene `scene` (-1: the file's default, or its first). Checks the whole hierarchy: cycles, several

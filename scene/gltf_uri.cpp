@@ -78,11 +78,26 @@ std::size_t scheme_length(std::string_view uri) {
   return 0;
 }
 
-bool is_data(std::string_view uri) {
-  constexpr std::string_view kData = "data:";
-  return uri.size() >= kData.size() &&
-         std::equal(kData.begin(), kData.end(), uri.begin(),
+bool has_scheme(std::string_view uri, std::string_view scheme) {
+  return uri.size() >= scheme.size() &&
+         std::equal(scheme.begin(), scheme.end(), uri.begin(),
                     [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+}
+bool is_data(std::string_view uri) {
+  return has_scheme(uri, "data:");
+}
+bool is_file(std::string_view uri) {
+  return has_scheme(uri, "file:");
+}
+
+/// Whether the path, with all its links followed, is outside the folder. What is not there is not.
+bool leaves(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  if (error) return false;
+  const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (error) return true;
+  return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end();
 }
 
 OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_view where) {
@@ -106,21 +121,34 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
 
 }  // namespace
 
-OwnedBytes read_uri(std::string_view uri, const std::filesystem::path& folder, std::string_view file,
+OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where) {
   if (is_data(uri)) return read_data(uri, file, where);
   const auto refuse = [&](std::string_view why) {
     return make_error(file, where,
-                      fmt::format("'{}' {}, expected a file in the scene's folder", uri_name(uri), why));
+                      fmt::format("'{}' {}, expected a file in the scene's folder{}", uri_name(uri), why,
+                                  options.allow_external ? "" : " (others with --allow-external)"));
   };
   if (uri.empty()) throw refuse("is empty");
-  if (scheme_length(uri) > 0) throw refuse("has a scheme");
-  const std::string name = decode_percent(uri);
+  std::string_view rest = uri;
+  if (const std::size_t scheme = scheme_length(uri); scheme > 0) {
+    if (!options.allow_external || !is_file(uri)) throw refuse("has a scheme");
+    rest.remove_prefix(scheme);
+    // "file:///path", "file://localhost/path" or "file:path"; another host is another machine.
+    for (const std::string_view host : {"//localhost/", "///"}) {
+      if (rest.starts_with(host)) rest.remove_prefix(host.size() - 1);
+    }
+    if (rest.starts_with("//")) throw refuse("is on another machine");
+  }
+  const std::string name = decode_percent(rest);
   if (name.find('\0') != std::string::npos) throw refuse("has a zero byte");
+  if (options.allow_external) return read_file(options.folder / name, file, where);
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
   if (relative.is_absolute() || name[0] == '\\') throw refuse("is an absolute path");
   if (!relative.empty() && *relative.begin() == "..") throw refuse("leaves the folder");
-  return read_file(folder / relative, file, where);
+  const std::filesystem::path path = options.folder / relative;
+  if (leaves(options.folder, path)) throw refuse("is a symbolic link that leaves the folder");
+  return read_file(path, file, where);
 }
 
 std::string uri_name(std::string_view uri) {

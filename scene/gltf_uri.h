@@ -8,9 +8,15 @@
 
 namespace gatelight::scene::gltf {
 
-/// The bytes behind a URI. Relative paths (percent-encoded or not) stay inside `folder`; absolute paths,
-/// other schemes than data: and paths that climb out of the folder are refused. Throws SceneError.
-OwnedBytes read_uri(std::string_view uri, const std::filesystem::path& folder, std::string_view file,
+struct UriOptions {
+  std::filesystem::path folder;  ///< of the scene
+  bool allow_external = false;
+};
+
+/// The bytes behind a URI. Relative paths (percent-encoded or not) stay inside the folder; absolute paths,
+/// other schemes than data:, and paths that climb out of the folder, by a symbolic link too, are refused
+/// unless `allow_external` is set. Then file: is a scheme, too. Throws SceneError.
+OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where);
 
 /// The URI as a message should show it: a data URI is cut after its type.

@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "scene/triangle_normal.h"
+
 namespace gatelight::scene {
 
 std::array<Vec3, 3> world_triangle(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
@@ -12,8 +14,15 @@ std::array<Vec3, 3> world_triangle(const Scene& scene, const Instance& instance,
 
 Vec3 world_normal(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
   const std::array<Vec3, 3> p = world_triangle(scene, instance, primitive);
-  const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
+  float twice_area = 0.0f;
+  const Vec3 n = triangle_normal(p[0], p[1], p[2], twice_area);
   return instance.mirrors ? Vec3(-n) : n;
+}
+
+double world_area(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
+  const std::array<Vec3, 3> p = world_triangle(scene, instance, primitive);
+  const Eigen::Vector3d corner = p[0].cast<double>();
+  return 0.5 * (p[1].cast<double>() - corner).cross(p[2].cast<double>() - corner).norm();
 }
 
 std::size_t count_triangles(const Scene& scene) {

@@ -153,6 +153,9 @@ struct Scene {
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
   std::vector<std::string> warnings;  ///< one line each, said once
   Box bounds;                         ///< world; empty when there is no triangle
+  /// Where the world's zero lies in the file's coordinates: not zero where the file's scene is far from its
+  /// origin, beside its size, so that single precision would hold little of it (scene/gltf.h).
+  Vec3 origin = Vec3::Zero();
 
   const Mesh& mesh_of(const Instance& instance) const {
     return meshes[static_cast<std::size_t>(instance.mesh)];
@@ -165,9 +168,12 @@ struct Scene {
 /// The corners of a triangle in the world, in the order of the file.
 std::array<Vec3, 3> world_triangle(const Scene& scene, const Instance& instance, std::uint32_t primitive);
 
-/// Counter-clockwise normal of a triangle in the world, not normalised: its length is twice the area.
-/// Points to the front, for mirrored instances too.
+/// Unit normal of a triangle in the world, counter-clockwise, for mirrored instances too; zero where the
+/// corners lie on a line.
 Vec3 world_normal(const Scene& scene, const Instance& instance, std::uint32_t primitive);
+
+/// Square metres of a triangle in the world.
+double world_area(const Scene& scene, const Instance& instance, std::uint32_t primitive);
 
 /// Number of triangles, each instance counted.
 std::size_t count_triangles(const Scene& scene);

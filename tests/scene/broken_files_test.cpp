@@ -7,46 +7,15 @@
 #include <random>
 
 #include "tests/scene/gltf_builder.h"
+#include "tests/scene/scene_fault.h"
 
 namespace gatelight::scene {
 namespace {
 
-/// What must hold for anything that loads: the renderer trusts it.
-void expect_consistent(const Scene& scene, const std::string& name) {
-  for (const Instance& instance : scene.instances) {
-    ASSERT_LT(static_cast<std::size_t>(instance.mesh), scene.meshes.size()) << name;
-    ASSERT_TRUE(instance.transform.matrix().allFinite()) << name;
-  }
-  for (const Mesh& mesh : scene.meshes) {
-    const std::size_t n = mesh.positions.size();
-    ASSERT_LT(static_cast<std::size_t>(mesh.material), scene.materials.size()) << name;
-    ASSERT_GT(mesh.positions.capacity(), n) << name;
-    for (const auto& t : mesh.triangles) {
-      for (const std::uint32_t i : t) ASSERT_LT(i, n) << name;
-    }
-    for (const Vec3& p : mesh.positions) ASSERT_TRUE(p.allFinite()) << name;
-    for (const Vec3& v : mesh.normals) ASSERT_NEAR(v.norm(), 1.0f, 1e-4f) << name;
-    for (const Vec4& t : mesh.tangents) ASSERT_NEAR(t.head<3>().norm(), 1.0f, 1e-4f) << name;
-    for (const std::size_t size :
-         {mesh.normals.size(), mesh.tangents.size(), mesh.uv0.size(), mesh.uv1.size(), mesh.colors.size()}) {
-      ASSERT_TRUE(size == 0 || size == n) << name;
-    }
-    for (const Vec2& uv : mesh.uv0) ASSERT_TRUE(uv.allFinite()) << name;
-  }
-  for (const Texture& texture : scene.textures) {
-    ASSERT_LT(static_cast<std::size_t>(texture.image), scene.images.size()) << name;
-  }
-  for (const Image& image : scene.images) {
-    ASSERT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width * image.height * image.channels))
-        << name;
-  }
-  for (const std::string& warning : scene.warnings) ASSERT_EQ(warning.find('\n'), std::string::npos) << name;
-}
-
 /// True if it loaded.
 bool loads_or_refuses(const std::filesystem::path& path, const std::string& what) {
   try {
-    expect_consistent(load_gltf(path), what);
+    EXPECT_EQ(scene_fault(load_gltf(path)), "") << what;
     return true;
   } catch (const SceneError& e) {
     const std::string message = e.what();

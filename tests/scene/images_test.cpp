@@ -147,6 +147,71 @@ TEST(Images, PathsOutsideTheFolderAreRefused) {
   EXPECT_EQ(refused("sub/../own.png"), "");
 }
 
+TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
+  const TemporaryFolder outer;
+  write_bytes(outer.path() / "secret.png", kGrey);
+  const std::filesystem::path inner = outer.path() / "scene";
+  std::filesystem::create_directory(inner);
+  write_bytes(inner / "own.png", kGrey);
+  std::filesystem::create_symlink("../secret.png", inner / "link.png");
+  std::filesystem::create_symlink(outer.path(), inner / "up");
+  std::filesystem::create_symlink("own.png", inner / "other.png");
+  std::filesystem::create_symlink("none.png", inner / "dangling.png");
+  const auto refused = [&](const std::filesystem::path& folder, const std::string& uri) {
+    write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
+    return refusal(folder / "test.glb");
+  };
+  for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
+    EXPECT_THAT(refused(inner, uri),
+                AllOf(HasSubstr("images[0].uri"), HasSubstr(uri),
+                      HasSubstr("is a symbolic link that leaves the folder"), HasSubstr("--allow-external")));
+  }
+  EXPECT_THAT(refused(inner, "dangling.png"), HasSubstr("does not exist"));
+  EXPECT_EQ(refused(inner, "other.png"), "");
+  EXPECT_EQ(refused(inner, "up/scene/own.png"), "");
+  // The folder itself may be reached by a link.
+  std::filesystem::create_symlink("scene", outer.path() / "scene-link");
+  EXPECT_EQ(refused(outer.path() / "scene-link", "other.png"), "");
+}
+
+TEST(Images, OfOtherFoldersAreReadWhereThatIsAllowed) {
+  const TemporaryFolder outer;
+  write_bytes(outer.path() / "grey 1.png", kGrey);
+  const std::filesystem::path inner = outer.path() / "scene";
+  std::filesystem::create_directory(inner);
+  std::filesystem::create_symlink("../grey 1.png", inner / "link.png");
+  const auto refused = [&](const std::string& uri) {
+    write_bytes(inner / "test.glb", with_image({{"uri", uri}}).glb());
+    return refusal(inner / "test.glb", {.allow_external = true});
+  };
+  const std::string absolute = outer.path().string() + "/grey%201.png";
+  for (const std::string& uri :
+       {std::string("../grey 1.png"), std::string("%2e%2e/grey%201.png"), std::string("link.png"), absolute,
+        "file://" + absolute, "FILE://localhost" + absolute, "file:" + absolute}) {
+    EXPECT_EQ(refused(uri), "") << uri;
+  }
+  EXPECT_THAT(refused("http://localhost" + absolute), HasSubstr("has a scheme"));
+  EXPECT_THAT(refused("file://elsewhere" + absolute), HasSubstr("is on another machine"));
+}
+
+TEST(Images, WithTheSameBytesBehindThemAreDecodedOnce) {
+  GltfBuilder file;
+  const int view = file.view(kGrey);
+  json primitive = file.triangle();
+  for (int i = 0; i < 2; ++i) {
+    file.add("images", {{"bufferView", view}});
+    file.add("textures", {{"source", i}});
+  }
+  file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                         {"emissiveTexture", {{"index", 1}}},
+                         {"emissiveFactor", {1, 1, 1}}});
+  primitive["material"] = 0;
+  file.node({{"mesh", file.mesh(primitive)}});
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(scene.textures.size(), 2u);
+}
+
 TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
   GltfBuilder file = with_image({{"uri", kRgba}});
   file.root["textures"][0].erase("source");

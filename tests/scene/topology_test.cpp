@@ -115,5 +115,41 @@ TEST(Topology, MissingNormalsStayMissing) {
   EXPECT_TRUE(only_mesh(file.load()).normals.empty());
 }
 
+// A count is cheap to write: some hundred bytes would ask for gigabytes.
+TEST(Claims, MoreGeometryThanTheFileCanMeanIsRefused) {
+  const auto with_primitives = [](int primitives, std::size_t count) {
+    GltfBuilder file;
+    const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});
+    json list = json::array();
+    for (int i = 0; i < primitives; ++i) list.push_back({{"attributes", {{"POSITION", zeros}}}});
+    file.node({{"mesh", file.add("meshes", {{"primitives", list}})}});
+    return file;
+  };
+  EXPECT_EQ(with_primitives(3, 999).refused(), "");
+  EXPECT_THAT(with_primitives(1, (1 << 20) + 1).refused(), HasSubstr("count 1048577 without a bufferView"));
+  EXPECT_THAT(with_primitives(20, 1 << 20).refused(),
+              AllOf(HasSubstr("meshes[0].primitives[13]"), HasSubstr("expected at most 1024"),
+                    HasSubstr("bytes with its buffers")));
+}
+
+TEST(Claims, MoreInstancesThanTheFileCanMeanAreRefused) {
+  const auto with_nodes = [](int nodes, std::size_t count, int primitives) {
+    GltfBuilder file;
+    const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});
+    json list = json::array();
+    for (int i = 0; i < primitives; ++i) list.push_back(file.triangle());
+    const int mesh = file.add("meshes", {{"primitives", list}});
+    for (int i = 0; i < nodes; ++i) {
+      file.node({{"mesh", mesh},
+                 {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", zeros}}}}}}}});
+    }
+    return file;
+  };
+  EXPECT_EQ(with_nodes(2, 100, 2).refused(), "");
+  EXPECT_THAT(with_nodes(10, 1 << 20, 1).refused(),
+              AllOf(HasSubstr("EXT_mesh_gpu_instancing"), HasSubstr("MiB")));
+  EXPECT_THAT(with_nodes(1, 1 << 18, 200).refused(), AllOf(HasSubstr("meshes[0]"), HasSubstr("MiB")));
+}
+
 }  // namespace
 }  // namespace gatelight::scene
