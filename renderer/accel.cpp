@@ -13,15 +13,12 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr unsigned kPacket = 16;
-/// A shadow ray that has passed this many panes is stopped: what is left of it is dark.
-constexpr int kMaxPanes = 8;
-
 struct Lane {
   std::uint32_t seed = 0;
   Vec3 direction = Vec3::Zero();  ///< world space: Embree's own is in the instance's
   Color transmittance{1.0f, 1.0f, 1.0f};
   int panes = 0;
-  std::uint64_t seen[kMaxPanes] = {};  ///< spatial splits report a triangle more than once
+  std::uint64_t seen[Accel::kMaxPanes];  ///< `panes` of them: spatial splits report a triangle more than once
 };
 
 /// Embree hands its context back to the filters: the lanes travel behind it.
@@ -72,7 +69,7 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
     if ((passed <= 0.0f).all()) continue;
     const std::uint64_t id = static_cast<std::uint64_t>(hit.instance) << 32 | hit.primitive;
     if (std::find(lane.seen, lane.seen + lane.panes, id) == lane.seen + lane.panes) {
-      if (lane.panes == kMaxPanes) continue;
+      if (lane.panes == Accel::kMaxPanes) continue;
       lane.seen[lane.panes++] = id;
       lane.transmittance *= passed;
     }
@@ -132,8 +129,9 @@ struct Accel::State {
     }
     return true;
   }
-  static void error(void* self, RTCError, const char* text) {
+  static void error(void* self, RTCError code, const char* text) {
     State& state = *static_cast<State*>(self);
+    if (code == RTC_ERROR_OUT_OF_MEMORY) state.refused = true;
     if (state.first_error.empty()) state.first_error = text;
   }
 };
@@ -148,7 +146,12 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   std::string config = fmt::format("threads={}", options.threads);
   if (const char* isa = embree_isa(options.isa)) config += fmt::format(",isa={}", isa);
   device_ = rtcNewDevice(config.c_str());
-  if (!device_) throw Unavailable(fmt::format("Embree refuses the device \"{}\"", config));
+  if (!device_) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    const std::string text = fmt::format("Embree refuses the device \"{}\"", config);
+    if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throw Unavailable(text);
+    throw OutOfMemory(text + ": there is no memory for it, or no thread");
+  }
   state_->limit = options.memory_limit_bytes;
   rtcSetDeviceErrorFunction(device_, State::error, state_.get());
   rtcSetDeviceMemoryMonitorFunction(device_, State::monitor, state_.get());

@@ -38,6 +38,9 @@ class Accel {
   /// `coherent` says that neighbours point the same way.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
 
+  /// A ray that has passed more panes ends: what is left of it counts as dark.
+  static constexpr int kMaxPanes = 64;
+
   /// Fraction of light that passes along each ray in (0, t_max): zero behind an opaque surface.
   void transmittance(std::span<const Ray> rays, std::span<Color> result) const;
 

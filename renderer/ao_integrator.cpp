@@ -31,7 +31,7 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     const RayCone& cone = samples[i].camera_ray.cone;
     const Surface surface =
         world_.surfaces.at(hit, camera_ray.direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!first_hits.empty()) first_hits[i] = first_hit(hit, surface);
+    if (!first_hits.empty()) first_hits[i] = first_hit(hit, surface, world_.scene.origin);
     Ray ray;
     if (!make_occlusion_ray(surface, samples[i], distance_, ray)) {
       results[i].radiance = Color::Zero();

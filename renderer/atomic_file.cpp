@@ -71,6 +71,7 @@ void check_writable(const fs::path& path) {
     refuse(path, fmt::format("the folder '{}' cannot be written: {}", folder.string(), describe(errno)));
   }
   const fs::file_status status = fs::status(target, error);
+  if (status.type() == fs::file_type::none) refuse(path, error.message());
   if (fs::is_directory(status)) refuse(path, "it is a folder");
   // Renaming over a device or a pipe would replace it.
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is not a regular file");
@@ -106,18 +107,22 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 }
 
 void AtomicFile::commit() {
+  // A write that failed in a seek is forgotten by the next flush, but not by ferror().
+  if (std::ferror(stream_) != 0) refuse(target_, "a part of it could not be written");
   if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail(errno);
-  if (!named_) {
+  const std::string link = link_of(::fileno(stream_));
+  const auto link_to = [&](const fs::path& name) {
+    return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  const bool is_new = !named_ && link_to(target_);
+  if (!named_ && !is_new) {
     // A link does not replace a file, so that the name that a rename needs is given at the last moment.
-    const std::string link = link_of(::fileno(stream_));
-    const auto give_name = [&] {
-      return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) == 0;
-    };
+    const auto give_name = [&] { return link_to(temporary_); };
     // The name may be left from a process of the same number that was killed right here.
     if (!give_name() && (errno != EEXIST || ::unlink(temporary_.c_str()) != 0 || !give_name())) fail(errno);
     named_ = true;
   }
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (!is_new && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   std::fclose(stream_);  // nothing is left to be flushed
   stream_ = nullptr;
   sync_folder(folder_of(target_));

@@ -13,6 +13,12 @@ Vec3 mirror(const Vec3& wo, const Vec3& n) {
   return 2.0f * wo.dot(n) * n - wo;
 }
 
+/// Unit again: leaving a dense medium multiplies the error of wo's length by the square of the index.
+Vec3 refracted(const Vec3& wo, const Vec3& n, float cos_o, float cos_t, float eta) {
+  const Vec3 wi = (cos_o / eta - cos_t) * n - wo / eta;
+  return wi / wi.norm();
+}
+
 /// A visible normal of a lobe, in the world.
 Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const Vec2& u) {
   const Basis basis(normal);
@@ -83,7 +89,7 @@ BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
     const Vec3 reflected = mirror(wo_, h);
     return finish(reflected - 2.0f * reflected.dot(ns_) * ns_, -ns_, spread);
   }
-  return finish((oh / eta_ - half.cos_t) * h - wo_ / eta_, -ns_, spread);
+  return finish(refracted(wo_, h, oh, half.cos_t, eta_), -ns_, spread);
 }
 
 BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
@@ -103,7 +109,7 @@ BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
   if (glass_ == Glass::thin) {
     sample.wi = -wo_;
   } else {
-    sample.wi = (ggx_.cos_o / eta_ - half.cos_t) * ns_ - wo_ / eta_;
+    sample.wi = refracted(wo_, ns_, ggx_.cos_o, half.cos_t, eta_);
     sample.radiance_scale = 1.0f / (eta_ * eta_);
   }
   if (!(sample.wi.dot(ng_) < 0.0f) || !(sample.pdf > 0.0f)) return {};

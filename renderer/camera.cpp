@@ -93,6 +93,7 @@ scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& opti
   if (options.look_at) {
     camera.name = "look-at";
     camera.transform = look_at(*options.look_at);
+    camera.transform.translation() -= scene.origin;
   } else if (!options.name.empty()) {
     const scene::Camera* found = nullptr;
     for (const scene::Camera& c : scene.cameras) {

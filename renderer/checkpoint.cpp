@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "neural/content_digest.h"
 #include "renderer/atomic_file.h"
 #include "renderer/cache/cache_content.h"
-#include "renderer/digest.h"
 #include "renderer/film_samples.h"
 
 namespace gatelight::renderer {
@@ -31,7 +32,6 @@ constexpr const char* kPhase = "phase";
 constexpr const char* kSamples = "samples";
 constexpr const char* kFirstStep = "first_step";
 constexpr const char* kHasCache = "cache";
-constexpr const char* kDigest = "digest";
 constexpr const char* kNonFinite = "nonfinite_samples";
 
 /// What adds up over the runs that make a picture: the same member of each of the statistics.
@@ -94,50 +94,9 @@ Number number_at(const SafetensorsReader& file, const std::string& key) {
   const std::string& text = text_at(file, key);
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < Number{0})
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= Number{0}))
     file.fail(fmt::format("{}: '{}', expected a number, not negative", key, text));
   return value;
-}
-
-/// Over names and bytes of all tensors and over the other metadata: a checkpoint is gone on with to the bit,
-/// or not at all.
-class ContentDigest {
- public:
-  void add_tensor(const std::string& name) { record_.add_text(name); }
-  void add_bytes(std::span<const std::byte> piece) { record_.add(digest_of(piece)); }
-  std::string finish(const neural::Metadata& metadata) {
-    for (const auto& [key, text] : metadata) {
-      if (key == kDigest) continue;
-      record_.add_text(key);
-      record_.add_text(text);
-    }
-    return hexadecimal(record_.digest());
-  }
-
- private:
-  DigestRecord record_;
-};
-
-std::string digest_of_content(std::vector<TensorView> tensors, const neural::Metadata& metadata) {
-  std::sort(tensors.begin(), tensors.end(),
-            [](const TensorView& a, const TensorView& b) { return a.name < b.name; });
-  ContentDigest digest;
-  for (const TensorView& tensor : tensors) {
-    digest.add_tensor(tensor.name);
-    for (std::size_t at = 0; at < tensor.data.size(); at += SafetensorsReader::kPieceBytes)
-      digest.add_bytes(
-          tensor.data.subspan(at, std::min(SafetensorsReader::kPieceBytes, tensor.data.size() - at)));
-  }
-  return digest.finish(metadata);
-}
-
-std::string digest_of_content(SafetensorsReader& file) {
-  ContentDigest digest;
-  for (const std::string& name : file.names()) {  // in the order of names
-    digest.add_tensor(name);
-    file.read_in_pieces(name, [&](std::span<const std::byte> piece) { digest.add_bytes(piece); });
-  }
-  return digest.finish(file.metadata());
 }
 
 std::vector<std::uint32_t> to_words(const std::vector<NonFiniteSample>& samples) {
@@ -209,7 +168,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   };
   each_sum(add, statistics);
   each_last(add, statistics);
-  metadata[kDigest] = digest_of_content(tensors, metadata);
+  metadata[neural::kDigestKey] = neural::content_digest(tensors, metadata);
 
   AtomicFile file(path);
   neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
@@ -220,7 +179,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
 Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
   neural::expect_text(file_, "format", "format", kFormat);
   neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
-  if (text_at(file_, kDigest) != digest_of_content(file_)) file_.fail("it is damaged: its digest is another");
+  neural::expect_digest(file_);
   const std::string& phase = text_at(file_, kPhase);
   if (phase != phase_name(Phase::train) && phase != phase_name(Phase::render))
     file_.fail(fmt::format("phase: '{}', expected train or render", phase));
@@ -253,6 +212,12 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
       const std::uint64_t shape[] = {values.size()};
       file_.read(name, type, shape, std::as_writable_bytes(std::span(values)));
     });
+    // What is not finite never gets there: a picture that went on from it would show it.
+    const auto bad =
+        std::find_if(sums.radiance.begin(), sums.radiance.end(), [](double x) { return !std::isfinite(x); });
+    if (bad != sums.radiance.end())
+      file_.fail(fmt::format("tensor 'film.radiance': element {} is {}, expected a finite number",
+                             bad - sums.radiance.begin(), *bad));
     film.import_state(sums);
   }
   const auto read = [&](const char* name, auto& value) {
@@ -263,6 +228,10 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
   each_last(read, statistics);
   statistics.nonfinite_samples = read_nonfinite(file_);
   statistics.spp = progress_.samples;
+}
+
+void Checkpoint::expect_model(const neural::Model& model, const neural::TrainingOptions& options) const {
+  neural::expect_model(file_, model, options);
 }
 
 CacheState Checkpoint::read_cache(const neural::Model& model, const neural::TrainingOptions& options) {

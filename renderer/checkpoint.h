@@ -58,6 +58,8 @@ class Checkpoint {
   void expect(const CheckpointIdentity& identity, int spp) const;
   /// Sets the film, and of the statistics what is counted over the whole picture.
   void restore(Film& film, RenderStatistics& statistics);
+  /// Refuses a checkpoint whose tensors are not of this model, before there is memory for it.
+  void expect_model(const neural::Model& model, const neural::TrainingOptions& options) const;
   /// Throws where there is no cache.
   CacheState read_cache(const neural::Model& model, const neural::TrainingOptions& options);
 

@@ -27,6 +27,7 @@ bool CheckpointKeeper::due() const {
 void CheckpointKeeper::write(const CheckpointProgress& progress, const RenderStatistics& statistics,
                              const Film& film, const CacheSession* session,
                              const neural::TrainingOptions& training) {
+  last_ = std::chrono::steady_clock::now();  // after one that fails, too: the next is not tried at once
   if (session) {
     const CacheState state = session->export_state();
     write_checkpoint(options_.file, identity_, progress, statistics, film,

@@ -89,7 +89,7 @@ Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const 
                                   texcoord(mesh, m.transmission_texture, hit), 0.0f, 0.0f)
                           .x();
   }
-  const Vec3 n = scene::world_normal(scene_, instance, hit.primitive).normalized();
+  const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);
   const bool front = n.dot(direction) < 0.0f;
   const Vec3 facing = front ? n : Vec3(-n);
   return Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();

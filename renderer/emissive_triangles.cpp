@@ -1,9 +1,16 @@
 #include "renderer/emissive_triangles.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "renderer/rounding.h"
+#include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -46,7 +53,7 @@ float quarter_footprint(const scene::Mesh& mesh, const scene::TextureSlot& slot,
 }
 
 EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance_index,
-                               std::uint32_t primitive) {
+                               std::uint32_t primitive, const PlacementRounding& rounding) {
   const scene::Instance& instance = scene.instances[instance_index];
   const scene::Material& material = scene.material_of(instance);
   const std::array<Vec3, 3> p = scene::world_triangle(scene, instance, primitive);
@@ -60,11 +67,12 @@ EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance
   triangle.primitive = primitive;
   triangle.two_sided = material.double_sided;
   triangle.plain = !material.emission_texture && material.alpha_mode == scene::AlphaMode::opaque;
-  const double area =
-      0.5 * triangle.corners.edge1.cast<double>().cross(triangle.corners.edge2.cast<double>()).norm();
+  float twice_area = 0.0f;
+  triangle.normal =
+      scene::triangle_normal(p[0], p[instance.mirrors ? 2 : 1], p[instance.mirrors ? 1 : 2], twice_area);
   // What the float arithmetic of sampling cannot carry counts as degenerate.
-  const float normal = triangle.corners.edge1.cross(triangle.corners.edge2).squaredNorm();
-  triangle.area = std::isnormal(normal) ? static_cast<float>(area) : 0.0f;
+  triangle.area = std::isnormal(0.5f * twice_area) ? 0.5f * twice_area : 0.0f;
+  triangle.offset = rounding_offset(p[0], p[1], p[2], rounding);
   return triangle;
 }
 
@@ -76,14 +84,52 @@ EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& 
     const scene::Material& material = scene.material_of(scene.instances[i]);
     if (!material.emits() || material.unlit) continue;
     first_[i] = static_cast<std::uint32_t>(triangles_.size());
+    const PlacementRounding rounding(scene.instances[i]);
     const std::size_t count = scene.mesh_of(scene.instances[i]).triangles.size();
     for (std::uint32_t primitive = 0; primitive < count; ++primitive) {
-      triangles_.push_back(make_triangle(scene, i, primitive));
+      triangles_.push_back(make_triangle(scene, i, primitive, rounding));
     }
   }
   intensities_.resize(triangles_.size());
   tbb::parallel_for(std::size_t{0}, triangles_.size(),
                     [this](std::size_t i) { intensities_[i] = estimate_intensity(triangles_[i]); });
+  find_duplicates();
+}
+
+// Of faces that lie in the same place a ray meets one, so that only one may be sampled: the others have no
+// intensity, and are taken for the first when their density is asked for.
+void EmissiveTriangles::find_duplicates() {
+  using Key = std::array<float, 10>;
+  const auto key_of = [&](const EmissiveTriangle& t) {
+    const auto less = [](const Vec3& a, const Vec3& b) {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::array<Vec3, 3> p = scene::world_triangle(scene_, scene_.instances[t.instance], t.primitive);
+    if (t.mirrored) std::swap(p[1], p[2]);
+    std::rotate(p.begin(), std::min_element(p.begin(), p.end(), less), p.end());
+    if (t.two_sided && less(p[2], p[1])) std::swap(p[1], p[2]);
+    Key key;
+    for (std::size_t i = 0; i < 9; ++i) key[i] = p[i / 3][static_cast<Eigen::Index>(i % 3)];
+    key[9] = static_cast<float>(scene_.mesh_of(scene_.instances[t.instance]).material);
+    return key;
+  };
+  std::vector<std::pair<Key, std::uint32_t>> order(triangles_.size());
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+    order[i] = {key_of(triangles_[i]), static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(order.begin(), order.end());
+  for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
+    if (order[i].first != order[first].first) {
+      first = i;
+      continue;
+    }
+    if (same_as_.empty()) {
+      same_as_.resize(triangles_.size());
+      std::iota(same_as_.begin(), same_as_.end(), 0u);
+    }
+    same_as_[order[i].second] = order[first].second;
+    intensities_[order[i].second] = 0.0;
+  }
 }
 
 Color EmissiveTriangles::textured_radiance(const EmissiveTriangle& triangle, const Vec2& barycentrics,
@@ -139,7 +185,7 @@ double EmissiveTriangles::estimate_intensity(const EmissiveTriangle& triangle) c
 
 std::size_t EmissiveTriangles::bytes() const {
   return triangles_.size() * sizeof(EmissiveTriangle) + intensities_.size() * sizeof(double) +
-         first_.size() * sizeof(std::uint32_t);
+         (first_.size() + same_as_.size()) * sizeof(std::uint32_t);
 }
 
 }  // namespace gatelight::renderer

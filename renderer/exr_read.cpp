@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string_view>
 
+#include "renderer/claimed_size.h"
+
 namespace gatelight::renderer {
 namespace {
-
-/// A header can claim any size: 2^31 values is more than any picture of ours and still can be allocated.
-constexpr std::size_t kMaxValues = std::size_t{1} << 31;
 
 /// Colour and vector channels in their usual order, others after them.
 int channel_rank(std::string_view channel) {
@@ -78,22 +78,22 @@ Picture read_exr(const std::filesystem::path& path) {
   std::size_t channels = 0;
   for (const Layer& layer : picture.layers) channels += layer.channels.size();
   if (channels == 0) throw std::runtime_error("it has no channels");
-  if (pixels > kMaxValues / channels) {
-    throw std::runtime_error(fmt::format("its {} x {} pixels of {} channels are too many", picture.width,
-                                         picture.height, channels));
-  }
+  check_claimed_size(picture.width, picture.height, static_cast<std::int64_t>(channels), path);
 
   Imf::FrameBuffer frame;
   for (Layer& layer : picture.layers) {
     const std::size_t count = layer.channels.size();
     layer.values.resize(pixels * count);
     const std::size_t pixel_bytes = count * sizeof(float);
-    char* first = reinterpret_cast<char*>(layer.values.data()) -
-                  data.min.x * static_cast<std::ptrdiff_t>(pixel_bytes) -
-                  data.min.y * static_cast<std::ptrdiff_t>(pixel_bytes * width);
+    // Where pixel 0, 0 would be: the library adds as much again. Data windows lie anywhere, so that this is a
+    // number and no pointer, and wraps.
+    const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(layer.values.data()) -
+                                  static_cast<std::uintptr_t>(data.min.x) * pixel_bytes -
+                                  static_cast<std::uintptr_t>(data.min.y) * pixel_bytes * width;
     for (std::size_t c = 0; c < count; ++c) {
       const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
-      frame.insert(name, Imf::Slice(Imf::FLOAT, first + c * sizeof(float), pixel_bytes, pixel_bytes * width));
+      frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(origin + c * sizeof(float)),
+                                    pixel_bytes, pixel_bytes * width));
     }
   }
   file.setFrameBuffer(frame);

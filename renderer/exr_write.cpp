@@ -1,12 +1,12 @@
 #include "renderer/exr.h"
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <Imath/half.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -31,14 +31,25 @@ class StdioStream final : public Imf::OStream {
     if (position < 0) fail();
     return static_cast<std::uint64_t>(position);
   }
+  /// The library ends a file in a destructor, which swallows what goes wrong there.
+  void check() const {
+    if (error_ != 0) throw_error();
+  }
   void seekp(std::uint64_t position) override {
     if (std::fseek(stream_, static_cast<long>(position), SEEK_SET) != 0) fail();
   }
 
  private:
-  [[noreturn]] static void fail() { throw std::system_error(errno, std::generic_category(), "stream"); }
+  [[noreturn]] void throw_error() const {
+    throw std::system_error(error_, std::generic_category(), "stream");
+  }
+  [[noreturn]] void fail() {
+    if (error_ == 0) error_ = errno;
+    throw_error();
+  }
 
   std::FILE* stream_;
+  int error_ = 0;
 };
 
 /// Half's conversion turns what is beyond its range into infinity; a finite radiance stays finite.
@@ -100,9 +111,12 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
   }
 
   StdioStream output(stream);
-  Imf::OutputFile file(output, header);
-  file.setFrameBuffer(frame);
-  file.writePixels(picture.height);
+  {
+    Imf::OutputFile file(output, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(picture.height);
+  }
+  output.check();
 }
 
 }  // namespace gatelight::renderer

@@ -6,12 +6,13 @@
 
 namespace gatelight::renderer {
 
-inline FirstHit first_hit(const Hit& hit, const Surface& surface) {
+/// Its position is in the file's coordinates: `origin` is the scene's.
+inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& origin) {
   FirstHit first;
   first.hit = true;
   first.albedo = surface.material.base_color;
   first.normal = surface.shading_normal;
-  first.position = surface.position;
+  first.position = origin + surface.position;
   first.depth = hit.t;
   first.instance = hit.instance;
   first.primitive = hit.primitive;

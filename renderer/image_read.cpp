@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "renderer/claimed_size.h"
 #include "renderer/exr.h"
 #include "renderer/image_format.h"
 #include "renderer/image_write.h"
@@ -29,13 +30,15 @@ std::vector<std::string> channel_names(int channels) {
 
 /// PNG and HDR.
 Picture read_flat(const std::filesystem::path& path, bool srgb) {
+  // By its name alone: else a file that is no PNG is tried with every format that the library knows.
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(srgb ? "png" : "hdr");
+  if (!input) throw std::runtime_error(OIIO::geterror());
   OIIO::ImageSpec config;
   // Colours as they stand in the file, not multiplied by alpha.
   config.attribute("oiio:UnassociatedAlpha", 1);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
-  if (!input) throw std::runtime_error(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it has no pixels");
+  OIIO::ImageSpec spec;
+  if (!input->open(path.string(), spec, config)) throw std::runtime_error(input->geterror());
+  check_claimed_size(spec.width, spec.height, spec.nchannels, path);
 
   Picture picture{.width = spec.width, .height = spec.height};
   const int channels = std::min(spec.nchannels, 4);
@@ -56,7 +59,10 @@ Picture read_flat(const std::filesystem::path& path, bool srgb) {
 
 /// The libraries' messages end in line breaks and name the file again.
 std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text;
 }

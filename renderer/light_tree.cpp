@@ -29,7 +29,7 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
 
     // One descent is a chain of steps that wait for each other: roots and quotients are taken of lengths that
     // are not yet normalised, so that they do not wait for the inverse.
-    const float safe2 = std::max(distance2, 1e-36f);
+    const float safe2 = std::max(distance2, 1e-37f);
     const float inverse = 1.0f / std::sqrt(safe2);
     const float ratio2 = radius2 / safe2;
     const bool inside = ratio2 >= 1.0f;

@@ -238,8 +238,9 @@ LightTree::LightTree(std::span<const LightBounds> lights) : places_(lights.size(
     box.extend(lights[i].centre);
   }
   if (builder.order.empty()) return;
-  // A receiver that touches a point light: a millionth of the lights' extent is near enough.
-  nearest2_ = std::max(1e-12f * box.sizes().squaredNorm(), 1e-30f);
+  // A receiver that touches a point light. A millionth of the lights' extent would be far for a tiny lamp
+  // among huge ones.
+  nearest2_ = std::max(1e-24f * box.sizes().squaredNorm(), 1e-36f);
   nodes_.reserve(builder.order.size() / 2 + 1);
   builder.build({0, builder.order.size()}, kNone);
   nodes_.shrink_to_fit();

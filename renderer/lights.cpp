@@ -22,8 +22,7 @@ TriangleCorners seen_from(const Vec3& p, const EmissiveTriangle& triangle) {
 /// Cosine between the front's normal and the direction from the triangle to the point; positive on a side
 /// that emits.
 float cos_emitted(const EmissiveTriangle& triangle, const Vec3& wi) {
-  const Vec3 normal = triangle.corners.edge1.cross(triangle.corners.edge2);
-  const float cosine = -wi.dot(normal) / normal.norm();
+  const float cosine = -wi.dot(triangle.normal);
   return triangle.two_sided ? std::abs(cosine) : cosine;
 }
 
@@ -39,7 +38,7 @@ LightBounds bounds_of(const EmissiveTriangle& triangle, double intensity) {
   for (const Vec3& edge : {Vec3(Vec3::Zero()), t.edge1, t.edge2}) {
     bounds.radius = std::max(bounds.radius, (t.corner + edge - bounds.centre).norm());
   }
-  bounds.axis = t.edge1.cross(t.edge2).normalized();
+  bounds.axis = triangle.normal;
   bounds.two_sided = triangle.two_sided;
   return bounds;
 }
@@ -188,6 +187,8 @@ LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float ch
   if (!point.per_solid_angle) sample.pdf *= sample.distance * sample.distance / cosine;
   if (!(sample.pdf > 0.0f) || !std::isfinite(sample.pdf)) return {};
   sample.radiance = triangles_.radiance(triangle, point.barycentrics);
+  sample.offset = triangle.offset;
+  sample.cosine = cosine;
   return sample;
 }
 
@@ -197,6 +198,8 @@ LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, flo
   sample.distance = to_light.norm();
   if (!(sample.distance > 0.0f)) return {};
   sample.wi = to_light / sample.distance;
+  // Often drawn into the surface of a lamp or a ceiling.
+  sample.offset = 1e-4f * sample.distance;
   sample.radiance = punctual_irradiance(light, sample.wi, sample.distance);
   sample.pdf = choice;
   sample.delta = true;

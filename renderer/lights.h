@@ -26,6 +26,10 @@ struct LightSample {
   Color radiance{0.0f, 0.0f, 0.0f};  ///< unoccluded; for a delta light the irradiance on a plane facing it
   float pdf = 0.0f;  ///< choice and direction, per solid angle; for a delta light the choice alone; 0: none
   bool delta = false;
+  // Where a shadow ray has to end not to meet the light itself: so many metres before its plane, which is
+  // seen under this cosine.
+  float offset = 0.0f;
+  float cosine = 1.0f;
 };
 
 /// Thread-safe after construction; holds references to its arguments.

@@ -1,6 +1,10 @@
 #include "renderer/memory_estimate.h"
 
+#include <fmt/format.h>
+
+#include "renderer/errors.h"
 #include "renderer/film.h"
+#include "renderer/machine_memory.h"
 
 namespace gatelight::renderer {
 
@@ -11,7 +15,7 @@ namespace {
 constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
 /// A triangle light with its node of the tree.
-constexpr std::size_t kLightBytes = 192;
+constexpr std::size_t kLightBytes = 256;
 
 }  // namespace
 
@@ -35,6 +39,18 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   // The sums, and the resolved picture beside them: at most 13 floats.
   need.film = pixels * (Film::bytes_per_pixel(options.aovs) + 13 * sizeof(float) + options.aovs.size() * 12);
   return need;
+}
+
+void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more) {
+  if (options.memory_limit_bytes > 0 && all > options.memory_limit_bytes) {
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than the limit of {} MiB", what, all >> 20,
+                                  options.memory_limit_bytes >> 20));
+  }
+  const MemoryRoom room = memory_room();
+  if (more > room.bytes) {
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, and {} leaves {} MiB", what, more >> 20, room.limit,
+                                  room.bytes >> 20));
+  }
 }
 
 }  // namespace gatelight::renderer

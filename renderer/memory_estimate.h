@@ -2,6 +2,7 @@
 // How much memory a picture will take, before anything is built.
 
 #include <cstddef>
+#include <string_view>
 
 #include "renderer/options.h"
 #include "scene/scene.h"
@@ -19,5 +20,9 @@ struct MemoryEstimate {
 };
 
 MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& options);
+
+/// Throws OutOfMemory where `all` of rendering `what` needs more than options.memory_limit_bytes, or `more`,
+/// what is not taken yet, than memory_room() leaves.
+void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more);
 
 }  // namespace gatelight::renderer

@@ -53,7 +53,7 @@ struct CheckpointOptions {
   bool resume = false;  ///< go on with `file` where it is there
 };
 
-/// A view given by hand; replaces the file's cameras.
+/// A view given by hand, in the file's coordinates; replaces the file's cameras.
 struct LookAt {
   scene::Vec3 eye = scene::Vec3::Zero();
   scene::Vec3 target{0.0f, 0.0f, -1.0f};

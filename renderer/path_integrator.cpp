@@ -12,14 +12,15 @@ PathIntegrator::PathIntegrator(const World& world, const RenderOptions& options)
 
 void PathIntegrator::add_direct_light(const Path& path, const Surface& surface, const Bsdf& bsdf,
                                       const Vec3& normal, Scratch& scratch) const {
-  const std::uint32_t base = dimension::kFirstVertex + dimension::kPerVertex * path.vertex;
+  const std::uint32_t base =
+      dimension::kFirstVertex + dimension::kPerVertex * static_cast<std::uint32_t>(path.vertex);
   const LightSample light =
       world_.lights.sample(surface.position, normal, path.sampler.get_1d(base + dimension::kLightChoice),
                            path.sampler.get_2d(base + dimension::kLightPoint));
   if (!(light.pdf > 0.0f)) return;
   const BsdfValue value = bsdf.evaluate(light.wi);
   const float weight = light.delta ? 1.0f : mis_.light_weight(light.pdf, value.pdf);
-  const Color contribution = path.throughput * value.value * light.radiance * (weight / light.pdf);
+  const Color contribution = path.carried() * value.value * light.radiance * (weight / light.pdf);
   if (!(contribution > 0.0f).any()) return;
   scratch.shadow_rays.push_back(shadow_ray(surface, light, path.seed));
   scratch.pending.push_back({contribution, path.index});
@@ -32,7 +33,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, std::span<Sam
   if (!hit) {
     const Color sky = world_.environment.radiance(direction);
     if ((sky > 0.0f).any()) {
-      radiance += path.throughput * sky * sky_weight(world_, mis_, path.departure, direction);
+      radiance += path.carried() * sky * sky_weight(world_, mis_, path.departure, direction);
     }
     return false;
   }
@@ -41,29 +42,37 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, std::span<Sam
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
   const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
   const bool record = path.vertex == 0 && !first_hits.empty();
-  if (record) first_hits[path.index] = first_hit(hit, surface);
+  if (record) first_hits[path.index] = first_hit(hit, surface, world_.scene.origin);
   if ((surface.emission > 0.0f).any()) {
-    radiance += path.throughput * surface.emission *
+    radiance += path.carried() * surface.emission *
                 emission_weight(world_, mis_, path.departure, hit, surface, direction);
   }
-  if (surface.unlit || path.depth >= options_.max_depth) return false;
+  // Behind a pane there is still what the light samples of the vertex before it saw: at the depth's end it is
+  // looked at for its emission alone, since half of a weighted sum of both would be too dark.
+  const bool emission_only = path.depth >= options_.max_depth;
+  if (surface.unlit ||
+      (emission_only && !(surface.material.thin_walled && surface.material.transmission > 0.0f)))
+    return false;
 
   const Bsdf bsdf(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal,
                   -direction, surface.front);
   if (record) first_hits[path.index].albedo = bsdf.albedo();
   const Vec3 light_normal = bsdf.transmits() ? Vec3(Vec3::Zero()) : surface.shading_normal;
-  if (!bsdf.is_delta() && !world_.lights.empty())
+  if (!bsdf.is_delta() && !world_.lights.empty() && !emission_only)
     add_direct_light(path, surface, bsdf, light_normal, scratch);
 
-  const std::uint32_t base = dimension::kFirstVertex + dimension::kPerVertex * path.vertex;
+  const std::uint32_t base =
+      dimension::kFirstVertex + dimension::kPerVertex * static_cast<std::uint32_t>(path.vertex);
   const BsdfSample sample = bsdf.sample(path.sampler.get_1d(base + dimension::kBsdfLobe),
                                         path.sampler.get_2d(base + dimension::kBsdfDirection));
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
-  path.throughput *= sample.weight;
-  path.radiance_scale *= sample.radiance_scale;
+  path.throughput *= sample.weight / sample.radiance_scale;
+  path.radiance_scale *= static_cast<double>(sample.radiance_scale);
   const bool through_pane = sample.delta && sample.transmitted && surface.material.thin_walled;
+  if (emission_only && !through_pane) return false;
   if (through_pane) {
     path.departure.travelled += hit.t;
+    path.departure.panes += 1;
   } else {
     path.depth += 1;
     path.departure = {surface.position, light_normal, 0.0f, sample.pdf, sample.delta};
@@ -77,7 +86,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, std::span<Sam
   path.seed = next_seed(path.seed);
 
   if (path.depth >= options_.min_depth) {
-    const float survival = survival_probability(path.throughput, path.radiance_scale);
+    const float survival = survival_probability(path.throughput);
     if (roulette_number(path.seed) >= survival) return false;
     path.throughput /= survival;
   }

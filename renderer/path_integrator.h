@@ -40,15 +40,20 @@ class PathIntegrator {
 
 struct PathIntegrator::Path {
   RayCone cone;
-  Color throughput{1.0f, 1.0f, 1.0f};
+  Color throughput{1.0f, 1.0f, 1.0f};  ///< of power
   Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
   Departure departure;
-  float radiance_scale = 1.0f;  ///< product of BsdfSample::radiance_scale: not a loss of power
-  std::uint16_t depth = 0;      ///< scattering events so far
-  std::uint16_t vertex = 0;     ///< surfaces met so far: the block of sampler dimensions
-  std::uint32_t index = 0;      ///< into samples and results
+  /// Product of BsdfSample::radiance_scale: not a loss of power. In double, since hundreds of media inside
+  /// each other leave single precision before they come back to 1.
+  double radiance_scale = 1.0;
+  std::int32_t depth = 0;   ///< scattering events so far
+  std::int32_t vertex = 0;  ///< surfaces met so far: the block of sampler dimensions
+  std::uint32_t index = 0;  ///< into samples and results
   std::uint32_t seed = 0;
   Sampler sampler;
+
+  /// What radiance at the ray's end is worth at the camera.
+  Color carried() const { return throughput * static_cast<float>(radiance_scale); }
 };
 
 /// A light sample on its way through the scene.

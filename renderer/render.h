@@ -1,6 +1,7 @@
 #pragma once
 // One picture from one scene. The only thing an application has to call.
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -35,6 +36,9 @@ struct Callbacks {
   /// spp and render_seconds are up to date then.
   std::function<bool()> snapshot_wanted;
   std::function<void(const Picture&)> snapshot;
+  /// A checkpoint or the cache file could not be written: the picture goes on. `again`: it will be tried
+  /// again. Where this is not set, the exception ends the render.
+  std::function<void(const std::exception_ptr& error, bool again)> output_failed;
 };
 
 /// The points at which pictures are wanted of one training, or of one plain rendering. Ascending, not empty;

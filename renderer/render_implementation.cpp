@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "neural/flush_denormals.h"
 #include "renderer/ao_integrator.h"
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
@@ -29,12 +31,10 @@ PixelRect resolve_region(const RenderOptions& options) {
 }
 
 std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& options) {
-  if (options.memory_limit_bytes == 0) return 0;
   const MemoryEstimate need = estimate_memory(scene, options);
-  if (need.total() > options.memory_limit_bytes) {
-    throw OutOfMemory(fmt::format("{}: rendering needs about {} MiB, more than the limit of {} MiB",
-                                  scene.path, need.total() >> 20, options.memory_limit_bytes >> 20));
-  }
+  require_memory(fmt::format("{}: rendering", scene.path), options, need.total(),
+                 need.total() - need.geometry);
+  if (options.memory_limit_bytes == 0) return 0;
   return options.memory_limit_bytes - (need.total() - need.bvh);
 }
 
@@ -54,6 +54,8 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       camera(view, options.width, options.height),
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
+  const neural::FlushDenormals flush;  // the arena's threads too, as it is made here
+  require_threads(threads);
   const Clock::time_point start = Clock::now();
   // What was loaded has learned enough, unless the caller says otherwise.
   if (!options.cache.train_steps && options.cache.cache_in.empty()) {
@@ -97,24 +99,27 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
                                                   const Callbacks& callbacks) {
   Training training;
   const std::string& file = options.cache.cache_in;
-  const auto make_session = [&](const CacheSetup* setup) {
+  const auto make_session = [&](const CacheSetup* setup, const auto& expect_model) {
     if (!setup && callbacks.progress) callbacks.progress({.phase = Phase::scout, .spp = options.spp});
-    arena.execute(
-        [&] { training.session = std::make_unique<CacheSession>(*world, camera, region, options, setup); });
+    arena.execute([&] {
+      training.session = std::make_unique<CacheSession>(*world, camera, region, options, setup, expect_model);
+    });
   };
   if (found) {
-    make_session(&found->cache_setup());
+    make_session(&found->cache_setup(),
+                 [&](const neural::Model& model) { found->expect_model(model, training_options(options)); });
     training.session->import_state(found->read_cache(training.session->model(), training_options(options)));
     training.first_step = found->progress().first_step;
   } else if (!file.empty()) {
     CacheFile cache(file);
     cache.expect(meaning_of(options, resolve_ao_distance(options.ao_distance, scene.bounds)), fingerprint,
                  scene.instances.size());
-    make_session(&cache.setup());
+    make_session(&cache.setup(),
+                 [&](const neural::Model& model) { cache.expect_model(model, training_options(options)); });
     training.session->import_state(cache.read_state(training.session->model(), training_options(options)));
     training.first_step = training.session->steps();
   } else {
-    make_session(nullptr);
+    make_session(nullptr, nullptr);
   }
   training.chosen = steps_chosen;
   training.steps = training.all_steps = options.cache.train_steps.value_or(0);
@@ -148,6 +153,25 @@ void Renderer::Implementation::train(Training& training, const Callbacks& callba
   training.complete = !training.stopped || training.session->steps() >= end;
 }
 
+bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* found,
+                                              const Callbacks& callbacks) {
+  CacheSession& session = *training.session;
+  const std::uint64_t good = session.good_steps();
+  const bool loaded = found || !options.cache.cache_in.empty();
+  if (good == 0 && !loaded) return false;
+  arena.execute([&] { session.start_anew(); });
+  const neural::TrainingOptions learning = training_options(options);
+  if (found) {
+    session.import_state(found->read_cache(session.model(), learning));
+  } else if (loaded) {
+    session.import_state(CacheFile(options.cache.cache_in).read_state(session.model(), learning));
+  }
+  training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
+  if (good > session.steps()) train(training, callbacks, {});
+  training.complete = !training.stopped;
+  return true;
+}
+
 std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   const PassContext context{tiles, options, camera, filter};
   if (training.session) return std::make_unique<CachedPass>(*world, context, *training.session);
@@ -172,6 +196,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
     sum.cache = training.session->statistics();
     sum.cache.steps_chosen = training.chosen;
     sum.cache.steps_wanted = training.steps;
+    sum.cache.diverged = training.diverged;
     if (const auto* cached = dynamic_cast<const CachedPass*>(pass)) cached->add_to(sum.cache);
   }
   add_earlier(sum, earlier);

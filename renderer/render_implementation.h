@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/camera.h"
@@ -28,6 +29,7 @@ struct Training {
   bool chosen = false;           ///< by the picture's pixels and samples
   bool complete = false;
   bool stopped = false;  ///< by the caller
+  std::string diverged;  ///< why it went back to its last good state, if it did
 };
 
 struct Renderer::Implementation {
@@ -40,6 +42,9 @@ struct Renderer::Implementation {
   Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
   /// Up to training.steps.
   void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
+  /// After training diverged: back to the last good state, by training up to it once more, which costs
+  /// nothing as long as all goes well. False where there is none, but what a new cache begins with.
+  bool return_to_good(Training& training, Checkpoint* found, const Callbacks& callbacks);
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Of this run and those before it.
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "neural/flush_denormals.h"
 #include "renderer/render_implementation.h"
 #include "renderer/sample_loop.h"
 
@@ -41,6 +42,7 @@ void check_series(const Series& series, const RenderOptions& options) {
 }  // namespace
 
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
+  const neural::FlushDenormals flush;
   Implementation& self = *implementation_;
   check_series(series, self.options);
   return uses_cache(self.options.integrator) ? self.render_step_series(series.train_steps, picture, callbacks)

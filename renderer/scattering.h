@@ -16,7 +16,7 @@ namespace gatelight::renderer {
 inline constexpr float kDiffuseSpread = 0.25f;
 
 /// Panes do not count as scattering events; after this many surfaces more than events a path ends.
-inline constexpr int kMaxPassed = 32;
+inline constexpr int kMaxPassed = 1024;
 
 /// The weights of the two techniques that find light.
 struct MisRule {
@@ -48,12 +48,16 @@ struct Departure {
   float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
   float pdf = 0.0f;            ///< of the direction, per solid angle
   bool delta = true;  ///< the direction came from the camera or a delta lobe: no light sample competes
+  int panes = 0;      ///< between `position` and the ray's origin
+
+  /// Whether a light sample from `position` could have brought what the ray meets.
+  bool competes() const { return !delta && panes <= Accel::kMaxPanes; }
 };
 
 /// Weight of the emission of a surface that a ray in `direction` met at distance t.
 inline float emission_weight(const World& world, const MisRule& mis, const Departure& departure,
                              const Hit& hit, const Surface& surface, const Vec3& direction) {
-  if (departure.delta || surface.unlit) return 1.0f;
+  if (!departure.competes() || surface.unlit) return 1.0f;
   return mis.bsdf_weight(departure.pdf,
                          world.lights.pdf_triangle(departure.position, departure.normal, hit.instance,
                                                    hit.primitive, direction, departure.travelled + hit.t));
@@ -62,19 +66,19 @@ inline float emission_weight(const World& world, const MisRule& mis, const Depar
 /// The same for a ray that left the scene.
 inline float sky_weight(const World& world, const MisRule& mis, const Departure& departure,
                         const Vec3& direction) {
-  if (departure.delta) return 1.0f;
+  if (!departure.competes()) return 1.0f;
   return mis.bsdf_weight(departure.pdf,
                          world.lights.pdf_environment(departure.position, departure.normal, direction));
 }
 
-/// From a surface to a light sample.
+/// From a surface to a light sample. It ends before the light by what rounding may move both: a fraction of
+/// the distance instead would let what is close to a far lamp shine through, and a large lamp close by shadow
+/// itself.
 inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uint32_t seed) {
-  /// Distances below this fraction of the way to the light are its own surface.
-  constexpr float kShadowEpsilon = 1e-4f;
   Ray ray;
   ray.origin = surface.spawn(light.wi);
   ray.direction = light.wi;
-  ray.t_max = light.distance * (1.0f - kShadowEpsilon) - 2.0f * surface.offset;
+  ray.t_max = light.distance - (light.offset + 2.0f * surface.offset) / light.cosine;
   ray.seed = hash(seed ^ 0x5bd1e995u);
   if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
   return ray;
@@ -84,14 +88,15 @@ inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uin
 /// of the distance.
 inline Color absorption_of(const scene::Material& m) {
   if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
-  return -m.attenuation_color.max(1e-30f).log() / m.attenuation_distance;
+  // Finite, so that no distance makes it NaN.
+  return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }
 
 /// Russian roulette by the root of what is left: in bright rooms, where long paths carry much, roulette by
 /// the throughput itself costs more noise than it saves time (Country Kitchen: a tenth more noise in the same
-/// time). radiance_scale: product of BsdfSample::radiance_scale, which is no loss of power.
-inline float survival_probability(const Color& throughput, float radiance_scale) {
-  return std::min(0.95f, std::sqrt(throughput.maxCoeff() / radiance_scale));
+/// time). The throughput is of power: BsdfSample::radiance_scale, which comes back, is not in it.
+inline float survival_probability(const Color& throughput) {
+  return std::min(0.95f, std::sqrt(throughput.maxCoeff()));
 }
 
 /// Decisions of a path at a vertex, from the path's running seed.

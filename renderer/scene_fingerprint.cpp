@@ -9,10 +9,15 @@
 #include <stdexcept>
 #include <vector>
 
-#include "renderer/digest.h"
+#include "neural/digest.h"
 
 namespace gatelight::renderer {
 namespace {
+
+using neural::Digest;
+using neural::digest_of;
+using neural::DigestRecord;
+using neural::hexadecimal;
 
 template <class T>
 Digest digest_of_array(const std::vector<T>& values) {

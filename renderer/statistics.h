@@ -71,6 +71,7 @@ struct CacheStatistics {
   std::size_t optimizer_bytes = 0;
   std::size_t layout_bytes = 0;
   std::string backend;
+  std::string diverged;  ///< why training went back to its last good state, of `steps`; else empty
 };
 
 struct RenderStatistics {
@@ -92,6 +93,7 @@ struct RenderStatistics {
   std::uint64_t clamped = 0;
   CacheStatistics cache;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
+  std::string device_lost;   ///< why the device no longer answers, where that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer

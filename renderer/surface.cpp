@@ -1,10 +1,10 @@
 #include "renderer/surface.h"
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
 
@@ -71,10 +71,6 @@ Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& ta
   return mapped / std::sqrt(squared);
 }
 
-float largest(const Vec3& v) {
-  return v.cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textures_(textures) {
@@ -89,10 +85,7 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
     if (!instance.baked) {
       view.transform = instance.transform;
       view.normal_matrix = scene::normal_matrix(instance.transform);
-      view.translation = largest(instance.transform.translation());
-      const Eigen::Matrix3f linear = instance.transform.linear();
-      const Vec3 singular = linear.jacobiSvd().singularValues();
-      view.condition = singular.z() > 0.0f ? std::min(singular.x() / singular.z(), 1e4f) : 1.0f;
+      view.rounding = PlacementRounding(instance);
     }
   }
 }
@@ -123,17 +116,13 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     p1 = view.transform * p1;
     p2 = view.transform * p2;
   }
-  const Vec3 cross = (p1 - p0).cross(p2 - p0);
-  const float area = cross.norm();  // twice the area
+  float area = 0.0f;  // twice the area
+  Vec3 ng = scene::triangle_normal(p0, p1, p2, area);
+  if (!(area > 0.0f)) ng = -direction;
   Surface s;
   s.position = p0 * b.x() + p1 * b.y() + p2 * b.z();
-  // Rounding in the corners, the interpolation and the next intersection test is some units in the last place
-  // of the largest coordinate; 16 of them were enough from 1e-3 to 1e6 metres
-  // (tests/renderer/accel_test.cpp).
-  constexpr float kUlps = 16.0f * 0x1p-23f;
-  s.offset = kUlps * view.condition * (std::max({largest(p0), largest(p1), largest(p2)}) + view.translation);
+  s.offset = rounding_offset(p0, p1, p2, view.rounding);
 
-  Vec3 ng = area > 0.0f ? Vec3(cross / area) : Vec3(-direction);
   if (view.mirrors) ng = -ng;
   s.front = ng.dot(direction) <= 0.0f;
   Vec3 ns = ng;

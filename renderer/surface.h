@@ -6,6 +6,7 @@
 
 #include "renderer/bsdf.h"
 #include "renderer/ray.h"
+#include "renderer/rounding.h"
 #include "renderer/texture.h"
 #include "scene/scene.h"
 
@@ -62,8 +63,7 @@ class Surfaces {
     const scene::Material* material = nullptr;
     Eigen::Matrix3f normal_matrix = Eigen::Matrix3f::Identity();
     scene::Affine transform = scene::Affine::Identity();
-    float translation = 0.0f;  ///< largest coordinate of the transform's translation
-    float condition = 1.0f;    ///< of the transform: how much it blows up the error of an intersection
+    PlacementRounding rounding;
     bool baked = true;
     bool mirrors = false;
   };

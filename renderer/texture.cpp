@@ -116,9 +116,10 @@ int wrap(int x, int size, scene::Wrap mode) {
   return m < 0 ? m + size : m;
 }
 
-/// Texture coordinates without meaning (not finite, or so large that a float has no fraction left) read as 0.
-float tame(float x) {
-  return std::abs(x) < 1e6f ? x : 0.0f;
+/// In texels. Coordinates without meaning (not finite, or beyond what an int can count) read as 0.
+float texels_from(float coordinate, int size) {
+  const float x = coordinate * static_cast<float>(size);
+  return std::abs(x) < 1e9f ? x : 0.0f;
 }
 
 }  // namespace
@@ -248,8 +249,8 @@ Vec4 Textures::lookup(const scene::TextureSlot& slot, Encoding encoding, const V
            (1.0f / 255.0f);
   };
 
-  const float x = tame(st.x()) * static_cast<float>(level.width);
-  const float y = tame(st.y()) * static_cast<float>(level.height);
+  const float x = texels_from(st.x(), level.width);
+  const float y = texels_from(st.y(), level.height);
   if (lookup.nearest && index == 0) {
     const int ix = wrap(static_cast<int>(std::floor(x)), level.width, lookup.wrap_s);
     const int iy = wrap(static_cast<int>(std::floor(y)), level.height, lookup.wrap_t);

@@ -1,62 +1,54 @@
 #include "renderer/threads.h"
 
+#include <fmt/format.h>
+
+#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <sstream>
-#include <string>
+#include <mutex>
+#include <system_error>
 #include <thread>
+#include <vector>
+
+#include "renderer/control_group.h"
+#include "renderer/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// oneTBB's own choice for its workers on 64-bit machines.
+constexpr std::size_t kStackBytes = std::size_t{4} << 20;
+
+double quota_of(double quota, double period) {
+  return quota > 0.0 && period > 0.0 ? quota / period : kNone;
+}
+
 /// "max 100000" or "150000 100000".
-std::optional<double> read_quota_v2(const fs::path& folder) {
+double read_quota_v2(const fs::path& folder) {
   std::ifstream file(folder / "cpu.max");
   double quota = 0.0;
   double period = 0.0;
   // "max" is not a number: no limit.
-  if (!(file >> quota >> period) || quota <= 0.0 || period <= 0.0) return std::nullopt;
-  return quota / period;
+  return file >> quota >> period ? quota_of(quota, period) : kNone;
 }
 
-std::optional<double> read_quota_v1(const fs::path& folder) {
+double read_quota_v1(const fs::path& folder) {
   std::ifstream quota_file(folder / "cpu.cfs_quota_us");
   std::ifstream period_file(folder / "cpu.cfs_period_us");
   double quota = 0.0;
   double period = 0.0;
   // -1: no limit.
-  if (!(quota_file >> quota) || !(period_file >> period) || quota <= 0.0 || period <= 0.0) {
-    return std::nullopt;
-  }
-  return quota / period;
-}
-
-/// The tightest limit from a group up to the root of its hierarchy. Inside a container the path may belong to
-/// the host; its missing folders have no limit, and the walk ends at the container's own group.
-template <typename Read>
-double tightest(const fs::path& mount, const std::string& group, Read read) {
-  double quota = std::numeric_limits<double>::infinity();
-  fs::path relative = fs::path(group).relative_path();
-  while (true) {
-    if (const std::optional<double> found = read(mount / relative)) quota = std::min(quota, *found);
-    if (relative.empty()) return quota;
-    relative = relative.parent_path();
-  }
-}
-
-bool lists_cpu(const std::string& controllers) {
-  std::istringstream names(controllers);
-  for (std::string name; std::getline(names, name, ',');) {
-    if (name == "cpu") return true;
-  }
-  return false;
+  return quota_file >> quota && period_file >> period ? quota_of(quota, period) : kNone;
 }
 
 int affinity_count() {
@@ -69,23 +61,7 @@ int affinity_count() {
 }  // namespace
 
 double cgroup_cpu_quota(const fs::path& root) {
-  const fs::path mount = root / "sys/fs/cgroup";
-  double quota = std::numeric_limits<double>::infinity();
-  std::ifstream groups(root / "proc/self/cgroup");
-  // Each line: hierarchy:controllers:path
-  for (std::string line; std::getline(groups, line);) {
-    const std::size_t first = line.find(':');
-    const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-    if (second == std::string::npos) continue;
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    const std::string group = line.substr(second + 1);
-    if (controllers.empty()) {
-      quota = std::min(quota, tightest(mount, group, read_quota_v2));
-    } else if (lists_cpu(controllers)) {
-      quota = std::min(quota, tightest(mount / "cpu", group, read_quota_v1));
-      quota = std::min(quota, tightest(mount / controllers, group, read_quota_v1));
-    }
-  }
+  const double quota = tightest_limit(root, "cpu", read_quota_v2, read_quota_v1);
   return std::isfinite(quota) ? quota : 0.0;
 }
 
@@ -94,6 +70,39 @@ int available_threads(const fs::path& root) {
   const double quota = cgroup_cpu_quota(root);
   if (quota <= 0.0 || quota >= static_cast<double>(cpus)) return cpus;
   return std::max(1, static_cast<int>(std::ceil(quota)));
+}
+
+void require_threads(int threads) {
+  static std::atomic<int> started{1};
+  if (threads <= started) return;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  // All at once, each with the memory that its first allocation takes.
+  std::mutex gate;
+  std::vector<pthread_t> trial;
+  int failed = 0;
+  {
+    const std::lock_guard closed(gate);
+    const auto wait = [](void* mutex) -> void* {
+      std::free(std::malloc(1));
+      const std::lock_guard open(*static_cast<std::mutex*>(mutex));
+      return nullptr;
+    };
+    trial.reserve(static_cast<std::size_t>(threads));
+    while (static_cast<int>(trial.size()) + 1 < threads && failed == 0) {
+      pthread_t thread{};
+      failed = pthread_create(&thread, &attributes, wait, &gate);
+      if (failed == 0) trial.push_back(thread);
+    }
+  }
+  for (const pthread_t thread : trial) pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  if (failed != 0) {
+    throw OutOfMemory(fmt::format("--threads {}: only {} can be started here ({})", threads, trial.size() + 1,
+                                  std::generic_category().message(failed)));
+  }
+  started = threads;
 }
 
 }  // namespace gatelight::renderer

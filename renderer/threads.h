@@ -13,4 +13,8 @@ int available_threads(const std::filesystem::path& root = "/");
 /// The quota alone, in CPUs; 0 where there is none.
 double cgroup_cpu_quota(const std::filesystem::path& root = "/");
 
+/// Throws OutOfMemory where so many threads cannot be started: oneTBB, which starts them later and by itself,
+/// would end the program.
+void require_threads(int threads);
+
 }  // namespace gatelight::renderer

@@ -77,6 +77,11 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
   read_positive(file, kScales, scales);
   std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
       std::tuple_cat(scales);
+  // As scouts leave them: a step traces paths for its records, and a file is not to ask for any number.
+  for (const float records : {setup.records_per_path, setup.records_per_short_path}) {
+    if (records < kLeastRecordsPerPath)
+      file.fail(fmt::format("tensor '{}': {} records of a path, expected at least 1/64", kScales, records));
+  }
   return setup;
 }
 

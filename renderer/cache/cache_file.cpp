@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "neural/content_digest.h"
 #include "renderer/atomic_file.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/named_texts.h"
@@ -14,7 +15,7 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr const char* kFormat = "gatelight-scene-cache";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr const char* kMeaning = "cache";
 
 NamedTexts texts_of(const CacheMeaning& meaning) {
@@ -52,6 +53,7 @@ void write_cache_file(const std::filesystem::path& path, const CacheState& state
   metadata["version"] = fmt::format("{}", kVersion);
   add_texts(metadata, kMeaning, texts_of(meaning));
   add_scene(metadata, scene);
+  metadata[neural::kDigestKey] = neural::content_digest(content.tensors, metadata);
   AtomicFile file(path);
   neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
                             path, content.tensors, metadata);
@@ -60,7 +62,7 @@ void write_cache_file(const std::filesystem::path& path, const CacheState& state
 
 CacheFile::CacheFile(const std::filesystem::path& path) : file_(path) {
   neural::expect_text(file_, "format", "format", kFormat);
-  neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
+  neural::expect_version(file_, kVersion);
   setup_ = read_cache_setup(file_);
 }
 
@@ -77,6 +79,10 @@ void CacheFile::expect(const CacheMeaning& meaning, const SceneFingerprint& scen
                occlusion ? std::vector<std::string>{"lights", "environment"} : std::vector<std::string>{});
   if (setup_.sides.size() != instances)
     file_.fail(fmt::format("sides of {} instances, expected {}", setup_.sides.size(), instances));
+}
+
+void CacheFile::expect_model(const neural::Model& model, const neural::TrainingOptions& options) const {
+  neural::expect_model(file_, model, options);
 }
 
 CacheState CacheFile::read_state(const neural::Model& model, const neural::TrainingOptions& options) {

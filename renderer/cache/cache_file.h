@@ -43,6 +43,8 @@ class CacheFile {
   /// another number of instances. Of nao only what decides occlusion counts: lights and the environment may
   /// differ.
   void expect(const CacheMeaning& meaning, const SceneFingerprint& scene, std::size_t instances) const;
+  /// Refuses a file whose tensors are not of this model, before there is memory for it.
+  void expect_model(const neural::Model& model, const neural::TrainingOptions& options) const;
   CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options);
 
  private:

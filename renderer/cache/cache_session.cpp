@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "neural/record_status.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
@@ -31,6 +32,18 @@ constexpr std::uint64_t kGuardFrom = 200;  ///< steps of this run: another camer
 constexpr double kGuardFactor = 10.0;
 constexpr double kGuardFloor = 1e-2;
 
+// And what no training that learns anything reaches, looked at between groups: answers that are a hundred
+// times as bright as any group's targets, or a loss 130 times that of answering one everywhere. (Answers of
+// nothing where rare light of t falls come to 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) A
+// loss alone would not tell: the relative one goes to one for answers without bounds.
+constexpr std::size_t kLookedAt = 1024;  ///< points
+constexpr double kGreatestBrightness = 100.0;
+constexpr double kGreatestLoss = 130.0;
+/// As good as ever: the running mean is within so much of its least, and the group's own within so much of
+/// that.
+constexpr double kGoodAverage = 1.25;
+constexpr double kGoodGroup = 2.0;
+
 /// Paths of one step that are held at once.
 constexpr double kMostPaths = 1 << 24;
 
@@ -47,17 +60,12 @@ void check_options(const CacheOptions& options) {
 }
 
 void check_memory(const scene::Scene& scene, const RenderOptions& options, const neural::Model& model) {
-  if (options.memory_limit_bytes == 0) return;
   // Features, their average and two moments; a counter for each node.
   const std::size_t cache = model.parameters.count * 4 * sizeof(float) +
                             model.parameters.node_count * sizeof(std::uint32_t) +
                             model.gate.report.topology_bytes + model.gate.report.table_bytes;
-  const std::size_t need = estimate_memory(scene, options).total() + cache;
-  if (need > options.memory_limit_bytes) {
-    throw OutOfMemory(
-        fmt::format("{}: rendering with a cache of {} MiB needs about {} MiB, more than the limit of {} MiB",
-                    scene.path, cache >> 20, need >> 20, options.memory_limit_bytes >> 20));
-  }
+  require_memory(fmt::format("{}: rendering with a cache of {} MiB", scene.path, cache >> 20), options,
+                 estimate_memory(scene, options).total() + cache, cache);
 }
 
 bool counts_needed(const RenderOptions& options) {
@@ -68,7 +76,8 @@ bool counts_needed(const RenderOptions& options) {
 }  // namespace
 
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
-                           const RenderOptions& options, const CacheSetup* setup)
+                           const RenderOptions& options, const CacheSetup* setup,
+                           const std::function<void(const neural::Model&)>& expect_model)
     : world_(world), options_(options) {
   check_options(options.cache);
   Clock::time_point start = Clock::now();
@@ -83,6 +92,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   start = Clock::now();
 
   const std::shared_ptr<const neural::Model> cache_model = make_cache_model(world, options, setup_);
+  if (expect_model) expect_model(*cache_model);
   check_memory(world.scene, options, *cache_model);
   trainer_ = std::make_unique<neural::Trainer>(cache_model, training_options(options),
                                                make_cache_backend(cache_model, options));
@@ -125,6 +135,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.optimizer_bytes = trainer_->backend().optimizer_bytes();
   statistics_.backend = trainer_->backend().name();
   statistics_.setup_seconds = seconds_since(start);
+  first_statistics_ = statistics_;
 }
 
 CacheSession::~CacheSession() = default;
@@ -190,10 +201,12 @@ void CacheSession::count_triangles(const RecordBatch& group, std::uint64_t batch
   }
 }
 
-void CacheSession::guard(const neural::StepStatistics& step) {
+void CacheSession::guard(const neural::StepStatistics& step, std::uint64_t number) {
   if (step.records == 0) return;
   if (!std::isfinite(step.loss))
-    throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", steps_));
+    throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", number));
+  group_loss_ += step.loss;
+  ++group_steps_;
   const double fed = loss_average_ > 0.0 ? std::min(step.loss, kGuardFactor * loss_average_) : step.loss;
   loss_average_ = loss_average_ > 0.0 ? loss_average_ + (1.0 - kGuardDecay) * (fed - loss_average_) : fed;
   if (++guarded_steps_ < kGuardFrom) {
@@ -202,26 +215,80 @@ void CacheSession::guard(const neural::StepStatistics& step) {
   }
   loss_least_ = std::min(loss_least_, loss_average_);
   if (loss_average_ > kGuardFactor * std::max(loss_least_, kGuardFloor)) {
-    throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", steps_,
+    throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", number,
                                        loss_least_, loss_average_));
   }
 }
 
+void CacheSession::look_at_answers(const RecordBatch& group) {
+  if (group_steps_ == 0 || group.records.size() == 0) return;
+  const double loss = group_loss_ / static_cast<double>(group_steps_);
+  group_loss_ = 0.0;
+  group_steps_ = 0;
+  double bright = 0.0, ones = 0.0;
+  for (const float t : group.targets) {
+    if (!std::isfinite(t)) continue;
+    const double target =
+        std::min(static_cast<double>(std::abs(t)), static_cast<double>(options_.cache.training.max_target));
+    bright += target;
+    ones += (target - 1.0) * (target - 1.0);
+  }
+  const double values = static_cast<double>(group.targets.size());
+  brightest_ = std::max(brightest_, bright / values);
+  if (loss > kGreatestLoss * std::max(ones / values, kGuardFloor)) {
+    throw TrainingDiverged(
+        fmt::format("training step {}: a loss of {:.3g}, where answering the mean has one of {:.3g}", steps_,
+                    loss, ones / values));
+  }
+
+  const std::size_t points = std::min(kLookedAt, group.records.size());
+  std::vector<float> answers(points * outputs());
+  const neural::QueryBatch asked = group.records.batch(0, points);
+  trainer_->query(asked, {.range = neural::OutputRange::raw}, answers);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (!neural::is_finite(model(), asked, i)) continue;
+    for (std::size_t o = 0; o < outputs(); ++o)
+      sum += static_cast<double>(std::abs(answers[i * outputs() + o]));
+    count += static_cast<double>(outputs());
+  }
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  if (!(mean <= kGreatestBrightness * brightest_)) {
+    throw TrainingDiverged(
+        fmt::format("training step {}: answers of {:.3g} in the mean, where targets are {:.3g}", steps_, mean,
+                    brightest_));
+  }
+  if (guarded_steps_ >= kGuardFrom && loss_average_ <= kGoodAverage * loss_least_ &&
+      loss <= kGoodGroup * loss_average_)
+    good_steps_ = steps_;
+}
+
 void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
   const Clock::time_point begin = Clock::now();
-  const neural::StepStatistics step = trainer_->train(group.batch(batch));
+  trainer_->start(group.batch(batch));
   statistics_.train_step_seconds += seconds_since(begin);
   ++steps_;
+  ++steps_under_way_;
   statistics_.steps += 1;
-  statistics_.records += step.records;
-  statistics_.rejected += step.rejected;
-  statistics_.unstored += step.unstored;
-  statistics_.touched_nodes = step.touched_nodes;
-  last_losses_.push_back(step.loss);
-  if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
-  statistics_.loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
-                     static_cast<double>(last_losses_.size());
-  guard(step);
+  if (!trainer_->backend().runs_alongside()) settle();
+}
+
+void CacheSession::settle() {
+  const Clock::time_point begin = Clock::now();
+  while (steps_under_way_ > 0) {
+    const neural::StepStatistics step = trainer_->finish();
+    const std::uint64_t number = steps_ - --steps_under_way_;
+    statistics_.records += step.records;
+    statistics_.rejected += step.rejected;
+    statistics_.unstored += step.unstored;
+    statistics_.touched_nodes = step.touched_nodes;
+    last_losses_.push_back(step.loss);
+    if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
+    statistics_.loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
+                       static_cast<double>(last_losses_.size());
+    guard(step, number);
+  }
+  statistics_.train_step_seconds += seconds_since(begin);
 }
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
@@ -242,20 +309,42 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     const std::uint64_t count = std::min(group_end(steps_), steps) - steps_;
     const RecordRequest wish = request(steps_, count);
     records_->trace(wish, group);
+    const double stepped = statistics_.train_step_seconds;
+    settle();  // the steps of the group before, which a device made meanwhile
+    look_at_answers(group);
+    const double waited = statistics_.train_step_seconds - stepped;
     records_->finish(wish, answer_tail, group);
-    statistics_.train_trace_seconds += seconds_since(begin) - (statistics_.train_query_seconds - queried);
+    statistics_.train_trace_seconds +=
+        seconds_since(begin) - waited - (statistics_.train_query_seconds - queried);
     statistics_.training_paths += group.paths_traced;
     for (std::uint64_t batch = 0; batch < count; ++batch) {
       count_triangles(group, batch);
       learn(group, batch);
     }
+    if (!trainer_->backend().runs_alongside()) look_at_answers(group);
     statistics_.train_seconds = before + seconds_since(start);
     if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
     if (watch.after_group) watch.after_group();
     const double limit = options_.cache.train_seconds;
     if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
   }
+  settle();
+  look_at_answers(group);
   statistics_.train_seconds = before + seconds_since(start);
+}
+
+void CacheSession::start_anew() {
+  brightest_ = 1.0;
+  CacheState state;
+  state.setup = setup_;
+  state.model = neural::initial_state(model(), trainer_->options());
+  state.triangle_counts.assign(counts_.size(), 0);
+  import_state(state);
+  RayCounts abandoned = rays();
+  abandoned.subtract(scout_rays_);
+  abandoned_rays_.add(abandoned);
+  statistics_ = first_statistics_;
+  last_losses_.clear();
 }
 
 void CacheSession::answer(const SurfacePoints& points, std::span<float> answers) {
@@ -304,12 +393,18 @@ CacheState CacheSession::export_state() const {
 }
 
 void CacheSession::import_state(const CacheState& state) {
+  // Of a training that ended with an exception a device may still hold some.
+  for (; steps_under_way_ > 0; --steps_under_way_) trainer_->finish();
   trainer_->backend().import_state(state.model);
   steps_ = state.steps;
   if (state.triangle_counts.size() == counts_.size()) counts_ = state.triangle_counts;
   std::fill(counted_at_.begin(), counted_at_.end(), 0);
   loss_average_ = state.loss_average;
   loss_least_ = state.loss_least;
+  guarded_steps_ = 0;
+  group_loss_ = 0.0;
+  group_steps_ = 0;
+  good_steps_ = 0;
 }
 
 CacheSession::Bookmark CacheSession::bookmark() const {

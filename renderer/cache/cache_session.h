@@ -16,9 +16,12 @@ namespace gatelight::renderer {
 class CacheSession {
  public:
   /// Scouts unless a setup is given, and builds the model. World, camera and options outlive it. Runs in the
-  /// caller's arena, as all that follows. Throws neural::BadConfiguration, Unavailable.
+  /// caller's arena, as all that follows. A setup out of a file decides how large the model is:
+  /// `expect_model` throws where the file does not hold as much, before there is memory for it. Throws
+  /// neural::BadConfiguration, Unavailable.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
-               const RenderOptions& options, const CacheSetup* setup = nullptr);
+               const RenderOptions& options, const CacheSetup* setup = nullptr,
+               const std::function<void(const neural::Model&)>& expect_model = {});
   ~CacheSession();
 
   /// What training may be told and asked between steps.
@@ -29,9 +32,17 @@ class CacheSession {
   };
   /// Learns until `state.steps` reaches `steps`, or until stopped or out of time. Paths for the records of a
   /// group of steps are traced in one go; between groups it is asked, told and stopped. The same bits for any
-  /// number of threads. Throws NumericalError when the loss grows without end.
+  /// number of threads. Throws TrainingDiverged when the loss grows without end or answers leave all bounds.
   void train(std::uint64_t steps, const Watch& watch);
+  /// The last step between groups at which training was as good as ever: where one may go back to by training
+  /// anew where it diverged later. 0: there is none.
+  std::uint64_t good_steps() const { return good_steps_; }
+  /// As before the first step.
+  void start_anew();
   std::uint64_t steps() const { return steps_; }
+  /// Waits for the steps that a device is still making, so that statistics and an exported state tell of the
+  /// same steps. Between groups only; train ends so. Throws NumericalError as train.
+  void settle();
   /// The last step, not beyond `steps`, at which training from here on is between groups.
   std::uint64_t last_group_end(std::uint64_t steps) const;
 
@@ -71,7 +82,8 @@ class CacheSession {
   std::uint64_t group_end(std::uint64_t step) const;
   void learn(const RecordBatch& group, std::uint64_t batch);
   void count_triangles(const RecordBatch& group, std::uint64_t batch);
-  void guard(const neural::StepStatistics& step);
+  void guard(const neural::StepStatistics& step, std::uint64_t number);
+  void look_at_answers(const RecordBatch& group);
   void answer_with(neural::QueryPrecision precision, const SurfacePoints& points, std::span<float> answers);
 
   const World& world_;
@@ -84,15 +96,21 @@ class CacheSession {
   std::unique_ptr<CachedPaths> paths_;
   std::unique_ptr<RecordSource> records_;
   std::uint64_t steps_ = 0;
+  std::uint64_t steps_under_way_ = 0;  ///< of these
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint64_t> counted_at_;  ///< step after which a triangle was counted last
   double loss_average_ = 0.0;
   double loss_least_ = 0.0;
   std::uint64_t guarded_steps_ = 0;
+  double group_loss_ = 0.0;  ///< sum over the steps since answers were looked at
+  std::uint64_t group_steps_ = 0;
+  double brightest_ = 1.0;  ///< greatest mean magnitude of a group's targets
+  std::uint64_t good_steps_ = 0;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
   RayCounts abandoned_rays_;  ///< of steps from which it returned
   CacheStatistics statistics_;
+  CacheStatistics first_statistics_;  ///< before the first step
 };
 
 }  // namespace gatelight::renderer

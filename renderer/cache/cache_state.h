@@ -10,6 +10,9 @@
 
 namespace gatelight::renderer {
 
+/// Not more than 64 paths are traced for one record.
+inline constexpr float kLeastRecordsPerPath = 1.0f / 64.0f;
+
 /// Found by the scouting paths; decides the layout of the features and the scale of targets.
 struct CacheSetup {
   std::vector<neural::Sides> sides;     ///< which sides of each instance of the scene have storage

@@ -171,7 +171,7 @@ void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
     const Ray& ray = worker.rays[i];
     const RayCone& cone = tile.samples[i].camera_ray.cone;
     const Surface surface = world_.surfaces.at(hit, ray.direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!tile.first_hits.empty()) tile.first_hits[i] = first_hit(hit, surface);
+    if (!tile.first_hits.empty()) tile.first_hits[i] = first_hit(hit, surface, world_.scene.origin);
     const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
     if (stored_(neural::surface_index(hit.instance, side))) {
       tile.paths.first_queries[i] = static_cast<std::int32_t>(tile.paths.queries.size());

@@ -96,12 +96,16 @@ bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& 
   const float cone_width = path.cone.width + path.cone.spread * hit.t;
   const Surface surface = world_.surfaces.at(hit, direction, cone_width, texture_level_number(path.seed));
   FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
-  if (first) *first = first_hit(hit, surface);
+  if (first) *first = first_hit(hit, surface, world_.scene.origin);
   if ((surface.emission > 0.0f).any()) {
     const float weight = emission_weight(world_, mis_, path.departure, hit, surface, direction);
     add_emission(path, surface.emission * weight, batch);
   }
-  if (surface.unlit || path.depth >= plan.max_depth) return false;
+  // As in PathIntegrator: at the depth's end panes are looked through.
+  if (path.depth >= plan.max_depth) path.emission_only = true;
+  if (surface.unlit ||
+      (path.emission_only && !(surface.material.thin_walled && surface.material.transmission > 0.0f)))
+    return false;
 
   if (plan.query_at == QueryAt::spread) {
     // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
@@ -197,7 +201,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
       scattered = m.bsdf.narrow_part(roughness).evaluate(sample.wi).value / sample.pdf;
     }
     path.emission_only = !(scattered > 0.0f).any();
-    path.throughput *= sample.weight;
+    path.throughput *= sample.weight / sample.radiance_scale;
     return advance(path, m, sample, {sample.weight, scattered}, index);
   }
 
@@ -215,10 +219,8 @@ bool CachedPaths::answer(Path& path, const Meeting& m, PathBatch& batch, Scratch
   }
   const BsdfSample sample = sample_direction(narrow);
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
-  path.throughput *= sample.weight;
-  const float survival = std::min(
-      1.0f, kNarrowSurvival *
-                std::sqrt(path.throughput.maxCoeff() / (path.radiance_scale * sample.radiance_scale)));
+  path.throughput *= sample.weight / sample.radiance_scale;
+  const float survival = std::min(1.0f, kNarrowSurvival * std::sqrt(path.throughput.maxCoeff()));
   if (roulette_number(next_seed(path.seed)) >= survival) return false;
   path.throughput /= survival;
   const Color weight = sample.weight / survival;
@@ -271,13 +273,13 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
   const BsdfSample sample = m.bsdf.sample(path.sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
                                           path.sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
   if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return false;
-  path.throughput *= sample.weight;
+  path.throughput *= sample.weight / sample.radiance_scale;
   if (!sample.delta && !(sample.spread < roughness * roughness)) path.wide_events += 1;
 
   const int depth = path.depth + (m.through_pane(sample) ? 0 : 1);
   float survival = 1.0f;
   if (depth >= plan.min_depth) {
-    survival = survival_probability(path.throughput, path.radiance_scale * sample.radiance_scale);
+    survival = survival_probability(path.throughput);
     if (roulette_number(next_seed(path.seed)) >= survival) return false;
     path.throughput /= survival;
   }
@@ -290,11 +292,11 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, bool record, const
 
 bool CachedPaths::advance(Path& path, const Meeting& m, const BsdfSample& sample, const Links& links,
                           std::int32_t vertex) const {
-  path.radiance_scale *= sample.radiance_scale;
   if (m.through_pane(sample)) {
     // What is behind the pane belongs to the vertex before it, whose light samples saw it too.
     path.links *= links.emission;
     path.departure.travelled += m.hit.t;
+    path.departure.panes += 1;
   } else {
     path.vertex = vertex;
     path.links = links;

@@ -31,8 +31,7 @@ std::vector<double> areas_of(const scene::Scene& scene) {
     const scene::Instance& instance = scene.instances[i];
     const std::size_t triangles = scene.mesh_of(instance).triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) {
-      const Vec3 normal = scene::world_normal(scene, instance, static_cast<std::uint32_t>(t));
-      const double area = 0.5 * static_cast<double>(normal.norm());
+      const double area = scene::world_area(scene, instance, static_cast<std::uint32_t>(t));
       if (std::isfinite(area)) areas[i] += area;
     }
   });
@@ -48,10 +47,10 @@ std::vector<int> records_by_path(const PathBatch& batch) {
   return records;
 }
 
-/// Records of a path, for the number of paths that a step traces. Not more than 64 are traced for one record,
-/// and where there is nothing to learn from nobody has to look for it.
+/// Records of a path, for the number of paths that a step traces. Where there is nothing to learn from nobody
+/// has to look for it.
 float records_per_path(double records, double paths) {
-  return records > 0.0 ? static_cast<float>(std::max(records / paths, 1.0 / 64.0)) : 1.0f;
+  return records > 0.0 ? static_cast<float>(std::max(records / paths, double{kLeastRecordsPerPath})) : 1.0f;
 }
 
 /// Mean of numbers of which none counts for more than a hundred times the median of those above zero: one

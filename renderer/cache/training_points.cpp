@@ -9,6 +9,7 @@
 #include "renderer/cache/surface_layout.h"
 #include "renderer/tiles.h"
 #include "renderer/warp.h"
+#include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -56,7 +57,7 @@ TrainingPoints::TrainingPoints(const World& world, const Camera& camera, const P
     const double both = sides[i] == neural::Sides::both ? 2.0 : 1.0;
     const auto count = static_cast<std::uint32_t>(scene.mesh_of(scene.instances[i]).triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {
-      const double area = 0.5 * static_cast<double>(scene::world_normal(scene, scene.instances[i], t).norm());
+      const double area = scene::world_area(scene, scene.instances[i], t);
       if (!(area > 0.0) || !std::isfinite(area)) continue;
       triangles_.push_back({i, t, instance_sides});
       areas.push_back(area * both);
@@ -131,7 +132,8 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
     const scene::Instance& instance = scene.instances[triangle.instance];
     const Vec2 point = sample_uniform_triangle(sampler.get_2d(kSurfacePoint));
     const std::array<Vec3, 3> corners = scene::world_triangle(scene, instance, triangle.primitive);
-    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    float twice_area = 0.0f;
+    const Vec3 normal = scene::triangle_normal(corners[0], corners[1], corners[2], twice_area);
     const bool back = triangle.sides == 2 || (triangle.sides == 3 && (hash(start.sample.seed) & 1u) != 0);
     const Vec3 wo = Basis(back ? Vec3(-normal) : normal)
                         .to_world(sample_cosine_hemisphere(sampler.get_2d(kSurfaceDirection)));

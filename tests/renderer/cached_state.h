@@ -35,7 +35,7 @@ inline renderer::CacheState any_cache_state(const neural::Model& model,
                  {1.0f, 0.5f, 2.0f, 1.0f, 3.0f},
                  0.3f,
                  5.5f,
-                 1e-7f};
+                 0.0625f};
   state.model = neural::testing::any_state(model, options, seed);
   state.steps = 1234 + seed;
   state.triangle_counts = {7, 0, 0xffffffffu, static_cast<std::uint32_t>(seed)};

@@ -182,6 +182,24 @@ TEST(Checkpoint, WhatDiffersIsRefusedByName) {
               HasSubstr("format: file 'gatelight-cache', expected 'gatelight-checkpoint'"));
 }
 
+// Its digest is right: somebody wrote it so.
+TEST(Checkpoint, SumsThatNoPictureHasAreRefused) {
+  const TemporaryFolder folder;
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Film film = blank_film(false);
+    add_sample(film, 1);
+    FilmState sums = film.export_state();
+    sums.radiance[7] = value;
+    film.import_state(sums);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, film, {});
+    Checkpoint checkpoint(folder / "a");
+    RenderStatistics statistics;
+    EXPECT_THAT(refusal([&] { checkpoint.restore(film, statistics); }),
+                HasSubstr("tensor 'film.radiance': element 7 is"));
+  }
+}
+
 // A picture that went on from damaged sums would be wrong without a word.
 TEST(Checkpoint, EveryChangedByteAndEveryTruncationIsRefused) {
   const TemporaryFolder folder;

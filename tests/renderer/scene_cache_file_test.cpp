@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <functional>
 
 #include "neural/errors.h"
+#include "renderer/cache/cache_content.h"
 #include "tests/renderer/cached_state.h"
 #include "tests/temporary_folder.h"
 
@@ -156,30 +158,66 @@ TEST(SceneCacheFile, ForeignFilesAreRefused) {
   EXPECT_THAT(refusal([&] { CacheFile(folder.write("text", "no cache")); }), HasSubstr("/text'"));
 }
 
-// Whatever happens to the file's header, nothing but a refusal comes of it, or what was saved.
-TEST(SceneCacheFile, EveryChangedByteOfTheHeaderIsRefusedOrHarmless) {
+TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
   write_cache_file(folder / "a", state, *model, {}, {}, kScene);
-  std::string bytes = read_file(folder / "a");
-  std::uint64_t length = 0;
-  std::memcpy(&length, bytes.data(), 8);
-  std::size_t refused = 0;
-  for (std::size_t place = 0; place < 8 + length; ++place) {
-    const char old = bytes[place];
-    bytes[place] = static_cast<char>(old ^ 1);
+  const std::string bytes = read_file(folder / "a");
+  const auto opening = [&](const std::string& content) {
     std::filesystem::remove(folder / "b");
-    folder.write("b", bytes);
-    bytes[place] = old;
-    const std::string what = refusal([&] {
-      CacheFile file(folder / "b");
-      file.expect({}, kScene, 5);
-      ASSERT_TRUE(same_bits(file.read_state(*model, {}), state)) << "byte " << place;
-    });
-    refused += what.empty() ? 0 : 1;
+    folder.write("b", content);
+    return refusal([&] { CacheFile(folder / "b"); });
+  };
+  ASSERT_EQ(opening(bytes), "");
+  for (std::size_t place = 0; place < bytes.size(); ++place) {
+    const auto put = [&](int byte) {
+      std::fstream(folder / "b", std::ios::binary | std::ios::in | std::ios::out)
+          .seekp(static_cast<std::streamoff>(place))
+          .put(static_cast<char>(byte));
+    };
+    put(bytes[place] ^ 1 << place % 8);
+    ASSERT_NE(refusal([&] { CacheFile(folder / "b"); }), "") << "byte " << place << " of " << bytes.size();
+    put(bytes[place]);
   }
-  EXPECT_GT(refused, length / 2);
+  for (std::size_t size = 0; size < bytes.size(); size += 97)
+    ASSERT_NE(opening(bytes.substr(0, size)), "") << size;
+  EXPECT_THAT(opening(bytes + '\0'), HasSubstr("/b'"));
+}
+
+TEST(SceneCacheFile, OneOfTheVersionWithoutADigestIsStillRead) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  CacheContent content;
+  fill_cache_content(content, *model, {}, state);
+  neural::Metadata metadata = content.model.metadata;
+  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, {}), state));
+  metadata["version"] = "3";
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "a"); }), HasSubstr("metadata 'digest' is missing"));
+}
+
+// The setup in the file decides how many nodes the model has: the tensors must be there for them.
+TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeThereIsMemoryForIt) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  CacheContent content;
+  fill_cache_content(content, *model, {}, state);
+  for (neural::TensorView& tensor : content.tensors) {
+    if (tensor.name != "features") continue;
+    tensor.shape[0] = 1;
+    tensor.data = tensor.data.first(4 * tensor.shape[1]);
+  }
+  neural::Metadata metadata = content.model.metadata;
+  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  const CacheFile file(folder / "a");
+  EXPECT_THAT(refusal([&] { file.expect_model(*model, {}); }),
+              HasSubstr("tensor 'features': F32 [1, 1], expected"));
 }
 
 }  // namespace

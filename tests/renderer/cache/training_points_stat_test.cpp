@@ -71,7 +71,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
     const auto count = static_cast<std::uint32_t>(scene.mesh_of(scene.instances[i]).triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {
       for (std::uint32_t side = 0; side < 2; ++side) {
-        const double a = static_cast<double>(scene::world_normal(scene, scene.instances[i], t).norm());
+        const double a = scene::world_area(scene, scene.instances[i], t);
         area[{i, t, side}] = has_side(sides[i], side) ? a : 0.0;
         whole += area[{i, t, side}];
       }
