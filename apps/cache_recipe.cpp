@@ -5,17 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cache_choices.h"
+#include "apps/text.h"
 
 namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
 using renderer::CacheOptions;
-
-/// With the digits that a float has: 0.3, not 0.30000001192092896.
-double shortest(float value) {
-  return std::stod(fmt::format("{}", value));
-}
 
 void add_learning(ordered_json& json, const CacheOptions& o) {
   json["train-steps"] = o.train_steps ? ordered_json(*o.train_steps) : ordered_json("auto");

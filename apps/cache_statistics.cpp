@@ -24,15 +24,17 @@ ordered_json histogram_json(const CacheStatistics& s) {
 }  // namespace
 
 ordered_json training_json(const CacheStatistics& s) {
-  return {{"steps", s.steps},
-          {"steps_wanted", s.steps_wanted},
-          {"steps_chosen", s.steps_chosen},
-          {"records", s.records},
-          {"loss", s.loss},
-          {"touched_nodes", s.touched_nodes},
-          {"rejected", s.rejected},
-          {"unstored", s.unstored},
-          {"paths", s.training_paths}};
+  ordered_json json = {{"steps", s.steps},
+                       {"steps_wanted", s.steps_wanted},
+                       {"steps_chosen", s.steps_chosen},
+                       {"records", s.records},
+                       {"loss", s.loss},
+                       {"touched_nodes", s.touched_nodes},
+                       {"rejected", s.rejected},
+                       {"unstored", s.unstored},
+                       {"paths", s.training_paths}};
+  if (!s.diverged.empty()) json["diverged"] = s.diverged;
+  return json;
 }
 
 ordered_json cache_json(const CacheStatistics& s) {

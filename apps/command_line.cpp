@@ -71,7 +71,7 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
   return kUsage;
 }
 
-int parse_and_run(int argc, const char* const* argv) {
+int parse(int argc, const char* const* argv, bool runs) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kFooter);
   root.set_version_flag("--version", version());
@@ -93,21 +93,29 @@ int parse_and_run(int argc, const char* const* argv) {
     return finish_parsing(root, error);
   }
   for (const Subcommand& subcommand : subcommands) {
-    if (subcommand.app->parsed()) return subcommand.run();
+    if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
   }
   return kUsage;
 }
 
-}  // namespace
-
-int run(int argc, const char* const* argv) {
+int parse_or_fail(int argc, const char* const* argv, bool runs) {
   try {
-    return parse_and_run(argc, argv);
+    return parse(argc, argv, runs);
   } catch (...) {
     const Failure failure = describe_current_exception();
     print_failure(failure);
     return failure.code;
   }
+}
+
+}  // namespace
+
+int read_only(int argc, const char* const* argv) {
+  return parse_or_fail(argc, argv, false);
+}
+
+int run(int argc, const char* const* argv) {
+  return parse_or_fail(argc, argv, true);
 }
 
 }  // namespace gatelight::apps

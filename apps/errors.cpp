@@ -2,16 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
+#include <string_view>
+#include <system_error>
 
+#include "apps/terminal.h"
 #include "neural/errors.h"
 #include "renderer/atomic_file.h"
 #include "renderer/image_write.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
+namespace {
+
+/// What oneTBB throws where it cannot start a thread.
+constexpr std::string_view kThreadFailed = "pthread_create has failed";
+
+bool starts_with(std::string_view text, std::string_view begin) {
+  return text.substr(0, begin.size()) == begin;
+}
+
+}  // namespace
 
 Failure describe_current_exception() {
   try {
@@ -30,11 +44,22 @@ Failure describe_current_exception() {
   } catch (const neural::CacheWriteError& error) {
     return {kOutput, error.what(), "choose another place or make room"};
   } catch (const renderer::OutOfMemory& error) {
-    return {kMemory, error.what(), "raise --memory-limit, or use a smaller picture or scene"};
+    return {kMemory, error.what(), "raise --memory-limit, or use a smaller picture or scene, or fewer --threads"};
+  } catch (const neural::OutOfDeviceMemory& error) {
+    return {kMemory, error.what(), "lower --cache-memory or --batch, or use --device cpu"};
   } catch (const std::bad_alloc&) {
     return {kMemory, "out of memory", "use a smaller picture or scene, or a machine with more memory"};
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again ||
+        error.code() == std::errc::not_enough_memory) {
+      return {kMemory, fmt::format("no more threads or memory to be had: {}", error.what()),
+              "use fewer --threads, or a machine with more memory"};
+    }
+    return {kInput, error.what(), "check the input file"};
   } catch (const renderer::Unavailable& error) {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
+  } catch (const neural::DeviceLost& error) {
+    return {kUnavailable, error.what(), "use --device cpu"};
   } catch (const neural::Unavailable& error) {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
   } catch (const renderer::TrainingDiverged& error) {
@@ -44,6 +69,9 @@ Failure describe_current_exception() {
   } catch (const neural::CacheFileError& error) {
     return {kInput, error.what(), "use the scene and flags that it was written with, or begin anew"};
   } catch (const std::runtime_error& error) {
+    if (starts_with(error.what(), kThreadFailed)) {
+      return {kMemory, error.what(), "use fewer --threads, or a machine with more memory"};
+    }
     // What libraries throw for files: scene::SceneError, renderer::ImageError and the environment's.
     return {kInput, error.what(), "check the input file"};
   } catch (const std::exception& error) {
@@ -52,18 +80,28 @@ Failure describe_current_exception() {
 }
 
 std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
   return text;
+}
+
+void end_program() {
+  Failure failure{kUsage, "ended by a failure of its own", "please report it"};
+  if (std::current_exception()) failure = describe_current_exception();
+  print_failure(failure);
+  std::_Exit(failure.code);
 }
 
 void print_failure(const Failure& failure) {
   std::string line = one_line(failure.message);
   if (!failure.advice.empty()) line += "; " + failure.advice;
-  fmt::print(stderr, "gatelight: error: {}\n", line);
+  tell(fmt::format("gatelight: error: {}\n", line));
 }
 
 void print_notice(const std::string& text) {
-  fmt::print(stderr, "gatelight: {}\n", text);
+  tell(fmt::format("gatelight: {}\n", text));
 }
 
 }  // namespace gatelight::apps

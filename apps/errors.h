@@ -39,8 +39,12 @@ struct Failure {
 /// What the exception being handled means. Call it in a catch block.
 Failure describe_current_exception();
 
-/// Failures are read line by line, on stderr and in lists of them.
+/// Failures are read line by line. What a file says may hold anything: a terminal gets nothing to obey.
 std::string one_line(std::string text);
+
+/// For std::set_terminate: a failure that nobody could catch, such as a thread that cannot be started, ends
+/// the program with its line and its code, too.
+[[noreturn]] void end_program();
 
 /// Prints the last line of stderr.
 void print_failure(const Failure& failure);

@@ -6,6 +6,7 @@
 
 #include "apps/cache_flags.h"
 #include "apps/cache_report_text.h"
+#include "apps/device_report.h"
 #include "apps/errors.h"
 #include "apps/log.h"
 #include "apps/render_flags.h"
@@ -39,9 +40,9 @@ struct InfoSettings {
 };
 
 std::string program_text() {
-  return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n", "version", version(), "isa",
+  return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
                      renderer::best_isa(), "threads", renderer::available_threads(), "embree",
-                     embree_version());
+                     embree_version(), devices_text(find_devices()));
 }
 
 nlohmann::ordered_json program_json() {
@@ -49,7 +50,8 @@ nlohmann::ordered_json program_json() {
           {"version", version()},
           {"isa", renderer::best_isa()},
           {"threads", renderer::available_threads()},
-          {"embree", embree_version()}};
+          {"embree", embree_version()},
+          {"vulkan", devices_json(find_devices())}};
 }
 
 struct Told {
@@ -98,7 +100,7 @@ Subcommand add_info_command(CLI::App& root) {
   // A missing texture changes little that is told here.
   settings->render.load.missing_is_error = false;
   app->add_option("SCENE", settings->render.scene,
-                  "Scene, .gltf or .glb; without it: version, ISA, threads, Embree")
+                  "Scene, .gltf or .glb; without it: version, ISA, threads, Embree, Vulkan devices")
       ->type_name("");
   app->add_option("--json", settings->json, "The same as JSON; - is stdout")
       ->type_name("FILE|-")

@@ -61,7 +61,7 @@ void ProgressReporter::phase(const std::string& name) {
     print_json_line({{"event", "phase"}, {"phase", name}});
   } else if (mode_ == ProgressMode::bar) {
     clear_line();
-    fmt::print(stderr, "{} ...", name);
+    tell(fmt::format("{} ...", name));
     std::fflush(stderr);
     line_shown_ = true;
   }
@@ -131,8 +131,8 @@ void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates&
   const int width = std::clamp(room, 0, 40);
   const int filled = static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * width));
   clear_line();
-  if (width >= 8) fmt::print(stderr, "{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled);
-  fmt::print(stderr, "{}", numbers);
+  if (width >= 8) tell(fmt::format("{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled));
+  tell(numbers);
   std::fflush(stderr);
   line_shown_ = true;
 }
@@ -152,7 +152,7 @@ void ProgressReporter::clear() {
 
 void ProgressReporter::clear_line() {
   if (!line_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  tell("\r\x1b[K");
   std::fflush(stderr);
   line_shown_ = false;
 }

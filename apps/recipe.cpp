@@ -74,6 +74,7 @@ ordered_json resolved_options(const RenderSettings& settings) {
   json["scene-index"] = settings.load.scene;
   json["variant"] = settings.load.variant;
   json["missing"] = settings.load.missing_is_error ? "error" : "warn";
+  json["allow-external"] = settings.load.allow_external;
   json["exposure"] = settings.image.exposure;
   json["tonemap"] = name_of(tonemap_choices(), settings.image.tonemap);
   json["exr"] = settings.image.exr_float ? "float" : "half";
@@ -90,6 +91,11 @@ ordered_json resolved_options(const RenderSettings& settings) {
   return json;
 }
 
+std::string dump_options(const RenderSettings& settings) {
+  // A file name need not be UTF-8; JSON must be.
+  return resolved_options(settings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
                                                const std::vector<std::string>& command,
                                                const renderer::RenderStatistics& statistics,
@@ -101,7 +107,7 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
       {"seed", std::to_string(settings.render.seed)},
       {"spp", std::to_string(statistics.spp)},
       {"isa", statistics.isa},
-      {"options", resolved_options(settings).dump()},
+      {"options", dump_options(settings)},
   };
   if (!settings.reproducible) {
     recipe["command"] = quote_command(command);

@@ -15,6 +15,9 @@ namespace gatelight::apps {
 /// (threads, progress, names of outputs) are left out where `reproducible` is set.
 nlohmann::ordered_json resolved_options(const RenderSettings& settings);
 
+/// The same as JSON text.
+std::string dump_options(const RenderSettings& settings);
+
 /// The EXR header's strings.
 std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
                                                const std::vector<std::string>& command,

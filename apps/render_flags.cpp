@@ -161,6 +161,7 @@ void add_view_flags(CLI::App& app, RenderSettings& s) {
   add_choice(app, "--missing", s.load.missing_is_error, Choices<bool>(kMissing),
              "When a texture cannot be read")
       ->group(group);
+  add_external_flag(app, s.load.allow_external, group);
 }
 
 void add_output_flags(CLI::App& app, RenderSettings& s) {
@@ -231,6 +232,12 @@ void add_machine_flags(CLI::App& app, RenderSettings& s) {
 }
 
 }  // namespace
+
+void add_external_flag(CLI::App& app, bool& allowed, const std::string& group) {
+  app.add_flag("--allow-external", allowed,
+               "Let the scene read files outside its own folder: do so for scenes that you trust")
+      ->group(group);
+}
 
 void add_render_flags(CLI::App& app, RenderSettings& settings) {
   app.add_option("SCENE", settings.scene, "Scene, .gltf or .glb")->required()->type_name("");

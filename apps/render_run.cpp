@@ -15,7 +15,9 @@
 #include "apps/run_report.h"
 #include "apps/signals.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "apps/text.h"
+#include "neural/errors.h"
 #include "renderer/memory_estimate.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
@@ -47,6 +49,7 @@ class RenderRun {
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) const;
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics);
   void write_results(renderer::Picture picture);
+  void note_failed_output(const std::exception_ptr& error, bool again);
   /// Before the first pass there is nothing to write.
   int stop_without_picture();
   void warn(const std::string& text);
@@ -55,6 +58,7 @@ class RenderRun {
   RunReport report_;
   Stopwatch total_;
   ProgressReporter progress_;
+  std::exception_ptr failed_output_;  ///< of a checkpoint or cache file that was not tried again
 };
 
 int RenderRun::run() {
@@ -67,6 +71,14 @@ int RenderRun::run() {
   report_.statistics = renderer.statistics();
   report_.signal = stop_signal();
   write_results(std::move(picture));
+  if (!report_.statistics.device_lost.empty())
+    throw neural::DeviceLost(
+        fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
+  if (report_.signal == 0 && !report_.statistics.cache.diverged.empty())
+    throw renderer::TrainingDiverged(fmt::format("{}; what was written is of its last good step, {}",
+                                                 report_.statistics.cache.diverged,
+                                                 report_.statistics.cache.steps));
+  if (failed_output_) std::rethrow_exception(failed_output_);
   return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
 }
 
@@ -83,7 +95,7 @@ scene::Scene RenderRun::load() {
                            scene.lights.size()));
     log_detail(fmt::format("memory needed, estimated: {}",
                            format_bytes(renderer::estimate_memory(scene, settings_.render).total())));
-    log_detail(fmt::format("options: {}", resolved_options(settings_).dump()));
+    log_detail(fmt::format("options: {}", dump_options(settings_)));
   }
   return scene;
 }
@@ -95,6 +107,8 @@ renderer::Callbacks RenderRun::make_callbacks(const renderer::Renderer& renderer
       .snapshot_wanted = [] { return take_snapshot_request(); },
       .snapshot = [this, &renderer](
                       const renderer::Picture& picture) { write_snapshot(picture, renderer.statistics()); },
+      .output_failed = [this](const std::exception_ptr& error,
+                              bool again) { note_failed_output(error, again); },
   };
 }
 
@@ -124,6 +138,16 @@ void RenderRun::write_snapshot(const renderer::Picture& picture,
   }
 }
 
+void RenderRun::note_failed_output(const std::exception_ptr& error, bool again) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& failure) {
+    warn(fmt::format("{}; the picture goes on{}", failure.what(),
+                     again ? ", and it will be tried again" : ""));
+  }
+  if (!again && !failed_output_) failed_output_ = error;
+}
+
 void RenderRun::write_results(renderer::Picture picture) {
   progress_.phase("write");
   if (report_.statistics.nonfinite > 0) {
@@ -136,7 +160,7 @@ void RenderRun::write_results(renderer::Picture picture) {
   report_.total_seconds = total_.seconds();
   if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));
   const bool told = progress_.done(settings_.outputs, report_.total_seconds);
-  if (!told && !settings_.quiet) fmt::print(stderr, "{}", summary(settings_, report_));
+  if (!told && !settings_.quiet) tell(summary(settings_, report_));
   if (report_.signal != 0) {
     print_notice(stop_notice(settings_, report_));
   }

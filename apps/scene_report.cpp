@@ -104,6 +104,13 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
   return lines;
 }
 
+/// In the file's coordinates.
+scene::Box file_bounds(const scene::Scene& scene) {
+  scene::Box bounds = scene.bounds;
+  if (!bounds.isEmpty()) bounds.translate(scene.origin);
+  return bounds;
+}
+
 std::string describe_bounds(const scene::Box& bounds) {
   if (bounds.isEmpty()) return "empty";
   const scene::Vec3 low = bounds.min();
@@ -146,7 +153,7 @@ std::string scene_report_text(const scene::Scene& scene, const SceneReport& repo
   rows.add_list("lights", describe_lights(scene, report.requirements));
   rows.add_list("cameras", describe_cameras(scene));
   rows.add_list("variants", scene.variants);
-  rows.add("bounds", describe_bounds(scene.bounds));
+  rows.add("bounds", describe_bounds(file_bounds(scene)));
   rows.add("requires", describe_requirements(report.requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
                                  format_bytes(report.geometry_bytes), format_bytes(report.image_bytes),
@@ -177,7 +184,8 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   }
   json["variants"] = scene.variants;
   if (!scene.bounds.isEmpty()) {
-    json["bounds"] = {{"min", triple(scene.bounds.min())}, {"max", triple(scene.bounds.max())}};
+    const scene::Box bounds = file_bounds(scene);
+    json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
   }
   for (const Requirement& requirement : kRequirements) {
     json["requirements"][requirement.key] = requirements.*requirement.flag;

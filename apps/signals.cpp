@@ -35,6 +35,11 @@ void install_signal_handlers() {
   install(SIGUSR1, on_snapshot, 0);
 }
 
+void ignore_write_signals() {
+  install(SIGPIPE, SIG_IGN, 0);
+  install(SIGXFSZ, SIG_IGN, 0);
+}
+
 int stop_signal() {
   return stop_requested.load();
 }

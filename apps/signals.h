@@ -6,6 +6,10 @@ namespace gatelight::apps {
 /// A second SIGINT or SIGTERM of the same kind finds the system's handler again and ends the program at once.
 void install_signal_handlers();
 
+/// What cannot be written (a pipe whose reader is gone, a file at its limit of size) is an error, as on a
+/// full disk, and no reason to be killed and lose a picture.
+void ignore_write_signals();
+
 /// The first signal that asked for the end; 0: none.
 int stop_signal();
 

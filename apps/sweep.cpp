@@ -8,6 +8,7 @@
 #include "apps/cache_choices.h"
 #include "apps/errors.h"
 #include "apps/flags.h"
+#include "apps/render_flags.h"
 #include "apps/render_settings.h"
 #include "apps/subcommand.h"
 #include "apps/sweep/presets.h"
@@ -220,6 +221,7 @@ Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& com
   const auto call = std::make_shared<SweepCall>();
   app->add_option("SCENE", call->words.scenes, "Scenes, .gltf or .glb")->type_name("");
   add_output_flags(*app, call->settings);
+  add_external_flag(*app, call->words.allow_external, "Scenes");
   add_axes(*app, call->words);
   add_reference_flags(*app, call->settings);
   add_advice_flags(*app, call->settings);

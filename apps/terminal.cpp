@@ -15,8 +15,12 @@ int terminal_columns() {
   return 80;
 }
 
+void tell(std::string_view text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
 void print_json_line(const nlohmann::ordered_json& object) {
-  fmt::print(stderr, "{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  tell(fmt::format("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
   std::fflush(stderr);
 }
 

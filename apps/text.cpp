@@ -3,9 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace gatelight::apps {
+
+double read_number(std::string_view text) {
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+double shortest(float value) {
+  return read_number(fmt::format("{}", value));
+}
 
 std::string format_bytes(std::size_t bytes) {
   if (bytes < 1024) return fmt::format("{} B", bytes);

@@ -4,9 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gatelight::apps {
+
+/// The number that a text begins with, with a point whatever the locale says; 0 for none.
+double read_number(std::string_view text);
+
+/// With the digits that a float has: 0.3, not 0.30000001192092896.
+double shortest(float value);
 
 std::string format_bytes(std::size_t bytes);  ///< "812 B", "1.50 MiB"
 std::string format_count(double count);       ///< "950", "1.24 M"

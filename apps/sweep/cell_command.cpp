@@ -22,6 +22,7 @@ std::string cell_command(const PlannedSeries& series, const std::string& scene, 
   std::vector<std::string> words = {"gatelight", "render", scene};
   const std::vector<std::string> flags = words_of(series.flags);
   words.insert(words.end(), flags.begin(), flags.end());
+  if (series.settings.load.allow_external) words.push_back("--allow-external");
   for (const std::string& word :
        {std::string(series.has_cache() ? "--train-steps" : "--spp"), std::to_string(point),
         std::string("--seed"), std::to_string(seed), std::string("-o"), std::string("out.exr")}) {

@@ -4,15 +4,16 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "apps/cache_choices.h"
 #include "apps/cache_statistics.h"
+#include "apps/json_file.h"
 #include "apps/json_numbers.h"
 #include "apps/recipe.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/results.h"
+#include "apps/text.h"
 #include "apps/version.h"
 #include "renderer/pixel_filter.h"
 
@@ -77,10 +78,9 @@ constexpr const char* kMeasured[] = {
 constexpr const char* kFoundOptions[] = {"isa",          "filter-width", "ao-distance", "direction-input",
                                          "normal-input", "albedo-input", "node-spacing"};
 
-/// With the digits that a float has.
 ordered_json found_number(float value) {
   if (std::isinf(value)) return "inf";
-  return std::stod(fmt::format("{}", value));
+  return shortest(value);
 }
 
 /// `options` with what the run has chosen; what does not apply stays out.
@@ -191,8 +191,7 @@ std::string cell_file(const std::string& id) {
 std::optional<ordered_json> read_done_record(const std::string& folder, const CellPlace& place,
                                              bool with_pictures) {
   const std::filesystem::path root = folder;
-  std::ifstream file(root / cell_file(place.id));
-  ordered_json record = ordered_json::parse(file, nullptr, false);
+  ordered_json record = read_json_file(root / cell_file(place.id));
   if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record)) {
     return std::nullopt;
   }

@@ -1,17 +1,16 @@
 #include "apps/sweep/gate_memory.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/json_file.h"
 #include "renderer/atomic_file.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
 
 GateMemoryStore::GateMemoryStore(std::string file) : file_(std::move(file)) {
-  std::ifstream stream(file_);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const nlohmann::ordered_json json = read_json_file(file_);
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items()) {
     if (value.is_number_unsigned()) known_[key] = value.get<std::uint64_t>();

@@ -63,7 +63,7 @@ Identity& Identity::add(const std::string& text) {
 }
 
 std::string Identity::name() const {
-  return renderer::hexadecimal(record_.digest()).substr(0, 16);
+  return neural::hexadecimal(record_.digest()).substr(0, 16);
 }
 
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/render_settings.h"
-#include "renderer/digest.h"
+#include "neural/digest.h"
 #include "renderer/scene_fingerprint.h"
 #include "scene/scene.h"
 
@@ -27,7 +27,7 @@ class Identity {
   std::string name() const;
 
  private:
-  renderer::DigestRecord record_;
+  neural::DigestRecord record_;
 };
 
 /// The ID of a cell: of the scene, deciding_text(), the key of its reference, machine_text() and what is

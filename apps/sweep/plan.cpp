@@ -135,6 +135,7 @@ class Planner {
     const std::optional<double> divisor = take_same_as_gate(series.flags);
     FlagValues gate = series.flags;
     series.settings = settle(series.flags);
+    series.settings.load.allow_external = request_.allow_external;
     FlagValues named = series.flags;
     const bool hash = series.settings.render.cache.encoding == neural::FeatureEncoding::hash_grid;
     if (divisor && series.has_cache() && hash) {

@@ -34,6 +34,7 @@ struct SweepRequest {
   std::vector<SweepScene> scenes;
   std::vector<SweepBlock> blocks;
   std::vector<int> plain_spp;
+  bool allow_external = false;  ///< of all scenes
   bool plain = true;  ///< beside each integrator with a cache the one that it stands in for
   std::uint32_t first_seed = 1;
   int seeds = 1;

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/errors.h"
+#include "apps/json_file.h"
 #include "apps/log.h"
 #include "apps/sweep/identity.h"
+#include "apps/text.h"
 #include "apps/version.h"
 #include "neural/errors.h"
 #include "renderer/atomic_file.h"
@@ -95,7 +96,7 @@ void check_given(const renderer::NamedPicture& given, const RenderOptions& cell)
 
 double seconds_of(const Picture& picture) {
   const auto at = picture.metadata.find("render_seconds");
-  return at == picture.metadata.end() ? 0.0 : std::stod(at->second);
+  return at == picture.metadata.end() ? 0.0 : read_number(at->second);
 }
 
 }  // namespace
@@ -169,12 +170,12 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
 Reference given_reference(ReferenceKind kind, const std::string& file, const RenderOptions& cell) {
   const Picture picture = renderer::read_image(file);
   check_given({picture, file}, cell);
-  renderer::DigestRecord record;
+  neural::DigestRecord record;
   for (const renderer::Layer& layer : picture.layers) {
-    record.add(renderer::digest_of(std::as_bytes(std::span(layer.values))));
+    record.add(neural::digest_of(std::as_bytes(std::span(layer.values))));
   }
   Reference reference{
-      .kind = kind, .key = renderer::hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
+      .kind = kind, .key = neural::hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
   const auto spp = picture.metadata.find("spp");
   if (spp != picture.metadata.end()) {
     reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
@@ -185,8 +186,7 @@ Reference given_reference(ReferenceKind kind, const std::string& file, const Ren
 
 void read_reference_numbers(Reference& reference) {
   if (reference.given) return;
-  std::ifstream file(beside(reference.file, ".json"));
-  const ordered_json json = ordered_json::parse(file, nullptr, false);
+  const ordered_json json = read_json_file(beside(reference.file, ".json"));
   if (!json.is_object()) return;
   const auto number = [&](const char* key) -> std::optional<double> {
     if (!json.contains(key) || !json[key].is_number()) return std::nullopt;

@@ -235,6 +235,7 @@ SweepRequest make_request(const SweepWords& words) {
     if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);
     add_defaults(block);
   }
+  request.allow_external = words.allow_external;
   request.plain_spp = words.spp ? split_integers("--spp", *words.spp, kSpp) : kDefaultPlainSpp;
   // The paper has no such rows.
   request.plain = !words.no_plain && (!preset || words.spp);

@@ -38,6 +38,7 @@ struct SweepWords {
   std::optional<std::string> spp;
   std::optional<std::string> seeds;
   bool no_plain = false;
+  bool allow_external = false;
 };
 
 /// Throws UsageError. Values of axes are checked by make_plan().

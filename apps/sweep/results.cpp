@@ -9,6 +9,7 @@
 #include <set>
 
 #include "apps/errors.h"
+#include "apps/json_file.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/machine.h"
 #include "apps/values.h"
@@ -130,7 +131,7 @@ ordered_json read_results(const std::string& folder) {
                     "been made with --output",
                     path));
   }
-  ordered_json results = ordered_json::parse(file, nullptr, false);
+  ordered_json results = read_json_file(path);
   if (!results.is_object() || !results.contains("schema") || !results["cells"].is_array()) {
     throw InputError(fmt::format("cannot read '{}': it is no result of a sweep", path));
   }

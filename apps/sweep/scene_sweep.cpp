@@ -238,7 +238,7 @@ bool SceneSweep::make(Run run) {
         cell_settings(series, planned_.file, plan_.seeds[run.seed], points.back());
     if (settings_.verbose) {
       progress_.clear();
-      log_detail(fmt::format("options: {}", resolved_options(settings).dump()));
+      log_detail(fmt::format("options: {}", dump_options(settings)));
     }
     try {
       progress_.phase("build");

@@ -92,9 +92,9 @@ void SweepProgress::end() {
     if (left) line["eta_seconds"] = *left;
     print_json_line(line);
   } else if (words_) {
-    fmt::print(stderr, "{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
-               cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "", watch_.seconds(),
-               clock_.done() == clock_.count() ? "nothing" : eta_text(left));
+    tell(fmt::format("{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
+                     cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "",
+                     watch_.seconds(), clock_.done() == clock_.count() ? "nothing" : eta_text(left)));
   }
 }
 
@@ -108,9 +108,9 @@ void SweepProgress::done(const std::string& folder, std::size_t cells, std::size
                      {"failed", failed},
                      {"seconds", total_.seconds()}});
   } else if (words_) {
-    fmt::print(stderr, "{} cells{} in '{}', {} in this call\n", cells,
-               failed > 0 ? fmt::format(", {} of them failed,", failed) : "", folder,
-               format_duration(total_.seconds()));
+    tell(fmt::format("{} cells{} in '{}', {} in this call\n", cells,
+                     failed > 0 ? fmt::format(", {} of them failed,", failed) : "", folder,
+                     format_duration(total_.seconds())));
   }
 }
 
@@ -145,14 +145,14 @@ void SweepProgress::show(const std::string& what, double fraction, bool must) {
   // The last column stays free: some terminals wrap there.
   const auto room = static_cast<std::size_t>(std::max(1, terminal_columns() - 1));
   if (text.size() > room) text.resize(room);
-  fmt::print(stderr, "{}", text);
+  tell(text);
   std::fflush(stderr);
   line_shown_ = true;
 }
 
 void SweepProgress::clear_line() {
   if (!line_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  tell("\r\x1b[K");
   std::fflush(stderr);
   line_shown_ = false;
 }

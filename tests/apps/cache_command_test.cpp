@@ -63,6 +63,37 @@ void expect_picture(const std::string& path) {
   EXPECT_GT(sum, 0.0);
 }
 
+TEST_F(CacheCommand, ATrainingThatDivergesLeavesOldFilesAndExitsWith6) {
+  const std::string old = folder.write("old.safetensors", "an older cache").string();
+  const Output output = render({"--integrator", "nrc", "--learning-rate", "1000", "--train-steps", "32",
+                                "--cache-out", old, "-o", path("a.exr")});
+  EXPECT_EQ(output.exit_code, 6) << output.err;
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("cornell-box.glb: training step"), HasSubstr("lower --learning-rate")));
+  EXPECT_EQ(read_file(old), "an older cache");
+  EXPECT_EQ(folder.count_files(), 1u);
+}
+
+TEST_F(CacheCommand, ALoadedCacheIsKeptWhereMoreTrainingDiverges) {
+  const std::string good = path("good.safetensors");
+  ASSERT_EQ(render({"--integrator", "nrc", "--cache-out", good, "-o", path("a.exr")}).exit_code, 0);
+  ASSERT_EQ(render({"--integrator", "nrc", "--cache-in", good, "--train-steps", "0", "-o", path("b.exr")})
+                .exit_code,
+            0);
+  const Output output =
+      render({"--integrator", "nrc", "--learning-rate", "1000", "--train-steps", "32", "--cache-in", good,
+              "--cache-out", path("c.safetensors"), "-o", path("c.exr"), "--stats", path("c.json")});
+  EXPECT_EQ(output.exit_code, 6) << output.err;
+  EXPECT_THAT(output.last_error_line(), HasSubstr("what was written is of its last good step"));
+  EXPECT_EQ(read_image(path("c.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+  EXPECT_TRUE(json::parse(read_file(path("c.json")))["train"].contains("diverged"));
+  ASSERT_EQ(render({"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "0", "-o",
+                    path("d.exr")})
+                .exit_code,
+            0);
+  EXPECT_EQ(read_image(path("d.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+}
+
 TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
   for (const char* integrator : {"nrc", "nao"}) {
     const json stats = statistics({"--integrator", integrator});

@@ -29,7 +29,7 @@ std::string Output::last_error_line() const {
   return text.substr(text.rfind('\n') + 1);
 }
 
-Process::Process(const std::vector<std::string>& arguments) {
+Process::Process(const std::vector<std::string>& arguments, const std::function<void()>& prepare) {
   std::vector<std::string> words = {GATELIGHT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -42,6 +42,7 @@ Process::Process(const std::vector<std::string>& arguments) {
   if (pid_ == 0) {
     ::dup2(out[1], STDOUT_FILENO);
     ::dup2(err[1], STDERR_FILENO);
+    if (prepare) prepare();
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
@@ -121,8 +122,8 @@ Output run_gatelight_inside(const std::vector<std::string>& arguments) {
   return output;
 }
 
-Output run_gatelight(const std::vector<std::string>& arguments) {
-  return Process(arguments).finish();
+Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare) {
+  return Process(arguments, prepare).finish();
 }
 
 }  // namespace gatelight::tests

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,15 @@ struct Output {
 /// A run of gatelight that is under way.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& arguments);
+  /// `prepare` runs in the new process before the program: limits, other descriptors. It may only make system
+  /// calls.
+  explicit Process(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
   void send(int signal) const;
+  pid_t id() const { return pid_; }
   /// Whether it has not ended yet.
   bool runs() const;
   /// Reads stderr until the text is in it. False where the program ends before.
@@ -45,6 +49,6 @@ class Process {
 /// The same without a process of its own: for runs that fail early.
 Output run_gatelight_inside(const std::vector<std::string>& arguments);
 
-Output run_gatelight(const std::vector<std::string>& arguments);
+Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
 
 }  // namespace gatelight::tests

@@ -136,6 +136,7 @@ TEST_F(RenderCommand, StatisticsHoldEveryKeyOfTheSchema) {
                                                     "environment-rotation",
                                                     "environment-scale",
                                                     "missing",
+                                                    "allow-external",
                                                     "exposure",
                                                     "tonemap",
                                                     "exr",
@@ -294,6 +295,29 @@ TEST_F(RenderCommand, WarningsGoToStderrAndIntoTheStatistics) {
   EXPECT_THAT(output.err, HasSubstr("warning"));
   EXPECT_THAT(output.err, HasSubstr("EXT_of_another_{}_world"));
   EXPECT_THAT(json::parse(output.out)["warnings"].dump(), HasSubstr("EXT_of_another_{}_world"));
+}
+
+TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
+  json gltf = json::parse(tiny_scene());
+  const float corners[18] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0};
+  folder.write("scene.bin", std::string(reinterpret_cast<const char*>(corners), sizeof(corners)));
+  gltf["buffers"][0]["uri"] = "%2e%2e/scene.bin";
+  const std::string inner = folder.write("inner/scene.gltf", gltf.dump());
+  const std::vector<std::string> render = {"render", inner, "-o",     path("a.png"),
+                                           "--spp",  "1",   "--size", "8x8"};
+  for (std::vector<std::string> call : {render, {"info", inner}, {"sweep", inner, "-o", path("sweep")}}) {
+    const Output output = run_gatelight_inside(call);
+    EXPECT_EQ(output.exit_code, 2) << call[0];
+    EXPECT_THAT(output.last_error_line(),
+                AllOf(HasSubstr("inner/scene.gltf: buffers[0].uri: '%2e%2e/scene.bin' leaves the folder"),
+                      HasSubstr("--allow-external")))
+        << call[0];
+    EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+    if (call[0] == "sweep") continue;
+    call.push_back("--allow-external");
+    EXPECT_EQ(run_gatelight_inside(call).exit_code, 0) << call[0];
+    std::filesystem::remove(path("a.png"));
+  }
 }
 
 TEST_F(RenderCommand, InfoTellsWhatTheSceneHolds) {

@@ -142,6 +142,20 @@ TEST(SweepPlan, ABadValueInAnyCellIsRefusedAtOnce) {
   EXPECT_THAT(refusal({{"--hash-levels", "x"}}, {}), HasSubstr("--hash-levels"));
 }
 
+TEST(SweepPlan, ScenesMayReachOutWhereTheSweepIsAllowedToAndTheCommandSaysSo) {
+  for (const bool allowed : {false, true}) {
+    SweepWords words;
+    words.scenes = {"room.glb"};
+    words.allow_external = allowed;
+    const SweepPlan plan = make_plan(make_request(words));
+    for (const PlannedSeries& series : plan.scenes[0].series) {
+      EXPECT_EQ(series.settings.load.allow_external, allowed);
+      const std::string command = cell_command(series, "room.glb", 1, 8);
+      EXPECT_EQ(command.find("--allow-external") != std::string::npos, allowed) << command;
+    }
+  }
+}
+
 TEST(SweepPlan, TheCommandMakesTheCell) {
   const SweepPlan plan = plan_of({{"--camera", "it's here"}, {"--exposure", "-1"}},
                                  {"stack=adaptive,1;adaptive", "preset=preview,paper-nrc"}, false);

@@ -13,7 +13,6 @@
 #include "apps/errors.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_record.h"
-#include "apps/sweep/eta.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/request.h"
 #include "apps/version.h"
@@ -338,6 +337,9 @@ TEST(SweepResults, AreReadBackOrRefused) {
   EXPECT_THAT(refusal(), HasSubstr("there is no sweep"));
   folder.write("results.json", "{\"a\": 1}");
   EXPECT_THAT(refusal(), HasSubstr("no result"));
+  const std::string deep = std::string(500000, '[') + std::string(500000, ']');
+  folder.write("results.json", R"({"schema": )" + deep + R"(, "cells": []})");
+  EXPECT_THAT(refusal(), HasSubstr("it is no result of a sweep"));
   folder.write("results.json", R"({"schema": 1, "cells": []})");
   EXPECT_THAT(refusal(), HasSubstr("schema is 1, expected 2"));
   const ordered_json results = make_results({"x"}, {});
@@ -444,28 +446,6 @@ TEST(SweepAdvice, ErrorsAgainstDifferentReferencesAreNotCompared) {
   // Nor are they pooled as seeds of one configuration.
   for (ordered_json& one : results["cells"]) one["series"] = "the same";
   EXPECT_EQ(configurations(results).size(), 2u);
-}
-
-TEST(SweepClock, KnowsTheRestOnceEachKindWasSeen) {
-  SweepClock clock;
-  clock.plan_rest({{{"a nrc", "nrc"}, 10.0}, {{"a path", "path"}, 4.0}, {{"a nrc", "nrc"}, 20.0}});
-  EXPECT_EQ(clock.count(), 3u);
-  EXPECT_FALSE(clock.left(1.0, 0.0).has_value());
-  EXPECT_FALSE(clock.left(1.0, 0.5).has_value());
-  clock.finish(5.0);
-  EXPECT_FALSE(clock.left(1.0, 0.0).has_value()) << "path was never done";
-  EXPECT_DOUBLE_EQ(*clock.left(1.0, 0.25), 3.0 + 10.0) << "its own fraction is enough";
-  clock.finish(2.0);
-  EXPECT_DOUBLE_EQ(*clock.left(4.0, 0.0), 6.0);
-  EXPECT_DOUBLE_EQ(*clock.left(40.0, 0.0), 0.0);
-  clock.finish(10.0);
-  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 0.0);
-  // Another scene is guessed from this one.
-  clock.plan_rest({{{"b nrc", "nrc"}, 2.0}, {{"b nrc", "nrc"}, 4.0}});
-  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 3.0);
-  // As soon as it has a task of its own, by that.
-  clock.finish(10.0);
-  EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 20.0);
 }
 
 }  // namespace

@@ -96,12 +96,13 @@ function drawBand(chart, ctx, band) {
   ctx.fill();
 }
 
-/// Labels stand on their lines at the right, and give way where lines are close.
+/// Labels stand on their lines at that end where the series are farther away, and give way where lines are close.
 function drawLevels(chart, ctx, area, levels) {
   ctx.font = "12px system-ui, sans-serif";
-  ctx.textAlign = "right";
   ctx.textBaseline = "bottom";
-  let freeAbove = Infinity;
+  const shown = chart.data.datasets.map(dataset => dataset.data).filter(data => data.length > 0);
+  const distance = (pixel, of) => Math.min(...shown.map(data => Math.abs(chart.scales.y.getPixelForValue(of(data).y) - pixel)));
+  const free = {left: Infinity, right: Infinity};
   const placed = levels.map(level => ({...level, pixel: Math.round(chart.scales.y.getPixelForValue(level.error)) + 0.5}))
     .sort((a, b) => b.pixel - a.pixel);
   for (const level of placed) {
@@ -114,10 +115,12 @@ function drawLevels(chart, ctx, area, levels) {
     ctx.moveTo(area.left, level.pixel);
     ctx.lineTo(area.right, level.pixel);
     ctx.stroke();
-    if (level.pixel > freeAbove || level.pixel - area.top < 16) continue;
+    const side = distance(level.pixel, data => data[0]) > distance(level.pixel, data => data[data.length - 1]) ? "left" : "right";
+    if (level.pixel > free[side] || level.pixel - area.top < 16) continue;
     ctx.globalAlpha = 1;
-    ctx.fillText(level.label, area.right - 6, level.pixel - 2);
-    freeAbove = level.pixel - 16;
+    ctx.textAlign = side;
+    ctx.fillText(level.label, area[side] + (side === "left" ? 6 : -6), level.pixel - 2);
+    free[side] = level.pixel - 16;
   }
 }
 

@@ -1,0 +1,178 @@
+// --device vulkan through the real program: the CPU's picture, files for both, and refusals.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/process.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const json& devices() {
+  static const json told = json::parse(run_gatelight({"info", "--json", "-"}).out)["vulkan"];
+  return told;
+}
+
+bool has_usable_device() {
+  for (const json& device : devices()["devices"])
+    if (device["usable"]) return true;
+  return false;
+}
+
+class VulkanCommand : public ::testing::Test {
+ protected:
+  using Words = std::vector<std::string>;
+
+  void SetUp() override {
+    if (has_usable_device()) return;
+    if (std::getenv("GATELIGHT_REQUIRE_VULKAN") != nullptr) FAIL() << "no Vulkan device: " << devices();
+    GTEST_SKIP() << "no Vulkan device";
+  }
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  Output render(Words flags) const {
+    Words words = {"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--quiet"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    return run_gatelight(words);
+  }
+
+  double flip(const std::string& a, const std::string& b) const {
+    const Output output = run_gatelight({"compare", path(a), path(b), "--metric", "flip", "--json", "-"});
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return json::parse(output.out)["flip"]["mean"];
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
+  for (const Words& cache : {Words{"--integrator", "nrc"}, Words{"--integrator", "nao"},
+                             Words{"--integrator", "nrc", "--encoding", "hashgrid"}}) {
+    for (const char* device : {"cpu", "vulkan"}) {
+      Words words = {
+          "--size",        "96x64", "--spp",   "8",    "--device", device,
+          "--train-steps", "96",    "--batch", "1024", "-o",       path(std::string(device) + ".exr")};
+      words.insert(words.end(), cache.begin(), cache.end());
+      const Output output = render(words);
+      ASSERT_EQ(output.exit_code, 0) << output.err;
+    }
+    const double difference = flip("cpu.exr", "vulkan.exr");
+    EXPECT_GT(difference, 0.0);
+    EXPECT_LT(difference, 0.005) << ::testing::PrintToString(cache);
+  }
+}
+
+TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
+  const Words size = {"--integrator", "nrc", "--size", "48x32", "--spp", "2", "--batch", "256"};
+  for (const auto& [learner, asked] : {std::pair{"vulkan", "cpu"}, {"cpu", "vulkan"}}) {
+    Words learn = size, ask = size, own = size;
+    learn.insert(learn.end(), {"--train-steps", "16", "--device", learner, "--cache-out",
+                               path("c.safetensors"), "-o", path("learned.exr")});
+    own.insert(own.end(), {"--train-steps", "0", "--device", learner, "--cache-in", path("c.safetensors"),
+                           "-o", path("own.exr")});
+    ask.insert(ask.end(), {"--train-steps", "0", "--device", asked, "--cache-in", path("c.safetensors"), "-o",
+                           path("asked.exr")});
+    for (const Words& words : {learn, own, ask}) {
+      const Output output = render(words);
+      ASSERT_EQ(output.exit_code, 0) << output.err;
+    }
+    EXPECT_LT(flip("own.exr", "asked.exr"), 1e-4);
+  }
+}
+
+TEST_F(VulkanCommand, StatisticsNameTheDevice) {
+  const Output output =
+      render({"--integrator", "nrc", "--size", "24x16", "--spp", "1", "--train-steps", "4", "--batch", "256",
+              "--device", "vulkan:0", "-o", path("a.exr"), "--stats", "-"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const json stats = json::parse(output.out);
+  EXPECT_EQ(stats["device"], "vulkan:0");
+  EXPECT_EQ(stats["cache"]["backend"], "vulkan " + std::string(devices()["devices"][0]["name"]));
+}
+
+// The environment makes the device fail after so much work: while it trains, and while it answers.
+TEST_F(VulkanCommand, ALostDeviceIsCode5AndKeepsThePictureSoFar) {
+  const Words words = {"--integrator", "nrc",           "--size", "24x16",      "--spp",
+                       "64",           "--train-steps", "8",      "--batch",    "256",
+                       "--device",     "vulkan",        "-o",     path("a.exr")};
+  for (const auto& [after, picture] : {std::pair{"4", false}, {"40", true}}) {
+    setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
+    const Output output = render(words);
+    unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
+    EXPECT_EQ(output.exit_code, 5);
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("was lost"), HasSubstr("--device cpu")));
+    EXPECT_EQ(std::filesystem::exists(path("a.exr")), picture) << output.err;
+  }
+}
+
+TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
+  const auto words = [&](const std::string& picture) {
+    return Words{"--integrator",
+                 "nrc",
+                 "--size",
+                 "24x16",
+                 "--spp",
+                 "32",
+                 "--train-steps",
+                 "24",
+                 "--batch",
+                 "256",
+                 "--device",
+                 "vulkan",
+                 "-o",
+                 path(picture),
+                 "--checkpoint",
+                 path("checkpoint"),
+                 "--checkpoint-every",
+                 "0",
+                 "--resume"};
+  };
+  for (const char* after : {"12", "40"}) {
+    setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
+    const Output lost = render(words("resumed.exr"));
+    unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
+    EXPECT_EQ(lost.exit_code, 5);
+    ASSERT_TRUE(std::filesystem::exists(path("checkpoint"))) << "after " << after;
+    const Output resumed = render(words("resumed.exr"));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    std::filesystem::remove(path("checkpoint"));
+    EXPECT_EQ(render(words("whole.exr")).exit_code, 0);
+    std::filesystem::remove(path("checkpoint"));
+    EXPECT_EQ(flip("whole.exr", "resumed.exr"), 0.0) << "after " << after;
+  }
+}
+
+TEST(VulkanRefusals, ADeviceThatIsNotThereIsCode5AndSaysWhatIs) {
+  const TemporaryFolder folder;
+  const Output output = run_gatelight({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb",
+                                       "--integrator", "nrc", "--size", "8x8", "--device", "vulkan:abacus",
+                                       "-o", (folder / "a.exr").string(), "--quiet"});
+  EXPECT_EQ(output.exit_code, 5);
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("--device vulkan:abacus: "), HasSubstr("--device cpu")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
+TEST(VulkanInfo, ListsDevicesOrSaysWhyThereAreNone) {
+  const json& told = devices();
+  const Output output = run_gatelight({"info"});
+  EXPECT_EQ(output.exit_code, 0);
+  if (told["devices"].empty()) {
+    EXPECT_THAT(output.out, HasSubstr(std::string(told["reason"])));
+    return;
+  }
+  for (const json& device : told["devices"]) EXPECT_THAT(output.out, HasSubstr(std::string(device["name"])));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
