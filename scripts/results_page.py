@@ -54,6 +54,9 @@ SUMMARY = """## What it comes to
   in 75 to 82 % of the time (last table but one).
 - **The paper's rule for the resolution** saves memory as stated, but not without loss: it gives nearly all nodes to the largest triangles. Uniform density is better in occlusion, in every
   scene as good as resolution 4 everywhere for a fifth to a half of its memory; in radiance, too noisy after 128 steps to need resolution, nothing tells them apart.
+- **Of what the paper leaves open**, in the Kitchen's occlusion: clusters on tiny triangles gain most (with uniform density, for 5.9 instead of 14.4 MiB); vectors that
+  triangles share beat vectors of their own, which take six times the memory; four paths a record gain a little for half as much time again; fp16 features take half the
+  memory and lose nothing. In radiance three seeds tell none of these apart; in the picture, a cache of indirect light alone errs least (relative MSE).
 """
 
 

@@ -1,0 +1,172 @@
+// The cache: training that diverges is noticed, and what was good is kept.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "renderer/errors.h"
+#include "renderer/render.h"
+#include "tests/extremes/extreme.h"
+#include "tests/renderer/room.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::room;
+using testing::tell_extreme;
+using tests::read_file;
+using tests::TemporaryFolder;
+
+RenderOptions small(float rate, int steps) {
+  RenderOptions options = testing::small_picture();
+  options.integrator = Integrator::nrc;
+  options.aovs.clear();
+  options.spp = 2;
+  options.cache.query_at = QueryAt::primary;
+  options.cache.batch = 1024;
+  options.cache.train_steps = steps;
+  options.cache.training.adam.learning_rate = rate;
+  return options;
+}
+
+struct Outcome {
+  Picture picture;
+  RenderStatistics statistics;
+  std::string diverged;  ///< what it threw
+};
+
+Outcome run(const scene::Scene& scene, const RenderOptions& options) {
+  Outcome outcome;
+  Renderer renderer(scene, options);
+  try {
+    outcome.picture = renderer.render();
+  } catch (const TrainingDiverged& error) {
+    outcome.diverged = error.what();
+  }
+  outcome.statistics = renderer.statistics();
+  return outcome;
+}
+
+bool finite(const Picture& picture) {
+  for (const float value : picture.layers[0].values)
+    if (!std::isfinite(value) || value < 0.0f) return false;
+  return !picture.layers[0].values.empty();
+}
+
+double mean(const Picture& picture) {
+  double sum = 0.0;
+  for (const float value : picture.layers[0].values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(picture.layers[0].values.size());
+}
+
+TEST(CacheDivergence, RatesThatLearnAreLetThrough) {
+  const scene::Scene s = room();
+  const double usual = mean(run(s, small(1e-2f, 300)).picture);
+  double least = 10.0, greatest = 0.0;
+  for (const float rate : {0.0f, 1e-8f, 1e-3f, 0.05f})
+    for (const neural::Loss loss : {neural::Loss::l2, neural::Loss::relative_l2}) {
+      RenderOptions options = small(rate, 300);
+      options.cache.training.loss = loss;
+      const Outcome outcome = run(s, options);
+      EXPECT_EQ(outcome.diverged, "") << rate;
+      EXPECT_EQ(outcome.statistics.cache.diverged, "") << rate;
+      EXPECT_TRUE(finite(outcome.picture)) << rate;
+      least = std::min(least, mean(outcome.picture) / usual);
+      greatest = std::max(greatest, mean(outcome.picture) / usual);
+    }
+  EXPECT_GE(least, 0.5);
+  EXPECT_LE(greatest, 2.0);
+  tell_extreme(
+      "learning rates 0, 1e-8, 1e-3, 0.05", "a room, 300 steps of 1024 records, l2 and relative loss",
+      fmt::format("no alarm; pictures are {:.2f} to {:.2f} times as bright as with 0.01 (bounds 0.5, 2)",
+                  least, greatest),
+      "");
+}
+
+TEST(CacheDivergence, GreatRatesAreNoticedAndNothingIsOverwritten) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  const auto file = folder.write("cache.safetensors", "an older cache");
+  std::string told;
+  for (const float rate : {1e2f, 1e3f, 1e6f})
+    for (const neural::Loss loss : {neural::Loss::l2, neural::Loss::relative_l2}) {
+      SCOPED_TRACE(rate);
+      RenderOptions options = small(rate, 64);
+      options.cache.training.loss = loss;
+      options.cache.cache_out = file.string();
+      const Outcome outcome = run(s, options);
+      EXPECT_THAT(outcome.diverged, HasSubstr("training step "));
+      if (rate == 1e3f) told = outcome.diverged;
+      EXPECT_EQ(read_file(file), "an older cache");
+      EXPECT_EQ(folder.count_files(), 1u);
+    }
+  tell_extreme("learning rates 1e2, 1e3, 1e6", "a room, new caches, l2 and relative loss",
+               "the file of --cache-out stays as it was, no part of a new one is left",
+               fmt::format("within 64 steps, exit code 6: \"{}\"", told));
+}
+
+// From a cache file on: what was loaded is the last good state.
+TEST(CacheDivergence, AfterALoadedCacheItIsKept) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  const std::string good = (folder / "good.safetensors").string();
+  const std::string out = (folder / "out.safetensors").string();
+  RenderOptions options = small(1e-2f, 100);
+  options.cache.cache_out = good;
+  ASSERT_EQ(run(s, options).diverged, "");
+
+  options = small(1e-2f, 0);
+  options.cache.cache_in = good;
+  const Outcome expected = run(s, options);
+  options = small(1e3f, 64);
+  options.cache.cache_in = good;
+  options.cache.cache_out = out;
+  const Outcome outcome = run(s, options);
+  EXPECT_EQ(outcome.diverged, "");
+  EXPECT_THAT(outcome.statistics.cache.diverged, HasSubstr("training step "));
+  EXPECT_EQ(outcome.statistics.cache.steps, 0);
+  EXPECT_TRUE(outcome.picture.layers[0].values == expected.picture.layers[0].values);
+  // And the file written renders the same.
+  options = small(1e-2f, 0);
+  options.cache.cache_in = out;
+  EXPECT_TRUE(run(s, options).picture.layers[0].values == expected.picture.layers[0].values);
+  tell_extreme("a good cache trained on with a rate of 1e3", "--cache-in, --cache-out, 64 steps more",
+               "picture and cache file have the bits of the cache that was loaded",
+               "exit code 6 once all is written");
+}
+
+// What goes wrong late: the state of the last good step, with the bits of a training that ended there.
+// Answers that come back threefold as targets are such a fault.
+TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = small(1e-2f, 2048);
+  options.cache.training.loss = neural::Loss::l2;
+  options.cache.self_training.start_step = 512;
+  options.cache.self_training.attenuation = 3.0f;
+  options.cache.cache_out = (folder / "kept.safetensors").string();
+  const Outcome outcome = run(s, options);
+  const int kept = outcome.statistics.cache.steps;
+  EXPECT_EQ(outcome.diverged, "");
+  EXPECT_THAT(outcome.statistics.cache.diverged, HasSubstr("the loss grew from"));
+  EXPECT_GE(kept, 256);
+  EXPECT_LE(kept, 640);
+
+  options.cache.train_steps = kept;
+  options.cache.cache_out = (folder / "expected.safetensors").string();
+  options.threads = 1;
+  const Outcome expected = run(s, options);
+  EXPECT_EQ(expected.statistics.cache.diverged, "");
+  EXPECT_TRUE(outcome.picture.layers[0].values == expected.picture.layers[0].values);
+  EXPECT_TRUE(read_file(folder / "kept.safetensors") == read_file(folder / "expected.safetensors"));
+  EXPECT_EQ(outcome.statistics.cache.records, expected.statistics.cache.records);
+  tell_extreme("training that goes wrong after 512 steps", "answers come back threefold as targets",
+               fmt::format("picture and cache file have the bits of a training of {} steps", kept),
+               fmt::format("exit code 6 once all is written: \"{}\"", outcome.statistics.cache.diverged));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

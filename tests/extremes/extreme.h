@@ -1,0 +1,22 @@
+#pragma once
+// A row of tests/EXTREMES.md, told by the test that measured it. scripts/write-extremes collects them.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+namespace gatelight::testing {
+
+/// Once at the end of each test. The columns: what; which values were tried; what holds, with the worst
+/// measured value and its bound; what is refused and how (exit code and line), "" for nothing. Numbers with
+/// two significant digits.
+inline void tell_extreme(std::string_view subject, std::string_view range, std::string_view holds,
+                         std::string_view refused) {
+  ::testing::Test::RecordProperty("subject", std::string(subject));
+  ::testing::Test::RecordProperty("range", std::string(range));
+  ::testing::Test::RecordProperty("holds", std::string(holds));
+  ::testing::Test::RecordProperty("refused", std::string(refused));
+}
+
+}  // namespace gatelight::testing

@@ -1,0 +1,47 @@
+#pragma once
+// Real renders in which something of the machine gives way.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/apps/process.h"
+#include "tests/apps/tiny_scene.h"
+#include "tests/extremes/extreme.h"
+#include "tests/temporary_folder.h"
+
+namespace gatelight::tests {
+
+class Faults : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  /// A square under a white sky.
+  std::vector<std::string> words(const std::vector<std::string>& more) const {
+    std::vector<std::string> all = {"render", scene, "--environment", "1,1,1", "--threads", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  TemporaryFolder folder;
+  std::string scene = folder.write("scene.gltf", tiny_scene());
+};
+
+inline int count_lines(const std::string& text) {
+  int lines = 0;
+  for (const char c : text) lines += c == '\n' ? 1 : 0;
+  return lines;
+}
+
+/// Failed with this code, by itself, and with one line that names `text`.
+inline void expect_failure(const Output& output, int code, const std::string& text) {
+  EXPECT_EQ(output.exit_code, code) << output.err;
+  EXPECT_FALSE(output.killed) << output.err;
+  EXPECT_EQ(count_lines(output.err), 1) << output.err;
+  EXPECT_THAT(output.last_error_line(), ::testing::StartsWith("gatelight: error: "));
+  EXPECT_THAT(output.last_error_line(), ::testing::HasSubstr(text));
+}
+
+}  // namespace gatelight::tests

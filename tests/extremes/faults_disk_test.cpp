@@ -1,0 +1,169 @@
+// Faults of disks and pipes: full, read-only, gone.
+
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <linux/capability.h>
+
+#include "renderer/image_read.h"
+#include "tests/extremes/faults.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::tell_extreme;
+
+class FaultyDisk : public Faults {};
+
+const std::vector<std::string> kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
+
+/// Words of a render whose output of one kind is at `place`, and a picture that is not there.
+std::vector<std::string> outputs(const std::string& kind, const std::string& place,
+                                 const std::string& other) {
+  if (kind == "a.exr" || kind == "a.png") return {"-o", place, "-o", other};
+  if (kind == "stats.json") return {"-o", other, "--stats", place};
+  if (kind == "checkpoint") return {"-o", other, "--checkpoint", place, "--checkpoint-every", "0"};
+  return {"-o", other, "--integrator", "nrc", "--train-steps", "8", "--batch", "512", "--cache-out", place};
+}
+
+TEST_F(FaultyDisk, AFullOneKeepsTheOldFileAndLeavesNothingElse) {
+  // Only this process and its children see the disk.
+  if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "mounting is not permitted here";
+  const std::string disk = path("disk");
+  std::filesystem::create_directory(disk);
+  ASSERT_EQ(::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr), 0);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=8k") != 0)
+    GTEST_SKIP() << "mounting is not permitted here";
+  std::ofstream(disk + "/filler") << std::string(4096, 'x');
+  for (const std::string& kind : kKinds) {
+    const std::string place = disk + "/" + kind;
+    std::ofstream(place) << "old";
+    const std::string other = path("other.exr");
+    std::vector<std::string> all = words({"--size", "64x64", "--spp", "2", "--quiet"});
+    const std::vector<std::string> more = outputs(kind, place, other);
+    all.insert(all.end(), more.begin(), more.end());
+    const Output output = run_gatelight(all);
+    EXPECT_EQ(output.exit_code, 3) << kind << output.err;
+    EXPECT_FALSE(output.killed) << kind;
+    EXPECT_THAT(output.last_error_line(),
+                AllOf(HasSubstr("cannot write '" + place + "': "), HasSubstr("No space left on device")));
+    EXPECT_EQ(read_file(place), "old") << kind;
+    EXPECT_EQ(renderer::read_image(other).width, 64) << kind;
+    std::filesystem::remove(place);
+    std::filesystem::remove(other);
+    std::size_t left = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(disk)) ++left;
+    EXPECT_EQ(left, 1u) << kind << ": a temporary file is left";
+  }
+  ::umount(disk.c_str());
+  tell_extreme("full disk", "a tmpfs of 8 KiB; picture as EXR and PNG, statistics, checkpoint, cache",
+               "the old file is whole, nothing is left beside it, the other picture is written",
+               "exit 3: cannot write 'FILE': No space left on device");
+}
+
+TEST_F(FaultyDisk, AFileAtItsLimitOfSizeIsAFullDisk) {
+  for (const std::string& kind : kKinds) {
+    folder.write("disk/" + kind, "old");
+    std::vector<std::string> all = words({"--size", "64x64", "--spp", "2", "--quiet"});
+    // Statistics and the picture beside a checkpoint are smaller than both limits.
+    const rlim_t bytes = kind == "checkpoint" || kind == "cache" ? 40000 : 1000;
+    const std::vector<std::string> more = outputs(kind, path("disk/" + kind), path("other.exr"));
+    all.insert(all.end(), more.begin(), more.end());
+    const Output output = run_gatelight(all, [&] {
+      const rlimit limit{bytes, bytes};
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    EXPECT_EQ(output.exit_code, 3) << kind << output.err;
+    EXPECT_FALSE(output.killed) << kind;
+    EXPECT_THAT(output.last_error_line(), HasSubstr("File too large")) << kind;
+    EXPECT_EQ(read_file(path("disk/" + kind)), "old") << kind;
+    if (bytes > 1000) {
+      EXPECT_EQ(renderer::read_image(path("other.exr")).width, 64) << kind;
+    }
+    std::filesystem::remove(path("other.exr"));
+  }
+  EXPECT_EQ(folder.count_files(), 2u) << "a temporary file is left";
+  tell_extreme(
+      "limit of file sizes", "ulimit -f at 1 and 40 kB, for the same outputs",
+      "the old file is whole; a picture that fits is written where the checkpoint or cache does not fit",
+      "exit 3: cannot write 'FILE': File too large");
+}
+
+TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
+  const std::filesystem::path locked = folder / "locked";
+  std::filesystem::create_directory(locked);
+  std::filesystem::permissions(locked, std::filesystem::perms(0555));
+  for (const std::string& kind : kKinds) {
+    std::vector<std::string> all = words({"--size", "4096x4096", "--spp", "65536", "--quiet"});
+    const std::vector<std::string> more = outputs(kind, (locked / kind).string(), path("other.exr"));
+    all.insert(all.end(), more.begin(), more.end());
+    // Root writes everywhere by a capability, which a program loses that is run without it.
+    const Output output = run_gatelight(all, [] { ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0); });
+    expect_failure(output, 3, "the folder '" + locked.string() + "' cannot be written: Permission denied");
+  }
+  std::filesystem::permissions(locked, std::filesystem::perms(0755));
+  expect_failure(run_gatelight(words({"-o", scene + "/a.exr", "--quiet"})), 3, "is not a folder");
+  tell_extreme("read-only folder", "the same outputs; a file in place of the folder", "nothing is begun",
+               "exit 3: the folder 'FOLDER' cannot be written: Permission denied");
+}
+
+TEST_F(FaultyDisk, AFolderThatVanishesCostsOnlyWhatWasToBeInIt) {
+  std::filesystem::create_directory(folder / "gone");
+  Process process(
+      words({"-o", path("gone/a.exr"), "-o", path("stays.exr"), "--checkpoint", path("gone/c"),
+             "--checkpoint-every", "0", "--size", "64x64", "--spp", "16777216", "--progress", "json"}));
+  ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
+  std::filesystem::remove_all(folder / "gone");
+  ASSERT_TRUE(process.wait_for_error_text("it will be tried again"));
+  process.send(SIGTERM);
+  const Output output = process.finish();
+  EXPECT_EQ(output.exit_code, 3) << output.err;
+  EXPECT_THAT(output.last_error_line(), HasSubstr("the folder '" + path("gone") + "' does not exist"));
+  EXPECT_EQ(renderer::read_image(path("stays.exr")).width, 64);
+  EXPECT_EQ(folder.count_files(), 2u);
+  tell_extreme("folder removed while rendering", "picture and checkpoint in it, a second picture elsewhere",
+               "the render goes on, warns of each checkpoint, and writes the other picture",
+               "exit 3 at the end: the folder 'FOLDER' does not exist");
+}
+
+TEST_F(FaultyDisk, WhoNoLongerListensEndsNothing) {
+  const std::vector<std::string> all =
+      words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--progress", "json", "--verbose"});
+  const auto with_error_at = [&](const std::function<int()>& open) {
+    std::filesystem::remove(path("a.exr"));
+    const Output output = run_gatelight(all, [&] { ::dup2(open(), STDERR_FILENO); });
+    EXPECT_EQ(output.exit_code, 0);
+    EXPECT_EQ(renderer::read_image(path("a.exr")).width, 16);
+  };
+  with_error_at([] { return ::open("/dev/full", O_WRONLY); });
+  with_error_at([] {
+    int ends[2];
+    if (::pipe(ends) != 0) ::_exit(126);
+    ::close(ends[0]);
+    return ends[1];
+  });
+  std::vector<std::string> with_stats =
+      words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--quiet"});
+  with_stats.insert(with_stats.end(), {"--stats", "-"});
+  const Output full = run_gatelight(with_stats, [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  expect_failure(full, 3, "cannot write to stdout: No space left on device");
+  const Output closed = run_gatelight(with_stats, [] {
+    int ends[2];
+    if (::pipe(ends) != 0) ::_exit(126);
+    ::close(ends[0]);
+    ::dup2(ends[1], STDOUT_FILENO);
+  });
+  expect_failure(closed, 3, "cannot write to stdout: Broken pipe");
+  tell_extreme("nobody reads", "stderr full, or a pipe without a reader; the same of stdout with --stats -",
+               "without stderr the render ends as ever, exit 0", "stdout: exit 3, cannot write to stdout");
+}
+
+}  // namespace
+}  // namespace gatelight::tests

@@ -1,0 +1,185 @@
+// Limits of memory, threads and sizes.
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "tests/extremes/faults.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using testing::tell_extreme;
+namespace fs = std::filesystem;
+
+class Limits : public Faults {
+ protected:
+  Output run_within(rlim_t mebibytes, const std::vector<std::string>& more) const {
+    return run_gatelight(words(more), [=] {
+      const rlimit limit{mebibytes << 20, mebibytes << 20};
+      ::setrlimit(RLIMIT_AS, &limit);
+    });
+  }
+};
+
+/// Of OpenImageIO's 260 libraries some need more before main is reached.
+constexpr rlim_t kLeastMebibytes = 1024;
+
+TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
+  int pictures = 0;
+  int refusals = 0;
+  for (rlim_t mebibytes = kLeastMebibytes; mebibytes <= 2560; mebibytes += 256) {
+    for (const char* integrator : {"path", "nrc"}) {
+      std::vector<std::string> more = {"-o",      path("a.exr"),  "--spp",   "1",
+                                       "--quiet", "--integrator", integrator};
+      if (std::string(integrator) == "nrc") {
+        more.insert(more.end(), {"--train-steps", "8", "--size", "64x64"});
+      } else {
+        more.insert(more.end(), {"--size", "2048x2048", "--max-depth", "1"});
+      }
+      const Output output = run_within(mebibytes, more);
+      ASSERT_THAT(output.exit_code, AnyOf(0, 4)) << mebibytes << " MiB " << integrator << ": " << output.err;
+      ASSERT_FALSE(output.killed);
+      if (output.exit_code == 0) {
+        ++pictures;
+      } else {
+        ++refusals;
+        expect_failure(output, 4, "");
+        EXPECT_EQ(fs::exists(path("a.exr")), false);
+      }
+      fs::remove(path("a.exr"));
+    }
+  }
+  EXPECT_GT(pictures, 2);
+  EXPECT_GT(refusals, 0);
+  tell_extreme("ulimit -v",
+               fmt::format("{} MiB to 2.5 GiB, a picture of 2048x2048, and a cache", kLeastMebibytes),
+               fmt::format("{} pictures; never a crash or half a file", pictures),
+               fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
+}
+
+/// A control group of its own below this process's, where that is permitted.
+class MemoryGroup {
+ public:
+  explicit MemoryGroup(std::size_t bytes) {
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+      const std::string name = "/gatelight-test-" + std::to_string(::getpid());
+      if (line.find(":memory:") != std::string::npos) {
+        try_at("/sys/fs/cgroup/memory" + line.substr(line.rfind(':') + 1) + name, "memory.limit_in_bytes",
+               bytes);
+      } else if (line.starts_with("0::")) {
+        try_at("/sys/fs/cgroup" + line.substr(3) + name, "memory.max", bytes);
+      }
+    }
+  }
+  ~MemoryGroup() {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove(folder_, ignored);
+  }
+  MemoryGroup(const MemoryGroup&) = delete;
+  MemoryGroup& operator=(const MemoryGroup&) = delete;
+
+  bool is_there() const { return !folder_.empty(); }
+  /// Of the calling process.
+  void enter() const { std::ofstream(folder_ + "/cgroup.procs") << ::getpid(); }
+
+ private:
+  void try_at(const std::string& folder, const char* limit, std::size_t bytes) {
+    std::error_code error;
+    if (!folder_.empty() || !fs::create_directory(folder, error)) return;
+    std::ofstream(folder + "/" + limit) << bytes << std::flush;
+    std::size_t set = 0;
+    std::ifstream(folder + "/" + limit) >> set;
+    if (set == bytes) {
+      folder_ = folder;
+    } else {
+      fs::remove(folder, error);
+    }
+  }
+
+  std::string folder_;
+};
+
+TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
+  int pictures = 0;
+  int refusals = 0;
+  for (std::size_t mebibytes = 160; mebibytes <= 416; mebibytes += 64) {
+    const MemoryGroup group(mebibytes << 20);
+    if (!group.is_there()) GTEST_SKIP() << "no control group for memory can be made here";
+    const Output output = run_gatelight(
+        words({"-o", path("a.exr"), "--size", "1024x1024", "--spp", "1", "--quiet", "--max-depth", "1"}),
+        [&] { group.enter(); });
+    EXPECT_FALSE(output.killed) << mebibytes << " MiB";
+    ASSERT_THAT(output.exit_code, AnyOf(0, 4)) << mebibytes << " MiB: " << output.err;
+    (output.exit_code == 0 ? pictures : refusals) += 1;
+    if (output.exit_code == 4) expect_failure(output, 4, "and the control group leaves");
+  }
+  EXPECT_GT(pictures, 0);
+  EXPECT_GT(refusals, 0);
+  tell_extreme("memory of a control group", "160 to 416 MiB, a picture of 1024x1024",
+               fmt::format("{} pictures; the kernel never kills it", pictures),
+               fmt::format("{} times exit 4: rendering needs about N MiB, and the control group leaves M MiB",
+                           refusals));
+}
+
+TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
+  const auto render = [&](const char* name, const char* threads) {
+    std::vector<std::string> all =
+        words({"-o", path(name), "--size", "64x64", "--spp", "4", "--quiet", "--reproducible"});
+    all.insert(all.end(), {"--integrator", "nrc", "--train-steps", "16", "--batch", "1024"});
+    std::replace(all.begin(), all.end(), std::string("2"), std::string(threads));
+    return run_gatelight(all);
+  };
+  EXPECT_EQ(render("one.exr", "1").exit_code, 0);
+  const Output output = render("thousand.exr", "1000");
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(read_file(path("one.exr")) == read_file(path("thousand.exr")), true);
+  expect_failure(run_gatelight({"render", scene, "-o", path("a.exr"), "--threads", "1025"}), 1, "--threads");
+  tell_extreme("threads", "--threads 1 and 1000, with a cache", "the same bytes", "more than 1024: exit 1");
+}
+
+TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
+  int refusals = 0;
+  for (const rlim_t mebibytes : {1024, 2048, 4096}) {
+    const Output output = run_gatelight({"render", scene, "-o", path("a.exr"), "--size", "16x16", "--spp",
+                                         "1", "--quiet", "--threads", "1000"},
+                                        [=] {
+                                          const rlimit limit{mebibytes << 20, mebibytes << 20};
+                                          ::setrlimit(RLIMIT_AS, &limit);
+                                        });
+    expect_failure(output, 4, "--threads 1000: only ");
+    ++refusals;
+  }
+  tell_extreme("threads that cannot be started", "--threads 1000 within 1 to 4 GiB of address space", "",
+               fmt::format("{} times exit 4: --threads 1000: only N can be started here", refusals));
+}
+
+TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
+  const auto render = [&](const char* size, const char* limit) {
+    // A gibibyte to work in: what is not refused at once would not fit.
+    return run_within(
+        2048, {"-o", path("a.exr"), "--size", size, "--spp", "1", "--quiet", "--memory-limit", limit});
+  };
+  for (const char* size :
+       {"0x0", "0x16", "16x0", "-1x16", "65537x1", "4294967296x4294967296", "16", "16x", "x"}) {
+    expect_failure(render(size, "0"), 1, "is not a size WxH in pixels, each from 1 to 65536");
+  }
+  expect_failure(render("65536x65536", "0"), 1, "has 4294967296 pixels, expected at most 268435456");
+  expect_failure(render("65536x4096", "1000"), 4, "more than the limit of 1000 MiB");
+  expect_failure(render("65536x4096", "0"), 4, "and ulimit -v leaves");
+  EXPECT_EQ(render("65536x1", "0").exit_code, 0);
+  EXPECT_EQ(render("1x65536", "0").exit_code, 0);
+  tell_extreme(
+      "size of the picture", "0x0 to 65536x65536", "1x65536 and 65536x1 are rendered",
+      "0 or more than 65536 a side, or 2^28 pixels in all: exit 1; more than memory or --memory-limit: exit "
+      "4 with the MiB that are needed, before anything is built");
+}
+
+}  // namespace
+}  // namespace gatelight::tests

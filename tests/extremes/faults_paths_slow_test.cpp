@@ -1,0 +1,170 @@
+// Names of files, and textures that cannot be read.
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "renderer/image_read.h"
+#include "tests/extremes/faults.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::tell_extreme;
+
+class Names : public Faults {};
+
+std::string encoded(const std::string& name) {
+  static constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return text;
+}
+
+/// The tiny scene with a texture and its buffer in files of their own.
+std::string with_texture(const std::string& texture_uri, const std::string& buffer_uri) {
+  nlohmann::json json = nlohmann::json::parse(tiny_scene());
+  json["buffers"][0]["uri"] = buffer_uri;
+  json["images"] = {{{"uri", texture_uri}}};
+  // As good as any numbers.
+  json["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 6}, {"type", "VEC2"}});
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1;
+  json["textures"] = {{{"source", 0}}};
+  json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  return json.dump();
+}
+
+std::string corners() {
+  const float values[18] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0};
+  return {reinterpret_cast<const char*>(values), sizeof values};
+}
+
+const std::vector<std::string> kNames = {
+    "with some spaces",
+    "ünïcödé 日本語 🙂",
+    "hash # and % 100%41",
+    "quote ' and \" both",
+    "{0} %s %04d {}",
+    "a?b=c&d;e",
+    "-o",
+    "new\nline",
+    "tab\tand \\ backslash",
+    "[brackets] *?",
+    "dot.exr.d",
+    "na\xefve latin-1",
+};
+
+TEST_F(Names, OfEveryKindAreJustNamesForEveryInputAndOutput) {
+  // A picture for textures and the environment.
+  ASSERT_EQ(run_gatelight(
+                words({"-o", path("t.png"), "-o", path("t.exr"), "--size", "16x8", "--spp", "1", "--quiet"}))
+                .exit_code,
+            0);
+  std::string first;
+  for (const std::string& name : kNames) {
+    const std::filesystem::path home = folder / name;
+    std::filesystem::create_directory(home);
+    const auto file = [&](const std::string& extension) { return (home / (name + extension)).string(); };
+    folder.write(name + "/" + name + ".bin", corners());
+    const bool utf8 = name.find('\xef') == std::string::npos;
+    folder.write(name + "/" + name + ".gltf", with_texture(encoded(name + ".png"), encoded(name + ".bin")));
+    std::filesystem::copy_file(folder / "t.png", file(".png"));
+    std::filesystem::copy_file(folder / "t.exr", file(".exr"));
+    folder.write(name + "/" + name + ".toml", "spp = 2\n");
+    const auto run = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> all = {"render",
+                                      file(".gltf"),
+                                      "--environment",
+                                      file(".exr"),
+                                      "--config",
+                                      file(".toml"),
+                                      "--size",
+                                      "16x16",
+                                      "--integrator",
+                                      "nrc",
+                                      "--train-steps",
+                                      "4",
+                                      "--batch",
+                                      "256",
+                                      "--quiet",
+                                      "--threads",
+                                      "2"};
+      all.insert(all.end(), more.begin(), more.end());
+      return run_gatelight(all);
+    };
+    const Output output = run({"-o", file(".out.exr"), "-o", file(".out.png"), "--stats", file(".json"),
+                               "--cache-out", file(".cache"), "--checkpoint", file(".checkpoint")});
+    ASSERT_EQ(output.exit_code, 0) << name << ": " << output.err;
+    EXPECT_EQ(output.err, "") << name;
+    const nlohmann::json stats = nlohmann::json::parse(read_file(file(".json")));
+    EXPECT_EQ(stats["warnings"].size(), 0u) << name;
+    if (utf8) {
+      EXPECT_EQ(stats["scene"], file(".gltf"));
+    }
+    const Output resumed = run({"-o", file(".resumed.exr"), "--checkpoint", file(".checkpoint"), "--resume"});
+    EXPECT_EQ(resumed.exit_code, 0) << name << ": " << resumed.err;
+    const Output loaded = run({"-o", file(".loaded.exr"), "--cache-in", file(".cache")});
+    EXPECT_EQ(loaded.exit_code, 0) << name << ": " << loaded.err;
+    const renderer::Picture picture = renderer::read_image(file(".out.exr"));
+    ASSERT_EQ(run_gatelight({"compare", file(".out.exr"), file(".resumed.exr"), "--error-map",
+                             file(".map.png"), "--json", file(".compare.json")})
+                  .exit_code,
+              0)
+        << name;
+    // The same scene under another name is the same picture.
+    const auto* bytes = reinterpret_cast<const char*>(picture.layers[0].values.data());
+    const std::string pixels(bytes, picture.layers[0].values.size() * sizeof(float));
+    if (first.empty()) first = pixels;
+    EXPECT_EQ(pixels == first, true) << name;
+  }
+  tell_extreme(
+      "names of files and folders",
+      "spaces, unicode, # % ? * ' \" {} \\ line breaks, a leading dash, bytes that are no UTF-8; for scene, "
+      "buffer, texture, environment, configuration, EXR, PNG, statistics, cache, checkpoint, map",
+      "the same picture under each", "");
+}
+
+TEST_F(Names, ThatAreNotThereAreNamed) {
+  for (const std::string& name : kNames) {
+    const std::string place = path(name + "/nowhere.gltf");
+    const Output output = run_gatelight({"render", place, "-o", path("a.exr"), "--quiet"});
+    std::string shown = place;
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    expect_failure(output, 2, "cannot read the scene '" + shown + "': there is no such file");
+  }
+  const std::string very_long = path(std::string(5000, 'x'));
+  expect_failure(run_gatelight({"render", very_long, "-o", path("a.exr"), "--quiet"}), 2,
+                 "cannot read the scene");
+  expect_failure(run_gatelight(words({"-o", very_long + ".exr", "--quiet"})), 3, "cannot write");
+  tell_extreme("names that lead nowhere", "the same names, and one of 5000 letters", "",
+               "exit 2 (scene) or 3 (output), one line with the name");
+}
+
+TEST_F(Names, OfTexturesThatCannotBeReadAreSaidOnceEach) {
+  folder.write("a.bin", corners());
+  folder.write("broken.png", "\x89PNG\r\n\x1a\n not a picture");
+  folder.write("missing.gltf", with_texture("nowhere.png", "a.bin"));
+  folder.write("broken.gltf", with_texture("broken.png", "a.bin"));
+  for (const char* file : {"missing.gltf", "broken.gltf"}) {
+    const std::vector<std::string> all = {"render",        path(file), "-o",     path("a.exr"),
+                                          "--environment", "1,1,1",    "--size", "16x16",
+                                          "--spp",         "1",        "--quiet"};
+    expect_failure(run_gatelight(all), 2, ".png");
+    std::vector<std::string> warned = all;
+    warned.insert(warned.end(), {"--missing", "warn", "--stats", path("s.json")});
+    const Output output = run_gatelight(warned);
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const nlohmann::json stats = nlohmann::json::parse(read_file(path("s.json")));
+    EXPECT_EQ(stats["warnings"].size(), 1u);
+    EXPECT_THAT(stats["warnings"][0].get<std::string>(), HasSubstr(".png"));
+  }
+  tell_extreme("no texture can be read", "missing and broken files",
+               "--missing warn: rendered without, one warning each", "exit 2 with the texture's name");
+}
+
+}  // namespace
+}  // namespace gatelight::tests

@@ -1,0 +1,71 @@
+// Renders that are ended early and gone on with.
+
+#include <signal.h>
+
+#include "renderer/image_read.h"
+#include "tests/extremes/faults.h"
+
+namespace gatelight::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::tell_extreme;
+
+class Stopped : public Faults {
+ protected:
+  std::vector<std::string> learning(const std::string& output, const std::vector<std::string>& more) const {
+    std::vector<std::string> all =
+        words({"-o", path(output), "--size", "48x48", "--spp", "4", "--integrator", "nrc", "--train-steps",
+               "3000", "--batch", "1024", "--progress", "json", "--reproducible"});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+
+TEST_F(Stopped, ByATerminationWhileItLearnsKeepsPictureAndCheckpoint) {
+  const std::vector<std::string> keeps = {"--checkpoint", path("c"), "--resume"};
+  Process process(learning("killed.exr", keeps));
+  ASSERT_TRUE(process.wait_for_error_text("\"train\""));
+  process.send(SIGTERM);
+  const Output output = process.finish();
+  EXPECT_EQ(output.exit_code, 143) << output.err;
+  EXPECT_FALSE(output.killed);
+  EXPECT_THAT(output.last_error_line(), HasSubstr("of 3000 training steps"));
+  EXPECT_THAT(output.last_error_line(), HasSubstr("--resume goes on with it"));
+  EXPECT_EQ(renderer::read_image(path("killed.exr")).width, 48);
+  EXPECT_EQ(folder.count_files(), 3u) << "a temporary file is left";
+  EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);
+  EXPECT_EQ(run_gatelight(learning("straight.exr", {})).exit_code, 0);
+  EXPECT_EQ(read_file(path("killed.exr")) == read_file(path("straight.exr")), true);
+  tell_extreme(
+      "SIGTERM in training", "a cache of 3000 steps",
+      "picture and checkpoint are written, exit 143; going on gives the bytes of a run that was not stopped",
+      "");
+}
+
+TEST_F(Stopped, AndGoneOnWithInAnotherSceneIsRefused) {
+  const std::vector<std::string> keeps = {"--checkpoint", path("c"), "--resume"};
+  const std::string now = tiny_scene();
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = now;
+    text.replace(text.find(from), from.size(), to);
+    folder.write("scene.gltf", text);
+    std::vector<std::string> all = words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--quiet"});
+    all.insert(all.end(), keeps.begin(), keeps.end());
+    return run_gatelight(all);
+  };
+  EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
+  const std::string kept = read_file(path("c"));
+  expect_failure(changed("[0.5, 0.5, 0.5, 1]", "[0.5, 0.25, 0.5, 1]"), 2, "it differs in materials");
+  expect_failure(changed("AACAvwAAgL8", "AACAPwAAgL8"), 2, "it differs in geometry");
+  expect_failure(changed("\"metallicFactor\": 0", "\"metallicFactor\": 1"), 2, "it differs in materials");
+  expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, "it is of other options");
+  EXPECT_EQ(read_file(path("c")) == kept, true);
+  EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
+  tell_extreme("scene changed before --resume", "a vertex, a colour, metalness, the view",
+               "the checkpoint stays whole",
+               "exit 2: it differs in materials (geometry), or which option differs with both values");
+}
+
+}  // namespace
+}  // namespace gatelight::tests

@@ -1,0 +1,102 @@
+// Lamps of any size, near and far.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/scattering.h"
+#include "tests/extremes/extreme.h"
+#include "tests/extremes/pictures.h"
+#include "tests/renderer/built_world.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using namespace testing;
+
+Vec3 random_unit(Random& random) {
+  return sample_uniform_sphere({random.uniform_float(), random.uniform_float()});
+}
+
+/// A square lamp of this size about `centre`, both sides shining, and a receiver of a fiftieth of the height
+/// at `height` before it.
+struct LampAndReceiver {
+  SceneBuilder builder;
+  Vec3 normal;  ///< of both
+
+  LampAndReceiver(float size, float height, const Vec3& centre, const Vec3& n, float receiver_share = 0.02f)
+      : normal(n) {
+    const Basis basis(n);
+    scene::Material shine = SceneBuilder::lambert(Color::Zero(), Color::Ones());
+    shine.double_sided = true;
+    const Vec3 t = basis.tangent * size;
+    const Vec3 b = basis.bitangent * size;
+    builder.quad(builder.material(shine), centre - 0.5f * t - 0.5f * b, t, b);
+    const float side = receiver_share * height;
+    const Vec3 at = centre + n * height - 0.5f * side * (basis.tangent + basis.bitangent);
+    builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), at, side * basis.bitangent,
+                 side * basis.tangent);
+  }
+};
+
+/// Of light samples at the receiver the part that is not shadowed: there is nothing between it and the lamp.
+double unshadowed(LampAndReceiver& made, Random& random, int samples) {
+  const scene::Scene& s = made.builder.scene();
+  const BuiltWorld built(s);
+  std::vector<Ray> rays;
+  for (int i = 0; i < samples; ++i) {
+    const Hit hit{1.0f, 0.5f * random.uniform_float(), 0.5f * random.uniform_float(), 1,
+                  static_cast<std::uint32_t>(i & 1)};
+    const Surface surface = built.surfaces.at(hit, made.normal, 0.0f, 0.0f);
+    const LightSample light =
+        built.lights.sample(surface.position, surface.shading_normal, random.uniform_float(),
+                            {random.uniform_float(), random.uniform_float()});
+    if (light.pdf > 0.0f && light.wi.dot(surface.shading_normal) > 0.0f)
+      rays.push_back(shadow_ray(surface, light, 0));
+  }
+  std::vector<Color> passed(rays.size());
+  built.accel.transmittance(rays, passed);
+  double sum = 0.0;
+  for (const Color& c : passed) sum += static_cast<double>(c.x());
+  return rays.empty() ? 0.0 : sum / static_cast<double>(rays.size());
+}
+
+TEST(Lamps, NoLampShadowsItself) {
+  Random random(1);
+  double worst = 1.0;
+  for (const float size : {1e-3f, 1.0f, 1e3f, 1e6f}) {
+    for (const float part : {1e-4f, 1e-3f, 1e-2f, 1.0f, 1e2f, 1e4f}) {
+      double least = 1.0;
+      for (int turn = 0; turn < 8; ++turn) {
+        const Vec3 n = random_unit(random);
+        LampAndReceiver made(size, part * size, 0.3f * size * random_unit(random), n);
+        least = std::min(least, unshadowed(made, random, 400));
+      }
+      worst = std::min(worst, least);
+    }
+  }
+  EXPECT_EQ(worst, 1.0);
+  tell_extreme("lamps that could shadow themselves",
+               "1e-3 to 1e6 m, seen from 1e-4 to 1e4 of their size, any way turned",
+               "of their light samples none is shadowed", "");
+}
+
+TEST(Lamps, WhatStandsCloseToAFarLampShadowsIt) {
+  // The lamp a metre wide 20 m above the receiver; the sheet before it a 100 000th of the way from it.
+  Random random(2);
+  double most = 0.0;
+  for (int turn = 0; turn < 8; ++turn) {
+    const Vec3 n = random_unit(random);
+    LampAndReceiver made(1.0f, 20.0f, Vec3::Zero(), n);
+    const Basis basis(n);
+    const int sheet = made.builder.material(SceneBuilder::lambert(Color::Ones()));
+    made.builder.quad(sheet, 2e-4f * n - 2.0f * basis.tangent - 2.0f * basis.bitangent, 4.0f * basis.tangent,
+                      4.0f * basis.bitangent);
+    most = std::max(most, unshadowed(made, random, 400));
+  }
+  EXPECT_EQ(most, 0.0);
+  tell_extreme("a sheet close to a far lamp", "0.2 mm before a lamp 20 m away", "no light passes", "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

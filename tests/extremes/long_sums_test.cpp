@@ -1,0 +1,96 @@
+// Long sums: a million samples a pixel.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/film.h"
+#include "tests/extremes/extreme.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::Random;
+using testing::tell_extreme;
+
+constexpr int kSamples = 1'000'000;
+
+/// A sum of doubles with its lost digits kept (Neumaier 1974).
+class ExactSum {
+ public:
+  void add(double value) {
+    const double sum = sum_ + value;
+    lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
+    sum_ = sum;
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0.0;
+  double lost_ = 0.0;
+};
+
+float mean_of(const Film& film) {
+  return film.resolve().layers[0].values[0];
+}
+
+float variance_of(const Film& film) {
+  return film.resolve().find("variance")->values[0];
+}
+
+constexpr Aov kVariance[] = {Aov::variance};
+
+TEST(LongSums, AMillionEqualSamplesAreTheirMeanToTheLastBit) {
+  double worst = 0.0;
+  int tried = 0;
+  for (const float value : {1e-30f, 1e-6f, 0.1f, 1.0f / 3.0f, 0.7f, 1.0f, 1e6f, 1e30f}) {
+    Film film({0, 0, 1, 1}, 1, 1, kVariance);
+    for (int i = 0; i < kSamples; ++i) film.add(0, 0, Color::Constant(value));
+    EXPECT_EQ(mean_of(film), value);
+    worst = std::max(worst, std::sqrt(static_cast<double>(variance_of(film))) / static_cast<double>(value));
+    ++tried;
+  }
+  EXPECT_LT(worst, 1e-8);
+  tell_extreme(
+      "equal samples",
+      fmt::format("{} values from 1e-30 to 1e30, {:.0e} samples each", tried, double{kSamples}),
+      fmt::format("mean equal to the bit; standard error told {:.1e} of the mean (bound 1e-8)", worst), "");
+}
+
+TEST(LongSums, AMillionRandomSamplesHaveTheMeanAndVarianceOfTheirExactSums) {
+  double worst_mean = 0.0;
+  double worst_variance = 0.0;
+  // Uniform, and powers that let a few samples of 1e6 and more carry all the light.
+  for (const double power : {0.0, 1.0, 4.0, 12.0}) {
+    Film film({0, 0, 1, 1}, 1, 1, kVariance);
+    Random random(7);
+    std::vector<float> values;
+    ExactSum sum;
+    for (int i = 0; i < kSamples; ++i) {
+      const double u = random.uniform(1e-12, 1.0);
+      values.push_back(static_cast<float>(power == 0.0 ? 1e-6 * u : std::pow(10.0, power * u - 6.0)));
+      film.add(0, 0, Color::Constant(values.back()));
+      sum.add(static_cast<double>(values.back()));
+    }
+    const double mean = sum.value() / kSamples;
+    ExactSum squares;
+    for (const float value : values) squares.add((value - mean) * (value - mean));
+    const double variance = squares.value() / (double{kSamples} * (kSamples - 1.0));
+    worst_mean = std::max(worst_mean, std::abs(static_cast<double>(mean_of(film)) / mean - 1.0));
+    worst_variance =
+        std::max(worst_variance, std::abs(static_cast<double>(variance_of(film)) / variance - 1.0));
+  }
+  EXPECT_LT(worst_mean, 0x1p-23);
+  EXPECT_LT(worst_variance, 1e-6);
+  tell_extreme(
+      "random samples", fmt::format("1e-6 to 1e6 in one pixel, {:.0e} samples", double{kSamples}),
+      fmt::format("mean off by {:.1e} (bound 1.2e-7, a float's last bit), variance by {:.1e} (bound 1e-6)",
+                  worst_mean, worst_variance),
+      "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

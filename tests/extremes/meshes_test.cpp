@@ -1,0 +1,304 @@
+// Meshes as nobody should make them.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/scattering.h"
+#include "tests/extremes/extreme.h"
+#include "tests/extremes/pictures.h"
+#include "tests/renderer/built_world.h"
+#include "tests/renderer/room.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using namespace testing;
+
+constexpr Integrator kAll[] = {Integrator::path, Integrator::ao, Integrator::nrc, Integrator::nao};
+
+RenderOptions room_picture(Integrator integrator) {
+  RenderOptions options = small_picture();
+  options.aovs.clear();
+  options.width = 48;
+  options.height = 32;
+  options.integrator = integrator;
+  options.spp = 16;
+  options.cache.train_steps = integrator == Integrator::nao ? 96 : 16;
+  options.cache.batch = 1024;
+  return options;
+}
+
+Vec3 random_unit(Random& random) {
+  return sample_uniform_sphere({random.uniform_float(), random.uniform_float()});
+}
+
+/// Lambert's formula: irradiance from a polygon of radiance 1 on a plane at the origin with normal n, all of
+/// it above that plane.
+double lambert(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& n) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d a = polygon[i].normalized();
+    const Eigen::Vector3d b = polygon[(i + 1) % polygon.size()].normalized();
+    const Eigen::Vector3d c = a.cross(b);
+    sum += std::atan2(c.norm(), a.dot(b)) * c.normalized().dot(n);
+  }
+  return std::abs(0.5 * sum);
+}
+
+/// One mesh in a plane: triangles whose sides are powers of ten, each three sides from the origin.
+constexpr int kLeast = -6;
+constexpr int kGreatest = 3;
+std::array<Vec3, 3> triangle_of(int exponent) {
+  const float side = std::pow(10.0f, static_cast<float>(exponent));
+  return {Vec3(3 * side, 0, 0), Vec3(3 * side, 0, -1.4f * side), Vec3(4.4f * side, 0, 0)};
+}
+
+SceneBuilder many_sizes(const Color& emission) {
+  SceneBuilder builder;
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int e = kLeast; e <= kGreatest; ++e) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const Vec3& p : triangle_of(e)) positions.push_back(p);
+    triangles.push_back({first, first + 2, first + 1});
+  }
+  scene::Material m = SceneBuilder::lambert(Color::Constant(0.5f), emission);
+  m.double_sided = true;
+  builder.mesh(builder.material(m), positions, triangles);
+  return builder;
+}
+
+TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselves) {
+  SceneBuilder builder = many_sizes(Color::Zero());
+  const BuiltWorld built(builder.scene());
+  Random random(1);
+  double worst = 0.0;
+  int missed = 0, self = 0;
+  for (int e = kLeast; e <= kGreatest; ++e) {
+    const auto corners = triangle_of(e);
+    const float side = (corners[2] - corners[0]).norm();
+    for (int i = 0; i < 1000; ++i) {
+      const Vec2 b = 0.98f * sample_uniform_triangle({random.uniform_float(), random.uniform_float()}) +
+                     Vec2(0.005f, 0.005f);
+      const Vec3 at = corners[0] + b.x() * (corners[1] - corners[0]) + b.y() * (corners[2] - corners[0]);
+      Vec3 from = random_unit(random);
+      from.y() = std::abs(from.y()) + 0.2f;
+      Ray ray;
+      ray.origin = at + side * from;
+      ray.direction = -from.normalized();
+      Hit hit;
+      built.accel.intersect({&ray, 1}, {&hit, 1}, false);
+      if (!hit || hit.primitive != static_cast<std::uint32_t>(e - kLeast)) {
+        ++missed;
+        continue;
+      }
+      const Surface s = built.surfaces.at(hit, ray.direction, 0.0f, 0.0f);
+      worst = std::max(worst, static_cast<double>((s.position - at).norm() / side));
+      EXPECT_NEAR(s.geometric_normal.y(), 1.0f, 1e-6f);
+      Ray next;
+      next.direction =
+          Basis(s.geometric_normal)
+              .to_world(sample_cosine_hemisphere({random.uniform_float(), random.uniform_float()}));
+      next.origin = s.spawn(next.direction);
+      Hit again;
+      built.accel.intersect({&next, 1}, {&again, 1}, false);
+      self += again ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(self, 0);
+  EXPECT_LT(worst, 1e-5);
+  tell_extreme(
+      "triangles of all sizes in one mesh", "1e-12 to 1e6 m2, 1000 rays at each size",
+      fmt::format(
+          "none missed, none met again by the ray that leaves; positions to {:.1e} of the side (bound 1e-5)",
+          worst),
+      "");
+}
+
+TEST(Meshes, LampsOfAllSizesInOneMeshLightWhatIsNearEach) {
+  SceneBuilder builder = many_sizes(Color::Ones());
+  const BuiltWorld built(builder.scene());
+  EXPECT_EQ(built.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kLeast + 1));
+  Random random(2);
+  double worst = 0.0;
+  for (int e = kLeast; e <= kGreatest; ++e) {
+    const auto corners = triangle_of(e);
+    const float side = (corners[2] - corners[0]).norm();
+    const Vec3 p = (corners[0] + corners[1] + corners[2]) / 3.0f + Vec3(0, 0.3f * side, 0);
+    const Vec3 n(0, -1, 0);
+    double expected = 0.0;
+    for (int other = kLeast; other <= kGreatest; ++other) {
+      std::vector<Eigen::Vector3d> polygon;
+      for (const Vec3& c : triangle_of(other)) polygon.push_back(c.cast<double>() - p.cast<double>());
+      expected += lambert(polygon, n.cast<double>());
+    }
+    Moments moments;
+    for (int i = 0; i < 20000; ++i) {
+      const LightSample light =
+          built.lights.sample(p, n, random.uniform_float(), {random.uniform_float(), random.uniform_float()});
+      const float cosine = light.wi.dot(n);
+      moments.add(light.pdf > 0.0f && cosine > 0.0f
+                      ? static_cast<double>(light.radiance.x() * cosine / light.pdf)
+                      : 0.0);
+    }
+    EXPECT_GT(mean_p_value(moments, expected), sidak(1e-4, 10))
+        << e << ": " << moments.mean() << " for " << expected;
+    worst = std::max(worst, std::abs(moments.mean() / expected - 1.0));
+  }
+  EXPECT_LT(worst, 0.03);
+  tell_extreme("lamps of all sizes in one mesh", "1e-12 to 1e6 m2, irradiance a third of a side away",
+               fmt::format("Lambert's formula to {:.1e} (bound 0.03)", worst), "");
+}
+
+TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
+  // A square metre of 200 slivers, each a millionth as wide as it is long, between two wide triangles; turned
+  // any way.
+  Random random(3);
+  double worst = 0.0;
+  for (int turn = 0; turn < 4; ++turn) {
+    SceneBuilder builder;
+    const Vec3 n = turn == 0 ? Vec3(0, 0, 1) : random_unit(random);
+    const Basis basis(n);
+    const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
+    std::vector<Vec3> p;
+    std::vector<std::array<std::uint32_t, 3>> t;
+    std::vector<float> x{-0.5f};
+    for (int i = 0; i <= 100; ++i) x.push_back(1e-6f * static_cast<float>(i - 50));
+    x.push_back(0.5f);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      p.push_back(x[i] * basis.tangent - 0.5f * basis.bitangent);
+      p.push_back(x[i] * basis.tangent + 0.5f * basis.bitangent);
+      if (i == 0) continue;
+      const auto k = static_cast<std::uint32_t>(2 * i);
+      t.push_back({k - 2, k, k + 1});
+      t.push_back({k - 2, k + 1, k - 1});
+    }
+    builder.mesh(m, p, t);
+    for (const Integrator integrator : kAll) {
+      // Only slivers are looked at.
+      RenderOptions options;
+      options.integrator = integrator;
+      options.width = options.height = 16;
+      options.spp = 16;
+      options.cache.train_steps = 4;
+      options.cache.batch = 256;
+      options.environment.constant = Color::Ones();
+      options.camera.look_at = LookAt{n * 1.0f, Vec3::Zero(), basis.bitangent};
+      options.camera.fov_degrees = 0.003f;
+      const Rendered picture = render(builder.scene(), options);
+      EXPECT_TRUE(picture.sane());
+      if (integrator != Integrator::path) continue;
+      EXPECT_NEAR(picture.mean(), 1.0, 0.02) << turn;
+      worst = std::max(worst, std::abs(picture.mean() - 1.0));
+    }
+  }
+  tell_extreme("slivers", "aspect 1e6, flat and turned; path, ao, nrc, nao",
+               fmt::format("white under a white sky, mean off by {:.1e} (bound 0.02)", worst), "");
+}
+
+enum class Harm { degenerate, duplicate, flipped, loose };
+
+/// The room with faces added or turned that change nothing that light can see.
+scene::Scene harmed(Harm harm) {
+  scene::Scene s = room();
+  for (std::size_t i = 0; i < s.meshes.size(); ++i) {
+    scene::Mesh& mesh = s.meshes[i];
+    const scene::Material& material = s.materials[static_cast<std::size_t>(mesh.material)];
+    const std::size_t count = mesh.triangles.size();
+    switch (harm) {
+      case Harm::degenerate:
+        // Two equal corners, three equal corners, and three in a line.
+        for (std::size_t t = 0; t < count; ++t) {
+          const auto [a, b, c] = mesh.triangles[t];
+          mesh.triangles.push_back({a, a, b});
+          mesh.triangles.push_back({c, c, c});
+          const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+          const Vec3 p = 0.5f * (mesh.positions[a] + mesh.positions[b]);
+          mesh.positions.push_back(p);
+          if (!mesh.normals.empty()) mesh.normals.push_back(mesh.normals[a]);
+          mesh.triangles.push_back({a, middle, b});
+        }
+        break;
+      case Harm::duplicate:
+        // A veil or a pane twice is two of them.
+        if (material.alpha_mode != scene::AlphaMode::opaque || material.transmits()) break;
+        for (std::size_t t = 0; t < count; ++t) {
+          const auto [a, b, c] = mesh.triangles[t];
+          mesh.triangles.push_back({b, c, a});
+        }
+        break;
+      case Harm::flipped:
+        // Of what is opaque and dark both sides look the same.
+        if (material.emits() || material.transmits()) break;
+        for (std::size_t t = 0; t < count; t += 2) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+        break;
+      case Harm::loose:
+        // Each edge of the balls carries a third face, inwards, where nothing sees it.
+        if (material.transmits() || mesh.normals.empty()) break;
+        for (std::size_t t = 0; t < count; ++t) {
+          const auto [a, b, c] = mesh.triangles[t];
+          const auto inner = static_cast<std::uint32_t>(mesh.positions.size());
+          mesh.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]) - 0.2f * mesh.normals[a]);
+          mesh.normals.push_back(mesh.normals[a]);
+          mesh.triangles.push_back({a, b, inner});
+        }
+        break;
+    }
+    mesh.positions.reserve(mesh.positions.size() + 1);
+  }
+  return s;
+}
+
+TEST(Meshes, FacesThatAddNothingChangeNothing) {
+  const char* names[] = {"degenerate", "duplicate", "flipped", "with a third face at each edge"};
+  double worst = 0.0;
+  for (const Integrator integrator : kAll) {
+    RenderOptions options = room_picture(integrator);
+    const Rendered clean = render(room(), options);
+    RenderOptions again = options;
+    again.seed = 1;
+    const double noise = block_error(clean, render(room(), again), options.width);
+    for (const Harm harm : {Harm::degenerate, Harm::duplicate, Harm::flipped, Harm::loose}) {
+      const Rendered picture = render(harmed(harm), again);
+      EXPECT_TRUE(picture.sane());
+      const double error = block_error(clean, picture, options.width);
+      EXPECT_LT(error, 8.0 * noise) << names[static_cast<int>(harm)];
+      worst = std::max(worst, error / noise);
+    }
+  }
+  tell_extreme(
+      "degenerate, duplicate, flipped and non-manifold faces",
+      "every face of a room; lamps duplicated too; path, ao, nrc, nao",
+      fmt::format("the room's picture, off by {:.1f} times the noise between two seeds (bound 8)", worst),
+      "");
+}
+
+TEST(Meshes, OneTriangleIsAScene) {
+  double worst = 0.0;
+  for (const Integrator integrator : kAll) {
+    for (const bool shines : {false, true}) {
+      SceneBuilder builder;
+      const int m = builder.material(
+          SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(shines ? 1.0f : 0.0f)));
+      builder.mesh(m, {Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)}, {{0, 1, 2}});
+      RenderOptions options = room_picture(integrator);
+      options.camera.look_at = LookAt{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
+      options.environment.constant = Color::Ones();
+      const Rendered picture = render(builder.scene(), options);
+      EXPECT_TRUE(picture.sane());
+      const bool occlusion = integrator == Integrator::ao || integrator == Integrator::nao;
+      const double expected = occlusion ? 1.0 : shines ? 1.5 : 0.5;
+      const double error = std::abs(picture.mean() / expected - 1.0);
+      if (integrator == Integrator::path || integrator == Integrator::ao) worst = std::max(worst, error);
+    }
+  }
+  EXPECT_LT(worst, 0.01);
+  tell_extreme(
+      "one triangle", "matte and shining under a white sky; path, ao, nrc, nao",
+      fmt::format("mean off by {:.1e} (bound 0.01) for path and ao; the caches' pictures finite", worst), "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,106 @@
+// Scenes far from the origin.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/camera.h"
+#include "tests/extremes/extreme.h"
+#include "tests/extremes/pictures.h"
+#include "tests/extremes/scene_file.h"
+#include "tests/renderer/room.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using namespace testing;
+
+struct Kind {
+  const char* name;
+  Integrator integrator;
+};
+constexpr Kind kKinds[] = {
+    {"path", Integrator::path}, {"ao", Integrator::ao}, {"nrc", Integrator::nrc}, {"nao", Integrator::nao}};
+
+RenderOptions picture_of(Integrator integrator) {
+  RenderOptions options = small_picture();
+  options.aovs.clear();
+  options.width = 64;
+  options.height = 48;
+  options.integrator = integrator;
+  options.spp = 8;
+  options.cache.train_steps = 16;
+  options.cache.batch = 1024;
+  return options;
+}
+
+/// The room's own size is 5 m.
+constexpr double kSize = 5.0;
+
+scene::GltfBuilder moved_file(double sizes) {
+  const scene::Scene made = room();
+  const scene::Camera camera = choose_camera(made, picture_of(Integrator::path).camera, 4.0f / 3.0f);
+  const double d = sizes * kSize / std::sqrt(3.0);
+  return file_of(made, camera, {d, -d, d});
+}
+
+scene::Scene from_file(double sizes) {
+  return moved_file(sizes).load();
+}
+
+Rendered with_its_own_camera(const scene::Scene& s, RenderOptions options) {
+  options.camera.look_at.reset();
+  return render(s, options);
+}
+
+TEST(Moved, AFileMovedByItsNodesIsTheSamePicture) {
+  double worst = 0.0;
+  for (const Kind& kind : kKinds) {
+    const RenderOptions options = picture_of(kind.integrator);
+    const Rendered here = with_its_own_camera(from_file(0.0), options);
+    RenderOptions again = options;
+    again.seed = 1;
+    const double noise = block_error(here, with_its_own_camera(from_file(0.0), again), options.width);
+    for (const double sizes : {10.0, 1e2, 1e4, 1e6}) {
+      const Rendered far = with_its_own_camera(from_file(sizes), options);
+      EXPECT_TRUE(far.sane());
+      const double error = block_error(here, far, options.width);
+      // A cache's layout follows the scouting paths, and a node more or less is another training.
+      EXPECT_LT(error, (uses_cache(kind.integrator) ? 8.0 : 1.0) * noise) << kind.name << " " << sizes;
+      if (!uses_cache(kind.integrator)) worst = std::max(worst, error / noise);
+    }
+  }
+  const std::string refused = moved_file(1e9).refused();
+  EXPECT_NE(refused.find("expected at most 1e+09 from the origin"), std::string::npos) << refused;
+  tell_extreme(
+      "a file's scene moved by its nodes", "10 to 1e6 times its size; path, ao, nrc, nao",
+      fmt::format("path and ao: {:.1e} of the noise between two seeds (bound 1), nrc and nao below 8 times",
+                  worst),
+      "a vertex beyond 1e9 m: exit 2, one line");
+}
+
+/// Without a file nobody moves the scene back: what single precision itself holds.
+TEST(Moved, ASceneMadeInCodeKeepsWhatItsCoordinatesHold) {
+  const RenderOptions options = picture_of(Integrator::path);
+  const Rendered here = with_its_own_camera(from_file(0.0), options);
+  RenderOptions again = options;
+  again.seed = 1;
+  const double noise = block_error(here, with_its_own_camera(from_file(0.0), again), options.width);
+  std::string told;
+  for (const double sizes : {1e2, 1e3, 1e4, 1e6}) {
+    scene::Scene s = from_file(0.0);
+    const auto d = static_cast<float>(sizes * kSize / std::sqrt(3.0));
+    resize(s, 1.0f, Vec3(d, -d, d));
+    const Rendered far = with_its_own_camera(s, options);
+    EXPECT_TRUE(far.sane());
+    const double error = block_error(here, far, options.width) / noise;
+    if (sizes <= 1e4) {
+      EXPECT_LT(error, 1.0);
+    }
+    told += fmt::format("{}{:.1e} at {:.0e}", told.empty() ? "" : ", ", error, sizes);
+  }
+  tell_extreme("a scene made in code, its vertices moved", "1e2 to 1e6 times its size; path",
+               fmt::format("in units of the noise: {} sizes (bound 1 up to 1e4); always finite", told), "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

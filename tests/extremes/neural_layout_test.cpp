@@ -1,0 +1,161 @@
+// Layouts: numbers of nodes, sizes of scenes and triangles, memory.
+
+#include "neural/errors.h"
+#include "neural/mesh_colors.h"
+#include "tests/extremes/extreme.h"
+#include "tests/extremes/fast_backends.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+using gatelight::testing::tell_extreme;
+
+std::string refusal_of(const SurfaceLayout& surfaces, const GateOptions& options) {
+  try {
+    build_gate_layout(surfaces, options);
+  } catch (const BadConfiguration& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+GateOptions finest(NodeStorage storage) {
+  GateOptions options;
+  options.stack = {64};
+  options.storage = storage;
+  options.cluster = false;
+  return options;
+}
+
+/// The last surface's nodes, in 32 bits as kernels number them: the greatest of all.
+std::uint32_t last_node(const GateLayout& layout, const OwnedMesh& mesh) {
+  std::uint32_t greatest = 0;
+  const auto surface = static_cast<std::uint32_t>(layout.surfaces.size() - 1);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint32_t i = 0; i <= 64; ++i)
+      for (std::uint32_t j = 0; i + j <= 64; ++j)
+        greatest = std::max(greatest, node_index(layout, surface, 0, t, {i, j, 64 - i - j}));
+  return greatest;
+}
+
+TEST(ExtremeLayouts, NodesUpTo2To32AndNoMore) {
+  const OwnedMesh mesh = make_sheet(20, 0.1f, 1);
+  double most = 0;
+  std::string refused;
+  for (const NodeStorage storage : {NodeStorage::shared, NodeStorage::per_triangle}) {
+    SurfaceLayout surfaces;
+    surfaces.meshes = {{mesh.positions, mesh.triangles}};
+    surfaces.instances = {{.mesh = 0, .sides = Sides::both}};
+    const std::uint64_t each = build_gate_layout(surfaces, finest(storage)).node_count;
+    const std::uint64_t fit = 0xffffffffu / each;
+    surfaces.instances.assign(fit, surfaces.instances[0]);
+    const GateLayout layout = build_gate_layout(surfaces, finest(storage));
+    EXPECT_EQ(layout.node_count, fit * each);
+    EXPECT_EQ(last_node(layout, mesh), layout.node_count - 1);
+    most = std::max(most, static_cast<double>(layout.node_count));
+    surfaces.instances.push_back(surfaces.instances[0]);
+    refused = refusal_of(surfaces, finest(storage));
+    EXPECT_NE(refused.find("2^32-1 nodes"), std::string::npos) << refused;
+    surfaces.instances.assign(100'000, surfaces.instances[0]);
+    EXPECT_NE(refusal_of(surfaces, finest(storage)).find("2^32-1 nodes"), std::string::npos);
+  }
+  tell_extreme("nodes", fmt::format("up to {:.4g}, shared and per triangle", most),
+               "the last node's number is the count less one",
+               fmt::format("more: \"{}\" (exit code 1)", refused));
+}
+
+TEST(ExtremeLayouts, BudgetsFromNothingToEverything) {
+  const auto surfaces = make_small_surfaces();
+  GateOptions options;
+  std::size_t fitted = 0;
+  for (const std::uint64_t budget :
+       {std::uint64_t{1} << 12, std::uint64_t{1} << 20, std::uint64_t{1} << 30, ~std::uint64_t{0}}) {
+    options.memory_budget = budget;
+    const GateLayout layout = build_gate_layout(surfaces->layout(), options);
+    EXPECT_LE(std::uint64_t{layout.node_count} * options.features * 4, budget);
+    EXPECT_GT(layout.node_count, 0u);
+    ++fitted;
+  }
+  options.memory_budget = 1;
+  const std::string refused = refusal_of(surfaces->layout(), options);
+  EXPECT_NE(refused.find("memory budget: 1 bytes, expected at least"), std::string::npos) << refused;
+  tell_extreme("memory budgets", "2^12 to 2^64 - 1 bytes", fmt::format("{} of {} kept", fitted, 4),
+               fmt::format("1 byte: \"{}\"", refused));
+}
+
+TEST(ExtremeLayouts, SpacingsAndScalesOfAnySize) {
+  const auto surfaces = make_small_surfaces();
+  std::size_t tried = 0;
+  for (const bool cluster : {false, true})
+    for (const float spacing : {1e-38f, 1e-20f, 1e-6f, 1.0f, 1e6f, 1e20f, 3e38f})
+      for (const float scale : {1e-38f, 1e-19f, 1e-6f, 1.0f, 1e6f, 1e19f, 1e38f}) {
+        SurfaceLayout layout = surfaces->layout();
+        for (SurfaceInstance& instance : layout.instances)
+          for (float& x : instance.object_to_world) x *= scale;
+        GateOptions options;
+        options.node_spacing = spacing;
+        options.cluster = cluster;
+        const GateLayout made = build_gate_layout(layout, options);
+        EXPECT_GT(made.node_count, 0u);
+        for (const GateSurfaceLevel& level : made.levels) EXPECT_LE(level.resolution, options.max_resolution);
+        ++tried;
+      }
+  tell_extreme("node spacings and scales of scenes", fmt::format("{} pairs of 1e-38 to 3e38", tried),
+               "R from 1 to the greatest allowed", "");
+}
+
+// What overflows double precision: areas of 1e308 m2 and squares of them.
+TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloats) {
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  OwnedMesh mesh = make_sheet(3, 0.0f, 1);
+  for (Float3& p : mesh.positions)
+    for (float& x : p) x = (x - 0.5f) * 2 * kGreatest * 0.99f;
+  std::size_t tried = 0;
+  for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
+    for (const float scale : {1e-38f, 1.0f, 1e10f, kGreatest})
+      for (const bool cluster : {false, true}) {
+        if (cluster && rule != ResolutionRule::uniform) continue;
+        SurfaceLayout surfaces;
+        surfaces.meshes = {{mesh.positions, mesh.triangles}};
+        surfaces.instances = {{.mesh = 0, .object_to_world = scaled_and_moved(scale, 0, 0, 0)}};
+        GateOptions options;
+        options.rule = rule;
+        options.cluster = cluster;
+        const GateLayout made = build_gate_layout(surfaces, options);
+        EXPECT_GT(made.node_count, 0u);
+        for (const GateSurfaceLevel& level : made.levels) {
+          EXPECT_GE(level.resolution, 1u);
+          EXPECT_LE(level.resolution, options.max_resolution);
+        }
+        ++tried;
+      }
+  tell_extreme("coordinates of 3e38", fmt::format("{} rules and scales up to 3e38 on top", tried),
+               "R from 1 to the greatest allowed", "");
+}
+
+TEST(ExtremeLayouts, DegenerateDuplicateAndFlippedTriangles) {
+  Agreement agreement;
+  OwnedMesh mesh = make_sheet(2, 0.2f, 1);
+  const auto triangles = mesh.triangles;
+  mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());  // twice
+  for (const auto& [a, b, c] : triangles) mesh.triangles.push_back({a, c, b});
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 0, 0}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}, {2, 5, 2}});
+  for (const std::uint32_t resolution : {1u, 2u, 32u}) {
+    ModelConfig config = default_gate_config();
+    config.gate.stack = {resolution};
+    SurfaceLayout surfaces;
+    surfaces.meshes = {{mesh.positions, mesh.triangles}};
+    surfaces.instances = {{.mesh = 0, .sides = Sides::both}};
+    const ModelCase c{"crooked", make_model(config, surfaces)};
+    const TrainingOptions options = smooth_options();
+    const ModelState state = random_state(*c.model, options, resolution, true);
+    agreement.expect_same(fmt::format("R {}", resolution), c, options, state,
+                          make_smooth_batch(*c.model, state, 500, resolution, {}));
+  }
+  tell_extreme("degenerate, duplicate, flipped and non-manifold triangles", "29 triangles, R = 1, 2, 32",
+               agreement.text(), "");
+}
+
+}  // namespace
+}  // namespace gatelight::neural

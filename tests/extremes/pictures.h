@@ -1,0 +1,92 @@
+#pragma once
+// Pictures of scenes at the extremes, and what is asked of them.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/render.h"
+#include "scene/bounds.h"
+#include "tests/renderer/scene_builder.h"
+
+namespace gatelight::testing {
+
+struct Rendered {
+  std::vector<float> values;  ///< R, G, B of each pixel
+  renderer::RenderStatistics statistics;
+
+  bool sane() const {
+    return statistics.nonfinite == 0 &&
+           std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v) && v >= 0.0f; });
+  }
+  double mean() const {
+    double sum = 0.0;
+    for (const float v : values) sum += static_cast<double>(v);
+    return sum / static_cast<double>(values.size());
+  }
+};
+
+inline Rendered render(const scene::Scene& scene, const renderer::RenderOptions& options) {
+  renderer::Renderer renderer(scene, options);
+  Rendered result;
+  result.values = renderer.render().layers[0].values;
+  result.statistics = renderer.statistics();
+  return result;
+}
+
+/// Mean over blocks of pixels of the squared difference over the squared value: noise of single pixels counts
+/// little, a shift of light much.
+inline double block_error(const Rendered& a, const Rendered& b, int width, int block = 8) {
+  const int height = static_cast<int>(a.values.size()) / 3 / width;
+  double sum = 0.0;
+  int blocks = 0;
+  for (int y0 = 0; y0 + block <= height; y0 += block) {
+    for (int x0 = 0; x0 + block <= width; x0 += block) {
+      double mean_a = 0.0, mean_b = 0.0;
+      for (int y = y0; y < y0 + block; ++y) {
+        for (int i = 3 * x0; i < 3 * (x0 + block); ++i) {
+          const auto at = static_cast<std::size_t>(3 * y * width + i);
+          mean_a += static_cast<double>(a.values[at]);
+          mean_b += static_cast<double>(b.values[at]);
+        }
+      }
+      const double d = mean_a - mean_b;
+      sum += d * d / (mean_a * mean_a + mean_b * mean_b + 1e-12);
+      ++blocks;
+    }
+  }
+  return sum / blocks;
+}
+
+/// Values that differ in their bits.
+inline std::size_t different(const Rendered& a, const Rendered& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i] ? 1 : 0;
+  return count;
+}
+
+/// All vertices, cameras and lights of a scene whose instances are baked: scaled about the origin, then
+/// moved. Light of lamps stays the radiance it is.
+inline void resize(scene::Scene& scene, float scale, const Vec3& shift = Vec3::Zero()) {
+  for (scene::Mesh& mesh : scene.meshes) {
+    for (Vec3& p : mesh.positions) p = p * scale + shift;
+  }
+  for (scene::Camera& camera : scene.cameras) {
+    camera.transform.translation() = camera.transform.translation() * scale + shift;
+  }
+  for (scene::PunctualLight& light : scene.lights) {
+    light.position = light.position * scale + shift;
+    if (light.type != scene::LightType::directional) light.intensity *= scale * scale;
+    light.range *= scale;
+  }
+  scene.bounds = scene::compute_bounds(scene);
+}
+
+inline void resize(renderer::RenderOptions& options, float scale, const Vec3& shift = Vec3::Zero()) {
+  if (!options.camera.look_at) return;
+  options.camera.look_at->eye = options.camera.look_at->eye * scale + shift;
+  options.camera.look_at->target = options.camera.look_at->target * scale + shift;
+}
+
+}  // namespace gatelight::testing

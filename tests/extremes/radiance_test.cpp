@@ -1,0 +1,243 @@
+// Light without bounds: very weak, very strong, none.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/environment_picture.h"
+#include "tests/extremes/extreme.h"
+#include "tests/extremes/pictures.h"
+#include "tests/renderer/room.h"
+#include "tests/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using namespace testing;
+
+constexpr Integrator kAll[] = {Integrator::path, Integrator::ao, Integrator::nrc, Integrator::nao};
+
+RenderOptions small(Integrator integrator, int spp) {
+  RenderOptions options;
+  options.width = 24;
+  options.height = 16;
+  options.integrator = integrator;
+  options.spp = spp;
+  options.cache.train_steps = 12;
+  options.cache.batch = 512;
+  return options;
+}
+
+/// A closed box of one matte material that shines: every point of it sends emission / (1 - albedo).
+void add_furnace(SceneBuilder& builder, const Vec3& centre, float albedo, float emission) {
+  const int m = builder.material(SceneBuilder::lambert(Color::Constant(albedo), Color::Constant(emission)));
+  builder.box(m, centre - Vec3(1, 1, 1), centre + Vec3(1, 1, 1), true);
+}
+
+double worst_error(const Rendered& picture, double expected) {
+  double worst = 0.0;
+  for (const float v : picture.values)
+    worst = std::max(worst, std::abs(static_cast<double>(v) / expected - 1.0));
+  return worst;
+}
+
+TEST(Radiance, DimAndBrightRoomsOfOneSceneEachShowTheirOwn) {
+  const float emissions[] = {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f};
+  SceneBuilder builder;
+  for (int i = 0; i < 5; ++i)
+    add_furnace(builder, Vec3(3.0f * static_cast<float>(i), 0, 0), 0.5f, emissions[i]);
+  double worst = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+      RenderOptions options = small(integrator, 128);
+      options.max_depth = 40;
+      const float x = 3.0f * static_cast<float>(i);
+      options.camera.look_at = LookAt{{x, 0, 0.5f}, {x + 0.3f, 0.2f, -1}, {0, 1, 0}};
+      const Rendered picture = render(builder.scene(), options);
+      EXPECT_TRUE(picture.sane());
+      const double expected = 2.0 * static_cast<double>(emissions[i]);
+      const double error = std::abs(picture.mean() / expected - 1.0);
+      if (integrator == Integrator::path) worst = std::max(worst, error);
+    }
+  }
+  EXPECT_LT(worst, 0.02);
+  tell_extreme(
+      "rooms side by side, radiance far apart", "1e-6 to 1e6 in one scene, path and nrc",
+      fmt::format("each room's mean off by {:.1e} (bound 0.02) with path; nrc finite and not negative",
+                  worst),
+      "");
+}
+
+TEST(Radiance, ASunThroughAKeyholeLightsItsPatchAndNothingElse) {
+  // A closed dark room of 4 m with a hole of 1 cm in its ceiling; the sun stands straight above.
+  constexpr float kHole = 0.01f;
+  constexpr float kSun = 1e8f;
+  constexpr float kAlbedo = 0.5f;
+  SceneBuilder builder;
+  const int m = builder.material(SceneBuilder::lambert(Color::Constant(kAlbedo)));
+  const float h = 0.5f * kHole;
+  builder.quad(m, Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4));
+  for (const float s : {-1.0f, 1.0f}) {
+    builder.quad(m, Vec3(-2, 0, 2 * s), Vec3(4, 0, 0), Vec3(0, 2, 0));
+    builder.quad(m, Vec3(2 * s, 0, -2), Vec3(0, 0, 4), Vec3(0, 2, 0));
+    builder.quad(m, Vec3(-2, 2, s > 0 ? h : -2), Vec3(4, 0, 0), Vec3(0, 0, 2 - h));
+    builder.quad(m, Vec3(s > 0 ? h : -2, 2, -h), Vec3(2 - h, 0, 0), Vec3(0, 0, kHole));
+  }
+  scene::PunctualLight sun;
+  sun.type = scene::LightType::directional;
+  sun.direction = Vec3(0, -1, 0);
+  sun.intensity = Color::Constant(kSun);
+  builder.scene().lights.push_back(sun);
+  RenderOptions options = small(Integrator::path, 64);
+  options.filter = PixelFilter::box;
+  options.width = options.height = 32;
+  options.camera.look_at = LookAt{{0, 1.9f, 0.3f}, {0, 0, 0}, {0, 1, 0}};
+  options.camera.fov_degrees = 1.2f;
+  options.max_depth = 1;
+  const Rendered direct = render(builder.scene(), options);
+  const float peak = *std::max_element(direct.values.begin(), direct.values.end());
+  const double expected = static_cast<double>(kAlbedo * kSun) / M_PI;
+  EXPECT_NEAR(static_cast<double>(peak) / expected, 1.0, 1e-4);
+  EXPECT_EQ(*std::min_element(direct.values.begin(), direct.values.end()), 0.0f);
+  for (const Integrator integrator : kAll) {
+    RenderOptions whole = small(integrator, 16);
+    whole.camera.look_at = LookAt{{0, 1, 1.9f}, {0, 0.7f, 0}, {0, 1, 0}};
+    const Rendered picture = render(builder.scene(), whole);
+    EXPECT_TRUE(picture.sane());
+  }
+  tell_extreme("a sun through a keyhole", "1e8 W/m2 through 1 cm2 of a closed room; path, ao, nrc, nao",
+               fmt::format("lit floor off by {:.1e} (bound 1e-4), the rest black in direct light; all finite",
+                           std::abs(static_cast<double>(peak) / expected - 1.0)),
+               "");
+}
+
+TEST(Radiance, WithoutLightAllIsBlack) {
+  float learned = 0.0f;
+  for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+    scene::Scene s = room();
+    for (scene::Material& m : s.materials) m.emission.setZero();
+    RenderOptions options = small(integrator, 4);
+    options.camera = small_picture().camera;
+    const Rendered picture = render(s, options);
+    EXPECT_TRUE(picture.sane());
+    learned = *std::max_element(picture.values.begin(), picture.values.end());
+    if (integrator == Integrator::path) {
+      EXPECT_EQ(learned, 0.0f);
+    }
+  }
+  EXPECT_LT(learned, 0.01f);
+  tell_extreme("no light at all", "path; nrc after 12 steps of training on nothing",
+               fmt::format("path exactly 0 everywhere; nrc's brightest pixel {:.1e} (bound 0.01)",
+                           static_cast<double>(learned)),
+               "");
+}
+
+TEST(Radiance, BlackMaterialsShowEmissionAlone) {
+  for (const Integrator integrator : kAll) {
+    scene::Scene s = room();
+    for (scene::Material& m : s.materials) {
+      m = SceneBuilder::lambert(Color::Zero(), m.emits() ? Color::Constant(10.0f) : Color(Color::Zero()));
+    }
+    RenderOptions options = small(integrator, 4);
+    options.filter = PixelFilter::box;
+    options.camera = small_picture().camera;
+    const Rendered picture = render(s, options);
+    EXPECT_TRUE(picture.sane());
+    if (integrator == Integrator::ao || integrator == Integrator::nao) continue;
+    for (const float v : picture.values) {
+      // A pixel of 4 samples: so many of them see the lamp.
+      EXPECT_TRUE(v == 0.0f || v == 2.5f || v == 5.0f || v == 7.5f || v == 10.0f) << v;
+    }
+  }
+  tell_extreme("black materials and a lamp", "path, ao, nrc, nao",
+               "exactly the lamp's radiance and 0, nothing else", "");
+}
+
+TEST(Radiance, SurfacesThatOnlyShineShowTheirEmission) {
+  double worst = 0.0;
+  for (const float emission : {1e-6f, 1.0f, 1e6f, 1e30f}) {
+    SceneBuilder builder;
+    add_furnace(builder, Vec3::Zero(), 0.0f, emission);
+    for (const Integrator integrator : kAll) {
+      RenderOptions options = small(integrator, 2);
+      options.camera.look_at = LookAt{{0, 0, 0.5f}, {0.3f, 0.2f, -1}, {0, 1, 0}};
+      const Rendered picture = render(builder.scene(), options);
+      EXPECT_TRUE(picture.sane());
+      if (integrator == Integrator::path || integrator == Integrator::nrc) {
+        worst = std::max(worst, worst_error(picture, static_cast<double>(emission)));
+      }
+    }
+  }
+  EXPECT_LT(worst, 1e-6);
+  tell_extreme("emission alone", "1e-6 to 1e30, albedo 0; path, ao, nrc, nao",
+               fmt::format("emission to {:.1e} (bound 1e-6)", worst), "");
+}
+
+TEST(Radiance, ARoomThatAbsorbsNothingHoldsTheLightOfEachScattering) {
+  // Every scattering event adds the emission once more: (depth + 1) times it, with and without roulette.
+  double worst = 0.0;
+  SceneBuilder builder;
+  add_furnace(builder, Vec3::Zero(), 1.0f, 1.0f);
+  for (const int depth : {0, 1, 10, 100, 1000}) {
+    RenderOptions options = small(Integrator::path, depth > 100 ? 1 : 8);
+    options.direct = DirectLight::bsdf;
+    options.max_depth = depth;
+    options.min_depth = depth + 1;
+    options.camera.look_at = LookAt{{0, 0, 0.5f}, {0.3f, 0.2f, -1}, {0, 1, 0}};
+    const Rendered picture = render(builder.scene(), options);
+    EXPECT_TRUE(picture.sane());
+    const double error = worst_error(picture, depth + 1.0);
+    worst = std::max(worst, error);
+  }
+  EXPECT_LT(worst, 1e-3);
+  RenderOptions options = small(Integrator::path, 64);
+  options.max_depth = 30;
+  options.camera.look_at = LookAt{{0, 0, 0.5f}, {0.3f, 0.2f, -1}, {0, 1, 0}};
+  const Rendered roulette = render(builder.scene(), options);
+  EXPECT_TRUE(roulette.sane());
+  EXPECT_NEAR(roulette.mean() / 31.0, 1.0, 0.02);
+  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
+    EXPECT_TRUE(render(builder.scene(), small(integrator, 2)).sane());
+  }
+  tell_extreme(
+      "albedo 1 in a closed room", "depth 0 to 1000 without roulette, 30 with; path, nrc, nao",
+      fmt::format(
+          "(depth + 1) times the emission: every pixel to {:.1e} (bound 1e-3), with roulette the mean "
+          "to {:.1e} (bound 0.02)",
+          worst, std::abs(roulette.mean() / 31.0 - 1.0)),
+      "");
+}
+
+TEST(Radiance, OneHotTexelOfTheSkyIsFoundAndCountedOnce) {
+  // A sky of 1 with one texel of 1e8: irradiance on a plane by direct sums over the texels.
+  constexpr int kWidth = 256, kHeight = 128;
+  std::vector<Color> texels(kWidth * kHeight, Color::Ones());
+  constexpr int kHotX = 40, kHotY = 30;
+  texels[kHotY * kWidth + kHotX].setConstant(1e8f);
+  const EnvironmentPicture picture(kWidth, kHeight, texels);
+  // Of samples by importance, the mean of radiance over density is the light from the whole sphere.
+  Random random(3);
+  double sum = 0.0, squares = 0.0;
+  constexpr int kSamples = 200'000;
+  double worst_density = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const EnvironmentSample s = picture.sample({random.uniform_float(), random.uniform_float()});
+    ASSERT_GT(s.pdf, 0.0f);
+    ASSERT_TRUE(std::isfinite(s.pdf));
+    const double value = static_cast<double>(s.radiance.x()) / static_cast<double>(s.pdf);
+    sum += value;
+    squares += value * value;
+    if (i < 1000)
+      worst_density = std::max(worst_density, std::abs(static_cast<double>(picture.pdf(s.wi) / s.pdf) - 1.0));
+  }
+  const double whole = static_cast<double>(picture.mean().x()) * 4.0 * M_PI;
+  const double mean = sum / kSamples;
+  const double error = std::sqrt((squares / kSamples - mean * mean) / kSamples);
+  EXPECT_LT(std::abs(mean - whole), 4.5 * error + 1e-4 * whole);
+  tell_extreme("one hot texel in the sky", "1e8 among texels of 1, 256x128",
+               fmt::format("light of the whole sphere off by {:.1e} ({:.1f} standard errors, bound 4.5)",
+                           std::abs(mean / whole - 1.0), std::abs(mean - whole) / error),
+               "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

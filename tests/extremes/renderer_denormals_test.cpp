@@ -1,0 +1,62 @@
+// Denormal floats in the renderer: its threads flush them, whoever calls it.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "renderer/render.h"
+#include "tests/extremes/extreme.h"
+#include "tests/renderer/room.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::room;
+using testing::tell_extreme;
+
+constexpr unsigned kFlushing = 0x8040;  // FTZ and DAZ
+
+TEST(RendererDenormals, EveryThreadFlushesAndTheCallerIsLeftAlone) {
+  const scene::Scene s = room();
+  std::size_t most = 0;
+  std::vector<std::vector<float>> pictures;
+  for (const bool flushing : {false, true})
+    for (const Integrator integrator : {Integrator::path, Integrator::ao}) {
+      RenderOptions options = testing::small_picture();
+      options.integrator = integrator;
+      options.threads = 4;
+      options.spp = 8;
+      const unsigned before = _mm_getcsr();
+      _mm_setcsr(flushing ? before | kFlushing : before & ~kFlushing);
+      std::mutex mutex;
+      std::set<std::thread::id> threads;
+      std::atomic<int> without{0};
+      Renderer renderer(s, options);
+      // Asked by the thread that has finished a tile.
+      const Picture picture = renderer.render({.stop = [&] {
+        if ((_mm_getcsr() & kFlushing) != kFlushing) ++without;
+        const std::lock_guard lock(mutex);
+        threads.insert(std::this_thread::get_id());
+        return false;
+      }});
+      EXPECT_EQ(_mm_getcsr() & kFlushing, flushing ? kFlushing : 0u);
+      _mm_setcsr(before);
+      EXPECT_EQ(without, 0);
+      most = std::max(most, threads.size());
+      pictures.push_back(picture.layers[0].values);
+    }
+  EXPECT_EQ(pictures[0], pictures[2]);
+  EXPECT_EQ(pictures[1], pictures[3]);
+  EXPECT_GE(most, 2u);
+  tell_extreme("the control word in the threads that render",
+               fmt::format("path and ao, callers that flush or not, {} threads seen", most),
+               "all flush; the same bits; the caller's word as it was", "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

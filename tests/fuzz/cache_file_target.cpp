@@ -1,0 +1,33 @@
+// --cache-in: the bytes as they are, and with the digest that they ask for, as somebody would write them who
+// means harm.
+
+#include "neural/errors.h"
+#include "renderer/cache/cache_file.h"
+#include "tests/fuzz/input_file.h"
+#include "tests/fuzz/made_cache.h"
+
+namespace gatelight::fuzz {
+namespace {
+
+void load(const std::filesystem::path& path) {
+  const MadeCache& made = made_cache();
+  try {
+    renderer::CacheFile file(path);
+    file.expect(renderer::meaning_of(made.options, made.options.ao_distance), kFingerprint, made.instances);
+    const auto model = made.model(file.setup());
+    file.expect_model(*model, made.training());
+    made.use(model, file.read_state(*model, made.training()));
+  } catch (const neural::CacheFileError& error) {
+    check_line(error.what());
+  }
+}
+
+}  // namespace
+
+void cache_file(Bytes bytes) {
+  static const InputFile file("cache");
+  load(file.write(bytes));
+  load(file.write(with_right_digest(bytes)));
+}
+
+}  // namespace gatelight::fuzz

@@ -1,0 +1,84 @@
+// Words, one a line, into settings and into the plan of a sweep. Nothing is run, and no file is opened.
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/command_line.h"
+#include "apps/errors.h"
+#include "apps/render_words.h"
+#include "apps/sweep/plan.h"
+#include "apps/sweep/request.h"
+#include "renderer/errors.h"
+#include "tests/fuzz/input_file.h"
+
+namespace gatelight::fuzz {
+namespace {
+
+constexpr std::size_t kMostWords = 40;
+constexpr std::size_t kMostAxes = 2;
+constexpr std::size_t kMostValues = 5;
+
+std::vector<std::string> words_of(Bytes bytes) {
+  std::vector<std::string> words(1);
+  for (const std::uint8_t byte : bytes) {
+    if (byte == '\n') {
+      words.emplace_back();
+    } else if (byte != 0) {  // ends a word of a real command line
+      words.back().push_back(static_cast<char>(byte));
+    }
+  }
+  return words;
+}
+
+/// What a subcommand does with its words before it looks at files.
+template <class Act>
+void settle(const Act& act) {
+  try {
+    act();
+  } catch (const apps::UsageError& error) {
+    check_line(apps::one_line(error.what()));
+  } catch (const renderer::BadOption& error) {
+    check_line(apps::one_line(error.what()));
+  }
+}
+
+void plan_sweep(const std::vector<std::string>& words) {
+  apps::SweepWords sweep;
+  sweep.scenes = {"a.glb"};
+  for (const std::string& word : words) {
+    const auto values = static_cast<std::size_t>(std::count(word.begin(), word.end(), ',') +
+                                                 std::count(word.begin(), word.end(), ';'));
+    if (word.find('=') != std::string::npos && sweep.vary.size() < kMostAxes && values < kMostValues)
+      sweep.vary.push_back(word);
+    else if (values < kMostValues && sweep.vary.empty())
+      sweep.train_steps = word;
+    else if (values < kMostValues)
+      sweep.seeds = word;
+  }
+  plan_text(apps::make_plan(apps::make_request(sweep)));
+}
+
+}  // namespace
+
+void command_line(Bytes bytes) {
+  const std::vector<std::string> words = words_of(bytes);
+  if (words.size() > kMostWords) return;
+  std::vector<const char*> argv = {"gatelight"};
+  for (const std::string& word : words) {
+    if (word.find("--conf") != std::string::npos) return;  // another target's
+    argv.push_back(word.c_str());
+  }
+  const int code = apps::read_only(static_cast<int>(argv.size()), argv.data());
+  if (code != apps::kDone && code != apps::kUsage) throw Violation("exit code " + std::to_string(code));
+
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  settle([&] {
+    apps::RenderSettings settings = apps::read_render_words("a.glb", rest);
+    apps::complete_settings(settings);
+  });
+  if (words[0] == "sweep") settle([&] { plan_sweep(rest); });
+}
+
+}  // namespace gatelight::fuzz

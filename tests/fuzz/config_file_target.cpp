@@ -1,0 +1,27 @@
+// --config: the file for each of the subcommands.
+
+#include <string>
+#include <vector>
+
+#include "apps/command_line.h"
+#include "apps/errors.h"
+#include "tests/fuzz/input_file.h"
+
+namespace gatelight::fuzz {
+
+void config_file(Bytes bytes) {
+  static const InputFile file("config.toml");
+  const std::string path = file.write(bytes).string();
+  const std::vector<std::vector<const char*>> calls = {
+      {"gatelight", "render", "a.glb", "-o", "a.exr", "--config", path.c_str()},
+      {"gatelight", "info", "--config", path.c_str()},
+      {"gatelight", "sweep", "a.glb", "-o", "a", "--config", path.c_str()},
+  };
+  for (const std::vector<const char*>& call : calls) {
+    const int code = apps::read_only(static_cast<int>(call.size()), call.data());
+    if (code != apps::kDone && code != apps::kUsage && code != apps::kInput)
+      throw Violation("exit code " + std::to_string(code));
+  }
+}
+
+}  // namespace gatelight::fuzz

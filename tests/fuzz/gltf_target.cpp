@@ -1,0 +1,40 @@
+// Scene files: their bytes as they are, and files put together of JSON and binary data, whose lengths fit.
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "scene/gltf.h"
+#include "scene/requirements.h"
+#include "tests/fuzz/input_file.h"
+#include "tests/fuzz/made_glb.h"
+#include "tests/scene/scene_fault.h"
+
+namespace gatelight::fuzz {
+namespace {
+
+void load(const std::filesystem::path& path) {
+  try {
+    // Pictures that cannot be read are another target's: what comes after them is looked at, too.
+    const scene::Scene scene = scene::load_gltf(path, {.missing_is_error = false});
+    const std::string fault = scene::scene_fault(scene);
+    if (!fault.empty()) throw Violation(fault);
+    scene::compute_requirements(scene);
+  } catch (const scene::SceneError& error) {
+    check_line(error.what());
+  }
+}
+
+}  // namespace
+
+void gltf(Bytes bytes) {
+  static const InputFile file("scene.gltf");
+  load(file.write(bytes));
+}
+
+void gltf_parts(Bytes bytes) {
+  static const InputFile file("scene.glb");
+  load(file.write(made_glb(bytes)));
+}
+
+}  // namespace gatelight::fuzz

@@ -1,0 +1,73 @@
+// What a sweep reads back of its folder: results, the record of a cell, the numbers of a reference, bytes of
+// caches.
+
+#include <filesystem>
+#include <string>
+
+#include "apps/errors.h"
+#include "apps/sweep/advise.h"
+#include "apps/sweep/cell_record.h"
+#include "apps/sweep/gate_memory.h"
+#include "apps/sweep/references.h"
+#include "apps/sweep/report.h"
+#include "apps/sweep/request.h"
+#include "apps/sweep/results.h"
+#include "tests/fuzz/input_file.h"
+
+namespace gatelight::fuzz {
+namespace {
+
+const apps::SweepPlan& plan() {
+  static const apps::SweepPlan made = [] {
+    apps::SweepWords words;
+    words.scenes = {"a.glb"};
+    words.train_steps = "4";
+    words.no_plain = true;
+    return apps::make_plan(apps::make_request(words));
+  }();
+  return made;
+}
+
+void read_record(Bytes bytes) {
+  static const InputFile file("cells/4e0.json");
+  std::filesystem::create_directories(file.path().parent_path());
+  file.write(bytes);
+  const std::string folder = file.path().parent_path().parent_path().string();
+  const apps::PlannedScene& scene = plan().scenes[0];
+  const apps::CellPlace place{scene, scene.series[0], 1, 4, "4e0", "5f1"};
+  const auto record = apps::read_done_record(folder, place, false);
+  if (!record) return;
+  const nlohmann::ordered_json results = apps::make_results({"gatelight"}, {{{{"name", "a"}}, {*record}}});
+  apps::results_csv(results);
+  apps::advice_text(results, {.max_error = 0.5, .max_seconds = {}});
+  apps::make_report(results, folder);
+}
+
+void read_results(Bytes bytes) {
+  static const InputFile file("results.json");
+  file.write(bytes);
+  try {
+    apps::advice_text(apps::read_results(file.path().parent_path().string()),
+                      {.max_error = 0.5, .max_seconds = 9.0});
+  } catch (const apps::InputError& error) {
+    check_line(apps::one_line(error.what()));
+  } catch (const nlohmann::ordered_json::exception& error) {
+    check_line(apps::one_line(error.what()));  // told as InputError by who calls it
+  }
+}
+
+}  // namespace
+
+void sweep_records(Bytes bytes) {
+  read_results(bytes);
+  read_record(bytes);
+  static const InputFile memory("gate-memory.json");
+  apps::GateMemoryStore(memory.write(bytes).string()).knows("x");
+  static const InputFile numbers("reference.json");
+  numbers.write(bytes);
+  apps::Reference reference;
+  reference.file = (numbers.path().parent_path() / "reference.exr").string();
+  apps::read_reference_numbers(reference);
+}
+
+}  // namespace gatelight::fuzz
