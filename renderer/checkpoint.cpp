@@ -33,6 +33,7 @@ constexpr const char* kSamples = "samples";
 constexpr const char* kFirstStep = "first_step";
 constexpr const char* kHasCache = "cache";
 constexpr const char* kNonFinite = "nonfinite_samples";
+constexpr const char* kGuard = "training_guard";
 
 /// What adds up over the runs that make a picture: the same member of each of the statistics.
 template <class Visit, class... Statistics>
@@ -109,6 +110,35 @@ std::vector<std::uint32_t> to_words(const std::vector<NonFiniteSample>& samples)
   return words;
 }
 
+using GuardValues = std::array<double, 7>;
+
+GuardValues to_values(const TrainingGuard& guard) {
+  // Counts are far below 2^53.
+  return {guard.loss_average,
+          guard.loss_least,
+          static_cast<double>(guard.steps),
+          guard.group_loss,
+          static_cast<double>(guard.group_steps),
+          guard.brightest,
+          static_cast<double>(guard.good_steps)};
+}
+
+TrainingGuard read_guard(SafetensorsReader& file, std::uint64_t steps) {
+  GuardValues values{};
+  const std::uint64_t shape[] = {values.size()};
+  file.read(kGuard, TensorType::f64, shape, std::as_writable_bytes(std::span(values)));
+  const auto refuse = [&](std::size_t i, const std::string& expected) {
+    file.fail(fmt::format("tensor '{}': element {} is {}, expected {}", kGuard, i, values[i], expected));
+  };
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(values[i])) refuse(i, "a number");
+  for (const std::size_t i : {2u, 4u, 6u})
+    if (!(values[i] >= 0.0 && values[i] <= static_cast<double>(steps)))
+      refuse(i, fmt::format("0 to the {} steps of the training", steps));
+  const auto count = [&](std::size_t i) { return static_cast<std::uint64_t>(values[i]); };
+  return {values[0], values[1], count(2), values[3], count(4), values[5], count(6)};
+}
+
 std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
   std::vector<std::uint32_t> words(file.length(kNonFinite, TensorType::u32));
   const std::uint64_t shape[] = {words.size()};
@@ -123,7 +153,7 @@ std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
 }
 
 std::set<std::string> own_tensors() {
-  std::set<std::string> names = {kNonFinite};
+  std::set<std::string> names = {kNonFinite, kGuard};
   const FilmState none;
   each_array(none, [&](const char* name, TensorType, const auto&) { names.insert(name); });
   return names;
@@ -151,6 +181,11 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   each_array(sums, [&](const char* name, TensorType type, const auto& values) {
     tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
   });
+  GuardValues guard{};
+  if (cache) {
+    guard = to_values(cache->state.guard);
+    tensors.push_back({kGuard, TensorType::f64, {guard.size()}, std::as_bytes(std::span(guard))});
+  }
   const std::vector<std::uint32_t> nonfinite = to_words(statistics.nonfinite_samples);
   tensors.push_back({kNonFinite, TensorType::u32, {nonfinite.size()}, std::as_bytes(std::span(nonfinite))});
 
@@ -236,7 +271,9 @@ void Checkpoint::expect_model(const neural::Model& model, const neural::Training
 
 CacheState Checkpoint::read_cache(const neural::Model& model, const neural::TrainingOptions& options) {
   cache_setup();
-  return read_cache_state(file_, model, options, own_tensors());
+  CacheState state = read_cache_state(file_, model, options, own_tensors());
+  state.guard = read_guard(file_, state.steps);
+  return state;
 }
 
 }  // namespace gatelight::renderer

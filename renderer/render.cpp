@@ -108,7 +108,7 @@ Picture Renderer::render(const Callbacks& callbacks) {
       self.train(training, callbacks, after_group);
     } catch (const TrainingDiverged& error) {
       // A picture and a cache file of the last good state are worth more than none. The checkpoint stays.
-      if (!self.return_to_good(training, found ? &*found : nullptr, callbacks)) throw;
+      if (!self.return_to_good(training, found ? &*found : nullptr, earlier, callbacks)) throw;
       training.diverged = error.what();
       keeper.reset();
     }

@@ -154,18 +154,22 @@ void Renderer::Implementation::train(Training& training, const Callbacks& callba
 }
 
 bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* found,
-                                              const Callbacks& callbacks) {
+                                              RenderStatistics& earlier, const Callbacks& callbacks) {
   CacheSession& session = *training.session;
   const std::uint64_t good = session.good_steps();
-  const bool loaded = found || !options.cache.cache_in.empty();
+  const bool loaded = !options.cache.cache_in.empty();
   if (good == 0 && !loaded) return false;
   arena.execute([&] { session.start_anew(); });
   const neural::TrainingOptions learning = training_options(options);
-  if (found) {
-    session.import_state(found->read_cache(session.model(), learning));
-  } else if (loaded) {
-    session.import_state(CacheFile(options.cache.cache_in).read_state(session.model(), learning));
+  std::optional<CacheState> state;
+  if (found) state = found->read_cache(session.model(), learning);
+  if (!state || state->steps > good) {
+    // A checkpoint may be later than the last good step: from the start, then.
+    earlier = {};
+    state.reset();
+    if (loaded) state = CacheFile(options.cache.cache_in).read_state(session.model(), learning);
   }
+  if (state) session.import_state(*state);
   training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
   if (good > session.steps()) train(training, callbacks, {});
   training.complete = !training.stopped;

@@ -43,8 +43,10 @@ struct Renderer::Implementation {
   /// Up to training.steps.
   void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
   /// After training diverged: back to the last good state, by training up to it once more, which costs
-  /// nothing as long as all goes well. False where there is none, but what a new cache begins with.
-  bool return_to_good(Training& training, Checkpoint* found, const Callbacks& callbacks);
+  /// nothing as long as all goes well. False where there is none, but what a new cache begins with. `earlier`
+  /// is cleared where it tells of steps beyond that state.
+  bool return_to_good(Training& training, Checkpoint* found, RenderStatistics& earlier,
+                      const Callbacks& callbacks);
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Of this run and those before it.
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,

@@ -18,7 +18,6 @@ constexpr const char* kSpacingScales = "renderer.spacing_scales";
 constexpr const char* kScales = "renderer.scales";
 constexpr const char* kTriangleCounts = "renderer.triangle_counts";
 constexpr const char* kSteps = "renderer.steps";
-constexpr const char* kLosses = "renderer.losses";
 
 template <class Values>
 void read_all(SafetensorsReader& file, const char* name, TensorType type, Values&& values) {
@@ -47,7 +46,6 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
   content.scales = {setup.node_spacing, setup.target_scale, setup.records_per_path,
                     setup.records_per_short_path};
   content.spacing_scales = setup.spacing_scales;
-  content.losses = {state.loss_average, state.loss_least};
   content.tensors = content.model.tensors;
   const auto add = [&](const char* name, TensorType type, const auto& values) {
     content.tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
@@ -57,7 +55,6 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
   add(kScales, TensorType::f32, content.scales);
   add(kTriangleCounts, TensorType::u32, state.triangle_counts);
   add(kSteps, TensorType::u64, std::span(&state.steps, 1));
-  add(kLosses, TensorType::f64, content.losses);
 }
 
 CacheSetup read_cache_setup(SafetensorsReader& file) {
@@ -95,15 +92,7 @@ CacheState read_cache_state(SafetensorsReader& file, const neural::Model& model,
   read_all(file, kSteps, TensorType::u64, std::span(&state.steps, 1));
   if (state.steps >> 31 != 0)
     file.fail(fmt::format("tensor '{}': {}, expected less than 2^31", kSteps, state.steps));
-  std::array<double, 2> losses{};
-  read_all(file, kLosses, TensorType::f64, losses);
-  for (std::size_t i = 0; i < losses.size(); ++i) {
-    if (std::isnan(losses[i]))
-      file.fail(fmt::format("tensor '{}': element {} is {}, expected a number", kLosses, i, losses[i]));
-  }
-  state.loss_average = losses[0];
-  state.loss_least = losses[1];
-  others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps, kLosses});
+  others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps});
   neural::expect_no_other_tensors(file, model, options, std::move(others));
   return state;
 }

@@ -17,7 +17,6 @@ struct CacheContent {
   std::vector<std::uint32_t> sides;
   std::vector<float> spacing_scales;
   std::array<float, 4> scales{};
-  std::array<double, 2> losses{};
   std::vector<neural::TensorView> tensors;  ///< the model's and the renderer's
 };
 

@@ -205,26 +205,29 @@ void CacheSession::guard(const neural::StepStatistics& step, std::uint64_t numbe
   if (step.records == 0) return;
   if (!std::isfinite(step.loss))
     throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", number));
-  group_loss_ += step.loss;
-  ++group_steps_;
-  const double fed = loss_average_ > 0.0 ? std::min(step.loss, kGuardFactor * loss_average_) : step.loss;
-  loss_average_ = loss_average_ > 0.0 ? loss_average_ + (1.0 - kGuardDecay) * (fed - loss_average_) : fed;
-  if (++guarded_steps_ < kGuardFrom) {
-    loss_least_ = loss_average_;
+  guard_.group_loss += step.loss;
+  ++guard_.group_steps;
+  const double fed =
+      guard_.loss_average > 0.0 ? std::min(step.loss, kGuardFactor * guard_.loss_average) : step.loss;
+  guard_.loss_average = guard_.loss_average > 0.0
+                            ? guard_.loss_average + (1.0 - kGuardDecay) * (fed - guard_.loss_average)
+                            : fed;
+  if (++guard_.steps < kGuardFrom) {
+    guard_.loss_least = guard_.loss_average;
     return;
   }
-  loss_least_ = std::min(loss_least_, loss_average_);
-  if (loss_average_ > kGuardFactor * std::max(loss_least_, kGuardFloor)) {
+  guard_.loss_least = std::min(guard_.loss_least, guard_.loss_average);
+  if (guard_.loss_average > kGuardFactor * std::max(guard_.loss_least, kGuardFloor)) {
     throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", number,
-                                       loss_least_, loss_average_));
+                                       guard_.loss_least, guard_.loss_average));
   }
 }
 
 void CacheSession::look_at_answers(const RecordBatch& group) {
-  if (group_steps_ == 0 || group.records.size() == 0) return;
-  const double loss = group_loss_ / static_cast<double>(group_steps_);
-  group_loss_ = 0.0;
-  group_steps_ = 0;
+  if (guard_.group_steps == 0 || group.records.size() == 0) return;
+  const double loss = guard_.group_loss / static_cast<double>(guard_.group_steps);
+  guard_.group_loss = 0.0;
+  guard_.group_steps = 0;
   double bright = 0.0, ones = 0.0;
   for (const float t : group.targets) {
     if (!std::isfinite(t)) continue;
@@ -234,7 +237,7 @@ void CacheSession::look_at_answers(const RecordBatch& group) {
     ones += (target - 1.0) * (target - 1.0);
   }
   const double values = static_cast<double>(group.targets.size());
-  brightest_ = std::max(brightest_, bright / values);
+  guard_.brightest = std::max(guard_.brightest, bright / values);
   if (loss > kGreatestLoss * std::max(ones / values, kGuardFloor)) {
     throw TrainingDiverged(
         fmt::format("training step {}: a loss of {:.3g}, where answering the mean has one of {:.3g}", steps_,
@@ -253,14 +256,14 @@ void CacheSession::look_at_answers(const RecordBatch& group) {
     count += static_cast<double>(outputs());
   }
   const double mean = count > 0.0 ? sum / count : 0.0;
-  if (!(mean <= kGreatestBrightness * brightest_)) {
+  if (!(mean <= kGreatestBrightness * guard_.brightest)) {
     throw TrainingDiverged(
         fmt::format("training step {}: answers of {:.3g} in the mean, where targets are {:.3g}", steps_, mean,
-                    brightest_));
+                    guard_.brightest));
   }
-  if (guarded_steps_ >= kGuardFrom && loss_average_ <= kGoodAverage * loss_least_ &&
-      loss <= kGoodGroup * loss_average_)
-    good_steps_ = steps_;
+  if (guard_.steps >= kGuardFrom && guard_.loss_average <= kGoodAverage * guard_.loss_least &&
+      loss <= kGoodGroup * guard_.loss_average)
+    guard_.good_steps = steps_;
 }
 
 void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
@@ -334,7 +337,6 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
 }
 
 void CacheSession::start_anew() {
-  brightest_ = 1.0;
   CacheState state;
   state.setup = setup_;
   state.model = neural::initial_state(model(), trainer_->options());
@@ -387,8 +389,7 @@ CacheState CacheSession::export_state() const {
   state.model = trainer_->backend().export_state();
   state.steps = steps_;
   state.triangle_counts = counts_;
-  state.loss_average = loss_average_;
-  state.loss_least = loss_least_;
+  state.guard = guard_;
   return state;
 }
 
@@ -399,16 +400,11 @@ void CacheSession::import_state(const CacheState& state) {
   steps_ = state.steps;
   if (state.triangle_counts.size() == counts_.size()) counts_ = state.triangle_counts;
   std::fill(counted_at_.begin(), counted_at_.end(), 0);
-  loss_average_ = state.loss_average;
-  loss_least_ = state.loss_least;
-  guarded_steps_ = 0;
-  group_loss_ = 0.0;
-  group_steps_ = 0;
-  good_steps_ = 0;
+  guard_ = state.guard;
 }
 
 CacheSession::Bookmark CacheSession::bookmark() const {
-  return {export_state(), statistics_, rays(), last_losses_, guarded_steps_};
+  return {export_state(), statistics_, rays(), last_losses_};
 }
 
 void CacheSession::return_to(const Bookmark& bookmark) {
@@ -418,7 +414,6 @@ void CacheSession::return_to(const Bookmark& bookmark) {
   abandoned_rays_.add(abandoned);
   statistics_ = bookmark.statistics;
   last_losses_ = bookmark.last_losses;
-  guarded_steps_ = bookmark.guarded_steps;
 }
 
 RayCounts CacheSession::rays() const {

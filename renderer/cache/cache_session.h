@@ -36,7 +36,7 @@ class CacheSession {
   void train(std::uint64_t steps, const Watch& watch);
   /// The last step between groups at which training was as good as ever: where one may go back to by training
   /// anew where it diverged later. 0: there is none.
-  std::uint64_t good_steps() const { return good_steps_; }
+  std::uint64_t good_steps() const { return guard_.good_steps; }
   /// As before the first step.
   void start_anew();
   std::uint64_t steps() const { return steps_; }
@@ -53,7 +53,6 @@ class CacheSession {
     CacheStatistics statistics;
     RayCounts rays;
     std::vector<double> last_losses;
-    std::uint64_t guarded_steps = 0;
   };
   Bookmark bookmark() const;
   void return_to(const Bookmark& bookmark);
@@ -99,13 +98,7 @@ class CacheSession {
   std::uint64_t steps_under_way_ = 0;  ///< of these
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint64_t> counted_at_;  ///< step after which a triangle was counted last
-  double loss_average_ = 0.0;
-  double loss_least_ = 0.0;
-  std::uint64_t guarded_steps_ = 0;
-  double group_loss_ = 0.0;  ///< sum over the steps since answers were looked at
-  std::uint64_t group_steps_ = 0;
-  double brightest_ = 1.0;  ///< greatest mean magnitude of a group's targets
-  std::uint64_t good_steps_ = 0;
+  TrainingGuard guard_;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
   RayCounts abandoned_rays_;  ///< of steps from which it returned

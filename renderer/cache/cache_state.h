@@ -23,6 +23,18 @@ struct CacheSetup {
   float records_per_short_path = 1.0f;  ///< of paths that end in the cache's answer
 };
 
+/// What training has shown so far, by which one that diverges is noticed.
+struct TrainingGuard {
+  double loss_average = 0.0;  ///< a slow mean
+  double loss_least = 0.0;    ///< that it has had
+  std::uint64_t steps = 0;    ///< looked at
+  double group_loss = 0.0;    ///< sum over the steps since answers were looked at
+  std::uint64_t group_steps = 0;
+  double brightest = 1.0;        ///< greatest mean magnitude of a group's targets
+  std::uint64_t good_steps = 0;  ///< CacheState::steps when training was last as good as ever; 0: never
+  friend bool operator==(const TrainingGuard&, const TrainingGuard&) = default;
+};
+
 struct CacheState {
   CacheSetup setup;
   neural::ModelState model;
@@ -30,8 +42,7 @@ struct CacheState {
   /// Steps that trained each triangle with storage, or, where candidates are compared, began a path there;
   /// empty unless counted.
   std::vector<std::uint32_t> triangle_counts;
-  double loss_average = 0.0;  ///< of the divergence guard
-  double loss_least = 0.0;
+  TrainingGuard guard;  ///< in checkpoints alone: further training has another camera, batch or loss
 };
 
 }  // namespace gatelight::renderer

@@ -38,11 +38,11 @@ struct Outcome {
   std::string diverged;  ///< what it threw
 };
 
-Outcome run(const scene::Scene& scene, const RenderOptions& options) {
+Outcome run(const scene::Scene& scene, const RenderOptions& options, const Callbacks& callbacks = {}) {
   Outcome outcome;
   Renderer renderer(scene, options);
   try {
-    outcome.picture = renderer.render();
+    outcome.picture = renderer.render(callbacks);
   } catch (const TrainingDiverged& error) {
     outcome.diverged = error.what();
   }
@@ -138,15 +138,20 @@ TEST(CacheDivergence, AfterALoadedCacheItIsKept) {
                "exit code 6 once all is written");
 }
 
-// What goes wrong late: the state of the last good step, with the bits of a training that ended there.
-// Answers that come back threefold as targets are such a fault.
-TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
-  const scene::Scene s = room();
-  const TemporaryFolder folder;
+/// A training that goes wrong after 512 steps: answers come back threefold as targets.
+RenderOptions late() {
   RenderOptions options = small(1e-2f, 2048);
   options.cache.training.loss = neural::Loss::l2;
   options.cache.self_training.start_step = 512;
   options.cache.self_training.attenuation = 3.0f;
+  return options;
+}
+
+// What goes wrong late: the state of the last good step, with the bits of a training that ended there.
+TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = late();
   options.cache.cache_out = (folder / "kept.safetensors").string();
   const Outcome outcome = run(s, options);
   const int kept = outcome.statistics.cache.steps;
@@ -166,6 +171,32 @@ TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
   tell_extreme("training that goes wrong after 512 steps", "answers come back threefold as targets",
                fmt::format("picture and cache file have the bits of a training of {} steps", kept),
                fmt::format("exit code 6 once all is written: \"{}\"", outcome.statistics.cache.diverged));
+}
+
+// A checkpoint of steps that were bad already, but not yet noticed, is not a good state.
+TEST(CacheDivergence, GoneOnWithFromABadCheckpointItEndsAsIfNothingHadStoppedIt) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  const Outcome expected = run(s, late());
+  const int kept = expected.statistics.cache.steps;
+
+  RenderOptions options = late();
+  options.checkpoint.file = (folder / "checkpoint").string();
+  Callbacks callbacks;
+  callbacks.stop = [asked = 0]() mutable { return ++asked > 20; };  // between groups of 64 steps
+  const int stopped = run(s, options, callbacks).statistics.cache.steps;
+  EXPECT_GT(stopped, kept);
+  options.checkpoint.resume = true;
+  const Outcome outcome = run(s, options);
+  EXPECT_NE(outcome.statistics.cache.diverged, "");
+  EXPECT_EQ(outcome.statistics.cache.diverged, expected.statistics.cache.diverged);
+  EXPECT_EQ(outcome.statistics.cache.steps, kept);
+  EXPECT_EQ(outcome.statistics.cache.records, expected.statistics.cache.records);
+  EXPECT_TRUE(outcome.picture.layers[0].values == expected.picture.layers[0].values);
+  tell_extreme("the same, stopped after it went wrong and before that was noticed, and gone on with",
+               fmt::format("a checkpoint of step {}", stopped),
+               fmt::format("noticed at the same step; picture and statistics have the bits of step {}", kept),
+               "exit code 6 once all is written");
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ renderer::CacheState MadeCache::state() const {
   }
   state.steps = 7;
   state.triangle_counts = {1, 2};
-  state.loss_average = state.loss_least = 0.5;
+  state.guard.loss_average = state.guard.loss_least = 0.5;
   return state;
 }
 

@@ -129,12 +129,15 @@ TEST(Checkpoint, FilmAndStatisticsComeBack) {
   }
 }
 
+const TrainingGuard kGuard = {0.1, std::numeric_limits<double>::infinity(), 1000, 0.3, 4, 2.5, 900};
+
 TEST(Checkpoint, TheCacheComesBackToTheBitInBothPhases) {
   const TemporaryFolder folder;
   const auto model = small_model();
   for (const auto& [name, options] : neural::testing::all_training_options(*model)) {
     SCOPED_TRACE(name);
-    const CacheState state = any_cache_state(*model, options, 1);
+    CacheState state = any_cache_state(*model, options, 1);
+    state.guard = kGuard;
     const CheckpointCache cache{state, *model, options};
     Film film = blank_film(true);
     for (const CheckpointProgress progress :
@@ -235,6 +238,24 @@ TEST(Checkpoint, EveryChangedByteAndEveryTruncationIsRefused) {
   }
   for (std::size_t size = 0; size < bytes.size(); size += 211)
     EXPECT_NE(reading(bytes.substr(0, size)), "") << size;
+}
+
+TEST(Checkpoint, AGuardThatNoTrainingHasIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  const auto reading = [&](TrainingGuard guard) {
+    CacheState state = any_cache_state(*model, options, 1);
+    state.steps = 1000;
+    state.guard = guard;
+    write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, blank_film(false),
+                     CheckpointCache{state, *model, options});
+    return refusal([&] { Checkpoint(folder / "a").read_cache(*model, options); });
+  };
+  EXPECT_EQ(reading(kGuard), "");
+  EXPECT_THAT(reading({.loss_average = NAN}), HasSubstr("'training_guard': element 0 is nan"));
+  EXPECT_THAT(reading({.good_steps = 1001}),
+              HasSubstr("'training_guard': element 6 is 1001, expected 0 to the 1000 steps"));
 }
 
 TEST(Checkpoint, AnOldOneStaysWhereTheNewOneCannotBeWritten) {

@@ -74,8 +74,7 @@ void expect_same_state(const CacheState& a, const CacheState& b) {
   EXPECT_EQ(a.model, b.model);
   EXPECT_EQ(a.steps, b.steps);
   EXPECT_EQ(a.triangle_counts, b.triangle_counts);
-  EXPECT_EQ(a.loss_average, b.loss_average);
-  EXPECT_EQ(a.loss_least, b.loss_least);
+  EXPECT_EQ(a.guard, b.guard);
   EXPECT_EQ(a.setup.sides, b.setup.sides);
   EXPECT_EQ(a.setup.spacing_scales, b.setup.spacing_scales);
   EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
