@@ -1,17 +1,20 @@
-# gatelight_add_tests(<target> LIBRARIES <lib>... SOURCES <file>...)
+# gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>...)
 #
 # One executable for a folder of tests, one CTest entry for each file NAME_test.cpp in it (programs that link
 # OpenImageIO start slowly, so an entry for every case would double the time). The entry runs the test suites that
 # the file defines. Its label is the last word before _test: stat, golden, slow; anything else is "unit".
 include(GoogleTest)
 function(gatelight_add_tests target)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;PRECOMPILE;SOURCES" ${ARGN})
   if(NOT ARG_SOURCES)
     return()
   endif()
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} gatelight_compile_options GTest::gmock GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  # What takes long is in the libraries.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  gatelight_precompile(${target} <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <string> <vector> ${ARG_PRECOMPILE})
   target_compile_definitions(${target} PRIVATE
     GATELIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GATELIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
