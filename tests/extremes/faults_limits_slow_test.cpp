@@ -33,14 +33,14 @@ constexpr rlim_t kLeastMebibytes = 1024;
 TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
   int pictures = 0;
   int refusals = 0;
-  for (rlim_t mebibytes = kLeastMebibytes; mebibytes <= 2560; mebibytes += 256) {
+  for (rlim_t mebibytes = kLeastMebibytes; mebibytes <= 2560; mebibytes += 512) {
     for (const char* integrator : {"path", "nrc"}) {
       std::vector<std::string> more = {"-o",      path("a.exr"),  "--spp",   "1",
                                        "--quiet", "--integrator", integrator};
       if (std::string(integrator) == "nrc") {
         more.insert(more.end(), {"--train-steps", "8", "--size", "64x64"});
       } else {
-        more.insert(more.end(), {"--size", "2048x2048", "--max-depth", "1"});
+        more.insert(more.end(), {"--size", "4096x2048", "--max-depth", "1"});
       }
       const Output output = run_within(mebibytes, more);
       ASSERT_THAT(output.exit_code, AnyOf(0, 4)) << mebibytes << " MiB " << integrator << ": " << output.err;
@@ -58,7 +58,7 @@ TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
   EXPECT_GT(pictures, 2);
   EXPECT_GT(refusals, 0);
   tell_extreme("ulimit -v",
-               fmt::format("{} MiB to 2.5 GiB, a picture of 2048x2048, and a cache", kLeastMebibytes),
+               fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kLeastMebibytes),
                fmt::format("{} pictures; never a crash or half a file", pictures),
                fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
 }
