@@ -17,6 +17,12 @@ using ::testing::HasSubstr;
 using testing::tell_extreme;
 namespace fs = std::filesystem;
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 class Limits : public Faults {
  protected:
   Output run_within(rlim_t mebibytes, const std::vector<std::string>& more) const {
@@ -31,6 +37,7 @@ class Limits : public Faults {
 constexpr rlim_t kLeastMebibytes = 1024;
 
 TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int pictures = 0;
   int refusals = 0;
   for (rlim_t mebibytes = kLeastMebibytes; mebibytes <= 2560; mebibytes += 512) {
@@ -145,6 +152,7 @@ TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
 }
 
 TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int refusals = 0;
   for (const rlim_t mebibytes : {1024, 2048, 4096}) {
     const Output output = run_gatelight({"render", scene, "-o", path("a.exr"), "--size", "16x16", "--spp",
@@ -161,6 +169,7 @@ TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
 }
 
 TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   const auto render = [&](const char* size, const char* limit) {
     // A gibibyte to work in: what is not refused at once would not fit.
     return run_within(
