@@ -14,31 +14,12 @@ namespace {
 
 using namespace testing;
 
-struct Kind {
-  const char* name;
-  Integrator integrator;
-};
-constexpr Kind kKinds[] = {
-    {"path", Integrator::path}, {"ao", Integrator::ao}, {"nrc", Integrator::nrc}, {"nao", Integrator::nao}};
-
-RenderOptions picture_of(Integrator integrator) {
-  RenderOptions options = small_picture();
-  options.aovs.clear();
-  options.width = 64;
-  options.height = 48;
-  options.integrator = integrator;
-  options.spp = 8;
-  options.cache.train_steps = 16;
-  options.cache.batch = 1024;
-  return options;
-}
-
 /// The room's own size is 5 m.
 constexpr double kSize = 5.0;
 
 scene::GltfBuilder moved_file(double sizes) {
   const scene::Scene made = room();
-  const scene::Camera camera = choose_camera(made, picture_of(Integrator::path).camera, 4.0f / 3.0f);
+  const scene::Camera camera = choose_camera(made, room_picture(Integrator::path, 16).camera, 4.0f / 3.0f);
   const double d = sizes * kSize / std::sqrt(3.0);
   return file_of(made, camera, {d, -d, d});
 }
@@ -55,7 +36,7 @@ Rendered with_its_own_camera(const scene::Scene& s, RenderOptions options) {
 TEST(Moved, AFileMovedByItsNodesIsTheSamePicture) {
   double worst = 0.0;
   for (const Kind& kind : kKinds) {
-    const RenderOptions options = picture_of(kind.integrator);
+    const RenderOptions options = room_picture(kind.integrator, 16);
     const Rendered here = with_its_own_camera(from_file(0.0), options);
     RenderOptions again = options;
     again.seed = 1;
@@ -80,7 +61,7 @@ TEST(Moved, AFileMovedByItsNodesIsTheSamePicture) {
 
 /// Without a file nobody moves the scene back: what single precision itself holds.
 TEST(Moved, ASceneMadeInCodeKeepsWhatItsCoordinatesHold) {
-  const RenderOptions options = picture_of(Integrator::path);
+  const RenderOptions options = room_picture(Integrator::path, 16);
   const Rendered here = with_its_own_camera(from_file(0.0), options);
   RenderOptions again = options;
   again.seed = 1;

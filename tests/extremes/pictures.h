@@ -8,6 +8,7 @@
 
 #include "renderer/render.h"
 #include "scene/bounds.h"
+#include "tests/renderer/room.h"
 #include "tests/renderer/scene_builder.h"
 
 namespace gatelight::testing {
@@ -26,6 +27,27 @@ struct Rendered {
     return sum / static_cast<double>(values.size());
   }
 };
+
+struct Kind {
+  const char* name;
+  renderer::Integrator integrator;
+};
+inline constexpr Kind kKinds[] = {{"path", renderer::Integrator::path},
+                                  {"ao", renderer::Integrator::ao},
+                                  {"nrc", renderer::Integrator::nrc},
+                                  {"nao", renderer::Integrator::nao}};
+
+inline renderer::RenderOptions room_picture(renderer::Integrator integrator, int train_steps) {
+  renderer::RenderOptions options = small_picture();
+  options.aovs.clear();
+  options.width = 64;
+  options.height = 48;
+  options.integrator = integrator;
+  options.spp = 8;
+  options.cache.train_steps = train_steps;
+  options.cache.batch = 1024;
+  return options;
+}
 
 inline Rendered render(const scene::Scene& scene, const renderer::RenderOptions& options) {
   renderer::Renderer renderer(scene, options);

@@ -12,25 +12,6 @@ namespace {
 
 using namespace testing;
 
-struct Kind {
-  const char* name;
-  Integrator integrator;
-};
-constexpr Kind kKinds[] = {
-    {"path", Integrator::path}, {"ao", Integrator::ao}, {"nrc", Integrator::nrc}, {"nao", Integrator::nao}};
-
-RenderOptions picture_of(Integrator integrator) {
-  RenderOptions options = small_picture();
-  options.aovs.clear();
-  options.width = 64;
-  options.height = 48;
-  options.integrator = integrator;
-  options.spp = 8;
-  options.cache.train_steps = 24;
-  options.cache.batch = 1024;
-  return options;
-}
-
 Rendered at_scale(RenderOptions options, float scale) {
   scene::Scene s = room();
   resize(s, scale);
@@ -40,7 +21,7 @@ Rendered at_scale(RenderOptions options, float scale) {
 
 TEST(Scale, PowersOfTwoGiveTheSameBitsAndTraining) {
   for (const Kind& kind : kKinds) {
-    const RenderOptions options = picture_of(kind.integrator);
+    const RenderOptions options = room_picture(kind.integrator, 24);
     const Rendered one = at_scale(options, 1.0f);
     ASSERT_TRUE(one.sane());
     for (const int exponent : {-20, -10, 10, 20}) {
@@ -58,7 +39,7 @@ TEST(Scale, AnyScaleGivesTheSamePictureAndTraining) {
   double worst = 0.0;
   double worst_loss = 0.0;
   for (const Kind& kind : kKinds) {
-    const RenderOptions options = picture_of(kind.integrator);
+    const RenderOptions options = room_picture(kind.integrator, 24);
     const Rendered one = at_scale(options, 1.0f);
     RenderOptions again = options;
     again.seed = 1;

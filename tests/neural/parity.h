@@ -2,6 +2,8 @@
 // What it means that a fast backend agrees with the reference: states, batches and differences to compare
 // them by.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -166,6 +168,25 @@ inline double differing_share(const Model& model, const std::vector<float>& a, c
   for (std::size_t i = 0; i < x.size(); ++i)
     if (std::abs(static_cast<double>(x[i]) - y[i]) > tolerance * scale) ++differing;
   return x.empty() ? 0 : static_cast<double>(differing) / static_cast<double>(x.size());
+}
+
+/// Answers of three outputs without a range, and the same within their ranges. Some are below zero, some
+/// above one, some of points that are no numbers.
+inline void expect_ranges(const Model& model, const OwnedBatch& batch, std::span<const float> raw,
+                          std::span<const float> positive, std::span<const float> unit) {
+  std::size_t below = 0, above = 0, nan = 0;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const bool usable = std::isfinite(raw[i]);
+    EXPECT_EQ(usable, is_finite(model, batch.points(), i / 3));
+    EXPECT_EQ(positive[i], usable ? std::max(raw[i], 0.0f) : 0.0f);
+    EXPECT_EQ(unit[i], usable ? std::clamp(raw[i], 0.0f, 1.0f) : 0.0f);
+    below += raw[i] < 0 ? 1 : 0;
+    above += raw[i] > 1 ? 1 : 0;
+    nan += usable ? 0 : 1;
+  }
+  EXPECT_GT(below, 0u);
+  EXPECT_GT(above, 0u);
+  EXPECT_GT(nan, 0u);
 }
 
 /// The worst difference of each kind, for each instruction set, and where it was met.

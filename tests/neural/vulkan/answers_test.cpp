@@ -118,19 +118,7 @@ TEST_F(VulkanAnswers, RangesClampTheRawOnes) {
   };
   const std::vector<float> raw = ask(OutputRange::raw), positive = ask(OutputRange::non_negative),
                            unit = ask(OutputRange::unit);
-  std::size_t below = 0, above = 0, nan = 0;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const bool usable = std::isfinite(raw[i]);
-    EXPECT_EQ(usable, is_finite(*c.model, batch.points(), i / 3));
-    EXPECT_EQ(positive[i], usable ? std::max(raw[i], 0.0f) : 0.0f);
-    EXPECT_EQ(unit[i], usable ? std::clamp(raw[i], 0.0f, 1.0f) : 0.0f);
-    below += raw[i] < 0 ? 1 : 0;
-    above += raw[i] > 1 ? 1 : 0;
-    nan += usable ? 0 : 1;
-  }
-  EXPECT_GT(below, 0u);
-  EXPECT_GT(above, 0u);
-  EXPECT_GT(nan, 0u);
+  expect_ranges(*c.model, batch, raw, positive, unit);
 }
 
 // Steps, averages and roundings change what is packed for queries.
