@@ -14,7 +14,8 @@ ReferencePass::ReferencePass(const World& world, const PassContext& context)
 
 void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
                         const std::function<void(double)>& report) {
-  const auto& [tiles, options, camera, filter] = context_;
+  const TileGrid& tiles = context_.tiles;
+  const RenderOptions& options = context_.options;
   std::atomic<int> finished{0};
   tbb::parallel_for(
       tbb::blocked_range<int>(0, tiles.count(), 1),
@@ -25,7 +26,7 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
           w.results.resize(w.pixels.size());
           if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
           for (std::uint32_t sample = first; sample < end; ++sample) {
-            make_camera_samples(w.pixels, sample, options, camera, filter, w.samples);
+            make_camera_samples(w.pixels, sample, options, context_.camera, context_.filter, w.samples);
             if (options.integrator == Integrator::path) {
               path_.trace(w.samples, w.results, w.first_hits, w.rays, w.path);
             } else {

@@ -61,7 +61,8 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
 
 void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
                      const std::function<void(double)>& report) {
-  const auto& [grid, options, camera, filter] = context_;
+  const TileGrid& grid = context_.tiles;
+  const RenderOptions& options = context_.options;
   const bool occlusion = options.integrator == Integrator::nao;
   const std::size_t outputs = session_.outputs();
   const int chunks = (grid.count() + kTilesTogether - 1) / kTilesTogether;
@@ -77,7 +78,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         Tile& tile = tiles_[t];
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
-        make_camera_samples(tile.pixels, sample, options, camera, filter, tile.samples);
+        make_camera_samples(tile.pixels, sample, options, context_.camera, context_.filter, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
         tile.results.resize(tile.pixels.size());
         Worker& worker = workers_.local();
