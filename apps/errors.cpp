@@ -44,7 +44,7 @@ Failure describe_current_exception() {
   } catch (const neural::CacheWriteError& error) {
     return {kOutput, error.what(), "choose another place or make room"};
   } catch (const renderer::OutOfMemory& error) {
-    return {kMemory, error.what(), "raise --memory-limit, or use a smaller picture or scene, or fewer --threads"};
+    return {kMemory, error.what(), "raise that limit, or use a smaller picture or scene, or fewer --threads"};
   } catch (const neural::OutOfDeviceMemory& error) {
     return {kMemory, error.what(), "lower --cache-memory or --batch, or use --device cpu"};
   } catch (const std::bad_alloc&) {

@@ -208,14 +208,17 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   const RTCError error = rtcGetDeviceError(device_);
   if (error != RTC_ERROR_NONE || state_->refused || !state_->first_error.empty()) {
     const std::string text = state_->first_error;
-    const bool memory = state_->refused || error == RTC_ERROR_OUT_OF_MEMORY;
+    const bool refused = state_->refused;
+    const bool memory = refused || error == RTC_ERROR_OUT_OF_MEMORY;
     const long long used = state_->bytes;
     for (RTCScene below : state_->meshes) rtcReleaseScene(below);
     rtcReleaseScene(top_);
     rtcReleaseDevice(device_);
     if (memory) {
-      throw OutOfMemory(fmt::format("{}: the acceleration structure needs more than {} MiB (limit {} MiB)",
-                                    scene.path, used >> 20, options.memory_limit_bytes >> 20));
+      const std::string limit =
+          refused ? fmt::format("--memory-limit {}", options.memory_limit_bytes >> 20) : "there is";
+      throw OutOfMemory(fmt::format("{}: the acceleration structure needs over {} MiB, more than {}",
+                                    scene.path, used >> 20, limit));
     }
     throw std::runtime_error(fmt::format("{}: Embree cannot build the scene: {}", scene.path, text));
   }

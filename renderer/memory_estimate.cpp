@@ -43,7 +43,7 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
 
 void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more) {
   if (options.memory_limit_bytes > 0 && all > options.memory_limit_bytes) {
-    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than the limit of {} MiB", what, all >> 20,
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than --memory-limit {}", what, all >> 20,
                                   options.memory_limit_bytes >> 20));
   }
   const MemoryRoom room = memory_room();

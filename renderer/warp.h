@@ -51,8 +51,8 @@ inline Vec2 cos_sin_octant(float angle) {
 
 /// (cos, sin) of 2 pi u for u in [0, 1].
 inline Vec2 cos_sin_turn(float u) {
-  const int octant = static_cast<int>(u * 4.0f + 0.5f);
-  const Vec2 cs = cos_sin_octant((u - 0.25f * static_cast<float>(octant)) * kTwoPi);
+  const int octant = static_cast<int>(u * 4.0f + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
+  Vec2 cs = cos_sin_octant((u - 0.25f * static_cast<float>(octant)) * kTwoPi);
   switch (octant & 3) {
     case 0:
       return cs;

@@ -144,7 +144,7 @@ void generate_tangents(Mesh& mesh, const TextureSlot& slot) {
     const Vec3& n = flat.empty() ? mesh.normals[i] : flat[i];
     Vec3 tangent = (sums[i] - n * n.dot(sums[i])).stableNormalized();
     if (!tangent.allFinite() || tangent.squaredNorm() < 0.5f) tangent = any_perpendicular(n);
-    mesh.tangents[i] << tangent, side[i] == 2 ? -1.0f : 1.0f;
+    mesh.tangents[i] = Vec4(tangent.x(), tangent.y(), tangent.z(), side[i] == 2 ? -1.0f : 1.0f);
   }
 }
 

@@ -63,7 +63,8 @@ void repair_tangents(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
     Vec3 direction = mesh.tangents[i].head<3>();
     if (!normalize(direction)) direction = any_perpendicular(mesh.normals[i]);
-    mesh.tangents[i] << direction, mesh.tangents[i].w() < 0.0f ? -1.0f : 1.0f;
+    const float side = mesh.tangents[i].w() < 0.0f ? -1.0f : 1.0f;
+    mesh.tangents[i] = Vec4(direction.x(), direction.y(), direction.z(), side);
   }
 }
 

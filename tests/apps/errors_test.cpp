@@ -47,7 +47,7 @@ TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
 TEST(ExitCodes, TheMessageIsKeptAndAdviceGiven) {
   const Failure failure = failure_of(renderer::OutOfMemory("needs 3 GiB"));
   EXPECT_EQ(failure.message, "needs 3 GiB");
-  EXPECT_THAT(failure.advice, ::testing::HasSubstr("--memory-limit"));
+  EXPECT_THAT(failure.advice, ::testing::HasSubstr("raise that limit"));
 }
 
 TEST(ExitCodes, ADivergedTrainingHasAdviceOfItsOwn) {

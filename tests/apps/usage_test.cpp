@@ -243,7 +243,7 @@ TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
 TEST_F(Usage, MemoryOverTheLimitIsCode4) {
   const Output output = refused({"--memory-limit", "1", "--size", "4096x4096"});
   EXPECT_EQ(output.exit_code, 4) << output.err;
-  EXPECT_THAT(output.last_error_line(), HasSubstr("--memory-limit"));
+  EXPECT_THAT(output.last_error_line(), HasSubstr("more than --memory-limit 1; raise that limit"));
 }
 
 TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {

@@ -60,8 +60,8 @@ TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
                              Words{"--integrator", "nrc", "--encoding", "hashgrid"}}) {
     for (const char* device : {"cpu", "vulkan"}) {
       Words words = {
-          "--size",        "96x64", "--spp",   "8",    "--device", device,
-          "--train-steps", "96",    "--batch", "1024", "-o",       path(std::string(device) + ".exr")};
+          "--size",        "96x64", "--spp",   "4",   "--device", device,
+          "--train-steps", "96",    "--batch", "512", "-o",       path(std::string(device) + ".exr")};
       words.insert(words.end(), cache.begin(), cache.end());
       const Output output = render(words);
       ASSERT_EQ(output.exit_code, 0) << output.err;

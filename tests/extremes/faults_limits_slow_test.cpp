@@ -180,7 +180,7 @@ TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
     expect_failure(render(size, "0"), 1, "is not a size WxH in pixels, each from 1 to 65536");
   }
   expect_failure(render("65536x65536", "0"), 1, "has 4294967296 pixels, expected at most 268435456");
-  expect_failure(render("65536x4096", "1000"), 4, "more than the limit of 1000 MiB");
+  expect_failure(render("65536x4096", "1000"), 4, "more than --memory-limit 1000");
   expect_failure(render("65536x4096", "0"), 4, "and ulimit -v leaves");
   EXPECT_EQ(render("65536x1", "0").exit_code, 0);
   EXPECT_EQ(render("1x65536", "0").exit_code, 0);

@@ -67,7 +67,7 @@ TEST(RequireMemory, NamesWhatIsNeededAndWhatIsLeft) {
   };
   EXPECT_EQ(refusal(0, 8 * kMebibyte, 4 * kMebibyte), "");
   EXPECT_EQ(refusal(8 * kMebibyte, 8 * kMebibyte, 0), "");
-  EXPECT_EQ(refusal(7 * kMebibyte, 8 * kMebibyte, 0), "it needs about 8 MiB, more than the limit of 7 MiB");
+  EXPECT_EQ(refusal(7 * kMebibyte, 8 * kMebibyte, 0), "it needs about 8 MiB, more than --memory-limit 7");
   EXPECT_THAT(refusal(0, 0, std::size_t{1} << 60),
               HasSubstr("it needs about 1099511627776 MiB, and the machine leaves "));
 }
