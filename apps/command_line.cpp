@@ -16,7 +16,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
 over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
 130 and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file,
@@ -73,7 +73,7 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
 
 int parse(int argc, const char* const* argv, bool runs) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
-  root.footer(kFooter);
+  root.footer(kProgramFooter);
   root.set_version_flag("--version", version());
   root.require_subcommand(1);
   // --config belongs to the root but may follow the subcommand's name.

@@ -25,7 +25,7 @@ namespace {
 using renderer::NamedPicture;
 using renderer::Picture;
 
-constexpr const char* kFooter = R"(Over the red, green and blue of the beauty layers:
+constexpr const char* kCompareFooter = R"(Over the red, green and blue of the beauty layers:
   mse       mean squared error
   rel_mse   mean of the squared error over (squared reference + 0.01)
   psnr      peak signal to noise ratio in dB, for a peak of 1
@@ -181,7 +181,7 @@ int run_compare(const CompareSettings& settings) {
 
 Subcommand add_compare_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("compare", "Measure how far one picture is from another");
-  app->footer(kFooter);
+  app->footer(kCompareFooter);
   const auto settings = std::make_shared<CompareSettings>();
   app->add_option("REFERENCE", settings->reference, "Reference picture, .exr, .hdr or .png")
       ->required()

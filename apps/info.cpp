@@ -24,7 +24,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kInfoFooter =
     R"(With --integrator nao or nrc it also tells what the cache of the scene would be for the view that these flags describe:
 memory, feature vectors, resolutions and sides of the instances, and what the network reads. Nothing is trained.
 
@@ -95,7 +95,7 @@ int run_info(InfoSettings settings) {
 
 Subcommand add_info_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("info", "Tell what a scene holds and needs, or what this program is");
-  app->footer(kFooter);
+  app->footer(kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little that is told here.
   settings->render.load.missing_is_error = false;

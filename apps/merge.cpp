@@ -16,7 +16,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMergeFooter =
     R"(A reference in parts: each rendered with a seed of its own, on any day and machine. The mean is weighted by the samples
 per pixel that each file tells (gatelight:spp in its header), and tells their sum. Size and layers must be the same. Of
 layers that have no mean, samples are added up, variance becomes that of the mean, and ids are those of the first file.
@@ -54,7 +54,7 @@ int run_merge(const MergeSettings& settings) {
 
 Subcommand add_merge_command(CLI::App& root) {
   CLI::App* app = root.add_subcommand("merge", "Average pictures of one scene with different seeds");
-  app->footer(kFooter);
+  app->footer(kMergeFooter);
   const auto settings = std::make_shared<MergeSettings>();
   app->add_option("-o,--output", settings->output, "Picture to write, 32-bit .exr")
       ->type_name("FILE")

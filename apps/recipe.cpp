@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cache_recipe.h"
+#include "apps/json_values.h"
 #include "apps/text.h"
 #include "apps/version.h"
 
@@ -18,10 +19,6 @@ using nlohmann::ordered_json;
 ordered_json number(double value) {
   if (std::isinf(value)) return "inf";
   return value;
-}
-
-ordered_json triple(const scene::Vec3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 ordered_json environment(const renderer::EnvironmentOptions& options) {

@@ -10,7 +10,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     R"(SIGINT and SIGTERM finish the current pass and write the picture so far (exit code 130 or 143); a second one ends the
 program at once. SIGUSR1 writes a snapshot of all outputs.
 Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
@@ -27,7 +27,7 @@ Examples:
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command) {
   CLI::App* app = root.add_subcommand("render", "Render a scene to EXR and PNG");
-  app->footer(kFooter);
+  app->footer(kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
   add_render_flags(*app, *settings);
   return {app, [app, settings, command] {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/json_values.h"
 #include "apps/text.h"
 #include "renderer/memory_estimate.h"
 
@@ -54,10 +55,6 @@ const char* name_of_type(scene::LightType type) {
 
 const char* name_of_type(const scene::Camera& camera) {
   return camera.orthographic ? "orthographic" : "perspective";
-}
-
-ordered_json triple(const scene::Vec3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 class Rows {

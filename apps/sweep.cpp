@@ -18,7 +18,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kSweepFooter =
     R"(Every combination of the lists is a line in the plots, every step count on it a cell: one picture, compared with a
 reference. One training gives the pictures of all its step counts. Beside each integrator with a cache the one without
 is measured (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture may stand here and
@@ -158,7 +158,7 @@ void add_advice_flags(CLI::App& app, SweepSettings& s) {
       ->group(group);
 }
 
-void add_output_flags(CLI::App& app, SweepSettings& s) {
+void add_folder_flags(CLI::App& app, SweepSettings& s) {
   const char* group = "Output";
   app.add_option("-o,--output", s.folder, "Folder of the results; is made where it is not there")
       ->type_name("DIR")
@@ -217,10 +217,10 @@ void check(const SweepCall& call, const CLI::App& app) {
 
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command) {
   CLI::App* app = root.add_subcommand("sweep", "Measure error against time and steps over options");
-  app->footer(kFooter);
+  app->footer(kSweepFooter);
   const auto call = std::make_shared<SweepCall>();
   app->add_option("SCENE", call->words.scenes, "Scenes, .gltf or .glb")->type_name("");
-  add_output_flags(*app, call->settings);
+  add_folder_flags(*app, call->settings);
   add_external_flag(*app, call->words.allow_external, "Scenes");
   add_axes(*app, call->words);
   add_reference_flags(*app, call->settings);

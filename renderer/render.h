@@ -30,7 +30,8 @@ struct Progress {
 struct Callbacks {
   /// Called from a worker at most some ten times a second.
   std::function<void(const Progress&)> progress;
-  /// Asked between tiles. When it answers true the current pass is finished and rendering stops.
+  /// Asked between tiles, by several workers at once. When it answers true the current pass is finished and
+  /// rendering stops.
   std::function<bool()> stop;
   /// Asked after every pass; when it answers true, `snapshot` receives the picture so far. Of the statistics,
   /// spp and render_seconds are up to date then.

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -32,6 +33,12 @@ inline constexpr float kInvPi = 1.0f / kPi;
 /// Luminance of linear Rec. 709.
 inline float luminance(const Color& c) {
   return 0.2126f * c.x() + 0.7152f * c.y() + 0.0722f * c.z();
+}
+
+/// A unit vector perpendicular to the unit vector n.
+inline Vec3 any_perpendicular(const Vec3& n) {
+  const Vec3 axis = std::abs(n.x()) < 0.5f ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
+  return (axis - n * n.dot(axis)).normalized();
 }
 
 /// Normal matrix of an affine transform: the inverse transpose times |determinant|, so that it exists for

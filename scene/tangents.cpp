@@ -109,11 +109,6 @@ std::vector<char> split_mirrored(Mesh& mesh, const std::vector<Frame>& frames) {
   return side;
 }
 
-Vec3 any_perpendicular(const Vec3& n) {
-  const Vec3 axis = std::abs(n.x()) < 0.5f ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
-  return (axis - n * n.dot(axis)).normalized();
-}
-
 }  // namespace
 
 void generate_tangents(Mesh& mesh, const TextureSlot& slot) {

@@ -17,11 +17,6 @@ bool normalize(Vec3& v) {
   return v.allFinite() && v.squaredNorm() > 0.5f;
 }
 
-Vec3 any_perpendicular(const Vec3& n) {
-  const Vec3 axis = std::abs(n.x()) < 0.5f ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
-  return (axis - n * n.dot(axis)).normalized();
-}
-
 }  // namespace
 
 bool repair_normals(Mesh& mesh) {

@@ -114,12 +114,12 @@ ordered_json one_cell(const ordered_json& changes = ordered_json::object()) {
 }
 
 TEST(ReportPage, JsonCannotEndItsScriptAndReadsTheSame) {
-  const ordered_json json = {{"</script><script>", "<!-- \xe2\x80\xa8 \xc3\xa4 & \\ \" \n"},
-                             {"none", nullptr}};
-  const std::string text = json_for_script(json);
+  const ordered_json hostile = {{"</script><script>", "<!-- \xe2\x80\xa8 \xc3\xa4 & \\ \" \n"},
+                                {"none", nullptr}};
+  const std::string text = json_for_script(hostile);
   EXPECT_EQ(text.find('<'), std::string::npos);
   for (const char c : text) EXPECT_TRUE(c >= ' ' && c <= '~') << static_cast<int>(c);
-  EXPECT_EQ(ordered_json::parse(text), json);
+  EXPECT_EQ(ordered_json::parse(text), hostile);
 }
 
 TEST(ReportPage, WhatJsonCannotSayIsNullOrReplaced) {

@@ -17,7 +17,7 @@ using namespace testing;
 
 constexpr Integrator kAll[] = {Integrator::path, Integrator::ao, Integrator::nrc, Integrator::nao};
 
-RenderOptions room_picture(Integrator integrator) {
+RenderOptions mesh_picture(Integrator integrator) {
   RenderOptions options = small_picture();
   options.aovs.clear();
   options.width = 48;
@@ -255,7 +255,7 @@ TEST(Meshes, FacesThatAddNothingChangeNothing) {
   const char* names[] = {"degenerate", "duplicate", "flipped", "with a third face at each edge"};
   double worst = 0.0;
   for (const Integrator integrator : kAll) {
-    RenderOptions options = room_picture(integrator);
+    RenderOptions options = mesh_picture(integrator);
     const Rendered clean = render(room(), options);
     RenderOptions again = options;
     again.seed = 1;
@@ -283,7 +283,7 @@ TEST(Meshes, OneTriangleIsAScene) {
       const int m = builder.material(
           SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(shines ? 1.0f : 0.0f)));
       builder.mesh(m, {Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)}, {{0, 1, 2}});
-      RenderOptions options = room_picture(integrator);
+      RenderOptions options = mesh_picture(integrator);
       options.camera.look_at = LookAt{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
       options.environment.constant = Color::Ones();
       const Rendered picture = render(builder.scene(), options);

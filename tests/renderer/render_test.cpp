@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "tests/renderer/room.h"
 
 namespace gatelight::renderer {
@@ -66,9 +68,8 @@ TEST(Render, StopsAfterThePassWhenAsked) {
   options.aovs.push_back(Aov::sample_count);
   Renderer renderer(s, options);
   Callbacks callbacks;
-  int asked = 0;
+  std::atomic<int> asked{0};
   callbacks.stop = [&] { return ++asked > 40; };
-  options.threads = 1;
   const Picture picture = renderer.render(callbacks);
   EXPECT_TRUE(renderer.statistics().interrupted);
   EXPECT_LT(renderer.statistics().spp, 1000);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 
@@ -30,7 +31,7 @@ using tests::TemporaryFolder;
 /// Stops at the n-th time that it is asked whether to; 0: never.
 Result render(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
   Renderer renderer(scene, options);
-  int asked = 0;
+  std::atomic<int> asked{0};
   Callbacks callbacks;
   // Once: a caller that has pressed a key does not press it again.
   callbacks.stop = [&] { return ++asked == stop_at; };
