@@ -36,8 +36,7 @@ Color through(const scene::Scene& scene) {
 
 scene::Scene pane_of(const scene::Material& material, const scene::Image* image = nullptr) {
   SceneBuilder builder;
-  scene::Mesh& mesh =
-      builder.quad(builder.material(material), Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));
+  scene::Mesh& mesh = builder.quad(builder.material(material), Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));
   mesh.uv0.assign(4, Vec2(0.5f, 0.5f));
   scene::Scene scene = builder.scene();
   if (image) {
@@ -48,7 +47,8 @@ scene::Scene pane_of(const scene::Material& material, const scene::Image* image 
 }
 
 /// One texel; sRGB 188 is half the light.
-const scene::Image kTexel{.name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {255, 188, 0, 255}};
+const scene::Image kTexel{
+    .name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {255, 188, 0, 255}};
 
 TEST(Panes, ATextureTintsAsTheFactorDoes) {
   scene::Material textured = clear_glass();
