@@ -188,10 +188,7 @@ TEST(Accel, BlendPassesTheRightFractionIndependentlyBySurface) {
 
 TEST(Accel, ClearPanesTintShadowsAndOpaqueThingsStopThem) {
   SceneBuilder builder;
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
+  scene::Material glass = SceneBuilder::clear_glass();
   glass.base_color = Color(1.0f, 0.5f, 0.0f);
   const int pane = builder.material(glass);
   builder.quad(pane, Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));

@@ -13,14 +13,6 @@ using gatelight::testing::SceneBuilder;
 using scene::Vec2;
 using scene::Vec4;
 
-scene::Material clear_glass() {
-  scene::Material m;
-  m.metallic = 0.0f;
-  m.roughness = 0.0f;
-  m.transmission = 1.0f;
-  return m;
-}
-
 /// Straight down through the middle of a pane's first triangle.
 Color through(const scene::Scene& scene) {
   const Textures textures(scene);
@@ -46,44 +38,45 @@ scene::Scene pane_of(const scene::Material& material, const scene::Image* image 
   return scene;
 }
 
-/// One texel; sRGB 188 is half the light.
-const scene::Image kTexel{
-    .name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {255, 188, 0, 255}};
+/// One texel.
+scene::Image texel(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+  return {.name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {red, green, blue, 255}};
+}
 
 TEST(Panes, ATextureTintsAsTheFactorDoes) {
-  scene::Material textured = clear_glass();
+  scene::Material textured = SceneBuilder::clear_glass();
   textured.base_color_texture.texture = 0;
-  const Color seen = through(pane_of(textured, &kTexel));
-  const Color clear = through(pane_of(clear_glass()));
+  const scene::Image image = texel(255, 188, 0);  // sRGB 188 is half the light
+  const Color seen = through(pane_of(textured, &image));
+  const Color clear = through(pane_of(SceneBuilder::clear_glass()));
   EXPECT_GT(clear.minCoeff(), 0.9f);
   EXPECT_FLOAT_EQ(seen.x(), clear.x());
-  scene::Material tinted = clear_glass();
+  scene::Material tinted = SceneBuilder::clear_glass();
   tinted.base_color = Color(1.0f, 0.50289f, 0.0f);
   EXPECT_TRUE(seen.isApprox(through(pane_of(tinted)), 1e-3f)) << seen.transpose();
 }
 
 TEST(Panes, VertexColoursTintAsTheFactorDoes) {
-  scene::Scene coloured = pane_of(clear_glass());
+  scene::Scene coloured = pane_of(SceneBuilder::clear_glass());
   coloured.meshes[0].colors.assign(4, Vec4(0.25f, 0.5f, 1.0f, 1.0f));
-  scene::Material tinted = clear_glass();
+  scene::Material tinted = SceneBuilder::clear_glass();
   tinted.base_color = Color(0.25f, 0.5f, 1.0f);
   EXPECT_TRUE(through(coloured).isApprox(through(pane_of(tinted)), 1e-5f));
 }
 
 TEST(Panes, TexturesOfTransmissionAndMetalDarkenAsTheirFactorsDo) {
   // Transmission is read from red, metal from blue.
-  const scene::Image image{
-      .name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {64, 255, 128, 255}};
-  scene::Material textured = clear_glass();
+  const scene::Image image = texel(64, 255, 128);
+  scene::Material textured = SceneBuilder::clear_glass();
   textured.transmission_texture.texture = 0;
-  scene::Material factors = clear_glass();
+  scene::Material factors = SceneBuilder::clear_glass();
   factors.transmission = 64.0f / 255.0f;
   EXPECT_TRUE(through(pane_of(textured, &image)).isApprox(through(pane_of(factors)), 1e-4f));
 
-  textured = clear_glass();
+  textured = SceneBuilder::clear_glass();
   textured.metallic = 1.0f;
   textured.metallic_roughness_texture.texture = 0;
-  factors = clear_glass();
+  factors = SceneBuilder::clear_glass();
   factors.metallic = 128.0f / 255.0f;
   const Color metal = through(pane_of(textured, &image));
   EXPECT_TRUE(metal.isApprox(through(pane_of(factors)), 1e-4f));

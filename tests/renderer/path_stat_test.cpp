@@ -184,10 +184,7 @@ TEST(PathStat, PanesPassTheSunToWhatIsBehindThem) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
+  scene::Material glass = SceneBuilder::clear_glass();
   builder.quad(builder.material(glass), Vec3(-1, 1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
   scene::PunctualLight light;
   light.type = scene::LightType::directional;
@@ -208,10 +205,7 @@ TEST(PathStat, PanesAddNoLightOfTheirOwn) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
   builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
+  scene::Material glass = SceneBuilder::clear_glass();
   glass.base_color = Color::Constant(1.0f);
   builder.quad(builder.material(glass), Vec3(-50, 0.5f, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
   RenderOptions options = looking(Vec3(0, 2, 1), Vec3(0, 0, 0), 10.0f);

@@ -27,6 +27,15 @@ class SceneBuilder {
     return m;
   }
 
+  /// Smooth and thin-walled: a pane.
+  static scene::Material clear_glass() {
+    scene::Material m;
+    m.metallic = 0.0f;
+    m.roughness = 0.0f;
+    m.transmission = 1.0f;
+    return m;
+  }
+
   /// Adds a material, returns its index.
   int material(const scene::Material& m) {
     scene_.materials.push_back(m);

@@ -113,10 +113,7 @@ SceneBuilder room() {
   mirror.base_color = Color::Constant(0.9f);
   mirror.roughness = 0.0f;
   builder.quad(builder.material(mirror), Vec3(0.2f, 0.2f, -1.9f), Vec3(1.5f, 0, 0), Vec3(0, 2, 0));
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
+  scene::Material glass = SceneBuilder::clear_glass();
   glass.thickness = 1.0f;
   builder.sphere(builder.material(glass), Vec3(0.9f, 0.5f, 0.2f), 0.5f, 16, true);
   scene::Material gloss;

@@ -213,10 +213,7 @@ INSTANTIATE_TEST_SUITE_P(Holds, RadianceRecordsStat,
 TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
   // Behind a half-mirroring pane lies a bright wall, before it a dark one: records at each learn their own.
   SceneBuilder builder;
-  scene::Material pane;
-  pane.metallic = 0.0f;
-  pane.roughness = 0.0f;
-  pane.transmission = 1.0f;
+  scene::Material pane = SceneBuilder::clear_glass();
   pane.ior = 3.0f;
   builder.quad(builder.material(pane), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
   const int bright = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));

@@ -52,10 +52,7 @@ SceneBuilder room() {
   builder.quad(builder.material(mirror), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0), Vec3(0, 2, 0));
   builder.box(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
               Vec3(0.2f, 0.4f, -1.5f), Vec3(1.2f, 1.4f, -0.8f));
-  scene::Material pane;
-  pane.metallic = 0.0f;
-  pane.roughness = 0.0f;
-  pane.transmission = 1.0f;
+  scene::Material pane = SceneBuilder::clear_glass();
   builder.quad(builder.material(pane), Vec3(-0.5f, 0.3f, -0.4f), Vec3(0.8f, 0, 0), Vec3(0, 1, 0));
   builder.scene().cameras.push_back(view_from(Vec3(0, 1.2f, 1.8f), Vec3(0, 1, -1)));
   return builder;
