@@ -122,6 +122,7 @@ std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::strin
 
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> words;
+  words.reserve(stack.size());
   for (const std::uint32_t level : stack) words.push_back(neural::level_text(level));
   return fmt::format("{}", fmt::join(words, ","));
 }

@@ -37,6 +37,7 @@ std::string inputs_text(const CacheStatistics& s) {
 
 std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
   std::vector<const CacheInstanceReport*> sorted;
+  sorted.reserve(instances.size());
   for (const CacheInstanceReport& instance : instances) sorted.push_back(&instance);
   std::stable_sort(
       sorted.begin(), sorted.end(),

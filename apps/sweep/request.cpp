@@ -57,7 +57,7 @@ void check_vary(const std::string& flag) {
     throw UsageError(
         fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
   }
-  const std::vector<std::string> names = base_flag_names();
+  const std::vector<std::string>& names = base_flag_names();
   const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                 [&](const AxisFlag& f) { return flag == f.varies; });
   if (!axis && flag != "--preset" && std::find(names.begin(), names.end(), flag) == names.end()) {
@@ -114,7 +114,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
-  const std::vector<std::string> known = base_flag_names();
+  const std::vector<std::string>& known = base_flag_names();
   if (flag == "--seed" || std::find(known.begin(), known.end(), flag) == known.end()) {
     throw UsageError(fmt::format("--for: '{}' is no flag that all cells of a scene can have", flag));
   }
@@ -195,9 +195,7 @@ void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   }
 }
 
-}  // namespace
-
-std::vector<std::string> base_flag_names() {
+std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
   for (const RenderFlag& flag : render_flags()) {
     const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
@@ -206,6 +204,14 @@ std::vector<std::string> base_flag_names() {
       names.push_back(flag.name);
     }
   }
+  return names;
+}
+
+}  // namespace
+
+const std::vector<std::string>& base_flag_names() {
+  // All flags of render are made to find them.
+  static const std::vector<std::string> names = find_base_flags();
   return names;
 }
 

@@ -25,7 +25,7 @@ inline constexpr AxisFlag kAxisFlags[] = {
 
 /// Flags of `render` that hold for all cells of a sweep where they are given, or can be varied: those that
 /// decide the picture, with a value. `sweep` has others of the name of some.
-std::vector<std::string> base_flag_names();
+const std::vector<std::string>& base_flag_names();
 
 struct SweepWords {
   std::vector<std::string> scenes;
