@@ -146,7 +146,7 @@ void add_gate_flags(CLI::App& app, CacheOptions& o, const std::string& group) {
               "gate: distance between feature vectors; auto: by the size of what paths meet", "auto", "auto",
               [&o](const std::optional<std::string>& text) {
                 o.node_spacing.reset();
-                if (text) o.node_spacing = static_cast<float>(parse_real("--node-spacing", *text, kPositive));
+                if (text) o.node_spacing = parse_float("--node-spacing", *text, kPositive);
               })
       ->group(group);
   add_integer(app, "--max-resolution", gate.max_resolution, kResolution, "R",
@@ -286,6 +286,8 @@ void finish_flags(CLI::App& app, RenderSettings& settings) {
     if (settings.preset) option->run_callback();
     settings.given.insert(option->get_name());
   }
+  const CLI::Option* config = app.get_parent() ? app.get_parent()->get_config_ptr() : nullptr;
+  if (config != nullptr && config->count() > 0) settings.config = config->as<std::string>();
 }
 
 }  // namespace gatelight::apps

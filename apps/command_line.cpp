@@ -71,6 +71,20 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
   return kUsage;
 }
 
+/// A file without a name would pass for no file at all: often a variable of a shell that is not set.
+void refuse_empty_words(const CLI::App& root) {
+  for (const CLI::App* app : {&root, called_subcommand(root)}) {
+    for (const CLI::Option* option : app->get_options()) {
+      for (const std::string& word : option->results()) {
+        if (!word.empty()) continue;
+        const std::string type = option->get_type_name();
+        throw UsageError(
+            fmt::format("{}: '' is empty, expected {}", option->get_name(), type.empty() ? "a file" : type));
+      }
+    }
+  }
+}
+
 int parse(int argc, const char* const* argv, bool runs) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
@@ -92,6 +106,7 @@ int parse(int argc, const char* const* argv, bool runs) {
   } catch (const CLI::ParseError& error) {
     return finish_parsing(root, error);
   }
+  refuse_empty_words(root);
   for (const Subcommand& subcommand : subcommands) {
     if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
   }

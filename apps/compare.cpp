@@ -8,6 +8,7 @@
 
 #include "apps/compare_report.h"
 #include "apps/errors.h"
+#include "apps/file_names.h"
 #include "apps/flags.h"
 #include "apps/log.h"
 #include "apps/render_settings.h"
@@ -88,6 +89,12 @@ Picture read_pictures(const std::vector<std::string>& files, std::vector<Picture
 }
 
 void check_outputs(const CompareSettings& settings) {
+  FileNames names;
+  names.read("REFERENCE", settings.reference);
+  names.read("TEST", settings.test);
+  for (const std::string& half : settings.halves) names.read("--halves", half);
+  names.write("--error-map", settings.error_map);
+  names.write("--json", settings.json);
   if (!settings.error_map.empty()) {
     if (std::filesystem::path(settings.error_map).extension() != ".png") {
       throw UsageError(fmt::format("--error-map: '{}' is not a .png file", settings.error_map));
@@ -115,6 +122,7 @@ void check_finite(const CompareSettings& settings, const CompareReport& report) 
         "{}; expected none for ssim, flip and hdr_flip (--metric mse,rel_mse,psnr,mean,max leaves them out)",
         counts));
   }
+  if (report.errors.pixels == 0) throw InputError(fmt::format("{}; nothing is left to compare", counts));
   log_warning(fmt::format("{}; they are left out", counts));
 }
 

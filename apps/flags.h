@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "apps/values.h"
@@ -36,7 +37,11 @@ template <typename Real>
 CLI::Option* add_real(CLI::App& app, const std::string& flag, Real& value, const RealRange& range,
                       const std::string& unit, const std::string& help, const std::string& default_text) {
   return add_word(app, flag, unit, help, default_text, [&value, flag, range](const std::string& text) {
-    value = static_cast<Real>(parse_real(flag, text, range));
+    if constexpr (std::is_same_v<Real, float>) {
+      value = parse_float(flag, text, range);
+    } else {
+      value = static_cast<Real>(parse_real(flag, text, range));
+    }
   });
 }
 

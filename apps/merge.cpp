@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "apps/errors.h"
+#include "apps/log.h"
 #include "apps/results.h"
 #include "apps/seeds.h"
 #include "apps/subcommand.h"
@@ -18,12 +22,33 @@ namespace {
 
 constexpr const char* kMergeFooter =
     R"(A reference in parts: each rendered with a seed of its own, on any day and machine. The mean is weighted by the samples
-per pixel that each file tells (gatelight:spp in its header), and tells their sum. Size and layers must be the same. Of
-layers that have no mean, samples are added up, variance becomes that of the mean, and ids are those of the first file.
+per pixel that each file tells (gatelight:spp in its header), and tells their sum. Size, layers and integrator must be
+the same, and all values finite. Of layers that have no mean, samples are added up, variance becomes that of the mean,
+and ids are those of the first file.
 
 Example:
   for seed in 1 2 3 4; do gatelight render room.glb -o part-$seed.exr --exr float --spp 256 --seed $seed; done
   gatelight merge -o reference.exr part-*.exr)";
+
+/// Warns once of a picture of another scene: the same file may have another name elsewhere.
+class ScenesSeen {
+ public:
+  void add(const renderer::Picture& picture, const std::string& file) {
+    const auto told = picture.metadata.find("scene");
+    if (told == picture.metadata.end()) return;
+    const std::string name = std::filesystem::path(told->second).filename();
+    if (first_.empty()) {
+      first_ = name;
+    } else if (name != first_ && !warned_) {
+      log_warning(fmt::format("'{}' tells of the scene '{}', those before it of '{}'", file, name, first_));
+      warned_ = true;
+    }
+  }
+
+ private:
+  std::string first_;
+  bool warned_ = false;
+};
 
 struct MergeSettings {
   std::string output;
@@ -35,15 +60,29 @@ void require_exr(const std::string& file) {
   throw UsageError(fmt::format("merge: '{}' is not an .exr file", file));
 }
 
+void require_finite(const renderer::Picture& picture, const std::string& file) {
+  for (const renderer::Layer& layer : picture.layers) {
+    const auto finite = [](float value) { return std::isfinite(value); };
+    const auto good = std::count_if(layer.values.begin(), layer.values.end(), finite);
+    const auto bad = static_cast<std::ptrdiff_t>(layer.values.size()) - good;
+    if (bad == 0) continue;
+    throw InputError(fmt::format("'{}' has {} values that are not finite{}, expected none", file, bad,
+                                 layer.name.empty() ? "" : fmt::format(" in its layer '{}'", layer.name)));
+  }
+}
+
 int run_merge(const MergeSettings& settings) {
   require_exr(settings.output);
   for (const std::string& input : settings.inputs) require_exr(input);
   renderer::check_image_output(settings.output);
   renderer::PictureMerger merger;
   SeedsSeen seeds;
+  ScenesSeen scenes;
   for (const std::string& input : settings.inputs) {
     const renderer::Picture picture = renderer::read_image(input);
+    require_finite(picture, input);
     seeds.add(picture, input);
+    scenes.add(picture, input);
     merger.add({picture, input});
   }
   renderer::write_image(merger.finish(), settings.output);

@@ -10,7 +10,8 @@ namespace gatelight::apps {
 namespace {
 
 constexpr RealRange kNotNegative{0.0, 3.4e38};
-constexpr RealRange kFov{.min = 0.0, .max = 180.0, .excludes_min = true, .excludes_max = true};
+/// Beyond, tangents leave single precision.
+constexpr RealRange kFov{0.001, 179.9};
 /// Beyond it 2^EV leaves the range of float.
 constexpr RealRange kStops{-100.0, 100.0};
 constexpr RealRange kFilterWidth{0.0, 32.0};
@@ -138,9 +139,7 @@ void add_view_flags(CLI::App& app, RenderSettings& s) {
   add_triple(app, "--up", s.up, "What is up in a view by hand", "0,1,0");
   for (const char* flag : {"--eye", "--target", "--up"}) app.get_option(flag)->group(group);
   add_word(app, "--fov", "DEGREES", "Vertical field of view; overrides the camera's", "",
-           [&o](const std::string& text) {
-             o.camera.fov_degrees = static_cast<float>(parse_real("--fov", text, kFov));
-           })
+           [&o](const std::string& text) { o.camera.fov_degrees = parse_float("--fov", text, kFov); })
       ->group(group);
   add_word(app, "--environment", "FILE|r,g,b|none",
            "Light from all around: a latitude-longitude EXR or HDR, or one radiance", "none",

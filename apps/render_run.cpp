@@ -66,6 +66,7 @@ int RenderRun::run() {
   if (stop_signal() != 0) return stop_without_picture();
   progress_.phase("build");
   renderer::Renderer renderer(scene, settings_.render);
+  for (const std::string& warning : renderer.statistics().warnings) warn(warning);
   if (stop_signal() != 0) return stop_without_picture();
   renderer::Picture picture = renderer.render(make_callbacks(renderer));
   report_.statistics = renderer.statistics();

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/errors.h"
+#include "apps/file_names.h"
 #include "renderer/threads.h"
 
 namespace gatelight::apps {
@@ -102,18 +103,17 @@ void check_picture(const RenderOptions& options) {
   }
 }
 
-void check_output_names(const RenderSettings& settings) {
-  std::set<fs::path> seen;
-  std::vector<std::string> names = settings.outputs;
-  if (!settings.stats.empty() && settings.stats != "-") names.push_back(settings.stats);
-  for (const std::string& file : {settings.render.cache.cache_out, settings.render.checkpoint.file}) {
-    if (!file.empty()) names.push_back(file);
-  }
-  for (const std::string& name : names) {
-    if (!seen.insert(fs::absolute(name).lexically_normal()).second) {
-      throw UsageError(fmt::format("--output: '{}' is named twice, expected different files", name));
-    }
-  }
+void check_file_names(const RenderSettings& settings) {
+  const CacheOptions& cache = settings.render.cache;
+  FileNames names;
+  names.read("SCENE", settings.scene);
+  names.read("--environment", settings.render.environment.file);
+  names.read("--config", settings.config);
+  names.read("--cache-in", cache.cache_in);
+  for (const std::string& output : settings.outputs) names.write("--output", output);
+  names.write("--stats", settings.stats);
+  names.write("--cache-out", cache.cache_out, "--cache-in");
+  names.write("--checkpoint", settings.render.checkpoint.file);
 }
 
 /// Flags of one encoding, rule or integrator, which another would silently ignore.
@@ -294,7 +294,7 @@ void complete_settings(RenderSettings& settings) {
   complete_cache(settings);
   complete_aovs(settings);
   complete_checkpoint(settings);
-  check_output_names(settings);
+  check_file_names(settings);
   if (settings.render.threads == 0) settings.render.threads = available_threads();
 }
 

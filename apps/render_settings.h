@@ -25,7 +25,8 @@ struct RenderSettings {
   std::optional<std::array<float, 3>> eye;  ///< become render.camera.look_at in complete_settings()
   std::optional<std::array<float, 3>> target;
   std::optional<std::array<float, 3>> up;
-  std::string stats;  ///< file, "-" for stdout, empty for none
+  std::string config;  ///< file of --config, empty for none
+  std::string stats;   ///< file, "-" for stdout, empty for none
   ProgressMode progress = ProgressMode::automatic;
   bool reproducible = false;
   bool quiet = false;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/errors.h"
 #include "apps/json_values.h"
 #include "apps/text.h"
 #include "renderer/memory_estimate.h"
@@ -59,8 +60,9 @@ const char* name_of_type(const scene::Camera& camera) {
 
 class Rows {
  public:
+  /// Names of the file may hold anything: a terminal gets nothing to obey.
   void add(const std::string& name, const std::string& value) {
-    text_ += fmt::format("{:<14} {}\n", name, value);
+    text_ += fmt::format("{:<14} {}\n", name, one_line(value));
   }
 
   /// The first entry beside the name, the others below it.
@@ -110,8 +112,8 @@ scene::Box file_bounds(const scene::Scene& scene) {
 
 std::string describe_bounds(const scene::Box& bounds) {
   if (bounds.isEmpty()) return "empty";
-  const scene::Vec3 low = bounds.min();
-  const scene::Vec3 high = bounds.max();
+  const scene::Vec3& low = bounds.min();
+  const scene::Vec3& high = bounds.max();
   return fmt::format("{:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m, diagonal {:.4g} m", low.x(), low.y(),
                      low.z(), high.x(), high.y(), high.z(), (high - low).norm());
 }
@@ -133,7 +135,8 @@ SceneReport make_scene_report(const scene::Scene& scene, double load_seconds) {
   report.triangles = scene::count_triangles(scene);
   report.geometry_bytes = scene::geometry_bytes(scene);
   report.image_bytes = scene::image_bytes(scene);
-  report.render_bytes = renderer::estimate_memory(scene, renderer::RenderOptions{}).total();
+  const renderer::RenderOptions defaults;
+  report.render_bytes = renderer::estimate_memory(scene, defaults).total();
   report.load_seconds = load_seconds;
   return report;
 }

@@ -32,6 +32,13 @@ bool inside(double value, const RealRange& range) {
   return range.excludes_max ? value < range.max : value <= range.max;
 }
 
+constexpr double kLeastFloat = std::numeric_limits<float>::min();
+
+/// Smaller ones are flushed to zero wherever they are used.
+bool vanishes(double value) {
+  return value != 0.0 && std::abs(value) < kLeastFloat;
+}
+
 std::string describe(const IntegerRange& range) {
   return fmt::format("an integer from {} to {}", range.min, range.max);
 }
@@ -72,6 +79,16 @@ double parse_real(const std::string& flag, const std::string& text, const RealRa
   const std::optional<double> value = read_number<double>(text);
   if (!value || !inside(*value, range)) refuse(flag, text, describe(range));
   return *value;
+}
+
+float parse_float(const std::string& flag, const std::string& text, const RealRange& range) {
+  const double value = parse_real(flag, text, range);
+  const float rounded = static_cast<float>(value);
+  if (!inside(static_cast<double>(rounded), range)) refuse(flag, text, describe(range));
+  if (vanishes(value)) {
+    refuse(flag, text, fmt::format("a number of single precision: 0, or of at least {:.3g}", kLeastFloat));
+  }
+  return rounded;
 }
 
 std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range) {

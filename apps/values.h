@@ -32,6 +32,8 @@ inline constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = 
 
 std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range);
 double parse_real(const std::string& flag, const std::string& text, const RealRange& range);
+/// Also what single precision would make of it is in the range, and not zero unless the text says so.
+float parse_float(const std::string& flag, const std::string& text, const RealRange& range);
 std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range);
 /// "WxH", each from 1 to 65536.
 std::array<int, 2> parse_size(const std::string& flag, const std::string& text);

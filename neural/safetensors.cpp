@@ -68,10 +68,10 @@ class PendingFile {
  public:
   explicit PendingFile(const fs::path& path) : path_(path), target_(path) {
     std::error_code error;
-    if (fs::is_symlink(path, error)) {
-      target_ = fs::weakly_canonical(path, error);
-      if (error) refuse_to_write(path_, error.message());
-    }
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    // What they lead to need not be there yet; an absolute path replaces the one before it.
+    for (int i = 0; i < kMostLinks && fs::is_symlink(target_, error); ++i)
+      target_ = target_.parent_path() / fs::read_symlink(target_, error);
     // Renaming over a device or a pipe would replace it.
     const fs::file_status status = fs::status(target_, error);
     if (fs::is_directory(status)) refuse_to_write(path_, "it is a folder");
@@ -79,7 +79,8 @@ class PendingFile {
       refuse_to_write(path_, "it is not a regular file");
     // "x" fails where the file is there: another writer's stays untouched.
     for (int i = 0; file_ == nullptr && i < 1000; ++i) {
-      temporary_ = target_.parent_path() / fmt::format(".{}.{}.tmp", target_.filename().string(), i);
+      // Short: the file's own name may have all bytes that a name can have.
+      temporary_ = target_.parent_path() / fmt::format(".gatelight.{}.tmp", i);
       file_ = std::fopen(temporary_.c_str(), "wbx");
       if (file_ == nullptr && errno != EEXIST) break;
     }

@@ -137,7 +137,7 @@ struct Accel::State {
 };
 
 Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options)
-    : scene_(scene), coverage_(coverage), state_(std::make_unique<State>()) {
+    : coverage_(coverage), state_(std::make_unique<State>()) {
   if (!has_isa(options.isa)) {
     throw Unavailable(
         fmt::format("--isa {}: this processor does not have it; its best is {}", options.isa, best_isa()));

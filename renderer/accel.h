@@ -50,7 +50,6 @@ class Accel {
  private:
   struct State;
 
-  const scene::Scene& scene_;
   const Coverage& coverage_;
   std::unique_ptr<State> state_;
   RTCDevice device_ = nullptr;

@@ -26,13 +26,6 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-fs::path resolve_link(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  fs::path resolved = fs::weakly_canonical(path, error);
-  return error ? path : resolved;
-}
-
 std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
@@ -55,9 +48,20 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
+fs::path replaced_file(fs::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    const fs::path there = fs::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / there;  // `there` alone where it is absolute
+  }
+  return path;
+}
+
 void check_writable(const fs::path& path) {
   if (path.empty()) refuse(path, "the name is empty");
-  const fs::path target = resolve_link(path);
+  const fs::path target = replaced_file(path);
   const fs::path folder = folder_of(target);
   std::error_code error;
   const fs::file_status folder_status = fs::status(folder, error);
@@ -77,11 +81,11 @@ void check_writable(const fs::path& path) {
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is not a regular file");
 }
 
-AtomicFile::AtomicFile(const fs::path& path) : target_(resolve_link(path)) {
+AtomicFile::AtomicFile(const fs::path& path) : target_(replaced_file(path)) {
   check_writable(path);
   static std::atomic<unsigned> counter{0};
-  temporary_ = folder_of(target_) /
-               fmt::format(".{}.{}-{}.tmp", target_.filename().string(), ::getpid(), counter.fetch_add(1));
+  // Short: the file's own name may have all bytes that a name can have.
+  temporary_ = folder_of(target_) / fmt::format(".gatelight-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
   // 0666 leaves the permissions to the umask, as for any other file.
   int descriptor = open_nameless(folder_of(target_));
   named_ = descriptor < 0;

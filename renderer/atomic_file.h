@@ -14,6 +14,10 @@ struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Where a file written to `path` will lie: at the end of its symbolic links, whether anything is there or
+/// not.
+std::filesystem::path replaced_file(std::filesystem::path path);
+
 /// Throws OutputError unless a file can be made at `path`: its folder exists and can be written, and the path
 /// is free or holds a regular file. Meant for the time before the long work.
 void check_writable(const std::filesystem::path& path);

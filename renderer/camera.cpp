@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -43,19 +44,26 @@ CameraRay Camera::ray(float x, float y) const {
 
 namespace {
 
+/// Eyes and orthographic pictures further from the origin are refused: rays end before squares of distances
+/// leave single precision.
+constexpr float kFurthest = 1e12f;
+
+/// In double: the square of a float may overflow or vanish.
 scene::Affine look_at(const LookAt& view) {
-  const Vec3 z = view.eye - view.target;
-  if (!(z.squaredNorm() > 0.0f))
+  using Eigen::Vector3d;
+  const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
+  if (!(z.squaredNorm() > 0.0))
     throw BadOption("--eye and --target are the same point; expected two different ones");
-  const Vec3 back = z.normalized();
-  Vec3 x = view.up.cross(back);
+  const Vector3d back = z.normalized();
+  const Vector3d up = view.up.cast<double>();
+  Vector3d x = up.cross(back);
   // Straight up or down: any right vector will do.
-  if (!(x.squaredNorm() > 1e-12f * view.up.squaredNorm())) x = back.unitOrthogonal();
+  if (!(x.squaredNorm() > 1e-12 * up.squaredNorm())) x = back.unitOrthogonal();
   x.normalize();
   scene::Affine transform = scene::Affine::Identity();
-  transform.linear().col(0) = x;
-  transform.linear().col(1) = back.cross(x);
-  transform.linear().col(2) = back;
+  transform.linear().col(0) = x.cast<float>();
+  transform.linear().col(1) = back.cross(x).cast<float>();
+  transform.linear().col(2) = back.cast<float>();
   transform.translation() = view.eye;
   return transform;
 }
@@ -85,9 +93,21 @@ std::string names_of(const scene::Scene& scene) {
   return text;
 }
 
-}  // namespace
+/// The camera's own word for its place and size: a flag or a file.
+void require_near(const scene::Camera& camera, float aspect, const std::string& named) {
+  const Vec3 eye = camera.transform.translation();
+  if (!(eye.cwiseAbs().maxCoeff() <= kFurthest)) {
+    throw BadOption(fmt::format("{} is at ({:g}, {:g}, {:g}), expected coordinates of at most {:g} m", named,
+                                eye.x(), eye.y(), eye.z(), kFurthest));
+  }
+  const float half = camera.half_height * std::max(1.0f, aspect);
+  if (camera.orthographic && !(half <= kFurthest)) {
+    throw BadOption(
+        fmt::format("{} shows {:g} m to each side, expected at most {:g} m", named, half, kFurthest));
+  }
+}
 
-scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
+scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
   const float fov = options.fov_degrees ? *options.fov_degrees * scene::kPi / 180.0f : 0.0f;
   scene::Camera camera;
   if (options.look_at) {
@@ -118,6 +138,15 @@ scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& opti
     return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
   }
   if (fov > 0.0f) camera.vertical_fov = fov;
+  return camera;
+}
+
+}  // namespace
+
+scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
+  const scene::Camera camera = find_camera(scene, options, aspect);
+  require_near(camera, aspect,
+               options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", camera.name, scene.path));
   return camera;
 }
 

@@ -64,15 +64,15 @@ ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture&
       metrics.max_error = std::max(metrics.max_error, std::abs(difference));
     }
   }
-  if (metrics.pixels > 0) {
-    const double count = 3.0 * static_cast<double>(metrics.pixels);
-    metrics.mse /= count;
-    metrics.rel_mse /= count;
-    metrics.mean_error /= count;
-    metrics.mean_difference /= count;
-  }
-  metrics.psnr = metrics.mse > 0.0 ? 10.0 * std::log10(kPsnrPeak * kPsnrPeak / metrics.mse)
-                                   : std::numeric_limits<double>::infinity();
+  // Without a pixel there is no error to tell: 0/0, a NaN.
+  const double count = 3.0 * static_cast<double>(metrics.pixels);
+  metrics.mse /= count;
+  metrics.rel_mse /= count;
+  metrics.mean_error /= count;
+  metrics.mean_difference /= count;
+  if (metrics.pixels == 0) metrics.max_error = std::numeric_limits<double>::quiet_NaN();
+  metrics.psnr = metrics.mse != 0.0 ? 10.0 * std::log10(kPsnrPeak * kPsnrPeak / metrics.mse)
+                                    : std::numeric_limits<double>::infinity();
   return metrics;
 }
 
@@ -99,7 +99,7 @@ double squared_bias(const Halves& reference, const Halves& test) {
       sum += (t1[c] - r1[c]) * (t2[c] - r2[c]) / (r * r + kRelMseEpsilon);
     }
   }
-  return compared > 0 ? sum / (3.0 * static_cast<double>(compared)) : 0.0;
+  return sum / (3.0 * static_cast<double>(compared));
 }
 
 Picture error_map(const NamedPicture& reference, const NamedPicture& test) {

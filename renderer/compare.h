@@ -38,7 +38,8 @@ struct NamedPicture {
 };
 
 /// Alpha is ignored; a beauty layer of one channel is grey. Throws CompareError when the sizes differ, when
-/// one is grey and one has colours, or when a picture has no beauty layer.
+/// one is grey and one has colours, or when a picture has no beauty layer. Where no pixel is finite in both,
+/// all errors are NaN.
 ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture& test);
 
 /// Two pictures of the same with independent noise.
@@ -51,7 +52,7 @@ struct Halves {
 /// four: where the noise of each is independent of that of the others, this is the relative squared error
 /// that the test would keep with infinitely many samples. The rel_mse of a picture is this plus its variance.
 /// May be negative by chance. (r is noisy too, which enters in the fourth power of the references' noise
-/// only.) Throws CompareError as compare_pictures() does; 0 where no pixel is finite.
+/// only.) Throws CompareError as compare_pictures() does; NaN where no pixel is finite.
 double squared_bias(const Halves& reference, const Halves& test);
 
 /// Per pixel the square root of its relative squared error, as a colour: black 0, violet 0.1, red 0.25,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "renderer/environment_picture.h"
@@ -16,24 +17,59 @@ namespace {
 /// Largest radiance that is kept: sums of a whole picture and products with a throughput stay finite.
 constexpr float kLargest = 1e30f;
 
-float usable(float value) {
-  return value > 0.0f && std::isfinite(value) ? std::min(value, kLargest) : 0.0f;
+/// Black for what is no light: negative or NaN.
+float usable(double value) {
+  return value > 0.0 ? static_cast<float>(std::min(value, static_cast<double>(kLargest))) : 0.0f;
 }
 
-std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options) {
+float scaled(float value, float scale) {
+  return usable(static_cast<double>(usable(value)) * static_cast<double>(scale));
+}
+
+/// The values of a picture as light, and what was wrong with them.
+class Repair {
+ public:
+  explicit Repair(std::span<const float> values) {
+    for (const float value : values) {
+      if (std::isfinite(value)) greatest_ = std::max(greatest_, value);
+    }
+  }
+
+  float operator()(float value) {
+    infinite_ += value == scene::kInfinity ? 1 : 0;
+    no_light_ += value >= 0.0f ? 0 : 1;
+    return value == scene::kInfinity ? greatest_ : value;
+  }
+
+  std::string warning(const std::string& file) const {
+    if (infinite_ + no_light_ == 0) return "";
+    return fmt::format(
+        "environment '{}': {} values are infinite and taken as {}, {} negative or NaN and taken as 0", file,
+        infinite_, greatest_, no_light_);
+  }
+
+ private:
+  float greatest_ = 65504.0f;  ///< in half precision all beyond it is infinite
+  std::size_t infinite_ = 0;
+  std::size_t no_light_ = 0;
+};
+
+std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options, std::string& warning) {
   const Picture picture = read_image(options.file);
   const Layer& layer = picture.layers.front();
   const std::size_t channels = layer.channels.size();
   const std::size_t count =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   std::vector<Color> texels(count);
+  Repair repaired(layer.values);
   for (std::size_t i = 0; i < count; ++i) {
     const float* value = layer.values.data() + i * channels;
     for (std::size_t c = 0; c < 3; ++c) {
       // Grey, with or without alpha, fills all three.
-      texels[i][static_cast<Eigen::Index>(c)] = usable(usable(value[channels < 3 ? 0 : c]) * options.scale);
+      texels[i][static_cast<Eigen::Index>(c)] = scaled(repaired(value[channels < 3 ? 0 : c]), options.scale);
     }
   }
+  warning = repaired.warning(options.file);
   return std::make_unique<const EnvironmentPicture>(picture.width, picture.height, std::move(texels));
 }
 
@@ -51,9 +87,9 @@ Environment::Environment(const EnvironmentOptions& options) {
   cos_ = static_cast<float>(std::cos(angle));
   sin_ = static_cast<float>(std::sin(angle));
   if (options.file.empty()) {
-    for (Eigen::Index c = 0; c < 3; ++c) mean_[c] = usable(usable(options.constant[c]) * options.scale);
+    for (Eigen::Index c = 0; c < 3; ++c) mean_[c] = scaled(options.constant[c], options.scale);
   } else {
-    picture_ = load(options);
+    picture_ = load(options, warning_);
     mean_ = picture_->mean();
   }
 }

@@ -32,7 +32,8 @@ struct EnvironmentSample {
 class EnvironmentPicture;
 
 /// The centre of the picture is seen along -z, +x to its right, +y up (the convention of most viewers).
-/// Non-finite and negative texels count as zero. Thread-safe after construction.
+/// Infinite values count as the greatest finite one of the picture, 65504 (the end of half precision) at
+/// least; NaN and negative ones as zero. Thread-safe after construction.
 class Environment {
  public:
   /// Throws std::runtime_error naming the file when it cannot be read.
@@ -52,6 +53,8 @@ class Environment {
   /// The same radiance from everywhere: worth sampling by the receiver's cosine instead.
   bool constant() const { return picture_ == nullptr; }
   std::size_t bytes() const;
+  /// How many values of the picture are not finite or negative, in a line; empty: none.
+  const std::string& warning() const { return warning_; }
 
  private:
   Vec3 to_picture(const Vec3& world) const {
@@ -62,6 +65,7 @@ class Environment {
   }
 
   std::unique_ptr<const EnvironmentPicture> picture_;
+  std::string warning_;
   Color mean_{0.0f, 0.0f, 0.0f};
   float cos_ = 1.0f;  ///< of the rotation
   float sin_ = 0.0f;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/finite_float.h"
+
 namespace gatelight::renderer {
 
 namespace {
@@ -142,7 +144,7 @@ Layer Film::layer(Aov aov) const {
     layer.channels = std::move(channels);
     layer.values.reserve(values.size() * n);
     for (const auto& p : values) {
-      for (std::size_t i = 0; i < n; ++i) layer.values.push_back(static_cast<float>(value(p, i)));
+      for (std::size_t i = 0; i < n; ++i) layer.values.push_back(finite_float(value(p, i)));
     }
   };
   const auto over_hits = [](double sum, const First& p) { return p.hits > 0 ? sum / p.hits : 0.0; };
@@ -215,7 +217,7 @@ Picture Film::resolve() const {
   beauty.channels = {"R", "G", "B"};
   beauty.values.reserve(radiance_.size() * 3);
   for (const Radiance& p : radiance_) {
-    for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? static_cast<float>(sum / p.count) : 0.0f);
+    for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? finite_float(sum / p.count) : 0.0f);
   }
   picture.layers.push_back(std::move(beauty));
   for (Aov aov : aovs_) picture.layers.push_back(layer(aov));

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "renderer/beauty.h"
+#include "renderer/finite_float.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -30,8 +31,8 @@ std::uint64_t samples_per_pixel(const NamedPicture& named, const std::string& te
 }
 
 std::string shape(const Picture& picture) {
-  std::string text =
-      fmt::format("{}x{} pixels at {},{}", picture.width, picture.height, picture.x0, picture.y0);
+  std::string text = fmt::format("{}x{} pixels at {},{} of {}x{}", picture.width, picture.height, picture.x0,
+                                 picture.y0, picture.full_width, picture.full_height);
   for (const Layer& layer : picture.layers) {
     text += fmt::format(", {}({})", layer.name, fmt::join(layer.channels, ""));
   }
@@ -56,6 +57,14 @@ void PictureMerger::require_same_shape(const NamedPicture& named) const {
   if (first != other) {
     throw CompareError(fmt::format("the pictures cannot be merged: '{}' has {}, '{}' has {}", first_name_,
                                    first, named.name, other));
+  }
+  const auto integrator = merged_.metadata.find("integrator");
+  const auto other_integrator = named.picture.metadata.find("integrator");
+  if (integrator != merged_.metadata.end() && other_integrator != named.picture.metadata.end() &&
+      integrator->second != other_integrator->second) {
+    throw CompareError(
+        fmt::format("the pictures cannot be merged: '{}' was made by --integrator {}, '{}' by {}",
+                    first_name_, integrator->second, named.name, other_integrator->second));
   }
   if (weighted_ == named.picture.metadata.contains("spp")) return;
   throw CompareError(
@@ -87,7 +96,12 @@ void PictureMerger::add(const NamedPicture& named) {
   double weight = 1.0;
   if (weighted_) {
     const std::uint64_t spp = samples_per_pixel(named, named.picture.metadata.at("spp"));
-    spp_ += spp;
+    if (__builtin_add_overflow(spp_, spp, &spp_)) {
+      throw CompareError(
+          fmt::format("'{}' says it has {} samples per pixel: with those of the others more than "
+                      "64 bits hold",
+                      named.name, spp));
+    }
     weight = static_cast<double>(spp);
   }
   weight_ += weight;
@@ -109,7 +123,7 @@ Picture PictureMerger::finish() const {
     if (rule == Rule::first) continue;
     const double divisor = rule == Rule::sum ? 1.0 : rule == Rule::variance ? weight_ * weight_ : weight_;
     for (std::size_t i = 0; i < sums_[l].size(); ++i) {
-      picture.layers[l].values[i] = static_cast<float>(sums_[l][i] / divisor);
+      picture.layers[l].values[i] = finite_float(sums_[l][i] / divisor);
     }
   }
   if (weighted_) picture.metadata["spp"] = std::to_string(spp_);

@@ -17,8 +17,8 @@ namespace gatelight::renderer {
 /// common; "spp" is the sum, "seed" the list.
 class PictureMerger {
  public:
-  /// Throws CompareError where size, place or layers are not those of the first, or where some tell their spp
-  /// and others do not.
+  /// Throws CompareError where size, place or layers are not those of the first, where some tell their spp
+  /// and others do not, where their sum leaves 64 bits, or where they tell of different integrators.
   void add(const NamedPicture& named);
 
   /// At least one was added. All layers in full precision.

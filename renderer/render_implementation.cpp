@@ -66,6 +66,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   arena.execute([&] {
     textures.emplace(scene);
     environment.emplace(options.environment);
+    if (!environment->warning().empty()) statistics.warnings.push_back(environment->warning());
     coverage.emplace(scene, *textures);
     surfaces.emplace(scene, *textures);
     accel.emplace(scene, *coverage, AccelOptions{threads, options.isa, budget});

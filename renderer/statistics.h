@@ -82,7 +82,8 @@ struct RenderStatistics {
   int spp = 0;                ///< finished for every pixel
   std::uint64_t samples = 0;  ///< camera paths in all
   int threads = 0;
-  std::string isa;  ///< that Embree chose
+  std::string isa;                    ///< that Embree chose
+  std::vector<std::string> warnings;  ///< of what was built: input that was taken otherwise than it says
   RayCounts rays;
   std::size_t geometry_bytes = 0;
   std::size_t bvh_bytes = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -108,6 +109,13 @@ void add_origin(ordered_json& json) {
   json["backend"] = nullptr;
 }
 
+/// An object of numbers, or null: what JSON has for those that are not finite.
+bool holds_numbers(const ordered_json& object) {
+  return object.is_object() && std::all_of(object.begin(), object.end(), [](const ordered_json& value) {
+           return value.is_null() || value.is_number();
+         });
+}
+
 /// Whether other parts of the program may rely on its keys.
 bool is_whole(const ordered_json& record) {
   for (const char* key : kMeasured) {
@@ -116,10 +124,23 @@ bool is_whole(const ordered_json& record) {
   for (const char* key : {"version", "cpu", "isa"}) {
     if (!record.contains(key) || !record[key].is_string()) return false;
   }
-  const ordered_json& errors = record["errors"];
+  for (const char* key : {"train_ms_per_step", "train_step_ms", "query_ms_per_2m", "loss"}) {
+    if (!record[key].is_null() && !record[key].is_number()) return false;
+  }
+  for (const char* key : {"memory_bytes", "flip_percentiles"}) {
+    if (!record[key].is_null() && !holds_numbers(record[key])) return false;
+  }
   const ordered_json& seconds = record["seconds"];
-  return errors.is_object() && errors.contains("flip") && seconds.is_object() && seconds.contains("total") &&
-         seconds["total"].is_number();
+  return holds_numbers(record["errors"]) && record["errors"].contains("flip") && holds_numbers(seconds) &&
+         seconds.contains("total") && seconds["total"].is_number() && seconds["total"] >= 0.0;
+}
+
+/// Names of files in it are those that this program gives: nothing else in or beside the folder is shown.
+bool names_its_files(const ordered_json& record, const std::string& id) {
+  const auto names = [&](const char* key, const std::string& file) {
+    return record[key].is_null() || record[key] == file;
+  };
+  return names("picture", picture_file(id)) && names("error_map", error_map_file(id));
 }
 
 }  // namespace
@@ -192,7 +213,8 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
                                              bool with_pictures) {
   const std::filesystem::path root = folder;
   ordered_json record = read_json_file(root / cell_file(place.id));
-  if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record)) {
+  if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record) ||
+      !names_its_files(record, place.id)) {
     return std::nullopt;
   }
   // Files are looked for, not believed: somebody may have tidied up.

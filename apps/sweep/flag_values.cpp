@@ -1,5 +1,7 @@
 #include "apps/sweep/flag_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gatelight::apps {
@@ -27,7 +29,7 @@ std::vector<std::string> words_of(const FlagValues& flags) {
   for (const auto& [flag, value] : flags) {
     // A value may begin with a dash: "--exposure -1" would be read well, "--camera -x" would not.
     if (!value.empty() && value.front() == '-') {
-      words.push_back(flag + "=" + value);
+      words.push_back(fmt::format("{}={}", flag, value));
     } else {
       words.insert(words.end(), {flag, value});
     }

@@ -18,6 +18,7 @@ double pixels_of(const RenderOptions& o) {
 /// Of this scene before those of others, and in the end any picture, by its paths.
 std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<std::string>& kinds) {
   std::vector<std::string> all;
+  all.reserve(2 * kinds.size() + 1);
   for (const std::string& kind : kinds) all.push_back(fmt::format("{} {}", scene.name, kind));
   all.insert(all.end(), kinds.begin(), kinds.end());
   all.emplace_back("picture");

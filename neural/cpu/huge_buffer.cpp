@@ -2,6 +2,8 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <new>
 
 namespace gatelight::neural::cpu::detail {
@@ -25,15 +27,15 @@ void* map_huge(std::size_t bytes) {
   // Mapped too large, then trimmed to an aligned start.
   void* p = mmap(nullptr, bytes + kHugePage, protection, flags, -1, 0);
   if (p == MAP_FAILED) throw std::bad_alloc();
-  const auto begin = reinterpret_cast<std::uintptr_t>(p);
-  const std::uintptr_t aligned = (begin + kHugePage - 1) / kHugePage * kHugePage;
-  const std::uintptr_t end = begin + bytes + kHugePage;
-  const std::uintptr_t used_end = (aligned + bytes + kPage - 1) / kPage * kPage;
-  if (aligned > begin) munmap(p, aligned - begin);
-  if (end > used_end) munmap(reinterpret_cast<void*>(used_end), end - used_end);
-  madvise(reinterpret_cast<void*>(aligned), bytes,
-          MADV_HUGEPAGE);  // advice: a refusal costs time, not results
-  return reinterpret_cast<void*>(aligned);
+  const std::size_t beyond = reinterpret_cast<std::uintptr_t>(p) % kHugePage;
+  const std::size_t before = beyond == 0 ? 0 : kHugePage - beyond;
+  const std::size_t used = (bytes + kPage - 1) / kPage * kPage;
+  const std::size_t after = bytes + kHugePage - before;
+  std::byte* const aligned = static_cast<std::byte*>(p) + before;
+  if (before > 0) munmap(p, before);
+  if (after > used) munmap(aligned + used, after - used);
+  madvise(aligned, bytes, MADV_HUGEPAGE);  // advice: a refusal costs time, not results
+  return aligned;
 }
 
 }  // namespace gatelight::neural::cpu::detail

@@ -28,7 +28,8 @@ void add_corners(MeshTopology& topology) {
 struct HalfEdge {
   std::uint32_t high = 0;
   std::uint32_t slot = 0;  ///< 3 * triangle + opposite corner
-  friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
+  friend auto operator<=>(const HalfEdge&,
+                          const HalfEdge&) = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<HalfEdge>& edges) {

@@ -23,8 +23,9 @@ std::uint32_t half_stride(std::uint64_t features) {
 }
 
 std::vector<std::uint32_t> pack_halves(std::span<const float> values, std::uint64_t features) {
+  if (features == 0) return {};
   const std::uint64_t stride = half_stride(features);
-  std::vector<std::uint32_t> words(features == 0 ? 0 : values.size() / features * stride, 0);
+  std::vector<std::uint32_t> words(values.size() / features * stride, 0);
   for (std::uint64_t i = 0; i < values.size(); ++i) {
     const std::uint64_t node = i / features, f = i % features;
     words[node * stride + f / 2] |= std::uint32_t{float_to_finite_half(values[i])} << (16 * (f % 2));

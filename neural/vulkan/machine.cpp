@@ -29,6 +29,7 @@ std::uint64_t submissions_before_loss(const MachineOptions& options) {
 vk::raii::PhysicalDevice choose(const Instance& instance, const std::string& wanted) {
   std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
   std::vector<DeviceFacts> facts;
+  facts.reserve(devices.size());
   for (const vk::raii::PhysicalDevice& device : devices) facts.push_back(facts_of(device));
   return std::move(devices[choose_device(facts, wanted)]);
 }

@@ -34,6 +34,7 @@ std::string machine_name(const Machine&) {
   refuse();
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): with Vulkan they are kept
 std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine>, std::shared_ptr<const Model>,
                                              const TrainingOptions&) {
   refuse();

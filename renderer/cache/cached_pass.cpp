@@ -8,6 +8,7 @@
 #include "neural/mesh_colors.h"
 #include "renderer/ao_integrator.h"
 #include "renderer/clock.h"
+#include "renderer/finite_float.h"
 #include "renderer/first_hit.h"
 #include "renderer/occlusion.h"
 #include "renderer/trace_timer.h"
@@ -25,6 +26,15 @@ Color color_of(std::uint32_t number) {
   return Color(static_cast<float>(h & 255u), static_cast<float>(h >> 8 & 255u),
                static_cast<float>(h >> 16 & 255u)) /
          255.0f;
+}
+
+/// The squared error over the squared luminance of the answer, as the relative loss counts it, of values
+/// times `scale`. In double: such squares leave single precision.
+float relative_error(const Color& answer, const Color& target, float scale) {
+  const Eigen::Array3d y = answer.cast<double>() * static_cast<double>(scale);
+  const Eigen::Array3d t = target.cast<double>() * static_cast<double>(scale);
+  const double luminance = static_cast<double>(scene::luminance(answer)) * static_cast<double>(scale);
+  return finite_float((y - t).square().mean() / (luminance * luminance + neural::kRelativeLossEpsilon));
 }
 
 template <typename Function>
@@ -244,12 +254,9 @@ void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
     for (int c = 0; c < 3; ++c) first.answer[c] = answer[outputs == 3 ? c : 0];
     if (records[i] != kNone) {
       const float scale = session_.setup().target_scale;
-      const Color y = first.answer * scale;
       const Color target =
-          Eigen::Map<const Color>(&worker.check.targets[3 * static_cast<std::size_t>(records[i])]) * scale;
-      const float luminance = scene::luminance(y);
-      first.error = (y - target).square().mean() /
-                    (luminance * luminance + static_cast<float>(neural::kRelativeLossEpsilon));
+          Eigen::Map<const Color>(&worker.check.targets[3 * static_cast<std::size_t>(records[i])]);
+      first.error = relative_error(first.answer, target, scale);
     }
     if (!gate) continue;
     const std::uint32_t surface = tile.paths.queries.surface(query);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "renderer/finite_float.h"
 #include "renderer/tonemap.h"
 
 namespace gatelight::renderer::flip {
@@ -52,12 +53,14 @@ Exposures choose_exposures(const RgbPlanes& reference) {
 }
 
 RgbPlanes expose(const RgbPlanes& radiance, double stops) {
-  const float scale = static_cast<float>(std::exp2(stops)) * kPreExposure;
+  // In double: of radiances near the greatest float the scale would be flushed to zero.
+  const double scale = std::exp2(stops) * static_cast<double>(kPreExposure);
   RgbPlanes shown;
   const auto curve = [&](const Plane& from, Plane& to) {
     to.resize(from.rows(), from.cols());
     tbb::parallel_for(Eigen::Index{0}, from.rows(), [&](Eigen::Index row) {
-      for (Eigen::Index x = 0; x < from.cols(); ++x) to(row, x) = filmic(scale * from(row, x));
+      for (Eigen::Index x = 0; x < from.cols(); ++x)
+        to(row, x) = filmic(finite_float(scale * static_cast<double>(from(row, x))));
     });
   };
   curve(radiance.r, shown.r);

@@ -414,7 +414,31 @@ TEST(CheckpointFlags, NeedAFile) {
   EXPECT_EQ(options.every_seconds, 5.0);
   EXPECT_TRUE(options.resume);
   EXPECT_EQ(read({"--checkpoint", "c"}).render.checkpoint.every_seconds, 60.0);
-  EXPECT_THAT(refusal({"--checkpoint", "a.exr"}), HasSubstr("named twice"));
+}
+
+TEST(FileNames, WhatIsReadOrWrittenIsNotWrittenByAnotherFlag) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "d");
+  std::filesystem::create_directory_symlink("d", folder / "dl");
+  std::filesystem::create_symlink("d/b.exr", folder / "link.exr");
+  const std::string inside = (folder / "d/b.exr").string();
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--checkpoint", "a.exr"}, "--checkpoint: 'a.exr' is the file of --output too"},
+      {{"--stats", "./a.exr"}, "--stats: './a.exr' is the file of --output"},
+      {{"-o", "a.exr"}, "--output: 'a.exr' is named twice"},
+      {{"-o", inside, "--checkpoint", (folder / "dl/b.exr").string()}, "the file of --output"},
+      {{"-o", inside, "-o", (folder / "link.exr").string()}, "named twice"},
+      {{"--stats", "room.glb"}, "--stats: 'room.glb' is the file of SCENE"},
+      {{"--checkpoint", "room.glb"}, "--checkpoint: 'room.glb' is the file of SCENE"},
+      {{"--environment", "sky.exr", "-o", "sky.exr"}, "--output: 'sky.exr' is the file of --environment"},
+      {with_cache({"--cache-in", "c", "--stats", "c"}), "--stats: 'c' is the file of --cache-in"},
+      {with_cache({"--cache-out", "room.glb"}), "--cache-out: 'room.glb' is the file of SCENE"},
+      {with_cache({"--cache-in", "room.glb", "--cache-out", "room.glb"}),
+       "--cache-out: 'room.glb' is the file of SCENE"},
+  };
+  for (const auto& [words, expected] : cases) EXPECT_THAT(refusal(words), HasSubstr(expected));
+  EXPECT_EQ(refusal(with_cache({"--cache-in", "c", "--cache-out", "c"})), "") << "a cache that goes on";
+  EXPECT_EQ(refusal({"--stats", "-"}), "");
 }
 
 TEST(CacheRecipe, CanBeGivenBackAsFlags) {

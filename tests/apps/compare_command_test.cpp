@@ -240,15 +240,43 @@ TEST_F(CompareCommand, NonFinitePixelsAreRefusedWithTheirCounts) {
 
 TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
-  const std::string test = picture("t.exr", 2, 1, std::nanf(""));
+  renderer::Picture half{.width = 2, .height = 1};
+  half.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1, 1, std::nanf(""), 1}}};
+  renderer::write_image(half, folder / "t.exr", {.exr_float = true});
+  const std::string test = path("t.exr");
   const Output output =
       run_gatelight_inside({"compare", reference, test, "--metric", "mse,rel_mse,psnr,mean,max", "--json",
                             "-", "--error-map", path("e.png"), "--map", "relative"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
-  EXPECT_THAT(output.err, AllOf(HasSubstr("2 in '" + test + "'"), HasSubstr("left out")));
-  EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 2);
-  EXPECT_EQ(json::parse(output.out)["pixels"], 0);
+  EXPECT_THAT(output.err, AllOf(HasSubstr("1 in '" + test + "'"), HasSubstr("left out")));
+  EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 1);
+  EXPECT_EQ(json::parse(output.out)["pixels"], 1);
   EXPECT_TRUE(std::filesystem::exists(path("e.png")));
+}
+
+TEST_F(CompareCommand, WithoutAFinitePixelNothingIsEqual) {
+  const std::string reference = picture("r.exr", 2, 1, 1.0f);
+  const std::string test = picture("t.exr", 2, 1, std::nanf(""));
+  const Output output = run_gatelight_inside({"compare", reference, test, "--metric", "mse"});
+  EXPECT_EQ(output.exit_code, 2);
+  EXPECT_EQ(output.out, "");
+  EXPECT_THAT(output.last_error_line(),
+              AllOf(HasSubstr("2 in '" + test + "'"), HasSubstr("nothing is left")));
+}
+
+TEST_F(CompareCommand, ResultsDoNotReplaceWhatIsCompared) {
+  const std::string reference = picture("r.exr", 2, 1, 1.0f);
+  const std::string test = picture("t.exr", 2, 1, 1.0f);
+  for (const std::string& file : {reference, test}) {
+    const std::string before = read_file(file);
+    const Output output = run_gatelight_inside({"compare", reference, test, "--json", file});
+    EXPECT_EQ(output.exit_code, 1);
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("--json"), HasSubstr(file)));
+    EXPECT_EQ(read_file(file), before);
+  }
+  const std::string map = path("e.png");
+  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", map, "--json", map}).exit_code,
+            1);
 }
 
 }  // namespace

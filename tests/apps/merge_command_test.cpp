@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
 #include "renderer/image_read.h"
 #include "renderer/image_write.h"
 #include "tests/apps/process.h"
@@ -87,6 +91,23 @@ TEST_F(MergeCommand, WrongFilesAreRefused) {
   EXPECT_EQ(sizes.exit_code, 2);
   EXPECT_THAT(sizes.last_error_line(), AllOf(HasSubstr("a.exr"), HasSubstr("wide.exr"), HasSubstr("2x1")));
   EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
+}
+
+TEST_F(MergeCommand, PicturesThatAreNotFiniteAreRefused) {
+  const std::string good = picture("a.exr", 2, 1.0f, {{"scene", "a/room.glb"}});
+  for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    const std::string bad = picture("b.exr", 2, value);
+    const Output output = run_gatelight_inside({"merge", "-o", path("m.exr"), good, bad});
+    EXPECT_EQ(output.exit_code, 2);
+    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr(bad), HasSubstr("6 values that are not finite")));
+    EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
+  }
+  const std::string same = picture("c.exr", 2, 1.0f, {{"scene", "b/room.glb"}});
+  EXPECT_EQ(run_gatelight_inside({"merge", "-o", path("m.exr"), good, same}).err, "");
+  const std::string other = picture("d.exr", 2, 1.0f, {{"scene", "a/hall.glb"}});
+  const Output warned = run_gatelight({"merge", "-o", path("m.exr"), good, other});
+  EXPECT_EQ(warned.exit_code, 0);
+  EXPECT_THAT(warned.err, AllOf(HasSubstr("'hall.glb'"), HasSubstr("'room.glb'")));
 }
 
 }  // namespace

@@ -326,6 +326,11 @@ TEST_F(RenderCommand, InfoTellsWhatTheSceneHolds) {
   for (const char* word : {"triangles", "2 stored", "front", "bounds", "requires", "memory"}) {
     EXPECT_THAT(text.out, HasSubstr(word));
   }
+  std::string odd = tiny_scene();
+  odd.replace(odd.rfind("\"front\", \"type\""), 7, R"("a\n\u001b]0;b")");
+  const Output told = run_gatelight_inside({"info", folder.write("odd.gltf", odd)});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("'a  ]0;b'")) << "a terminal gets nothing to obey";
   const json info = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
   EXPECT_EQ(info["triangles"], 2);
   EXPECT_EQ(info["cameras"][0]["name"], "front");

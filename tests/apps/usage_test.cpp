@@ -38,7 +38,8 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   const Output root = run_gatelight({"--help"});
   EXPECT_EQ(root.exit_code, 0);
   EXPECT_EQ(root.err, "");
-  for (const char* word : {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
+  for (const char* word :
+       {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
     EXPECT_THAT(root.out, HasSubstr(word));
   }
   const Output render = run_gatelight({"render", "--help"});
@@ -135,8 +136,16 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
       {{"--spp", "99999999999"}, "--spp", "'99999999999'", "from 1 to"},
       {{"--size", "0x10"}, "--size", "'0x10'", "from 1 to 65536"},
       {{"--size", "65536x65536"}, "--size", "'65536x65536'", "at most"},
-      {{"--fov", "180"}, "--fov", "'180'", "above 0 and below 180"},
-      {{"--fov", "0"}, "--fov", "'0'", "above 0"},
+      {{"--fov", "180"}, "--fov", "'180'", "at least 0.001 and at most 179.9"},
+      {{"--fov", "0"}, "--fov", "'0'", "at least 0.001"},
+      {{"--eye", "1e20,0,0", "--target", "0,0,0"}, "--eye", "1e+20", "at most 1e+12 m"},
+      {{"--clamp", "1e-41"}, "--clamp", "'1e-41'", "0, or of at least 1.18e-38"},
+      {{"--checkpoint", ""}, "--checkpoint", "''", "expected FILE"},
+      {{"--stats", ""}, "--stats", "''", "expected FILE|-"},
+      {{"--environment", ""}, "--environment", "''", "expected FILE|r,g,b|none"},
+      {{"--camera", ""}, "--camera", "''", "expected NAME|INDEX"},
+      {{"-o", ""}, "--output", "''", "expected FILE"},
+      {{"--config", ""}, "--config", "''", "expected FILE.toml"},
       {{"--time-limit", "-1"}, "--time-limit", "'-1'", "at least 0"},
       {{"--time-limit", "nan"}, "--time-limit", "'nan'", "at least 0"},
       {{"--region", "0,0,961,1"}, "--region", "'0,0,961,1'", "x1 <= 960"},

@@ -95,5 +95,16 @@ TEST(Values, ListsHaveNoEmptyWords) {
   }
 }
 
+TEST(Values, FloatsAreInTheRangeAsFloatsToo) {
+  const RealRange below{.min = 0.0, .max = 180.0, .excludes_min = true, .excludes_max = true};
+  EXPECT_EQ(parse_float("--x", "0.1", below), 0.1f);
+  EXPECT_THAT(refusal([&] { parse_float("--x", "179.99999999999", below); }), HasSubstr("below 180"));
+  EXPECT_THAT(refusal([&] { parse_float("--x", "1e-46", below); }), HasSubstr("above 0"));
+  const RealRange any{0.0, 3.4e38};
+  EXPECT_EQ(parse_float("--x", "0", any), 0.0f);
+  EXPECT_THAT(refusal([&] { parse_float("--x", "1e-41", any); }),
+              AllOf(HasSubstr("'1e-41'"), HasSubstr("1.18e-38")));
+}
+
 }  // namespace
 }  // namespace gatelight::apps

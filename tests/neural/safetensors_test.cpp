@@ -203,6 +203,15 @@ TEST(Safetensors, WhatIsNoFileIsRefused) {
   EXPECT_EQ(folder.count_files(), 0u);
 }
 
+TEST(Safetensors, ALinkToWhatIsNotThereYetIsFollowed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/file", folder / "link");
+  write_safetensors(folder / "link", {}, {{"k", "v"}});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(SafetensorsReader(folder / "there/file").metadata().at("k"), "v");
+}
+
 TEST(Safetensors, ASymbolicLinkStaysOne) {
   const TemporaryFolder folder;
   folder.write("there/file", "old");
@@ -259,9 +268,9 @@ TEST(Safetensors, AnOldFileStaysWholeWhenTheDiskIsFull) {
 
 TEST(Safetensors, AForeignTemporaryFileIsLeftAlone) {
   const TemporaryFolder folder;
-  folder.write(".cache.0.tmp", "of another writer");
+  folder.write(".gatelight.0.tmp", "of another writer");
   write_safetensors(folder / "cache", {}, {});
-  EXPECT_EQ(read_file(folder / ".cache.0.tmp"), "of another writer");
+  EXPECT_EQ(read_file(folder / ".gatelight.0.tmp"), "of another writer");
   EXPECT_EQ(folder.count_files(), 2u);
 }
 

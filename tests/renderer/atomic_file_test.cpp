@@ -88,6 +88,29 @@ TEST(AtomicFile, ALinkIsFollowedAndStays) {
   EXPECT_EQ(read_file(folder / "target.txt"), "new");
 }
 
+TEST(AtomicFile, ALinkToWhatIsNotThereYetIsFollowedToo) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "there");
+  fs::create_symlink("there/next", folder / "link.txt");
+  fs::create_symlink(folder / "there/target.txt", folder / "there/next");
+  write_file_atomically(folder / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(read_file(folder / "there/target.txt"), "new");
+  fs::create_symlink("no such folder/a.txt", folder / "lost.txt");
+  EXPECT_THAT(refusal(folder / "lost.txt"), HasSubstr("does not exist"));
+  fs::create_symlink("loop.txt", folder / "loop.txt");
+  EXPECT_THAT(refusal(folder / "loop.txt"), HasSubstr("loop.txt"));
+}
+
+TEST(AtomicFile, TheLongestNameCanBeReplaced) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / std::string(255, 'n');
+  for (const char* text : {"first", "second"}) {
+    write_file_atomically(path, text);
+    EXPECT_EQ(read_file(path), text);
+  }
+}
+
 TEST(CheckWritable, NamesWhatStandsInTheWay) {
   const TemporaryFolder folder;
   folder.write("file", "x");

@@ -1,5 +1,6 @@
 #include "renderer/camera.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,9 @@
 
 namespace gatelight::renderer {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 scene::Scene scene_with_cameras() {
   scene::Scene s;
@@ -101,6 +105,41 @@ TEST(Camera, AutoFramingHoldsTheWholeSceneAtAnyScaleAndAspect) {
       }
     }
   }
+}
+
+TEST(Camera, TargetsAndUpsOfAnyLengthAreDirections) {
+  CameraOptions near;
+  near.look_at = LookAt{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
+  const scene::Affine expected = choose_camera({}, near, 1.0f).transform;
+  for (const float length : {1e-30f, 1e30f, 3e38f}) {
+    CameraOptions options;
+    options.look_at = LookAt{{0, 0, 1}, {0, 0, -length}, {0, length, 0}};
+    EXPECT_TRUE(choose_camera({}, options, 1.0f).transform.isApprox(expected, 1e-6f)) << length;
+  }
+}
+
+TEST(Camera, BeyondWhatRaysCanReachItIsRefusedByName) {
+  const auto refusal = [](const scene::Scene& s, const CameraOptions& options, float aspect) {
+    try {
+      choose_camera(s, options, aspect);
+    } catch (const BadOption& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CameraOptions by_hand;
+  by_hand.look_at = LookAt{{1e12f, 0, 0}, {0, 0, 0}, {0, 1, 0}};
+  EXPECT_EQ(refusal({}, by_hand, 1.0f), "");
+  by_hand.look_at->eye.x() = 1e20f;
+  EXPECT_THAT(refusal({}, by_hand, 1.0f), AllOf(HasSubstr("--eye"), HasSubstr("1e+20"), HasSubstr("1e+12")));
+  scene::Scene s = scene_with_cameras();
+  s.cameras[0].transform.translation().z() = -2e12f;
+  EXPECT_THAT(refusal(s, {}, 1.0f), AllOf(HasSubstr("'front' of test.glb"), HasSubstr("-2e+12")));
+  s = scene_with_cameras();
+  s.cameras[0].orthographic = true;
+  s.cameras[0].half_height = 1e11f;
+  EXPECT_EQ(refusal(s, {}, 1.0f), "");
+  EXPECT_THAT(refusal(s, {}, 100.0f), AllOf(HasSubstr("'front'"), HasSubstr("1e+13 m to each side")));
 }
 
 }  // namespace

@@ -56,6 +56,17 @@ TEST(Compare, NonFinitePixelsAreCountedAndLeftOut) {
   EXPECT_DOUBLE_EQ(m.max_error, 0.5);
 }
 
+TEST(Compare, WithoutAFinitePixelNoErrorIsToldAsNone) {
+  const float nan = std::nanf("");
+  const Picture reference = rgb(1, 1, {1, 1, 1});
+  const Picture test = rgb(1, 1, {nan, 1, 1});
+  const ErrorMetrics m = compare(reference, test);
+  EXPECT_EQ(m.pixels, 0u);
+  for (const double error : {m.mse, m.rel_mse, m.psnr, m.mean_error, m.mean_difference, m.max_error})
+    EXPECT_TRUE(std::isnan(error));
+  EXPECT_TRUE(std::isnan(squared_bias({{reference, "r"}, {reference, "r"}}, {{test, "t"}, {test, "t"}})));
+}
+
 TEST(Compare, DifferencesBeyondFloatAreSummedInDouble) {
   // (1e20)^2 is beyond float; and a small error beside it is not lost to the difference of squares.
   const ErrorMetrics m = compare(rgb(1, 1, {0, 0, 0}), rgb(1, 1, {1e20f, 0, 0}));

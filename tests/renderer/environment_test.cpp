@@ -198,6 +198,23 @@ TEST_F(EnvironmentFileTest, BadTexelsCountAsZero) {
   EXPECT_TRUE(environment.mean().isFinite().all());
 }
 
+TEST_F(EnvironmentFileTest, InfiniteTexelsStayTheBrightestAndAreTold) {
+  std::vector<Color> texels(8 * 4, Color(1, 1, 1));
+  texels[9] = Color(scene::kInfinity, 2, 1);
+  const Environment half({.file = write(8, 4, texels), .scale = 2.0f});
+  texels[9].x() = 65504.0f;
+  const Environment finite({.file = write(8, 4, texels), .scale = 2.0f});
+  EXPECT_TRUE((half.mean() == finite.mean()).all());
+  EXPECT_GT(half.mean().x(), 100.0f * half.mean().y());
+  EXPECT_NE(half.warning().find("1 values are infinite and taken as 65504"), std::string::npos)
+      << half.warning();
+  EXPECT_EQ(finite.warning(), "");
+  texels[9].x() = scene::kInfinity;
+  texels[10] = Color(-1, 1e6f, std::numeric_limits<float>::quiet_NaN());
+  const std::string warning = Environment({.file = write(8, 4, texels)}).warning();
+  EXPECT_NE(warning.find("taken as 1000000, 2 negative or NaN"), std::string::npos) << warning;
+}
+
 TEST_F(EnvironmentFileTest, ABlackPictureIsNoLight) {
   const Environment environment({.file = write(8, 4, std::vector<Color>(32, Color(0, 0, 0)))});
   EXPECT_TRUE(environment.black());
@@ -215,6 +232,8 @@ TEST(EnvironmentTest, AConstantIsTheSameEverywhere) {
   EXPECT_TRUE((environment.radiance(Vec3(0, 0, 1), 0.5f) == Color(2, 4, 6)).all());
   EXPECT_NEAR(environment.pdf(Vec3(1, 0, 0)), 0.25 / M_PI, 1e-6);
   EXPECT_TRUE(Environment({}).black());
+  const Environment bright({.constant = Color(3e38f, 1, 0), .scale = 3e38f});
+  EXPECT_TRUE((bright.mean() == Color(1e30f, 1e30f, 0)).all()) << "the greatest, not none";
 }
 
 TEST(EnvironmentTest, AFileThatCannotBeReadIsNamed) {

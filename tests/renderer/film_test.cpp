@@ -1,8 +1,10 @@
 #include "renderer/film.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -130,6 +132,17 @@ TEST(Film, AMillionSamplesDoNotDrift) {
   EXPECT_FLOAT_EQ(picture.layers[0].values[0], 0.1f);
   EXPECT_FLOAT_EQ(picture.layers[0].values[1], 1e-6f);
   EXPECT_FLOAT_EQ(picture.layers[0].values[2], 1e6f);
+}
+
+TEST(Film, WhatLeavesSinglePrecisionBecomesItsGreatestNumber) {
+  const Aov aovs[] = {Aov::variance};
+  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  film.add(0, 0, Color(1e30f, 1.0f, 0.0f));
+  film.add(0, 0, Color(0.0f, 3.0f, 0.0f));
+  const Picture picture = film.resolve();
+  EXPECT_THAT(picture.find("variance")->values,
+              ::testing::ElementsAre(std::numeric_limits<float>::max(), 1.0f, 0.0f));
+  EXPECT_FLOAT_EQ(picture.layers[0].values[0], 5e29f);
 }
 
 }  // namespace

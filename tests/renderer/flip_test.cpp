@@ -265,6 +265,13 @@ TEST(HdrFlip, StaysFiniteAtTheEndsOfFloat) {
   }
 }
 
+TEST(HdrFlip, SeesRadianceNearTheGreatestFloat) {
+  const Picture black = rgb(1, 1, {0, 0, 0});
+  const float expected = hdr(rgb(1, 1, {1, 1, 1}), black).errors[0];
+  EXPECT_GT(expected, 0.5f);
+  EXPECT_NEAR(hdr(rgb(1, 1, {3e38f, 3e38f, 3e38f}), black).errors[0], expected, 1e-4);
+}
+
 TEST(FlipSummary, MatchesTheHandWorkedExample) {
   const FlipSummary s = flip::summarize(std::vector<float>{0.5f, 0.0f, 0.25f, 0.125f, 0.125f});
   // Sorted 0, 1/8, 1/8, 1/4, 1/2; running sums 0, 1/8, 1/4, 1/2, 1: each quantile is where it is passed.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 
 namespace gatelight::renderer {
@@ -99,6 +100,26 @@ TEST(Merge, RefusesWhatDoesNotFitByName) {
   for (const char* spp : {"0", "many", "-4", "4x"}) {
     EXPECT_THAT(refusal(a, picture({1, 2, 3}, {{"spp", spp}})), AllOf(HasSubstr("'b.exr'"), HasSubstr(spp)));
   }
+}
+
+TEST(Merge, RefusesPartsOfOtherPicturesAndOtherIntegrators) {
+  const Picture a = picture({1, 2, 3}, {{"integrator", "path"}});
+  Picture part = a;
+  part.full_width = 4;
+  EXPECT_THAT(refusal(a, part), AllOf(HasSubstr("of 1x1"), HasSubstr("of 4x1")));
+  const Picture other = picture({1, 2, 3}, {{"integrator", "ao"}});
+  EXPECT_THAT(refusal(a, other), AllOf(HasSubstr("'a.exr'"), HasSubstr("path"), HasSubstr("ao")));
+  EXPECT_EQ(refusal(a, picture({1, 2, 3})), "") << "not every program tells";
+}
+
+TEST(Merge, CountsAndSumsDoNotOverflow) {
+  const Picture many = picture({1, 2, 3}, {{"spp", "18446744073709551615"}});
+  EXPECT_THAT(refusal(many, picture({1, 2, 3}, {{"spp", "1"}})),
+              AllOf(HasSubstr("'b.exr'"), HasSubstr("64 bits")));
+  Picture counted = picture({1, 2, 3});
+  counted.layers.push_back({.name = "samples", .channels = {"count"}, .values = {3e38f}});
+  EXPECT_THAT(merge(counted, counted).find("samples")->values,
+              ElementsAre(std::numeric_limits<float>::max()));
 }
 
 }  // namespace
