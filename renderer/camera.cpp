@@ -144,7 +144,7 @@ scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& option
 }  // namespace
 
 scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
-  const scene::Camera camera = find_camera(scene, options, aspect);
+  scene::Camera camera = find_camera(scene, options, aspect);
   require_near(camera, aspect,
                options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", camera.name, scene.path));
   return camera;

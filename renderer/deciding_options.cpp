@@ -46,12 +46,14 @@ std::string text(const scene::Camera& camera) {
 
 std::string aov_names(const std::vector<Aov>& aovs) {
   std::vector<const char*> names;
+  names.reserve(aovs.size());
   for (const Aov aov : aovs) names.push_back(aov_name(aov));
   return fmt::format("{}", fmt::join(names, ","));
 }
 
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> levels;
+  levels.reserve(stack.size());
   for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
   return fmt::format("{}", fmt::join(levels, ","));
 }

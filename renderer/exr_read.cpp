@@ -92,8 +92,9 @@ Picture read_exr(const std::filesystem::path& path) {
                                   static_cast<std::uintptr_t>(data.min.y) * pixel_bytes * width;
     for (std::size_t c = 0; c < count; ++c) {
       const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
-      frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(origin + c * sizeof(float)),
-                                    pixel_bytes, pixel_bytes * width));
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): see above
+      char* const channel = reinterpret_cast<char*>(origin + c * sizeof(float));
+      frame.insert(name, Imf::Slice(Imf::FLOAT, channel, pixel_bytes, pixel_bytes * width));
     }
   }
   file.setFrameBuffer(frame);

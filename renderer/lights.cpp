@@ -102,6 +102,7 @@ Lights::Local::Local(const std::vector<LightBounds>& lights, LightSelection sele
     tree = LightTree(lights);
   } else {
     std::vector<double> weights;
+    weights.reserve(lights.size());
     for (const LightBounds& light : lights) weights.push_back(light.intensity);
     table = AliasTable(weights);
   }

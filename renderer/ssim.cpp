@@ -31,7 +31,8 @@ constexpr Index kBandRows = 32;
 Weights window_weights() {
   Weights weights;
   for (int i = 0; i < kSsimWindow; ++i) {
-    const double x = (i - kSsimWindow / 2) / kSigma;
+    const int from_center = i - kSsimWindow / 2;
+    const double x = from_center / kSigma;
     weights[i] = std::exp(-0.5 * x * x);
   }
   return weights / weights.sum();

@@ -92,7 +92,8 @@ std::uint32_t pack_source(const scene::Image& image, std::size_t texel) {
 
 std::uint32_t pack(const Vec4& c, Encoding encoding) {
   const auto byte = [](float x) {
-    return static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
+    const float level = std::clamp(x, 0.0f, 1.0f) * 255.0f;
+    return static_cast<std::uint32_t>(level + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
   };
   const auto color = [&](float x) { return encoding == Encoding::srgb ? byte(linear_to_srgb(x)) : byte(x); };
   return color(c.x()) | color(c.y()) << 8 | color(c.z()) << 16 | byte(c.w()) << 24;
