@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "apps/errors.h"
-#include "neural/model_description.h"
 
 namespace gatelight::apps {
 namespace {
@@ -118,13 +117,6 @@ std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::strin
     }
   }
   return stack;
-}
-
-std::string stack_text(const std::vector<std::uint32_t>& stack) {
-  std::vector<std::string> words;
-  words.reserve(stack.size());
-  for (const std::uint32_t level : stack) words.push_back(neural::level_text(level));
-  return fmt::format("{}", fmt::join(words, ","));
 }
 
 void parse_resolution(const std::string& flag, const std::string& text, GateOptions& gate) {

@@ -29,7 +29,6 @@ Choices<bool> query_precision_choices();  ///< true: bf16
 
 /// "adaptive,adaptive/4,1": kAdaptive, adaptive_part(4) and 1, at most kMaxStack levels.
 std::vector<std::uint32_t> parse_stack(const std::string& flag, const std::string& text);
-std::string stack_text(const std::vector<std::uint32_t>& stack);
 
 /// "uniform", "paper" or "fixed:R".
 void parse_resolution(const std::string& flag, const std::string& text, neural::GateOptions& gate);

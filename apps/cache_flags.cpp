@@ -8,6 +8,7 @@
 #include "apps/cache_choices.h"
 #include "apps/flags.h"
 #include "apps/render_settings.h"
+#include "renderer/option_words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -129,7 +130,7 @@ void add_gate_flags(CLI::App& app, CacheOptions& o, const std::string& group) {
   add_word(app, "--stack", "LIST",
            "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is what --resolution "
            "finds, 'adaptive/4' a fourth of it",
-           stack_text(gate.stack),
+           renderer::stack_text(gate.stack),
            [&gate](const std::string& text) { gate.stack = parse_stack("--stack", text); })
       ->group(group);
   add_word(

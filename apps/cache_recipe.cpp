@@ -6,6 +6,7 @@
 
 #include "apps/cache_choices.h"
 #include "apps/text.h"
+#include "renderer/option_words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -42,7 +43,7 @@ void add_encoding(ordered_json& json, const CacheOptions& o) {
   json["hash-growth"] = shortest(o.hash_grid.growth);
   const neural::GateOptions& gate = o.gate;
   json["features"] = gate.features;
-  json["stack"] = stack_text(gate.stack);
+  json["stack"] = renderer::stack_text(gate.stack);
   json["resolution"] = resolution_text(gate);
   json["resolution-scale"] = shortest(gate.resolution_scale);
   json["node-spacing"] = o.node_spacing ? ordered_json(shortest(*o.node_spacing)) : ordered_json("auto");

@@ -8,7 +8,6 @@
 #include "apps/cache_report_text.h"
 #include "apps/device_report.h"
 #include "apps/errors.h"
-#include "apps/file_names.h"
 #include "apps/log.h"
 #include "apps/render_flags.h"
 #include "apps/render_settings.h"
@@ -80,12 +79,7 @@ int run_info(InfoSettings settings) {
                                  *settings.render.given.begin()));
   }
   complete_settings(settings.render);
-  FileNames names;
-  names.read("SCENE", settings.render.scene);
-  names.read("--environment", settings.render.render.environment.file);
-  names.read("--cache-in", settings.render.render.cache.cache_in);
-  names.read("--config", settings.render.config);
-  names.write("--json", settings.json);
+  read_files(settings.render).write("--json", settings.json);
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
   const Told told =
       settings.render.scene.empty() ? Told{program_text(), program_json()} : tell_scene(settings.render);

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "apps/errors.h"
-#include "apps/file_names.h"
 #include "renderer/threads.h"
 
 namespace gatelight::apps {
@@ -104,15 +103,10 @@ void check_picture(const RenderOptions& options) {
 }
 
 void check_file_names(const RenderSettings& settings) {
-  const CacheOptions& cache = settings.render.cache;
-  FileNames names;
-  names.read("SCENE", settings.scene);
-  names.read("--environment", settings.render.environment.file);
-  names.read("--config", settings.config);
-  names.read("--cache-in", cache.cache_in);
+  FileNames names = read_files(settings);
   for (const std::string& output : settings.outputs) names.write("--output", output);
   names.write("--stats", settings.stats);
-  names.write("--cache-out", cache.cache_out, "--cache-in");
+  names.write("--cache-out", settings.render.cache.cache_out, "--cache-in");
   names.write("--checkpoint", settings.render.checkpoint.file);
 }
 
@@ -246,6 +240,15 @@ void require_file(const std::string& what, const std::string& path) {
 }
 
 }  // namespace
+
+FileNames read_files(const RenderSettings& settings) {
+  FileNames names;
+  names.read("SCENE", settings.scene);
+  names.read("--environment", settings.render.environment.file);
+  names.read("--config", settings.config);
+  names.read("--cache-in", settings.render.cache.cache_in);
+  return names;
+}
 
 Choices<Integrator> integrator_choices() {
   return kIntegrators;

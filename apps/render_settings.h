@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/file_names.h"
 #include "apps/progress.h"
 #include "apps/values.h"
 #include "renderer/cache/presets.h"
@@ -61,6 +62,9 @@ constexpr bool shows_cache(renderer::Aov aov) {
 /// Checks what single flags cannot know (does the region lie in the picture?) and fills in what follows from
 /// the flags: the view by hand, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
+
+/// The files that are read, each with its flag, for those who write further ones.
+FileNames read_files(const RenderSettings& settings);
 
 /// Before the long work: the inputs exist, the outputs can be written. Throws InputError,
 /// renderer::OutputError or renderer::UnknownFormat.

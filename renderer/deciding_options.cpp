@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "neural/model_description.h"
 #include "renderer/film.h"
 #include "renderer/option_words.h"
 
@@ -49,13 +48,6 @@ std::string aov_names(const std::vector<Aov>& aovs) {
   names.reserve(aovs.size());
   for (const Aov aov : aovs) names.push_back(aov_name(aov));
   return fmt::format("{}", fmt::join(names, ","));
-}
-
-std::string stack_text(const std::vector<std::uint32_t>& stack) {
-  std::vector<std::string> levels;
-  levels.reserve(stack.size());
-  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
-  return fmt::format("{}", fmt::join(levels, ","));
 }
 
 void add_training_points(NamedTexts& texts, const CacheOptions& options) {

@@ -1,5 +1,9 @@
 #include "renderer/option_words.h"
 
+#include <fmt/format.h>
+
+#include "neural/model_description.h"
+
 namespace gatelight::renderer {
 
 const char* word(Integrator value) {
@@ -192,6 +196,13 @@ const char* word(neural::FeaturePrecision value) {
       return "fp16-only";
   }
   return "";
+}
+
+std::string stack_text(const std::vector<std::uint32_t>& stack) {
+  std::vector<std::string> levels;
+  levels.reserve(stack.size());
+  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
+  return fmt::format("{}", fmt::join(levels, ","));
 }
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,10 @@
 #pragma once
 // The words that stand for options in files: those of the command line.
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "renderer/options.h"
 
 namespace gatelight::renderer {
@@ -22,5 +26,7 @@ const char* word(neural::Loss value);
 const char* word(neural::FeatureUpdate value);
 const char* word(neural::FeatureStep value);
 const char* word(neural::FeaturePrecision value);
+/// Of GateOptions::stack: "adaptive,adaptive/4,1".
+std::string stack_text(const std::vector<std::uint32_t>& stack);
 
 }  // namespace gatelight::renderer

@@ -1,4 +1,4 @@
-// --config: the file for the subcommands that it has words for.
+// --config: the file for render, and for the other subcommands where it has words for them.
 
 #include <string>
 #include <string_view>
@@ -20,8 +20,8 @@ void config_file(Bytes bytes) {
   };
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const std::vector<const char*>& call : calls) {
-    // Most of the time goes into the flags of a subcommand.
-    if (text.find(call[1]) == text.npos) continue;
+    // Most of the time goes into making the flags of a subcommand.
+    if (call != calls.front() && text.find(call[1]) == text.npos) continue;
     const int code = apps::read_only(static_cast<int>(call.size()), call.data());
     if (code != apps::kDone && code != apps::kUsage && code != apps::kInput)
       throw Violation("exit code " + std::to_string(code));
