@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ const CLI::App* called_subcommand(const CLI::App& root) {
 }
 
 /// What was wrong, in words of ours where the library's are too vague.
-std::string describe(const CLI::App& root, const CLI::ParseError& error) {
+std::string describe(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && called == nullptr) {
     const std::vector<std::string> rest = root.remaining();
@@ -45,14 +46,15 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error) {
     return got + ", expected render, compare, info, merge or sweep";
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
-    return fmt::format("--config: {}, expected flags of '{}' and their values", error.what(),
+    const std::string file = config.name.empty() ? "--config" : fmt::format("'{}'", config.name);
+    return fmt::format("{}: {}, expected flags of '{}' and their values", file, error.what(),
                        called->get_name());
   }
-  return error.what();
+  return with_config_file(error.what(), config);
 }
 
 /// CLI11 throws for --help and --version too.
-int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
+int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
   if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
     write_text("-", called == nullptr ? root.help() : called->help(root.get_name()));
@@ -66,7 +68,7 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error) {
     print_failure({kInput, fmt::format("--config: {}", error.what()), "check the file's name"});
     return kInput;
   }
-  print_failure({kUsage, describe(root, error),
+  print_failure({kUsage, describe(root, error, config),
                  fmt::format("see 'gatelight {}--help'", called == nullptr ? "" : called->get_name() + " ")});
   return kUsage;
 }
@@ -85,6 +87,14 @@ void refuse_empty_words(const CLI::App& root) {
   }
 }
 
+/// Of the exception that is being handled.
+int fail(const ConfigFile& config) {
+  Failure failure = describe_current_exception();
+  failure.message = with_config_file(failure.message, config);
+  print_failure(failure);
+  return failure.code;
+}
+
 int parse(int argc, const char* const* argv, bool runs) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
@@ -93,7 +103,7 @@ int parse(int argc, const char* const* argv, bool runs) {
   // --config belongs to the root but may follow the subcommand's name.
   root.fallthrough();
   root.formatter(make_help_formatter());
-  accept_config_file(root);
+  const std::shared_ptr<const ConfigFile> config = accept_config_file(root);
   const std::vector<Subcommand> subcommands = {
       add_render_command(root, std::vector<std::string>(argv, argv + argc)),
       add_compare_command(root),
@@ -103,12 +113,14 @@ int parse(int argc, const char* const* argv, bool runs) {
   };
   try {
     root.parse(argc, argv);
+    refuse_empty_words(root);
+    for (const Subcommand& subcommand : subcommands) {
+      if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
+    }
   } catch (const CLI::ParseError& error) {
-    return finish_parsing(root, error);
-  }
-  refuse_empty_words(root);
-  for (const Subcommand& subcommand : subcommands) {
-    if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
+    return finish_parsing(root, error, *config);
+  } catch (...) {
+    return fail(*config);
   }
   return kUsage;
 }
@@ -117,9 +129,7 @@ int parse_or_fail(int argc, const char* const* argv, bool runs) {
   try {
     return parse(argc, argv, runs);
   } catch (...) {
-    const Failure failure = describe_current_exception();
-    print_failure(failure);
-    return failure.code;
+    return fail({});
   }
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Usage : public ::testing::Test {
@@ -284,13 +285,30 @@ TEST_F(Usage, InfoChecksTheFlagsOfTheCache) {
 TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {
   const Output unknown = refused({"--config", folder.write("u.toml", "sppp = 3\n")});
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_THAT(unknown.last_error_line(), HasSubstr("sppp"));
+  EXPECT_THAT(unknown.last_error_line(), AllOf(HasSubstr("u.toml'"), HasSubstr("sppp")));
   const Output value = refused({"--config", folder.write("v.toml", "spp = -3\n")});
   EXPECT_EQ(value.exit_code, 1);
-  EXPECT_THAT(value.last_error_line(), AllOf(HasSubstr("--spp"), HasSubstr("'-3'")));
+  EXPECT_THAT(value.last_error_line(),
+              AllOf(HasSubstr("--spp"), HasSubstr("'-3'"), HasSubstr("v.toml' sets --spp)")));
   const Output missing = refused({"--config", path("missing.toml")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.toml"));
+}
+
+TEST_F(Usage, AValueOfAConfigFileIsSaidToStandThere) {
+  const std::string config = folder.write("c.toml", "eye = [1, 2]\nspp = 4\nbatch = 256\n");
+  const auto line = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"--config", config});
+    const Output output = refused(words);
+    EXPECT_EQ(output.exit_code, 1) << output.err;
+    return output.last_error_line();
+  };
+  EXPECT_THAT(line({}), HasSubstr("c.toml' sets --eye)"));
+  EXPECT_THAT(line({"--eye", "1,2"}), AllOf(HasSubstr("--eye"), Not(HasSubstr("sets"))))
+      << "not from the file";
+  EXPECT_THAT(line({"--eye", "1,2,3", "--spp", "0"}), AllOf(HasSubstr("--spp"), Not(HasSubstr("sets"))));
+  EXPECT_THAT(line({"--eye", "1,2,3", "--target", "0,0,0"}), HasSubstr("c.toml' sets --batch)"))
+      << "of what does not go together";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/camera.h"
+#include "renderer/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/extremes/scene_file.h"
@@ -81,6 +82,49 @@ TEST(Moved, ASceneMadeInCodeKeepsWhatItsCoordinatesHold) {
   }
   tell_extreme("a scene made in code, its vertices moved", "1e2 to 1e6 times its size; path",
                fmt::format("in units of the noise: {} sizes (bound 1 up to 1e4); always finite", told), "");
+}
+
+/// A white wall that fills the middle of the picture, half its width and height.
+Rendered wall_seen_from(double distance) {
+  constexpr int kPixels = 64;
+  const double side = std::min(distance, 1e9);
+  const auto h = static_cast<float>(0.5 * side);
+  SceneBuilder builder;
+  const int white = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Ones()));
+  builder.quad(white, Vec3(-h, -h, 0), Vec3(2 * h, 0, 0), Vec3(0, 2 * h, 0));
+  RenderOptions options;
+  options.width = options.height = kPixels;
+  options.spp = 4;
+  options.filter = PixelFilter::box;
+  options.camera.look_at = LookAt{{0, 0, static_cast<float>(distance)}, {0, 0, 0}, {0, 1, 0}};
+  options.camera.fov_degrees = static_cast<float>(2.0 * std::atan(side / distance) * 180.0 / M_PI);
+  return render(builder.scene(), options);
+}
+
+TEST(Moved, ACameraFarAwaySeesAWallWhereItStands) {
+  constexpr int kPixels = 64;
+  for (const double distance : {1e-3, 1.0, 1e3, 1e6, 1e9, 1e11, 1e12}) {
+    const Rendered picture = wall_seen_from(distance);
+    EXPECT_TRUE(picture.sane());
+    // Pixels on its border, and one on either side, may be either.
+    const auto within = [](int i, int margin) {
+      return i >= kPixels / 4 - margin && i < 3 * kPixels / 4 + margin;
+    };
+    for (int y = 0; y < kPixels; ++y) {
+      for (int x = 0; x < kPixels; ++x) {
+        const float value = picture.values[static_cast<std::size_t>(3 * (y * kPixels + x))];
+        if (within(x, -1) && within(y, -1)) {
+          ASSERT_EQ(value, 1.0f) << distance << " m: " << x << ", " << y;
+        } else if (!within(x, 1) || !within(y, 1)) {
+          ASSERT_EQ(value, 0.0f) << distance << " m: " << x << ", " << y;
+        }
+      }
+    }
+  }
+  EXPECT_THROW(wall_seen_from(1.1e12), BadOption);
+  tell_extreme("a camera near and far", "1e-3 to 1e12 m from a wall of its distance, of 1e9 m at most; path",
+               "the wall covers the pixels that it should, but for one at its border",
+               "further than 1e12 m: exit 1, with flag or node");
 }
 
 }  // namespace

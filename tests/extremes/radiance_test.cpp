@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "renderer/environment_picture.h"
+#include "renderer/image_read.h"
+#include "renderer/image_write.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/renderer/room.h"
 #include "tests/statistics.h"
+#include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -172,6 +177,44 @@ TEST(Radiance, SurfacesThatOnlyShineShowTheirEmission) {
                fmt::format("emission to {:.1e} (bound 1e-6)", worst), "");
 }
 
+TEST(Radiance, LayersOfWhatLeavesSinglePrecisionEndAtItsGreatestNumber) {
+  const tests::TemporaryFolder folder;
+  const std::string file = (folder / "a.exr").string();
+  float greatest = 0.0f;
+  for (const float emission : {1e10f, 1e19f, 1e30f}) {
+    // Small lamps: of the samples of a pixel some meet one.
+    SceneBuilder builder;
+    const int floor = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+    const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(emission)));
+    builder.box(floor, Vec3(-1, -1, -1), Vec3(1, 1, 1), true);
+    for (float x = -0.9f; x < 0.9f; x += 0.3f) {
+      for (float y = -0.9f; y < 0.9f; y += 0.3f)
+        builder.quad(lamp, Vec3(x, y, -0.99f), Vec3(0.1f, 0, 0), Vec3(0, 0.1f, 0));
+    }
+    for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+      RenderOptions options = small(integrator, 8);
+      options.camera.look_at = LookAt{{0, 0, 0.9f}, {0, 0, -1}, {0, 1, 0}};
+      options.aovs = {Aov::variance};
+      if (integrator == Integrator::nrc) {
+        options.aovs.insert(options.aovs.end(), {Aov::cache_answer, Aov::cache_error});
+      }
+      Renderer renderer(builder.scene(), options);
+      write_image(renderer.render(), file);
+      const Picture read = read_image(file);
+      ASSERT_EQ(read.layers.size(), options.aovs.size() + 1);
+      for (const Layer& layer : read.layers) {
+        for (const float v : layer.values) ASSERT_TRUE(std::isfinite(v)) << layer.name << " " << emission;
+      }
+      const std::vector<float>& variances = read.find("variance")->values;
+      greatest = std::max(greatest, *std::max_element(variances.begin(), variances.end()));
+    }
+  }
+  EXPECT_EQ(greatest, std::numeric_limits<float>::max());
+  tell_extreme("layers of an EXR whose numbers leave single precision",
+               "emission 1e10 to 1e30; variance, cache-answer, cache-error; path, nrc",
+               "all finite; what is beyond is the greatest float", "");
+}
+
 TEST(Radiance, ARoomThatAbsorbsNothingHoldsTheLightOfEachScattering) {
   // Every scattering event adds the emission once more: (depth + 1) times it, with and without roulette.
   double worst = 0.0;
@@ -237,6 +280,38 @@ TEST(Radiance, OneHotTexelOfTheSkyIsFoundAndCountedOnce) {
                fmt::format("light of the whole sphere off by {:.1e} ({:.1f} standard errors, bound 4.5)",
                            std::abs(mean / whole - 1.0), std::abs(mean - whole) / error),
                "");
+}
+
+TEST(Radiance, InfiniteTexelsOfTheSkyAreItsBrightest) {
+  const tests::TemporaryFolder folder;
+  const std::string file = (folder / "sky.exr").string();
+  for (const float brightest : {1.0f, 1e6f, 1e30f}) {
+    const float taken = std::max(brightest, 65504.0f);
+    std::vector<float> means;
+    for (const float sun : {scene::kInfinity, taken}) {
+      Picture sky{.width = 16, .height = 8};
+      Layer beauty{.channels = {"R", "G", "B"}, .full_precision = true};
+      beauty.values.assign(3 * 16 * 8, 0.5f);
+      beauty.values[3 * 20] = sun;
+      beauty.values[3 * 40] = brightest;
+      sky.layers = {beauty};
+      write_image(sky, file);
+      for (const Integrator integrator : kAll) {
+        RenderOptions options = small(integrator, 4);
+        options.environment.file = file;
+        options.camera = small_picture().camera;
+        const Rendered picture = render(room(), options);
+        EXPECT_TRUE(picture.sane()) << brightest;
+        EXPECT_EQ(picture.statistics.warnings.size(), sun == scene::kInfinity ? 1u : 0u);
+        means.push_back(static_cast<float>(picture.mean()));
+      }
+    }
+    for (std::size_t i = 0; i < std::size(kAll); ++i) {
+      EXPECT_EQ(means[i], means[i + std::size(kAll)]) << brightest << " " << i;
+    }
+  }
+  tell_extreme("infinite texels of the sky", "beside a brightest of 1, 1e6 and 1e30; path, ao, nrc, nao",
+               "the picture of a sky that has the brightest there, 65504 at least, and a warning", "");
 }
 
 }  // namespace
