@@ -359,7 +359,9 @@ TEST(CacheFile, NumbersThatWouldSpoilTrainingAreRefused) {
            {&ModelState::averages, kInfinity, "'average.layers.0.weight': element 7 is inf"},
            {&ModelState::first_moments, kNan, "'first_moment.layers.0.weight': element 7 is nan"},
            {&ModelState::second_moments, kNan, "'second_moment.layers.0.weight': element 7 is nan"},
-           {&ModelState::second_moments, -1.0f, "element 7 is -1, expected no negative number"}}) {
+           {&ModelState::first_moments, -kInfinity, "'first_moment.layers.0.weight': element 7 is -inf"},
+           {&ModelState::second_moments, kInfinity, "'second_moment.layers.0.weight': element 7 is inf"},
+           {&ModelState::second_moments, -1.0f, "element 7 is -1, expected a finite number from 0 on"}}) {
     Trainer broken = make_trainer(c, {}, 1);
     ModelState state = state_of(broken);
     (state.*bad.array)[7] = bad.value;
