@@ -15,7 +15,8 @@ namespace gatelight::renderer {
 /// black picture 24 000 times.
 inline void check_claimed_size(std::int64_t width, std::int64_t height, std::int64_t channels,
                                const std::filesystem::path& path) {
-  constexpr std::int64_t kMaxSide = 1 << 20;
+  // That of our own pictures; of a wider one OpenImageIO holds 256 rows at once, however few there are.
+  constexpr std::int64_t kMaxSide = 1 << 16;
   constexpr std::int64_t kMaxValues = std::int64_t{1} << 31;
   constexpr std::int64_t kSmallValues = std::int64_t{1} << 24;
   constexpr std::int64_t kMostPerByte = 1 << 14;  ///< values

@@ -51,6 +51,12 @@ TEST_F(ClaimedSize, NothingIsMultipliedBeyondItsRange) {
   EXPECT_THAT(said(1 << 20, 1 << 20, 1 << 20, 100), HasSubstr("are too many"));
 }
 
+TEST_F(ClaimedSize, ASideIsNoLongerThanThatOfOurPictures) {
+  EXPECT_EQ(said(1 << 16, 2, 4, 100), "");
+  EXPECT_THAT(said((1 << 16) + 1, 2, 4, 100), HasSubstr("65537 x 2 pixels of 4 channels are too many"));
+  EXPECT_THAT(said(2, (1 << 16) + 1, 4, 100), HasSubstr("are too many"));
+}
+
 TEST_F(ClaimedSize, ThereIsAPixel) {
   EXPECT_EQ(said(0, 1, 1, 1), "it has no pixels");
   EXPECT_EQ(said(1, -1, 1, 1), "it has no pixels");
