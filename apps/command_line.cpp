@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/config_file.h"
@@ -20,8 +21,8 @@ namespace {
 constexpr const char* kProgramFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
 over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
-130 and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file,
-and what to do.
+129, 130 and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which
+file, and what to do.
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256
@@ -36,6 +37,12 @@ const CLI::App* called_subcommand(const CLI::App& root) {
   return called.empty() ? nullptr : called.front();
 }
 
+/// Of a file that may hold anything.
+std::string cut(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
 /// What was wrong, in words of ours where the library's are too vague.
 std::string describe(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
@@ -45,12 +52,19 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
         rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
     return got + ", expected render, compare, info, merge or sweep";
   }
+  std::string text = error.what();
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
     const std::string file = config.name.empty() ? "--config" : fmt::format("'{}'", config.name);
-    return fmt::format("{}: {}, expected flags of '{}' and their values", file, error.what(),
-                       called->get_name());
+    constexpr std::string_view kExtras = "INI was not able to parse ";
+    if (text.starts_with(kExtras)) text = fmt::format("unknown '{}'", cut(text.substr(kExtras.size())));
+    return fmt::format("{}: {}, expected flags of '{}' and their values", file, text, called->get_name());
   }
-  return with_config_file(error.what(), config);
+  constexpr std::string_view kAtMost = ": At Most 1 required but received ";
+  if (const std::size_t at = text.find(kAtMost); at != std::string::npos) {
+    text = fmt::format("{} is given {} times, expected once", text.substr(0, at),
+                       text.substr(at + kAtMost.size()));
+  }
+  return with_config_file(text, config);
 }
 
 /// CLI11 throws for --help and --version too.

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <istream>
 #include <memory>
+#include <sstream>
 #include <utility>
+
+#include "apps/errors.h"
 
 namespace gatelight::apps {
 namespace {
@@ -16,10 +20,11 @@ class SubcommandConfig final : public CLI::ConfigTOML {
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
     config_->name = root_.get_config_ptr()->results().front();
+    std::istringstream text(whole_text(input));
     std::vector<CLI::ConfigItem> kept;
     const std::vector<const CLI::App*> called =
         root_.get_subcommands([](const CLI::App* app) { return app->parsed(); });
-    for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(input)) {
+    for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(text)) {
       // Marks of a section's begin and end.
       if (item.name == "++" || item.name == "--") continue;
       if (item.parents.empty() && !called.empty()) item.parents = {called.front()->get_name()};
@@ -38,6 +43,19 @@ class SubcommandConfig final : public CLI::ConfigTOML {
   }
 
  private:
+  /// Devices have no end, and what is no text would be cut at its first zero byte later.
+  std::string whole_text(std::istream& input) const {
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    std::string text(kMost + 1, '\0');
+    input.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(input.gcount()));
+    if (text.size() > kMost || text.find('\0') != std::string::npos) {
+      throw InputError(fmt::format("cannot read '{}': {}, expected a configuration in TOML", config_->name,
+                                   text.size() > kMost ? "it has more than 1 MiB" : "it has a zero byte"));
+    }
+    return text;
+  }
+
   bool is_subcommand(const std::string& name) const {
     return !root_.get_subcommands([&](const CLI::App* app) { return app->get_name() == name; }).empty();
   }

@@ -11,8 +11,8 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kRenderFooter =
-    R"(SIGINT and SIGTERM finish the current pass and write the picture so far (exit code 130 or 143); a second one ends the
-program at once. SIGUSR1 writes a snapshot of all outputs.
+    R"(SIGINT, SIGTERM and SIGHUP finish the current pass and write the picture so far (exit code 130, 143 or 129); a second
+one ends the program at once. SIGUSR1 writes a snapshot of all outputs.
 Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
 
 Examples:

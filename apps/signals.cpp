@@ -32,6 +32,9 @@ void install(int signal, void (*handler)(int), int flags) {
 void install_signal_handlers() {
   install(SIGINT, on_stop, static_cast<int>(SA_RESETHAND));
   install(SIGTERM, on_stop, static_cast<int>(SA_RESETHAND));
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) install(SIGHUP, on_stop, static_cast<int>(SA_RESETHAND));
   install(SIGUSR1, on_snapshot, 0);
 }
 

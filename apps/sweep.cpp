@@ -31,7 +31,7 @@ file that opens offline), pictures and FLIP maps of the first seed, references, 
 found), and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells
 that are done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and
 its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end
-the rest; the exit code is 7 then. SIGINT and SIGTERM end it after writing the results so far (130 or 143).
+the rest; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end it after writing the results so far (130, 143 or 129).
 
 Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row
 is named after):

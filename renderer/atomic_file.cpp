@@ -77,6 +77,9 @@ void check_writable(const fs::path& path) {
   const fs::file_status status = fs::status(target, error);
   if (status.type() == fs::file_type::none) refuse(path, error.message());
   if (fs::is_directory(status)) refuse(path, "it is a folder");
+  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
+    refuse(path, fmt::format("it is there already and cannot be written: {}", describe(errno)));
+  }
   // Renaming over a device or a pipe would replace it.
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is not a regular file");
 }

@@ -36,7 +36,8 @@ inline std::size_t pixel_count(const Picture& picture) {
   return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
 }
 
-/// Throws CompareError for different sizes, for one grey and one colour, and without a beauty layer.
+/// Throws CompareError for different sizes, for different regions of a full picture of one size, for one grey
+/// and one colour, and without a beauty layer.
 void require_comparable(const NamedPicture& a, const NamedPicture& b);
 
 }  // namespace gatelight::renderer

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 
+#include "renderer/claimed_size.h"
+#include "renderer/color_channels.h"
 #include "renderer/environment_picture.h"
 #include "renderer/image_read.h"
 #include "renderer/warp.h"
@@ -54,23 +57,48 @@ class Repair {
   std::size_t no_light_ = 0;
 };
 
+/// What a file says of the whole sphere: an EXR may store a part of its picture, and the rest is black.
+void check_full_size(const Picture& picture, const std::string& file) {
+  try {
+    check_claimed_size(picture.full_width, picture.full_height, 3, file);
+  } catch (const std::runtime_error& error) {
+    throw ImageError(fmt::format("cannot read '{}': of its display window, {}", file, error.what()));
+  }
+}
+
 std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options, std::string& warning) {
-  const Picture picture = read_image(options.file);
+  Picture picture = read_image(options.file);
   const Layer& layer = picture.layers.front();
-  const std::size_t channels = layer.channels.size();
-  const std::size_t count =
-      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  std::vector<Color> texels(count);
+  const auto color = color_channels(layer);
+  if (!color) {
+    throw ImageError(
+        fmt::format("cannot use '{}' as environment: it has the {}", options.file, describe_channels(layer)));
+  }
+  if (picture.full_width <= 0) {
+    picture.full_width = picture.width;
+    picture.full_height = picture.height;
+  }
+  check_full_size(picture, options.file);
+  const auto texel = [](int width, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  std::vector<Color> texels(texel(picture.full_width, 0, picture.full_height), Color::Zero());
   Repair repaired(layer.values);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* value = layer.values.data() + i * channels;
-    for (std::size_t c = 0; c < 3; ++c) {
-      // Grey, with or without alpha, fills all three.
-      texels[i][static_cast<Eigen::Index>(c)] = scaled(repaired(value[channels < 3 ? 0 : c]), options.scale);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::int64_t full_x = std::int64_t{picture.x0} + x;
+      const std::int64_t full_y = std::int64_t{picture.y0} + y;
+      if (full_x < 0 || full_y < 0 || full_x >= picture.full_width || full_y >= picture.full_height) continue;
+      const float* value = layer.values.data() + texel(picture.width, x, y) * layer.channels.size();
+      Color& target = texels[texel(picture.full_width, static_cast<int>(full_x), static_cast<int>(full_y))];
+      for (std::size_t c = 0; c < 3; ++c) {
+        target[static_cast<Eigen::Index>(c)] = scaled(repaired(value[(*color)[c]]), options.scale);
+      }
     }
   }
   warning = repaired.warning(options.file);
-  return std::make_unique<const EnvironmentPicture>(picture.width, picture.height, std::move(texels));
+  return std::make_unique<const EnvironmentPicture>(picture.full_width, picture.full_height,
+                                                    std::move(texels));
 }
 
 }  // namespace

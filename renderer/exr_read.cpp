@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "renderer/claimed_size.h"
+#include "renderer/color_channels.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -22,13 +23,6 @@ int channel_rank(std::string_view channel) {
   constexpr std::string_view kOrder = "RGBAXYZ";
   const std::size_t at = channel.size() == 1 ? kOrder.find(channel) : std::string_view::npos;
   return at == std::string_view::npos ? static_cast<int>(kOrder.size()) : static_cast<int>(at);
-}
-
-bool has_rgb(const Layer& layer) {
-  const auto has = [&](const char* name) {
-    return std::find(layer.channels.begin(), layer.channels.end(), name) != layer.channels.end();
-  };
-  return has("R") && has("G") && has("B");
 }
 
 std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
@@ -50,8 +44,11 @@ std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
         layer.channels.begin(), layer.channels.end(),
         [](const std::string& a, const std::string& b) { return channel_rank(a) < channel_rank(b); });
   }
-  auto beauty = std::find_if(layers.begin(), layers.end(), [](const Layer& l) { return l.name.empty(); });
-  if (beauty == layers.end()) beauty = std::find_if(layers.begin(), layers.end(), has_rgb);
+  const auto first = [&](auto condition) { return std::find_if(layers.begin(), layers.end(), condition); };
+  const auto has_colors = [](const Layer& l) { return color_channels(l).has_value(); };
+  auto beauty = first([&](const Layer& l) { return l.name.empty() && has_colors(l); });
+  if (beauty == layers.end()) beauty = first(has_colors);
+  if (beauty == layers.end()) beauty = first([](const Layer& l) { return l.name.empty(); });
   if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
   return layers;
 }

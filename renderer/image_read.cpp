@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <fstream>
 #include <memory>
 
 #include "renderer/claimed_size.h"
@@ -11,6 +13,7 @@
 #include "renderer/image_format.h"
 #include "renderer/image_write.h"
 #include "renderer/srgb.h"
+#include "scene/png_read.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -28,33 +31,57 @@ std::vector<std::string> channel_names(int channels) {
   }
 }
 
-/// PNG and HDR.
-Picture read_flat(const std::filesystem::path& path, bool srgb) {
-  // By its name alone: else a file that is no PNG is tried with every format that the library knows.
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(srgb ? "png" : "hdr");
-  if (!input) throw std::runtime_error(OIIO::geterror());
-  OIIO::ImageSpec config;
-  // Colours as they stand in the file, not multiplied by alpha.
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  OIIO::ImageSpec spec;
-  if (!input->open(path.string(), spec, config)) throw std::runtime_error(input->geterror());
-  check_claimed_size(spec.width, spec.height, spec.nchannels, path);
+Picture one_layer(int width, int height, int channels) {
+  Picture picture{.width = width, .height = height};
+  Layer beauty{.channels = channel_names(channels)};
+  beauty.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                       static_cast<std::size_t>(channels));
+  picture.layers.push_back(std::move(beauty));
+  return picture;
+}
 
-  Picture picture{.width = spec.width, .height = spec.height};
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+    throw std::runtime_error("its bytes cannot be read");
+  }
+  return bytes;
+}
+
+Picture read_png(const std::filesystem::path& path) {
+  scene::PngReader reader(read_bytes(path));
+  check_claimed_size(reader.width(), reader.height(), reader.channels(), path);
+  const std::vector<std::uint16_t> pixels = reader.read_16();
+  Picture picture = one_layer(reader.width(), reader.height(), reader.channels());
+  Layer& beauty = picture.layers.front();
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float value = static_cast<float>(pixels[i]) / 65535.0f;
+    beauty.values[i] = beauty.channels[i % beauty.channels.size()] == "A" ? value : srgb_to_linear(value);
+  }
+  return picture;
+}
+
+Picture read_hdr(const std::filesystem::path& path) {
+  // By its name alone: else a file that is no HDR is tried with every format that the library knows.
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("hdr");
+  if (!input) throw std::runtime_error(OIIO::geterror());
+  OIIO::ImageSpec spec;
+  if (!input->open(path.string(), spec)) throw std::runtime_error(input->geterror());
+  check_claimed_size(spec.width, spec.height, spec.nchannels, path);
   const int channels = std::min(spec.nchannels, 4);
-  Layer beauty{.channels = channel_names(channels), .full_precision = !srgb};
-  const std::size_t stride = static_cast<std::size_t>(channels);
-  beauty.values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * stride);
+  Picture picture = one_layer(spec.width, spec.height, channels);
+  Layer& beauty = picture.layers.front();
+  beauty.full_precision = true;
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, beauty.values.data())) {
     throw std::runtime_error(input->geterror());
   }
-  if (srgb) {
-    for (std::size_t i = 0; i < beauty.values.size(); ++i) {
-      if (beauty.channels[i % stride] != "A") beauty.values[i] = srgb_to_linear(beauty.values[i]);
-    }
-  }
-  picture.layers.push_back(std::move(beauty));
   return picture;
+}
+
+Picture read_as(ImageFormat format, const std::filesystem::path& path) {
+  if (format == ImageFormat::exr) return read_exr(path);
+  return format == ImageFormat::png ? read_png(path) : read_hdr(path);
 }
 
 /// The libraries' messages end in line breaks and name the file again.
@@ -84,7 +111,7 @@ Picture read_image(const std::filesystem::path& path) {
     throw ImageError(fmt::format("cannot read '{}': it is not a regular file", path.string()));
   }
   try {
-    return format == ImageFormat::exr ? read_exr(path) : read_flat(path, format == ImageFormat::png);
+    return read_as(format, path);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {

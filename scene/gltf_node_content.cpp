@@ -86,17 +86,21 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
 std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
                                             const std::string& where) {
   const tinygltf::Value& attributes = extension.Get("attributes");
+  // Attributes of an application's own count, too.
   std::size_t count = 0;
-  const auto read = [&](const std::string& semantic, int components) {
-    std::vector<float> rows;
-    if (!attributes.Has(semantic)) return rows;
+  for (const std::string& semantic : attributes.Keys()) {
     const AccessorReader reader(document, attributes.Get(semantic).GetNumberAsInt());
-    reader.expect_attribute(semantic, {components});
     if (count != 0 && reader.count() != count) {
       document.fail(reader.where(), fmt::format("count {} for {} of {}, expected {}", reader.count(),
                                                 semantic, where, count));
     }
     count = reader.count();
+  }
+  const auto read = [&](const std::string& semantic, int components) {
+    std::vector<float> rows;
+    if (!attributes.Has(semantic)) return rows;
+    const AccessorReader reader(document, attributes.Get(semantic).GetNumberAsInt());
+    reader.expect_attribute(semantic, {components});
     rows.resize(count * static_cast<std::size_t>(components));
     reader.read_floats({}, components, rows.data());
     return rows;

@@ -136,6 +136,10 @@ class Walker {
     if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       claim_instances(*instancing, mesh, where);
+      if (instancing->Get("attributes").Keys().empty()) {
+        warnings_.add(where + ": no attributes that tell how many; drawn once");
+        add(node.mesh, name, base);
+      }
       for (const Transform& t : read_instances(document_, *instancing, where)) {
         add(node.mesh, name, checked(base * t, where));
       }

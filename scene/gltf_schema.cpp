@@ -163,7 +163,8 @@ class Checker {
     const double most = std::numeric_limits<float>::max();
     if (rule.low == -most && rule.high == most) return "a number in the range of single precision";
     if (rule.high < most) return fmt::format("a number from {:g} to {:g}", rule.low, rule.high);
-    return rule.low == 0.0 ? "a number that is not negative" : "a number above zero";
+    return fmt::format("a number {}, in the range of single precision",
+                       rule.low == 0.0 ? "that is not negative" : "above zero");
   }
 
   /// Length of one of the lists that indices point into.

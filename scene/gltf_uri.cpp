@@ -78,10 +78,14 @@ std::size_t scheme_length(std::string_view uri) {
   return 0;
 }
 
+/// Of small letters and capitals alike; `lower` has no capitals.
+bool equal_letters(std::string_view text, std::string_view lower) {
+  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
 bool has_scheme(std::string_view uri, std::string_view scheme) {
-  return uri.size() >= scheme.size() &&
-         std::equal(scheme.begin(), scheme.end(), uri.begin(),
-                    [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+  return equal_letters(uri.substr(0, scheme.size()), scheme);
 }
 bool is_data(std::string_view uri) {
   return has_scheme(uri, "data:");
@@ -107,7 +111,8 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   }
   const std::string_view head = uri.substr(0, comma);
   const std::string_view body = uri.substr(comma + 1);
-  if (head.ends_with(";base64")) {
+  constexpr std::string_view kBase64 = ";base64";
+  if (equal_letters(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
     if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
 
 #include "apps/cache_choices.h"
 #include "apps/cache_statistics.h"
@@ -17,6 +22,7 @@
 #include "apps/text.h"
 #include "apps/version.h"
 #include "renderer/pixel_filter.h"
+#include "scene/png_read.h"
 
 namespace gatelight::apps {
 namespace {
@@ -143,6 +149,20 @@ bool names_its_files(const ordered_json& record, const std::string& id) {
   return names("picture", picture_file(id)) && names("error_map", error_map_file(id));
 }
 
+/// Whether all of it is there: a run that a power failure ended may leave half of one.
+bool is_whole_png(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), {});
+  try {
+    const scene::PngReader reader(bytes);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 ordered_json planned_record(const CellPlace& place) {
@@ -220,7 +240,7 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
   // Files are looked for, not believed: somebody may have tidied up.
   for (const char* key : {"picture", "error_map"}) {
     const ordered_json& name = record[key];
-    if (name.is_string() && std::filesystem::exists(root / name.get<std::string>())) continue;
+    if (name.is_string() && is_whole_png(root / name.get<std::string>())) continue;
     if (with_pictures && std::string(key) == "picture") return std::nullopt;
     record[key] = nullptr;
   }

@@ -97,6 +97,7 @@ class Planner {
 
   std::vector<PlannedSeries> plan() {
     for (const SweepBlock& block : request_.blocks) {
+      require_few(block);
       FlagValues base = block.base;
       for (const auto& [flag, value] : scene_flags_) set_flag(base, flag, value);
       combine(block, base, 0);
@@ -107,6 +108,17 @@ class Planner {
   }
 
  private:
+  /// More is a mistake: cells of a minute each would take a week.
+  static void require_few(const SweepBlock& block) {
+    constexpr double kMost = 10000;
+    double count = 1.0;
+    for (const SweepAxis& axis : block.axes) count *= static_cast<double>(axis.values.size());
+    if (count > kMost) {
+      throw UsageError(
+          fmt::format("--vary and the like: {:.0f} combinations of values, expected at most {:.0f}", count, kMost));
+    }
+  }
+
   void combine(const SweepBlock& block, const FlagValues& flags, std::size_t axis) {
     if (axis == block.axes.size()) {
       add(block, flags);

@@ -36,8 +36,9 @@ class Signals : public ::testing::Test {
 };
 
 TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    Process process(endless());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // It may be ignored here, under nohup.
+    Process process(endless(), [] { ::signal(SIGHUP, SIG_DFL); });
     ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
     process.send(signal);
     const Output output = process.finish();
@@ -54,6 +55,14 @@ TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
     EXPECT_EQ(folder.count_files(), 4u) << "a temporary file is left";
     for (const char* name : {"a.exr", "b.png", "s.json"}) std::filesystem::remove(path(name));
   }
+}
+
+TEST_F(Signals, AHangupThatIsIgnoredStaysIgnored) {
+  Process process(endless(), [] { ::signal(SIGHUP, SIG_IGN); });
+  ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
+  process.send(SIGHUP);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.finish().exit_code, 128 + SIGTERM);
 }
 
 TEST_F(Signals, ASecondInterruptEndsTheProgramAtOnce) {

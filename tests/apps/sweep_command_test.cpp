@@ -198,9 +198,24 @@ TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
   for (const auto& [file, time] : before) EXPECT_EQ(times().at(file), time) << file;
   // A cell whose picture somebody has deleted is made again.
   const std::string picture = path("out/" + first["cells"][0]["picture"].get<std::string>());
+  const std::string whole = read_file(picture);
   fs::remove(picture);
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  EXPECT_TRUE(fs::exists(picture));
+  EXPECT_EQ(read_file(picture), whole);
+  // So is one whose picture is damaged.
+  for (const std::size_t length : {std::size_t{0}, std::size_t{50}, whole.size() - 1}) {
+    std::ofstream(picture, std::ios::binary) << whole.substr(0, length);
+    const Output output = run_gatelight_inside(words("out", {}));
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    EXPECT_EQ(read_file(picture), whole) << length;
+  }
+  // A record that is no file cannot be replaced.
+  const std::string record = path("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json");
+  fs::remove(record);
+  fs::create_directory(record);
+  const Output output = run_gatelight_inside(words("out", {}));
+  EXPECT_EQ(output.exit_code, 3);
+  EXPECT_THAT(output.last_error_line(), HasSubstr(record));
 }
 
 TEST_F(SweepCommand, AnotherSceneOfTheSameNameIsNotMixedUp) {

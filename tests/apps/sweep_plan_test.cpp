@@ -2,6 +2,7 @@
 
 #include "apps/sweep/plan.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,6 +54,20 @@ TEST(SweepPlan, CombinesAllValuesOfAllAxes) {
   EXPECT_EQ(plan.scenes[0].series[1].settings.render.cache.mlp.width, 32u);
   EXPECT_EQ(plan.run_count(), 4u);
   EXPECT_EQ(plan.cell_count(), 8u);
+}
+
+TEST(SweepPlan, TooManyCellsAreRefusedBeforeTheyAreCombined) {
+  std::string batches = "batch=256", rates = "learning-rate=0.001";
+  for (int i = 1; i < 2000; ++i) {
+    batches += fmt::format(",{}", 256 + i);
+    rates += fmt::format(",{:.3f}", 0.001 * (i + 1));
+  }
+  try {
+    plan_of({}, {batches, rates});
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("4000000 combinations of values, expected at most 10000"));
+  }
 }
 
 TEST(SweepPlan, AFlagWithoutEffectIsLeftOutAndEqualCellsAreOne) {

@@ -16,6 +16,7 @@
 #include "apps/sweep/machine.h"
 #include "apps/sweep/request.h"
 #include "apps/version.h"
+#include "renderer/image_write.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::apps {
@@ -162,6 +163,10 @@ TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
   EXPECT_FALSE(read(true).has_value()) << "its picture is missing";
   EXPECT_TRUE((*read(false))["picture"].is_null());
   folder.write("pictures/0123.png", "");
+  EXPECT_FALSE(read(true).has_value()) << "its picture is damaged";
+  renderer::Picture picture{.width = 1, .height = 1};
+  picture.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1}}};
+  renderer::write_image(picture, folder / "pictures/0123.png");
   const ordered_json found = *read(true);
   EXPECT_EQ(found["series"], plan.scenes[0].series[0].label);
   EXPECT_EQ(found["errors"], record["errors"]);

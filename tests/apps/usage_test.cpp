@@ -295,6 +295,26 @@ TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {
   EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.toml"));
 }
 
+TEST_F(Usage, AConfigFileIsAShortText) {
+  const auto line = [&](const std::string& config) {
+    const Output output = refused({"--config", config});
+    EXPECT_EQ(output.exit_code, 2) << output.err;
+    return output.last_error_line();
+  };
+  EXPECT_THAT(line("/dev/zero"), AllOf(HasSubstr("'/dev/zero'"), HasSubstr("more than 1 MiB")));
+  EXPECT_THAT(line(folder.write("zero.toml", std::string("spp = 2\0\n", 9))),
+              AllOf(HasSubstr("zero.toml'"), HasSubstr("a zero byte")));
+  const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_LT(unknown.err.size(), 1000u);
+}
+
+TEST_F(Usage, AFlagGivenTwiceIsNamed) {
+  const Output output = refused({"--spp", "2", "--spp", "3"});
+  EXPECT_EQ(output.exit_code, 1);
+  EXPECT_THAT(output.last_error_line(), HasSubstr("--spp is given 2 times, expected once"));
+}
+
 TEST_F(Usage, AValueOfAConfigFileIsSaidToStandThere) {
   const std::string config = folder.write("c.toml", "eye = [1, 2]\nspp = 4\nbatch = 256\n");
   const auto line = [&](std::vector<std::string> words) {

@@ -114,6 +114,22 @@ TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
                "exit 3: the folder 'FOLDER' cannot be written: Permission denied");
 }
 
+TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
+  for (const std::string& kind : kKinds) {
+    const std::string kept = folder.write(kind, "a reference of last year");
+    std::filesystem::permissions(kept, std::filesystem::perms(0444));
+    std::vector<std::string> all = words({"--size", "4096x4096", "--spp", "65536", "--quiet"});
+    const std::vector<std::string> more = outputs(kind, kept, path("other.exr"));
+    all.insert(all.end(), more.begin(), more.end());
+    const Output output = run_gatelight(all, [] { ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0); });
+    expect_failure(output, 3, "'" + kept + "': it is there already and cannot be written: Permission denied");
+    EXPECT_EQ(tests::read_file(kept), "a reference of last year");
+  }
+  tell_extreme("read-only file in the place of an output", "the same outputs, a file that may not be written",
+               "it stays as it is, nothing is begun",
+               "exit 3: it is there already and cannot be written: Permission denied");
+}
+
 TEST_F(FaultyDisk, AFolderThatVanishesCostsOnlyWhatWasToBeInIt) {
   std::filesystem::create_directory(folder / "gone");
   Process process(

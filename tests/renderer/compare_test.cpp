@@ -98,6 +98,17 @@ TEST(Compare, DifferentSizesNameBothPictures) {
               AllOf(HasSubstr("'ref.exr' has 2x1"), HasSubstr("'test.exr' has 1x2")));
 }
 
+TEST(Compare, DifferentRegionsOfOnePictureNameBoth) {
+  Picture left = rgb(2, 1, std::vector<float>(6)), right = left;
+  left.full_width = right.full_width = 4;
+  left.full_height = right.full_height = 1;
+  right.x0 = 2;
+  EXPECT_THAT(refusal(left, right),
+              AllOf(HasSubstr("of 4x1"), HasSubstr("'ref.exr' begins at 0,0, 'test.exr' at 2,0")));
+  EXPECT_EQ(refusal(right, right), "");
+  EXPECT_EQ(refusal(rgb(2, 1, std::vector<float>(6)), right), "") << "a PNG of the same region";
+}
+
 TEST(Compare, GreyAndColoursAreRefused) {
   Picture grey{.width = 1, .height = 1};
   grey.layers = {{.channels = {"Y", "A"}, .values = {2.0f, 1.0f}}};
@@ -114,6 +125,9 @@ TEST(Compare, APictureWithoutColoursIsRefusedByName) {
   depth.layers = {{.name = "depth", .channels = {"Z"}, .values = {1.0f}}};
   EXPECT_THAT(refusal(rgb(1, 1, {1, 2, 3}), depth), HasSubstr("'test.exr' has no beauty layer"));
   EXPECT_THAT(refusal(Picture{.width = 1, .height = 1}, rgb(1, 1, {1, 2, 3})), HasSubstr("'ref.exr'"));
+  Picture part = rgb(1, 1, {1, 2, 3});
+  part.layers[0].channels = {"R", "G", "Z"};
+  EXPECT_THAT(refusal(part, part), HasSubstr("channels R, G, Z, expected R, G and B, or Y"));
 }
 
 TEST(ErrorMap, RunsFromBlackToWhiteAndMarksNonFinite) {

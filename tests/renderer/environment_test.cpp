@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/environment_picture.h"
+#include "renderer/image_read.h"
 #include "renderer/image_write.h"
 #include "renderer/lights.h"
 #include "renderer/warp.h"
@@ -213,6 +214,57 @@ TEST_F(EnvironmentFileTest, InfiniteTexelsStayTheBrightestAndAreTold) {
   texels[10] = Color(-1, 1e6f, std::numeric_limits<float>::quiet_NaN());
   const std::string warning = Environment({.file = write(8, 4, texels)}).warning();
   EXPECT_NE(warning.find("taken as 1000000, 2 negative or NaN"), std::string::npos) << warning;
+}
+
+TEST_F(EnvironmentFileTest, ColoursAreChosenByTheNamesOfTheirChannels) {
+  const std::string path = (folder_.path() / "sky.exr").string();
+  const auto light = [&](const std::vector<std::string>& channels) {
+    Picture picture{.width = 4, .height = 2};
+    Layer layer{.channels = channels, .full_precision = true};
+    for (int i = 0; i < 8; ++i) {
+      for (std::size_t c = 0; c < channels.size(); ++c) layer.values.push_back(static_cast<float>(c + 1));
+    }
+    picture.layers = {layer};
+    write_image(picture, path);
+    return Environment({.file = path}).radiance(Vec3(0, 1, 0));
+  };
+  EXPECT_TRUE(light({"A", "B", "G", "R", "Z"}).isApprox(Color(4, 3, 2)));
+  EXPECT_TRUE(light({"A", "Y"}).isApprox(Color(2, 2, 2))) << "alpha is no light";
+  const std::vector<std::vector<std::string>> without = {{"Z"},           {"A"},           {"R", "G"},
+                                                         {"b", "g", "r"}, {"X", "Y", "Z"}, {"G", "Y"}};
+  for (const std::vector<std::string>& channels : without) {
+    try {
+      light(channels);
+      ADD_FAILURE() << channels[0];
+    } catch (const ImageError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("sky.exr"), std::string::npos) << message;
+      EXPECT_NE(message.find("expected R, G and B, or Y"), std::string::npos) << message;
+    }
+  }
+}
+
+TEST_F(EnvironmentFileTest, WhatAPictureDoesNotStoreOfItsDisplayWindowIsBlack) {
+  const std::string path = (folder_.path() / "sky.exr").string();
+  Picture picture{.width = 8, .height = 6, .x0 = -2, .y0 = -1, .full_width = 16, .full_height = 8};
+  picture.layers = {{.channels = {"R", "G", "B"}, .values = std::vector<float>(8 * 6 * 3, 1.0f)}};
+  write_image(picture, path);
+  const Environment environment({.file = path});
+  const auto at = [&](float u, float v) {
+    const float phi = 2.0f * scene::kPi * (u - 0.5f), theta = scene::kPi * v;
+    return environment
+        .radiance(Vec3(std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)))
+        .x();
+  };
+  // Columns 0 to 5 of 16 and rows 0 to 4 of 8 are stored; two columns and a row lie outside.
+  EXPECT_NEAR(at(0.2f, 0.3f), 1.0f, 1e-5f);
+  EXPECT_NEAR(at(0.33f, 0.5f), 1.0f, 0.5f);
+  EXPECT_EQ(at(0.5f, 0.3f), 0.0f);
+  EXPECT_EQ(at(0.2f, 0.8f), 0.0f);
+  picture.full_width = 1 << 16;
+  picture.full_height = 1 << 14;
+  write_image(picture, path);
+  EXPECT_THROW(Environment({.file = path}), ImageError) << "a billion pixels by a word of the header";
 }
 
 TEST_F(EnvironmentFileTest, ABlackPictureIsNoLight) {

@@ -49,7 +49,9 @@ TEST(Container, JsonWithADataUriEqualsTheBinary) {
   root["buffers"][0]["uri"] = "data%20file.bin";
   write_bytes(folder.path() / "b.gltf", text_bytes(root.dump()));
   write_bytes(folder.path() / "data file.bin", file.bin);
-  for (const char* name : {"a.gltf", "b.gltf"}) {
+  root["buffers"][0]["uri"] = "DATA:;Base64," + base64(file.bin);
+  write_bytes(folder.path() / "c.gltf", text_bytes(root.dump()));
+  for (const char* name : {"a.gltf", "b.gltf", "c.gltf"}) {
     EXPECT_EQ(only_mesh(load_gltf(folder.path() / name)).positions, binary.positions) << name;
   }
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/fuzz/png_checksums.h"
 #include "tests/scene/gltf_builder.h"
 
 namespace gatelight::scene {
@@ -25,6 +26,17 @@ const char* const kBomb =
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAdTAAAHUwCAIAAADpRW/"
     "tAAAADElEQVR42mNgZGIGAAAOAAfpkjfUAAAAAElFTkSuQmCC";
 
+/// 8x8 grey, all 128.
+const std::vector<std::uint8_t> kJpeg = {
+    0xff, 0xd8, 0xff, 0xdb, 0, 67, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+    1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+    1, 1, 1, 1, 1,
+    // One component of 8 bits; a code of one bit each for "no difference" and "end of block".
+    0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0, 0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xda,
+    0, 8, 1, 1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9};
+constexpr std::size_t kJpegScan = 3;  ///< bytes at its end: the block, and the end of the image
+
 GltfBuilder with_image(const json& image) {
   GltfBuilder file;
   file.add("images", image);
@@ -33,6 +45,12 @@ GltfBuilder with_image(const json& image) {
   primitive["material"] =
       file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
   file.node({{"mesh", file.mesh(primitive)}});
+  return file;
+}
+
+GltfBuilder with_bytes(const std::vector<std::uint8_t>& bytes) {
+  GltfBuilder file = with_image({{"mimeType", "image/png"}});
+  file.root["images"][0]["bufferView"] = file.view(bytes);
   return file;
 }
 
@@ -91,12 +109,45 @@ TEST(Images, DamageIsRefusedInSilence) {
   for (std::size_t at = 8; at < kGrey.size(); ++at) {
     std::vector<std::uint8_t> bytes = kGrey;
     bytes[at] ^= 0x55;
-    GltfBuilder file = with_image({{"mimeType", "image/png"}});
-    file.root["images"][0]["bufferView"] = file.view(bytes);
+    GltfBuilder file = with_bytes(bytes);
     testing::internal::CaptureStderr();
     EXPECT_THAT(file.refused(), HasSubstr("images[0]")) << at;
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at;
   }
+}
+
+TEST(Images, DamageUnderRightChecksumsIsRefusedInSilence) {
+  // Values of the header, the compressed stream and its end.
+  for (std::size_t at = 16; at < kGrey.size() - 12; ++at) {
+    for (const std::uint8_t value : {0, 3, 6, 255}) {
+      std::vector<std::uint8_t> bytes = kGrey;
+      if (bytes[at] == value || (at >= 37 && at < 41)) continue;
+      bytes[at] = value;
+      fuzz::repair_png_checksums(bytes);
+      GltfBuilder file = with_bytes(bytes);
+      testing::internal::CaptureStderr();
+      file.refused();
+      EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at << " " << int{value};
+    }
+  }
+}
+
+TEST(Images, AJpegThatLibjpegMakesUpIsRefused) {
+  const Scene whole = with_bytes(kJpeg).load();
+  EXPECT_THAT(whole.images.at(0).pixels, ::testing::Each(128));
+  EXPECT_THAT(whole.warnings, ::testing::IsEmpty());
+  std::vector<std::uint8_t> cut = kJpeg;
+  cut.erase(cut.end() - kJpegScan, cut.end() - kJpegScan + 1);  // the block alone
+  EXPECT_THAT(with_bytes(cut).refused(), AllOf(HasSubstr("images[0]"), HasSubstr("premature end")));
+  EXPECT_THAT(with_bytes(cut).load({.missing_is_error = false}).images.at(0).pixels,
+              ElementsAre(255, 255, 255));
+  // Bytes between segments are nobody's loss.
+  std::vector<std::uint8_t> more = kJpeg;
+  constexpr std::ptrdiff_t kFrame = 2 + 2 + 67;
+  more.insert(more.begin() + kFrame, {1, 2, 3});
+  const Scene padded = with_bytes(more).load();
+  EXPECT_THAT(padded.images.at(0).pixels, ::testing::Each(128));
+  EXPECT_THAT(padded.warnings, ElementsAre(HasSubstr("extraneous bytes")));
 }
 
 TEST(Images, AMissingFileIsAnErrorOrWhite) {

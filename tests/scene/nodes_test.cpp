@@ -237,7 +237,23 @@ TEST(Instancing, CountsThatDifferAreRefused) {
   file.node({{"mesh", file.mesh(file.triangle())},
              {"extensions",
               {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", t}, {"SCALE", scale}}}}}}}});
-  EXPECT_THAT(file.refused(), HasSubstr("expected 2"));
+  EXPECT_THAT(file.refused(), HasSubstr("count 2 for TRANSLATION"));
+}
+
+TEST(Instancing, AttributesOfAnApplicationCountToo) {
+  for (const int count : {2, 0}) {
+    GltfBuilder file;
+    json attributes = json::object();
+    if (count > 0) {
+      attributes["_ID"] = file.accessor(std::vector<float>{7, 8}, kFloat, "SCALAR", 2);
+    }
+    file.node({{"mesh", file.mesh(file.triangle())},
+               {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+    const Scene scene = file.load({.bake_transforms = false});
+    ASSERT_EQ(scene.instances.size(), count > 0 ? 2u : 1u);
+    EXPECT_TRUE(world_triangle(scene, scene.instances.back(), 0)[1].isApprox(Vec3(1, 0, 0)));
+    EXPECT_EQ(scene.warnings.size(), count > 0 ? 0u : 1u) << "drawn once";
+  }
 }
 
 TEST(Skins, ShowTheBindPoseWithOneWarning) {

@@ -1,0 +1,127 @@
+#include "scene/png_read.h"
+
+#include <png.h>
+
+#include <bit>
+#include <csetjmp>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#include "scene/png_chunks.h"
+
+namespace gatelight::scene {
+
+// libpng leaves a call that failed by longjmp: what calls it has no objects of its own that need a
+// destructor.
+struct PngReader::Decoder {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::span<const std::uint8_t> rest;
+  char message[256] = "";
+
+  Decoder() {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](png_structp, png_const_charp) {});
+    if (png != nullptr) info = png_create_info_struct(png);
+    if (info == nullptr) {
+      png_destroy_read_struct(&png, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
+  }
+  ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  [[noreturn]] static void on_error(png_structp png, png_const_charp message) {
+    auto* self = static_cast<Decoder*>(png_get_error_ptr(png));
+    std::strncpy(self->message, message, sizeof self->message - 1);
+    png_longjmp(png, 1);
+  }
+
+  static void on_read(png_structp png, png_bytep target, std::size_t count) {
+    auto* self = static_cast<Decoder*>(png_get_io_ptr(png));
+    if (count > self->rest.size()) png_error(png, "the data ends early");
+    std::memcpy(target, self->rest.data(), count);
+    self->rest = self->rest.subspan(count);
+  }
+
+  bool read_header() {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_read_fn(png, this, on_read);
+    // What is too large is for the caller to say.
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_read_info(png, info);
+    // Palettes to RGB, transparent colours to alpha, at least 8 bits.
+    png_set_expand(png);
+    return true;
+  }
+
+  /// `bits`: 8 or 16.
+  bool read_rows(std::uint8_t* pixels, std::size_t row_bytes, std::uint32_t height, int bits,
+                 bool little_endian) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    if (bits == 8) png_set_scale_16(png);
+    if (bits == 16) png_set_expand_16(png);
+    if (bits == 16 && little_endian) png_set_swap(png);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "rows of an unexpected size");
+    for (int pass = 0; pass < passes; ++pass) {
+      for (std::uint32_t y = 0; y < height; ++y) png_read_row(png, pixels + y * row_bytes, nullptr);
+    }
+    png_read_end(png, nullptr);
+    return true;
+  }
+};
+
+namespace {
+
+int channels_of(int color_type, bool transparent_color) {
+  const bool color = (color_type & PNG_COLOR_MASK_COLOR) != 0;
+  const bool alpha = (color_type & PNG_COLOR_MASK_ALPHA) != 0 || transparent_color;
+  return (color ? 3 : 1) + (alpha ? 1 : 0);
+}
+
+}  // namespace
+
+PngReader::PngReader(std::span<const std::uint8_t> file) {
+  std::string problem;
+  file_ = essential_png(file, problem);
+  if (file_.empty()) throw std::runtime_error(problem);
+  decoder_ = std::make_unique<Decoder>();
+  decoder_->rest = file_;
+  if (!decoder_->read_header()) throw std::runtime_error(decoder_->message);
+  const png_const_structp png = decoder_->png;
+  const png_const_infop info = decoder_->info;
+  width_ = static_cast<int>(png_get_image_width(png, info));
+  height_ = static_cast<int>(png_get_image_height(png, info));
+  channels_ = channels_of(png_get_color_type(png, info), png_get_valid(png, info, PNG_INFO_tRNS) != 0);
+  sixteen_ = png_get_bit_depth(png, info) == 16;
+}
+
+PngReader::~PngReader() = default;
+
+void PngReader::read_rows(std::uint8_t* pixels, std::size_t row_bytes) {
+  const std::size_t values = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+  const bool little_endian = std::endian::native == std::endian::little;
+  if (!decoder_->read_rows(pixels, row_bytes, static_cast<std::uint32_t>(height_),
+                           row_bytes == values ? 8 : 16, little_endian)) {
+    throw std::runtime_error(decoder_->message);
+  }
+}
+
+std::vector<std::uint8_t> PngReader::read_8() {
+  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+  std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_));
+  read_rows(pixels.data(), row);
+  return pixels;
+}
+
+std::vector<std::uint16_t> PngReader::read_16() {
+  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+  std::vector<std::uint16_t> pixels(row * static_cast<std::size_t>(height_));
+  read_rows(reinterpret_cast<std::uint8_t*>(pixels.data()), row * sizeof(std::uint16_t));
+  return pixels;
+}
+
+}  // namespace gatelight::scene
