@@ -5,20 +5,6 @@
 #include "renderer/color_channels.h"
 
 namespace gatelight::renderer {
-
-Beauty::Beauty(const NamedPicture& named) {
-  if (named.picture.layers.empty() || named.picture.layers.front().channels.empty()) {
-    throw CompareError(fmt::format("'{}' has no layer to compare", named.name));
-  }
-  layer_ = &named.picture.layers.front();
-  const auto index = color_channels(*layer_);
-  if (!index) {
-    throw CompareError(
-        fmt::format("'{}' has no beauty layer: it has the {}", named.name, describe_channels(*layer_)));
-  }
-  index_ = *index;
-}
-
 namespace {
 
 struct Place {
@@ -32,6 +18,19 @@ Place place(const Picture& picture) {
 }
 
 }  // namespace
+
+Beauty::Beauty(const NamedPicture& named) {
+  if (named.picture.layers.empty() || named.picture.layers.front().channels.empty()) {
+    throw CompareError(fmt::format("'{}' has no layer to compare", named.name));
+  }
+  layer_ = &named.picture.layers.front();
+  const auto index = color_channels(*layer_);
+  if (!index) {
+    throw CompareError(
+        fmt::format("'{}' has no beauty layer: it has the {}", named.name, describe_channels(*layer_)));
+  }
+  index_ = *index;
+}
 
 void require_comparable(const NamedPicture& a, const NamedPicture& b) {
   if (a.picture.width != b.picture.width || a.picture.height != b.picture.height) {

@@ -45,9 +45,13 @@ std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
         [](const std::string& a, const std::string& b) { return channel_rank(a) < channel_rank(b); });
   }
   const auto first = [&](auto condition) { return std::find_if(layers.begin(), layers.end(), condition); };
-  const auto has_colors = [](const Layer& l) { return color_channels(l).has_value(); };
-  auto beauty = first([&](const Layer& l) { return l.name.empty() && has_colors(l); });
-  if (beauty == layers.end()) beauty = first(has_colors);
+  auto beauty = first([](const Layer& l) { return l.name.empty() && color_channels(l); });
+  // A grey one with a name is depth or a mask.
+  const auto has_rgb = [](const Layer& l) {
+    const auto index = color_channels(l);
+    return index && (*index)[0] != (*index)[1];
+  };
+  if (beauty == layers.end()) beauty = first(has_rgb);
   if (beauty == layers.end()) beauty = first([](const Layer& l) { return l.name.empty(); });
   if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
   return layers;

@@ -114,8 +114,8 @@ class Planner {
     double count = 1.0;
     for (const SweepAxis& axis : block.axes) count *= static_cast<double>(axis.values.size());
     if (count > kMost) {
-      throw UsageError(
-          fmt::format("--vary and the like: {:.0f} combinations of values, expected at most {:.0f}", count, kMost));
+      throw UsageError(fmt::format(
+          "--vary and the like: {:.0f} combinations of values, expected at most {:.0f}", count, kMost));
     }
   }
 

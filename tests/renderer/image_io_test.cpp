@@ -117,6 +117,23 @@ TEST(ExrRoundTrip, RegionKeepsItsPlaceInTheFullPicture) {
   EXPECT_TRUE(same_bits(read.find("depth")->values, picture.find("depth")->values));
 }
 
+TEST(ExrRoundTrip, TheBeautyLayerIsTheOneWithColours) {
+  const TemporaryFolder folder;
+  const auto first = [&](const std::vector<Layer>& layers) {
+    Picture picture{.width = 1, .height = 1};
+    picture.layers = layers;
+    write_image(picture, folder / "a.exr");
+    return read_image(folder / "a.exr").layers[0].name;
+  };
+  const Layer depth{.channels = {"Z"}, .values = {5.0f}};
+  const Layer mask{.name = "mask", .channels = {"Y"}, .values = {1.0f}};
+  const Layer combined{.name = "view.combined", .channels = {"R", "G", "B"}, .values = {1, 2, 3}};
+  const Layer grey{.channels = {"A", "Y"}, .values = {1.0f, 2.0f}};
+  EXPECT_EQ(first({depth, mask, combined}), "view.combined");
+  EXPECT_EQ(first({combined, grey}), "") << "one without a name comes first";
+  EXPECT_EQ(first({mask, depth}), "");
+}
+
 int srgb_byte(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
   const double v = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
