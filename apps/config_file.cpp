@@ -6,6 +6,7 @@
 #include <istream>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "apps/errors.h"
@@ -53,7 +54,8 @@ class SubcommandConfig final : public CLI::ConfigTOML {
       throw InputError(fmt::format("cannot read '{}': {}, expected a configuration in TOML", config_->name,
                                    text.size() > kMost ? "it has more than 1 MiB" : "it has a zero byte"));
     }
-    return text;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
   }
 
   bool is_subcommand(const std::string& name) const {

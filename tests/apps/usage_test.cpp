@@ -304,6 +304,9 @@ TEST_F(Usage, AConfigFileIsAShortText) {
   EXPECT_THAT(line("/dev/zero"), AllOf(HasSubstr("'/dev/zero'"), HasSubstr("more than 1 MiB")));
   EXPECT_THAT(line(folder.write("zero.toml", std::string("spp = 2\0\n", 9))),
               AllOf(HasSubstr("zero.toml'"), HasSubstr("a zero byte")));
+  // Some editors begin a text with a mark of its byte order.
+  const Output marked = refused({"--config", folder.write("mark.toml", "\xEF\xBB\xBFspp = 0\n")});
+  EXPECT_THAT(marked.last_error_line(), HasSubstr("mark.toml' sets --spp)"));
   const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_LT(unknown.err.size(), 1000u);
