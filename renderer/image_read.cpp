@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 
 #include "renderer/claimed_size.h"
@@ -40,17 +39,8 @@ Picture one_layer(int width, int height, int channels) {
   return picture;
 }
 
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-    throw std::runtime_error("its bytes cannot be read");
-  }
-  return bytes;
-}
-
 Picture read_png(const std::filesystem::path& path) {
-  scene::PngReader reader(read_bytes(path));
+  scene::PngReader reader = scene::open_png(path);
   check_claimed_size(reader.width(), reader.height(), reader.channels(), path);
   const std::vector<std::uint16_t> pixels = reader.read_16();
   Picture picture = one_layer(reader.width(), reader.height(), reader.channels());

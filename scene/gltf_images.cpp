@@ -33,9 +33,9 @@ SceneError image_error(const Document& document, std::string_view where, std::st
   return make_error(document.file(), where, fmt::format("{}, expected a PNG or JPEG picture", what));
 }
 
-/// An Image without pixels; throws for sizes that are no picture's.
-Image empty_image(const Document& document, Bytes bytes, std::string_view where, int width, int height,
-                  int channels) {
+/// How many values a picture has; throws for sizes that are no picture's.
+std::size_t checked_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
+                         int channels) {
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
     throw image_error(
         document, where,
@@ -46,18 +46,13 @@ Image empty_image(const Document& document, Bytes bytes, std::string_view where,
   if (size > kSmall && size / kMaxRatio > bytes.size()) {
     throw image_error(document, where, fmt::format("{}x{} pixels in {} bytes", width, height, bytes.size()));
   }
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.channels = channels;
-  return image;
+  return size;
 }
 
 Image decode_png(const Document& document, Bytes bytes, std::string_view where) try {
   PngReader reader(bytes);
-  Image image = empty_image(document, bytes, where, reader.width(), reader.height(), reader.channels());
-  image.pixels = reader.read_8();
-  return image;
+  checked_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
+  return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
 } catch (const SceneError&) {
   throw;
 } catch (const std::runtime_error& error) {
@@ -76,9 +71,8 @@ Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where,
     throw image_error(document, where, fmt::format("cannot be decoded ({})", input->geterror()));
   }
   // JPEG has no alpha: the second of two components is none.
-  Image image = empty_image(document, bytes, where, spec.width, spec.height, spec.nchannels >= 3 ? 3 : 1);
-  image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
-                      static_cast<std::size_t>(image.channels));
+  Image image{"", spec.width, spec.height, spec.nchannels >= 3 ? 3 : 1, {}};
+  image.pixels.resize(checked_size(document, bytes, where, image.width, image.height, image.channels));
   const bool read = input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data());
   // libjpeg makes up what is missing or damaged, and says so once, in its first words.
   const std::string said = input->geterror();

@@ -5,8 +5,10 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "scene/png_chunks.h"
 
@@ -57,17 +59,18 @@ struct PngReader::Decoder {
   }
 
   /// `bits`: 8 or 16.
-  bool read_rows(std::uint8_t* pixels, std::size_t row_bytes, std::uint32_t height, int bits,
-                 bool little_endian) {
+  bool read_rows(std::uint8_t* pixels, std::size_t row_bytes, int height, int bits) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     if (bits == 8) png_set_scale_16(png);
     if (bits == 16) png_set_expand_16(png);
-    if (bits == 16 && little_endian) png_set_swap(png);
+    if (bits == 16 && std::endian::native == std::endian::little) png_set_swap(png);
     const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "rows of an unexpected size");
     for (int pass = 0; pass < passes; ++pass) {
-      for (std::uint32_t y = 0; y < height; ++y) png_read_row(png, pixels + y * row_bytes, nullptr);
+      for (int y = 0; y < height; ++y) {
+        png_read_row(png, pixels + static_cast<std::size_t>(y) * row_bytes, nullptr);
+      }
     }
     png_read_end(png, nullptr);
     return true;
@@ -96,32 +99,38 @@ PngReader::PngReader(std::span<const std::uint8_t> file) {
   width_ = static_cast<int>(png_get_image_width(png, info));
   height_ = static_cast<int>(png_get_image_height(png, info));
   channels_ = channels_of(png_get_color_type(png, info), png_get_valid(png, info, PNG_INFO_tRNS) != 0);
-  sixteen_ = png_get_bit_depth(png, info) == 16;
 }
 
 PngReader::~PngReader() = default;
 
-void PngReader::read_rows(std::uint8_t* pixels, std::size_t row_bytes) {
-  const std::size_t values = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
-  const bool little_endian = std::endian::native == std::endian::little;
-  if (!decoder_->read_rows(pixels, row_bytes, static_cast<std::uint32_t>(height_),
-                           row_bytes == values ? 8 : 16, little_endian)) {
-    throw std::runtime_error(decoder_->message);
-  }
+std::size_t PngReader::row_values() const {
+  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+}
+
+void PngReader::read_rows(std::uint8_t* pixels, int bits) {
+  const std::size_t row_bytes = row_values() * static_cast<std::size_t>(bits / 8);
+  if (!decoder_->read_rows(pixels, row_bytes, height_, bits)) throw std::runtime_error(decoder_->message);
 }
 
 std::vector<std::uint8_t> PngReader::read_8() {
-  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
-  std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_));
-  read_rows(pixels.data(), row);
+  std::vector<std::uint8_t> pixels(row_values() * static_cast<std::size_t>(height_));
+  read_rows(pixels.data(), 8);
   return pixels;
 }
 
 std::vector<std::uint16_t> PngReader::read_16() {
-  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
-  std::vector<std::uint16_t> pixels(row * static_cast<std::size_t>(height_));
-  read_rows(reinterpret_cast<std::uint8_t*>(pixels.data()), row * sizeof(std::uint16_t));
+  std::vector<std::uint16_t> pixels(row_values() * static_cast<std::size_t>(height_));
+  read_rows(reinterpret_cast<std::uint8_t*>(pixels.data()), 16);
   return pixels;
+}
+
+PngReader open_png(const std::filesystem::path& path) {
+  std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+    throw std::runtime_error("its bytes cannot be read");
+  }
+  return PngReader(bytes);
 }
 
 }  // namespace gatelight::scene

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace gatelight::scene {
@@ -24,8 +24,7 @@ class PngReader {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  int channels() const { return channels_; }      ///< 1 to 4
-  bool sixteen_bits() const { return sixteen_; }  ///< of the file; else 8 or fewer
+  int channels() const { return channels_; }  ///< 1 to 4
 
   /// Rows from the top, width * height * channels values; each may be called once, and only one of them.
   /// Files of 16 bits are rounded to 8. Throws std::runtime_error.
@@ -36,14 +35,17 @@ class PngReader {
  private:
   struct Decoder;
 
-  void read_rows(std::uint8_t* pixels, std::size_t row_bytes);
+  std::size_t row_values() const;
+  void read_rows(std::uint8_t* pixels, int bits);
 
   std::vector<std::uint8_t> file_;
   std::unique_ptr<Decoder> decoder_;
   int width_ = 0;
   int height_ = 0;
   int channels_ = 0;
-  bool sixteen_ = false;
 };
+
+/// Of a file. Throws std::runtime_error where it cannot be read, too.
+PngReader open_png(const std::filesystem::path& path);
 
 }  // namespace gatelight::scene

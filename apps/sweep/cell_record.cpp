@@ -4,12 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <vector>
 
 #include "apps/cache_choices.h"
 #include "apps/cache_statistics.h"
@@ -151,12 +147,8 @@ bool names_its_files(const ordered_json& record, const std::string& id) {
 
 /// Whether all of it is there: a run that a power failure ended may leave half of one.
 bool is_whole_png(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), {});
   try {
-    const scene::PngReader reader(bytes);
+    scene::open_png(path);
     return true;
   } catch (const std::runtime_error&) {
     return false;
