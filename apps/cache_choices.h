@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/values.h"
-#include "renderer/cache/presets.h"
+#include "renderer/settings/presets.h"
 
 namespace gatelight::apps {
 

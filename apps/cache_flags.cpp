@@ -8,7 +8,7 @@
 #include "apps/cache_choices.h"
 #include "apps/flags.h"
 #include "apps/render_settings.h"
-#include "renderer/option_words.h"
+#include "renderer/settings/option_words.h"
 
 namespace gatelight::apps {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "apps/cache_choices.h"
 #include "apps/text.h"
-#include "renderer/option_words.h"
+#include "renderer/settings/option_words.h"
 
 namespace gatelight::apps {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "renderer/statistics.h"
+#include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
 

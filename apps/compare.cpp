@@ -1,4 +1,4 @@
-#include "renderer/compare.h"
+#include "renderer/metrics/compare.h"
 
 #include <fmt/format.h>
 
@@ -15,10 +15,10 @@
 #include "apps/results.h"
 #include "apps/seeds.h"
 #include "apps/subcommand.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
-#include "renderer/merge.h"
-#include "renderer/ssim.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
+#include "renderer/metrics/merge.h"
+#include "renderer/metrics/ssim.h"
 
 namespace gatelight::apps {
 namespace {

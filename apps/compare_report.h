@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/values.h"
-#include "renderer/compare.h"
-#include "renderer/flip.h"
+#include "renderer/metrics/compare.h"
+#include "renderer/metrics/flip.h"
 
 namespace gatelight::apps {
 

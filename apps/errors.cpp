@@ -11,8 +11,8 @@
 
 #include "apps/terminal.h"
 #include "neural/errors.h"
-#include "renderer/atomic_file.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
+#include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {

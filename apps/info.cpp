@@ -16,9 +16,9 @@
 #include "apps/stopwatch.h"
 #include "apps/subcommand.h"
 #include "apps/version.h"
-#include "renderer/accel.h"
-#include "renderer/atomic_file.h"
-#include "renderer/threads.h"
+#include "renderer/machine/atomic_file.h"
+#include "renderer/machine/threads.h"
+#include "renderer/surface/accel.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {

@@ -1,4 +1,4 @@
-#include "renderer/merge.h"
+#include "renderer/metrics/merge.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include "apps/results.h"
 #include "apps/seeds.h"
 #include "apps/subcommand.h"
-#include "renderer/image_format.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_format.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 
 namespace gatelight::apps {
 namespace {

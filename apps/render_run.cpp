@@ -18,7 +18,7 @@
 #include "apps/terminal.h"
 #include "apps/text.h"
 #include "neural/errors.h"
-#include "renderer/memory_estimate.h"
+#include "renderer/film/memory_estimate.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 

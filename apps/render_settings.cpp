@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "apps/errors.h"
-#include "renderer/threads.h"
+#include "renderer/machine/threads.h"
 
 namespace gatelight::apps {
 namespace {

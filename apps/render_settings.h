@@ -10,9 +10,9 @@
 #include "apps/file_names.h"
 #include "apps/progress.h"
 #include "apps/values.h"
-#include "renderer/cache/presets.h"
-#include "renderer/image_write.h"
-#include "renderer/options.h"
+#include "renderer/image/image_write.h"
+#include "renderer/settings/options.h"
+#include "renderer/settings/presets.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {

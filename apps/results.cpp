@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/render_settings.h"
-#include "renderer/statistics.h"
+#include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
 

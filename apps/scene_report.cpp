@@ -9,7 +9,7 @@
 #include "apps/errors.h"
 #include "apps/json_values.h"
 #include "apps/text.h"
-#include "renderer/memory_estimate.h"
+#include "renderer/film/memory_estimate.h"
 
 namespace gatelight::apps {
 namespace {

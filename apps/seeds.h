@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "renderer/picture.h"
+#include "renderer/image/picture.h"
 
 namespace gatelight::apps {
 

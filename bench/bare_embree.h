@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "renderer/ray.h"
+#include "renderer/surface/ray.h"
 #include "scene/scene.h"
 
 namespace gatelight::bench {

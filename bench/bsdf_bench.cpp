@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bsdf.h"
-#include "renderer/sampler.h"
-#include "renderer/warp.h"
+#include "renderer/bsdf/bsdf.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/sampling/warp.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/lights.h"
-#include "renderer/sampler.h"
-#include "renderer/warp.h"
+#include "renderer/light/lights.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/sampling/warp.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {

@@ -11,7 +11,7 @@
 #include <new>
 #include <thread>
 
-#include "renderer/threads.h"
+#include "renderer/machine/threads.h"
 
 namespace gatelight::bench {
 

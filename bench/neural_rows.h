@@ -10,7 +10,7 @@
 #include "bench/neural_fixture.h"
 #include "neural/cpu/cpu_backend.h"
 #include "neural/training_options.h"
-#include "renderer/threads.h"
+#include "renderer/machine/threads.h"
 
 namespace gatelight::bench {
 

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "renderer/sampler.h"
+#include "renderer/sampling/sampler.h"
 
 namespace gatelight::renderer {
 namespace {

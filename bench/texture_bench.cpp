@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "renderer/ray.h"
-#include "renderer/sampler.h"
-#include "renderer/texture.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/surface/ray.h"
+#include "renderer/surface/texture.h"
 
 namespace gatelight::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "renderer/warp.h"
+#include "renderer/sampling/warp.h"
 
 namespace gatelight::bench {
 

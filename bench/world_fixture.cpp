@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "renderer/camera.h"
+#include "renderer/film/camera.h"
 #include "scene/gltf.h"
 
 namespace gatelight::bench {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/bare_embree.h"
-#include "renderer/path_integrator.h"
+#include "renderer/transport/path_integrator.h"
 
 namespace gatelight::bench {
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/errors.h"
-#include "renderer/options.h"
-#include "renderer/picture.h"
-#include "renderer/statistics.h"
+#include "renderer/image/picture.h"
+#include "renderer/machine/errors.h"
+#include "renderer/settings/options.h"
+#include "renderer/settings/statistics.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {

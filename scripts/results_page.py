@@ -28,7 +28,7 @@ which writes the figures beside this page (`NAME.csv`: a row a picture; `NAME.js
 - Machine: {cpu}, {threads} threads, {isa}; Gatelight {version}. Pictures of {sizes}, {seeds} seeds: mean ± standard deviation; times are medians.
 - The settings are the paper's (`--preset paper-nao`, `paper-nrc` of `gatelight render`): 49152 records a step, two levels with the paper's rule for
   the resolution, two hidden layers of 32, L2, no bias, 16 candidates, paths of four segments; the picture shows the cache at the first hit. They are not
-  what Gatelight does by default, which learns far better: `renderer/CACHE.md`.
+  what Gatelight does by default, which learns far better: `renderer/cache/README.md`.
 - The paper states neither learning rate nor initial values of the network, the size of its hash tables, nor which FLIP it means, and its
   resolutions R need a scale per scene that it does not print. Its FLIP can be compared with ours in trend, not in value.
 - FLIP is that of tone-mapped pictures at 67 pixels per degree, against references of {reference} samples a pixel, whose noise is in every FLIP; relative MSE has it subtracted.

@@ -17,7 +17,7 @@
 #include "apps/sweep/results.h"
 #include "apps/text.h"
 #include "apps/version.h"
-#include "renderer/pixel_filter.h"
+#include "renderer/film/pixel_filter.h"
 #include "scene/png_read.h"
 
 namespace gatelight::apps {

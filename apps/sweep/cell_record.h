@@ -6,7 +6,7 @@
 
 #include "apps/sweep/measure.h"
 #include "apps/sweep/plan.h"
-#include "renderer/statistics.h"
+#include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
 

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "apps/errors.h"
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/json_file.h"
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {

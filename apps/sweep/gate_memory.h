@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "renderer/options.h"
+#include "renderer/settings/options.h"
 #include "scene/scene.h"
 
 namespace gatelight::apps {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "renderer/camera.h"
-#include "renderer/deciding_options.h"
+#include "renderer/film/camera.h"
+#include "renderer/identity/deciding_options.h"
 
 namespace gatelight::apps {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "apps/render_settings.h"
 #include "neural/digest.h"
-#include "renderer/scene_fingerprint.h"
+#include "renderer/identity/scene_fingerprint.h"
 #include "scene/scene.h"
 
 namespace gatelight::apps {

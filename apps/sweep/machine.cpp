@@ -4,9 +4,9 @@
 
 #include <fstream>
 
-#include "renderer/accel.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
+#include "renderer/surface/accel.h"
 
 namespace gatelight::apps {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "renderer/options.h"
+#include "renderer/settings/options.h"
 
 namespace gatelight::apps {
 

@@ -1,6 +1,6 @@
 #include "apps/sweep/measure.h"
 
-#include "renderer/ssim.h"
+#include "renderer/metrics/ssim.h"
 
 namespace gatelight::apps {
 

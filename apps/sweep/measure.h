@@ -6,8 +6,8 @@
 #include <string>
 
 #include "apps/render_settings.h"
-#include "renderer/compare.h"
-#include "renderer/flip.h"
+#include "renderer/metrics/compare.h"
+#include "renderer/metrics/flip.h"
 
 namespace gatelight::apps {
 

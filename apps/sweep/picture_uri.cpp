@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "renderer/srgb.h"
+#include "renderer/image/srgb.h"
 
 namespace gatelight::apps {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "renderer/image_write.h"
-#include "renderer/picture.h"
+#include "renderer/image/image_write.h"
+#include "renderer/image/picture.h"
 
 namespace gatelight::apps {
 

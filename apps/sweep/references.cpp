@@ -14,10 +14,10 @@
 #include "apps/text.h"
 #include "apps/version.h"
 #include "neural/errors.h"
-#include "renderer/atomic_file.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
-#include "renderer/merge.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
+#include "renderer/machine/atomic_file.h"
+#include "renderer/metrics/merge.h"
 
 namespace gatelight::apps {
 namespace {

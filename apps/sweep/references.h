@@ -8,9 +8,9 @@
 #include <string>
 
 #include "apps/sweep/plan.h"
-#include "renderer/picture.h"
+#include "renderer/identity/scene_fingerprint.h"
+#include "renderer/image/picture.h"
 #include "renderer/render.h"
-#include "renderer/scene_fingerprint.h"
 #include "scene/scene.h"
 
 namespace gatelight::apps {

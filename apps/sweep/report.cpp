@@ -12,7 +12,7 @@
 #include "apps/render_settings.h"
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 
 namespace gatelight::apps {
 namespace {

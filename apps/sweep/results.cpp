@@ -14,8 +14,8 @@
 #include "apps/sweep/machine.h"
 #include "apps/values.h"
 #include "apps/version.h"
-#include "renderer/accel.h"
-#include "renderer/threads.h"
+#include "renderer/machine/threads.h"
+#include "renderer/surface/accel.h"
 
 namespace gatelight::apps {
 namespace {

@@ -15,9 +15,9 @@
 #include "apps/sweep/identity.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/tasks.h"
-#include "renderer/ao_integrator.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "renderer/render.h"
+#include "renderer/transport/ao_integrator.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {

@@ -21,9 +21,9 @@
 #include "apps/sweep/scene_sweep.h"
 #include "apps/sweep/tasks.h"
 #include "apps/version.h"
-#include "renderer/atomic_file.h"
-#include "renderer/image_format.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_format.h"
+#include "renderer/image/image_write.h"
+#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {
 namespace {

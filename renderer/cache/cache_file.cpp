@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "neural/content_digest.h"
-#include "renderer/atomic_file.h"
 #include "renderer/cache/cache_content.h"
-#include "renderer/named_texts.h"
-#include "renderer/option_words.h"
+#include "renderer/identity/named_texts.h"
+#include "renderer/machine/atomic_file.h"
+#include "renderer/settings/option_words.h"
 
 namespace gatelight::renderer {
 namespace {

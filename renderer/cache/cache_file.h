@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "neural/model_file.h"
-#include "renderer/cache/cache_options.h"
 #include "renderer/cache/cache_state.h"
-#include "renderer/options.h"
-#include "renderer/scene_fingerprint.h"
+#include "renderer/identity/scene_fingerprint.h"
+#include "renderer/settings/cache_options.h"
+#include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 

@@ -10,8 +10,8 @@
 #include "neural/cpu/cpu_backend.h"
 #include "neural/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
-#include "renderer/cache/surface_layout.h"
-#include "renderer/errors.h"
+#include "renderer/cache/scene_layout.h"
+#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 /// became 99 MB with the same error (squared bias 0.016), and the run took 2 s less; with 46 MB it was 0.019.
 constexpr std::uint64_t kChosenBytes = std::uint64_t{96} << 20;
 
-/// Lobes at least this rough are learned as well without the direction of view: CACHE.md, "Defaults".
+/// Lobes at least this rough are learned as well without the direction of view: README.md, "Defaults".
 constexpr float kRoughForAll = 0.5f;
 
 std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {

@@ -6,8 +6,8 @@
 
 #include "neural/trainer.h"
 #include "renderer/cache/cache_state.h"
-#include "renderer/options.h"
-#include "renderer/world.h"
+#include "renderer/settings/options.h"
+#include "renderer/transport/world.h"
 
 namespace gatelight::renderer {
 

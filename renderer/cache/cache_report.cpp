@@ -5,7 +5,7 @@
 #include "neural/mesh_colors.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_session.h"
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 
 namespace gatelight::renderer {
 namespace {

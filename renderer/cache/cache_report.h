@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "renderer/camera.h"
-#include "renderer/film.h"
-#include "renderer/options.h"
-#include "renderer/statistics.h"
-#include "renderer/world.h"
+#include "renderer/film/camera.h"
+#include "renderer/film/film.h"
+#include "renderer/settings/options.h"
+#include "renderer/settings/statistics.h"
+#include "renderer/transport/world.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {

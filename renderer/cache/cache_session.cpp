@@ -14,9 +14,9 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
-#include "renderer/cache/surface_layout.h"
-#include "renderer/clock.h"
-#include "renderer/memory_estimate.h"
+#include "renderer/cache/scene_layout.h"
+#include "renderer/film/memory_estimate.h"
+#include "renderer/machine/clock.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "neural/mesh_colors.h"
-#include "renderer/ao_integrator.h"
-#include "renderer/clock.h"
-#include "renderer/finite_float.h"
-#include "renderer/first_hit.h"
-#include "renderer/occlusion.h"
-#include "renderer/trace_timer.h"
+#include "renderer/film/first_hit.h"
+#include "renderer/machine/clock.h"
+#include "renderer/machine/finite_float.h"
+#include "renderer/transport/ao_integrator.h"
+#include "renderer/transport/occlusion.h"
+#include "renderer/transport/trace_timer.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -7,7 +7,7 @@
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/cached_paths_scratch.h"
-#include "renderer/pass.h"
+#include "renderer/transport/pass.h"
 
 namespace gatelight::renderer {
 

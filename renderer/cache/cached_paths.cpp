@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "renderer/cache/cached_paths_scratch.h"
-#include "renderer/cache/surface_layout.h"
-#include "renderer/first_hit.h"
+#include "renderer/cache/scene_layout.h"
+#include "renderer/film/first_hit.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -7,10 +7,10 @@
 #include "neural/surface_layout.h"
 #include "renderer/cache/held_light.h"
 #include "renderer/cache/path_batch.h"
-#include "renderer/path_integrator.h"
-#include "renderer/scattering.h"
-#include "renderer/statistics.h"
-#include "renderer/world.h"
+#include "renderer/settings/statistics.h"
+#include "renderer/transport/path_integrator.h"
+#include "renderer/transport/scattering.h"
+#include "renderer/transport/world.h"
 
 namespace gatelight::renderer {
 

@@ -2,7 +2,7 @@
 // The memory in which one thread follows its paths.
 
 #include "renderer/cache/cached_paths.h"
-#include "renderer/waves.h"
+#include "renderer/transport/waves.h"
 
 namespace gatelight::renderer {
 

@@ -14,8 +14,8 @@
 // A record's target, the end of a path in the cache and a picture are all made of the terms below, so that
 // they cannot disagree: R = H + the rest, for every choice.
 
-#include "renderer/cache/cache_options.h"
-#include "renderer/lights.h"
+#include "renderer/light/lights.h"
+#include "renderer/settings/cache_options.h"
 
 namespace gatelight::renderer {
 

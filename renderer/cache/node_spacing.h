@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/options.h"
-#include "renderer/surface.h"
+#include "renderer/settings/options.h"
+#include "renderer/surface/surface.h"
 
 namespace gatelight::renderer {
 

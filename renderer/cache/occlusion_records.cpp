@@ -4,8 +4,8 @@
 
 #include <mutex>
 
-#include "renderer/occlusion.h"
-#include "renderer/trace_timer.h"
+#include "renderer/transport/occlusion.h"
+#include "renderer/transport/trace_timer.h"
 
 namespace gatelight::renderer {
 

@@ -1,8 +1,8 @@
 #pragma once
 // Ambient occlusion at training points as records: what AoIntegrator measures, one or more rays a point.
 
-#include "renderer/ao_integrator.h"
 #include "renderer/cache/record_batch.h"
+#include "renderer/transport/ao_integrator.h"
 
 namespace gatelight::renderer {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/cache/surface_points.h"
-#include "renderer/camera_sample.h"
+#include "renderer/film/camera_sample.h"
 
 namespace gatelight::renderer {
 

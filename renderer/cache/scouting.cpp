@@ -7,7 +7,7 @@
 
 #include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::size_t kCameraRays = std::size_t{1} << 17;
 /// No step of training has this number: its random numbers are the scouts' own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the height of the picture (see CACHE.md, "What a scene requires"). Occlusion is sharper
+/// Node spacing over the height of the picture (see README.md, "What a scene requires"). Occlusion is sharper
 /// than light, and cheaper to learn.
 constexpr float kRadianceSpacing = 0.03f;
 constexpr float kOcclusionSpacing = 0.015f;

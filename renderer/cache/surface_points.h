@@ -6,8 +6,8 @@
 
 #include "neural/batch.h"
 #include "neural/model.h"
-#include "renderer/ray.h"
-#include "renderer/surface.h"
+#include "renderer/surface/ray.h"
+#include "renderer/surface/surface.h"
 
 namespace gatelight::renderer {
 

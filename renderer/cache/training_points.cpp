@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "neural/training_counts.h"
-#include "renderer/cache/surface_layout.h"
-#include "renderer/tiles.h"
-#include "renderer/warp.h"
+#include "renderer/cache/scene_layout.h"
+#include "renderer/film/tiles.h"
+#include "renderer/sampling/warp.h"
 #include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "neural/gate_layout.h"
-#include "renderer/alias_table.h"
 #include "renderer/cache/cached_paths.h"
-#include "renderer/camera.h"
-#include "renderer/film.h"
+#include "renderer/film/camera.h"
+#include "renderer/film/film.h"
+#include "renderer/sampling/alias_table.h"
 
 namespace gatelight::renderer {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/apps/process.h"
 #include "tests/temporary_folder.h"
 

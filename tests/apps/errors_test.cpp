@@ -6,8 +6,8 @@
 #include <new>
 
 #include "neural/errors.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "tests/apps/process.h"
 #include "tests/apps/tiny_scene.h"
 #include "tests/temporary_folder.h"

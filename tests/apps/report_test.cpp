@@ -12,7 +12,7 @@
 
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::apps {

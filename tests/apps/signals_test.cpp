@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/apps/process.h"
 #include "tests/apps/tiny_scene.h"
 #include "tests/temporary_folder.h"

@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/apps/process.h"
 #include "tests/apps/tiny_scene.h"
 #include "tests/temporary_folder.h"

@@ -14,10 +14,10 @@
 #include "apps/sweep/identity.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/measure.h"
-#include "renderer/accel.h"
 #include "renderer/cache/cache_report.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
+#include "renderer/surface/accel.h"
 #include "scene/gltf.h"
 #include "tests/temporary_folder.h"
 

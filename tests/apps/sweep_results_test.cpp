@@ -16,7 +16,7 @@
 #include "apps/sweep/machine.h"
 #include "apps/sweep/request.h"
 #include "apps/version.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::apps {

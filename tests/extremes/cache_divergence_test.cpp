@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
 #include "renderer/render.h"
 #include "tests/extremes/extreme.h"
 #include "tests/renderer/room.h"

@@ -10,7 +10,7 @@
 
 #include <linux/capability.h>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/extremes/faults.h"
 
 namespace gatelight::tests {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/extremes/faults.h"
 
 namespace gatelight::tests {

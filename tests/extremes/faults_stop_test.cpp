@@ -2,7 +2,7 @@
 
 #include <signal.h>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/extremes/faults.h"
 
 namespace gatelight::tests {

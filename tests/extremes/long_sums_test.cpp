@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/film.h"
+#include "renderer/film/film.h"
 #include "tests/extremes/extreme.h"
 #include "tests/statistics.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "renderer/memory_estimate.h"
+#include "renderer/film/memory_estimate.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "renderer/scattering.h"
+#include "renderer/transport/scattering.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/renderer/built_world.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "renderer/camera.h"
-#include "renderer/errors.h"
+#include "renderer/film/camera.h"
+#include "renderer/machine/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/extremes/scene_file.h"

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "renderer/environment_picture.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
+#include "renderer/light/environment_picture.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/renderer/room.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "neural/errors.h"
-#include "renderer/checkpoint.h"
+#include "renderer/run/checkpoint.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_cache.h"
 

@@ -10,7 +10,7 @@
 #include "apps/render_words.h"
 #include "apps/sweep/plan.h"
 #include "apps/sweep/request.h"
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
 #include "tests/fuzz/input_file.h"
 
 namespace gatelight::fuzz {

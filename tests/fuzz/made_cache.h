@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "renderer/cache/cache_state.h"
-#include "renderer/checkpoint.h"
-#include "renderer/options.h"
-#include "renderer/world.h"
+#include "renderer/run/checkpoint.h"
+#include "renderer/settings/options.h"
+#include "renderer/transport/world.h"
 #include "tests/fuzz/targets.h"
 
 namespace gatelight::fuzz {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/environment.h"
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
+#include "renderer/light/environment.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_glb.h"

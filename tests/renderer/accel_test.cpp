@@ -1,13 +1,13 @@
-#include "renderer/accel.h"
+#include "renderer/surface/accel.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "renderer/errors.h"
-#include "renderer/sampler.h"
-#include "renderer/surface.h"
-#include "renderer/warp.h"
+#include "renderer/machine/errors.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/sampling/warp.h"
+#include "renderer/surface/surface.h"
 #include "tests/renderer/scene_builder.h"
 
 namespace gatelight::renderer {

@@ -1,4 +1,4 @@
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include <csignal>
 
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bsdf.h"
+#include "renderer/bsdf/bsdf.h"
 
 namespace gatelight::renderer {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/bsdf_fresnel.h"
+#include "renderer/bsdf/fresnel.h"
 #include "tests/renderer/bsdf_cases.h"
 #include "tests/renderer/bsdf_measures.h"
 #include "tests/statistics.h"

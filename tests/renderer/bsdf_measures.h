@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/bsdf.h"
+#include "renderer/bsdf/bsdf.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/warp.h"
+#include "renderer/sampling/warp.h"
 #include "tests/renderer/bsdf_cases.h"
 #include "tests/statistics.h"
 

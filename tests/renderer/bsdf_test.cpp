@@ -1,10 +1,10 @@
-#include "renderer/bsdf.h"
+#include "renderer/bsdf/bsdf.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/bsdf_fresnel.h"
+#include "renderer/bsdf/fresnel.h"
 #include "tests/renderer/bsdf_cases.h"
 #include "tests/statistics.h"
 

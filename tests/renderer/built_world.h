@@ -1,7 +1,7 @@
 #pragma once
 // A scene made ready for light, for tests of what lies below Renderer.
 
-#include "renderer/world.h"
+#include "renderer/transport/world.h"
 
 namespace gatelight::testing {
 

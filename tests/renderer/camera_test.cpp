@@ -1,11 +1,11 @@
-#include "renderer/camera.h"
+#include "renderer/film/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {

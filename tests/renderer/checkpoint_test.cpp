@@ -1,11 +1,11 @@
-#include "renderer/checkpoint.h"
+#include "renderer/run/checkpoint.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
 #include "neural/errors.h"
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 #include "tests/renderer/cached_state.h"
 #include "tests/temporary_folder.h"
 

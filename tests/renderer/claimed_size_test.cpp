@@ -1,6 +1,6 @@
 // Sizes that the header of a picture claims, against the bytes that are there.
 
-#include "renderer/claimed_size.h"
+#include "renderer/image/claimed_size.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

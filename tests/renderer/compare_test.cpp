@@ -1,4 +1,4 @@
-#include "renderer/compare.h"
+#include "renderer/metrics/compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Panes of clear glass: what their textures and vertex colours do to the light of a shadow ray.
 
-#include "renderer/coverage.h"
+#include "renderer/surface/coverage.h"
 
 #include <gtest/gtest.h>
 

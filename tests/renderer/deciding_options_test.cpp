@@ -1,4 +1,4 @@
-#include "renderer/deciding_options.h"
+#include "renderer/identity/deciding_options.h"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
 #include "tests/renderer/golden_cases.h"
 #include "tests/renderer/golden_compare.h"
 #include "tests/statistics.h"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/lights.h"
-#include "renderer/warp.h"
+#include "renderer/light/lights.h"
+#include "renderer/sampling/warp.h"
 #include "tests/renderer/light_scenes.h"
 #include "tests/statistics.h"
 

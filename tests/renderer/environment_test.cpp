@@ -1,4 +1,4 @@
-#include "renderer/environment.h"
+#include "renderer/light/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "renderer/environment_picture.h"
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
-#include "renderer/lights.h"
-#include "renderer/warp.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
+#include "renderer/light/environment_picture.h"
+#include "renderer/light/lights.h"
+#include "renderer/sampling/warp.h"
 #include "tests/renderer/light_scenes.h"
 #include "tests/statistics.h"
 #include "tests/temporary_folder.h"

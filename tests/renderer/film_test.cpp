@@ -1,4 +1,4 @@
-#include "renderer/film.h"
+#include "renderer/film/film.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

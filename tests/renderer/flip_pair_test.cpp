@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "renderer/flip.h"
-#include "renderer/image_read.h"
+#include "renderer/image/image_read.h"
+#include "renderer/metrics/flip.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/flip.h"
+#include "renderer/metrics/flip.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/errors.h"
-#include "renderer/flip/color_map.h"
-#include "renderer/flip/exposures.h"
-#include "renderer/flip/filters.h"
-#include "renderer/flip/summary.h"
-#include "renderer/srgb.h"
+#include "renderer/image/srgb.h"
+#include "renderer/machine/errors.h"
+#include "renderer/metrics/flip/color_map.h"
+#include "renderer/metrics/flip/exposures.h"
+#include "renderer/metrics/flip/filters.h"
+#include "renderer/metrics/flip/summary.h"
 #include "tests/renderer/flip_reference.h"
 #include "tests/renderer/rgb_pictures.h"
 #include "tests/statistics.h"

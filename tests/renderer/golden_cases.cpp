@@ -9,7 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/options.h"
-#include "renderer/picture.h"
+#include "renderer/image/picture.h"
+#include "renderer/settings/options.h"
 #include "scene/scene.h"
 
 namespace gatelight::testing {

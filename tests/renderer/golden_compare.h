@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/picture.h"
+#include "renderer/image/picture.h"
 
 namespace gatelight::testing {
 

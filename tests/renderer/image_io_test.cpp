@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {

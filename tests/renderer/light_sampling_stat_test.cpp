@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "renderer/lights.h"
-#include "renderer/warp.h"
+#include "renderer/light/lights.h"
+#include "renderer/sampling/warp.h"
 #include "tests/renderer/light_scenes.h"
 #include "tests/statistics.h"
 

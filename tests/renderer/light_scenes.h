@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/image_write.h"
-#include "renderer/lights.h"
+#include "renderer/image/image_write.h"
+#include "renderer/light/lights.h"
 #include "scene/scene.h"
 #include "tests/temporary_folder.h"
 

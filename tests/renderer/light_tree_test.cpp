@@ -1,12 +1,12 @@
-#include "renderer/light_tree.h"
+#include "renderer/light/light_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "renderer/alias_table.h"
-#include "renderer/warp.h"
+#include "renderer/sampling/alias_table.h"
+#include "renderer/sampling/warp.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {

@@ -1,6 +1,6 @@
 // Lights at the extremes of scale, brightness and geometry, and what of a material counts.
 
-#include "renderer/lights.h"
+#include "renderer/light/lights.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/warp.h"
+#include "renderer/sampling/warp.h"
 #include "tests/renderer/light_scenes.h"
 #include "tests/statistics.h"
 

@@ -1,10 +1,10 @@
-#include "renderer/machine_memory.h"
+#include "renderer/machine/memory.h"
 
 #include <gmock/gmock.h>
 
-#include "renderer/errors.h"
-#include "renderer/memory_estimate.h"
-#include "renderer/threads.h"
+#include "renderer/film/memory_estimate.h"
+#include "renderer/machine/errors.h"
+#include "renderer/machine/threads.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::renderer {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "renderer/image_write.h"
+#include "renderer/image/image_write.h"
 #include "tests/renderer/golden_cases.h"
 
 namespace gatelight::testing {

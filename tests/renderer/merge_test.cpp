@@ -1,4 +1,4 @@
-#include "renderer/merge.h"
+#include "renderer/metrics/merge.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

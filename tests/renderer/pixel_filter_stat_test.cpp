@@ -1,11 +1,11 @@
-#include "renderer/pixel_filter.h"
+#include "renderer/film/pixel_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "renderer/sampler.h"
+#include "renderer/sampling/sampler.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {

@@ -8,7 +8,7 @@
 
 #include "neural/cpu/isa.h"
 #include "neural/errors.h"
-#include "renderer/atomic_file.h"
+#include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 #include "tests/renderer/kinds_of_pictures.h"
 #include "tests/renderer/room.h"

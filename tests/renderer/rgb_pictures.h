@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/picture.h"
+#include "renderer/image/picture.h"
 
 namespace gatelight::testing {
 

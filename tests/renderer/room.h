@@ -1,7 +1,7 @@
 #pragma once
 // A small room with something of everything, for tests of whole pictures.
 
-#include "renderer/options.h"
+#include "renderer/settings/options.h"
 #include "tests/renderer/scene_builder.h"
 
 namespace gatelight::testing {

@@ -1,4 +1,4 @@
-#include "renderer/sampler.h"
+#include "renderer/sampling/sampler.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "renderer/scene_fingerprint.h"
+#include "renderer/identity/scene_fingerprint.h"
 
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>

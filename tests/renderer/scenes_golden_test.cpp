@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "renderer/image_read.h"
-#include "renderer/image_write.h"
+#include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "tests/renderer/golden_cases.h"
 #include "tests/renderer/golden_compare.h"
 #include "tests/statistics.h"

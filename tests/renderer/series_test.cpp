@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-#include "renderer/clock.h"
+#include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "tests/renderer/kinds_of_pictures.h"
 #include "tests/renderer/room.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "renderer/compare.h"
-#include "renderer/merge.h"
+#include "renderer/metrics/compare.h"
+#include "renderer/metrics/merge.h"
 #include "tests/statistics.h"
 
 namespace gatelight::renderer {

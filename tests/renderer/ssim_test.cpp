@@ -1,4 +1,4 @@
-#include "renderer/ssim.h"
+#include "renderer/metrics/ssim.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

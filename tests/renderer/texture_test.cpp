@@ -1,10 +1,10 @@
-#include "renderer/texture.h"
+#include "renderer/surface/texture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/srgb.h"
+#include "renderer/image/srgb.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/threads.h"
+#include "renderer/machine/threads.h"
 
 #include <gtest/gtest.h>
 

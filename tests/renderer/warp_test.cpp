@@ -1,4 +1,4 @@
-#include "renderer/warp.h"
+#include "renderer/sampling/warp.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/cache/presets.h"
+#include "renderer/settings/presets.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"
 

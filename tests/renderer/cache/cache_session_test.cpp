@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "neural/errors.h"
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/statistics.h"
 

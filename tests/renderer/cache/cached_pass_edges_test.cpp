@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "renderer/errors.h"
+#include "renderer/machine/errors.h"
 #include "renderer/render.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/statistics.h"

@@ -11,8 +11,8 @@
 
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/cached_paths_scratch.h"
-#include "renderer/camera.h"
-#include "renderer/path_integrator.h"
+#include "renderer/film/camera.h"
+#include "renderer/transport/path_integrator.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"
 #include "tests/statistics.h"

@@ -1,6 +1,6 @@
 // Presets hold the values that they promise, and nothing beyond them.
 
-#include "renderer/cache/presets.h"
+#include "renderer/settings/presets.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 #include "tests/renderer/cache/small_worlds.h"
 
 namespace gatelight::renderer {

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "renderer/camera.h"
-#include "renderer/film.h"
-#include "renderer/options.h"
+#include "renderer/film/camera.h"
+#include "renderer/film/film.h"
+#include "renderer/settings/options.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"
 

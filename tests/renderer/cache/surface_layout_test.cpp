@@ -1,7 +1,7 @@
 // A scene as the cache knows it: welded meshes, transforms, and sides that mean the same to renderer and
 // neural for every kind of instance.
 
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "neural/gate_layout.h"
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 #include "renderer/cache/training_points.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-#include "renderer/cache/surface_layout.h"
+#include "renderer/cache/scene_layout.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"
 

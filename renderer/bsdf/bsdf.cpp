@@ -1,0 +1,237 @@
+#include "renderer/bsdf/bsdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bsdf/fresnel.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Half vectors and Smith's terms need a wo that is not in the plane itself.
+constexpr float kMinCosine = 1e-5f;
+/// Rough boundaries of media whose indices differ by less do not refract but let everything pass straight:
+/// the half vector of a refraction would be all cancellation, and the microfacet model loses most of the
+/// light there.
+constexpr float kMinRoughIorStep = 0.02f;
+/// Clearcoat has ior 1.5.
+constexpr float kCoatF0 = 0.04f;
+
+/// Turns n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
+/// and the lifted mirror direction, so that wo is above its horizon too.
+Vec3 bend_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
+  const float on = wo.dot(n);
+  const float og = std::max(wo.dot(ng), 0.0f);
+  const float mirrored = 2.0f * on * n.dot(ng) - og;
+  const float lifted = std::min(0.9f * og, 0.01f);
+  if (mirrored >= lifted && on > 0.0f) return n;
+  const float tangent2 = 1.0f - mirrored * mirrored;
+  if (!(tangent2 > 1e-6f)) return ng;
+  const float stretch = std::sqrt((1.0f - lifted * lifted) / tangent2);
+  const Vec3 tangent = 2.0f * on * n - wo - mirrored * ng;
+  const Vec3 half = wo + stretch * tangent + lifted * ng;
+  const float length2 = half.squaredNorm();
+  return length2 > 1e-8f ? Vec3(half / std::sqrt(length2)) : ng;
+}
+
+/// Of the light that single scattering loses, the part that comes out in the end, over the mean reflectance:
+/// one more reflection, then a geometric series (Hill 2018).
+template <class T>
+T multiple_part(const T& mean_fresnel, float mean_loss) {
+  return mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
+}
+
+float schlick_mean(float f0, float f90) {
+  return f0 + (f90 - f0) * kSchlickMean;
+}
+
+Color schlick_mean(const Color& f0, float f90) {
+  return f0 + (f90 - f0) * kSchlickMean;
+}
+
+}  // namespace
+
+Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, const Vec3& nc, const Vec3& wo,
+           bool front)
+    : wo_(wo), ng_(ng), ns_(bend_normal(ns, ng, wo)) {
+  set_up_base(material, front);
+  const bool inside = glass_ == Glass::refracting && !front;
+  if (!inside && (material.clearcoat > 0.0f || (material.sheen_color > 0.0f).any())) {
+    nc_ = bend_normal(nc, ng, wo);
+    set_up_layers(material);
+  }
+  // The tables' interpolation can overshoot by some tenths of a percent.
+  albedo_ = albedo_.max(0.0f).min(1.0f);
+  // Whatever has a value must have a chance, however small its albedo came out.
+  p_microfacet_ = std::max(p_microfacet_, 1e-3f * f90_ * base_scale_);
+  normalize_chances();
+}
+
+void Bsdf::normalize_chances() {
+  float* const probabilities[] = {&p_microfacet_,    &p_diffuse_, &p_clear_, &p_loss_reflect_,
+                                  &p_loss_transmit_, &p_coat_,    &p_sheen_};
+  float total = 0.0f;
+  for (const float* p : probabilities) total += *p;
+  const float scale = total > 0.0f ? 1.0f / total : 0.0f;
+  for (float* p : probabilities) *p *= scale;
+  is_delta_ = p_diffuse_ == 0.0f && p_sheen_ == 0.0f && (ggx_.delta || p_microfacet_ == 0.0f) &&
+              (p_coat_ == 0.0f || coat_.delta);
+}
+
+void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
+  const Color base = material.base_color.max(0.0f).min(1.0f);
+  const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
+  const float transmission = std::clamp(material.transmission, 0.0f, 1.0f);
+  const float roughness = std::clamp(material.roughness, 0.0f, 1.0f);
+  const float specular = std::clamp(material.specular, 0.0f, 1.0f);
+  const float ior = std::max(material.ior, 0.0f);
+
+  const float glass = (1.0f - metallic) * transmission;
+  const float opaque = (1.0f - metallic) * (1.0f - transmission);
+  if (glass > 0.0f) {
+    if (material.thin_walled || ior == 0.0f) {
+      glass_ = Glass::thin;
+    } else {
+      const bool clear = roughness >= kDeltaRoughness && std::abs(ior - 1.0f) < kMinRoughIorStep;
+      glass_ = clear ? Glass::clear : Glass::refracting;
+    }
+  }
+
+  ggx_ = GgxLobe(roughness * roughness, std::max(wo_.dot(ns_), kMinCosine));
+  if (!ggx_.delta) row_ = GgxTables::get().row(roughness);
+  const GgxAlbedo out = row_.at(ggx_.cos_o);
+  const GgxAlbedo& mean = row_.mean();
+  scale_o_ = out.scale;
+
+  // KHR_materials_specular: the colour scales the normal reflectance, the factor all of it.
+  const float ior_f0 = dielectric_f0(ior);
+  const Color f0 = (ior_f0 * material.specular_color).max(0.0f).min(1.0f) * specular;
+  const float thin = glass_ == Glass::thin ? glass : 0.0f;
+  f0_ = metallic * base + (opaque + thin) * f0;
+  f90_ = metallic + (opaque + thin) * specular;
+
+  // The largest channel counts, so that a tinted layer does not give the base its complementary colour.
+  const float largest_f0 = f0.maxCoeff();
+  const float part = multiple_part(schlick_mean(largest_f0, specular), mean.loss);
+  // What a sheet does not reflect in the end it transmits: nothing is lost.
+  multiple_f0_ = (opaque * part + thin) * f0;
+  multiple_f90_.setConstant((opaque * part + thin) * specular);
+  if (metallic > 0.0f) {
+    const Color metal_part = metallic * multiple_part(schlick_mean(base, 1.0f), mean.loss);
+    multiple_f0_ += metal_part * base;
+    multiple_f90_ += metal_part;
+  }
+  const float a = 1.0f - out.loss - out.b;
+  albedo_ = f0_ * a + f90_ * out.b + multiple_f0_ * (1.0f - out.b_scaled - a) +
+            multiple_f90_ * (out.b_scaled - out.b);
+  p_microfacet_ = scene::luminance(albedo_);
+
+  // The diffuse base gets what the dielectric lets in, and out again.
+  if (opaque > 0.0f) {
+    coupling_[0] = 1.0f - largest_f0;
+    coupling_[1] = (1.0f - part) * largest_f0;
+    coupling_[2] = (1.0f - part) * (largest_f0 - specular);
+    coupling_[3] = part * (largest_f0 - specular);
+    const Color diffuse_albedo = base * (opaque * passed(out));
+    diffuse_ = diffuse_albedo * (kInvPi / std::max(passed(mean), 1e-6f));
+    p_diffuse_ = scene::luminance(diffuse_albedo);
+    albedo_ += diffuse_albedo;
+  }
+  if (glass_ == Glass::none) return;
+
+  glass_weight_ = glass;
+  glass_tint_ = glass * base;
+  glass_f0_ = f0;
+  glass_f90_ = specular;
+  eta_ = front ? ior : 1.0f / ior;
+  if (glass_ == Glass::clear) {
+    albedo_ += glass_tint_;
+    p_clear_ = scene::luminance(glass_tint_);
+  } else if (glass_ == Glass::thin) {
+    eta_ = 1.0f;
+    const Color transmitted = glass_tint_ * (1.0f - f0 * (1.0f - out.b_scaled) - specular * out.b_scaled);
+    albedo_ += transmitted;
+    p_microfacet_ += scene::luminance(transmitted);
+  } else {
+    set_up_refraction(roughness, ior_f0);
+  }
+}
+
+void Bsdf::set_up_refraction(float roughness, float ior_f0) {
+  fresnel_base_ = ior_f0;
+  const Facet straight = facet(ggx_.cos_o);
+  if (ggx_.delta) {
+    const Color added = straight.reflected + straight.transmitted;
+    albedo_ += added;
+    p_microfacet_ += scene::luminance(added);
+    return;
+  }
+  const GlassTables& tables = GlassTables::get();
+  glass_here_ = tables.rows(roughness, eta_);
+  glass_there_ = tables.rows(roughness, 1.0f / eta_);
+  const float k = glass_f90_;
+  const GlassAlbedo out = glass_here_.at(ggx_.cos_o);
+  // The reflectance of the smooth interface scaled to what is not lost, and the table's difference to it.
+  const Color reflected_once =
+      (straight.reflected * (1.0f - out.lost) + glass_weight_ * (k * out.reflected + out.total))
+          .max(0.0f)
+          .min(glass_weight_ * (1.0f - out.loss(k)));
+  const Color single =
+      reflected_once + glass_tint_ * (1.0f - out.loss(k) - reflected_once * (1.0f / glass_weight_));
+  albedo_ += single;
+  p_microfacet_ += scene::luminance(single);
+
+  const float mean_here = glass_here_.mean_loss(k);
+  const float mean_there = glass_there_.mean_loss(k);
+  const float loss = out.loss(k);
+  if (!(loss > 0.0f && mean_here > 0.0f && mean_there > 0.0f)) return;
+  // The part that leaves on the other side. Scattering to the other side is reciprocal if part * mean loss
+  // here is eta^2 times part * mean loss there; the mean Fresnel transmittances have the ratio eta^2 already.
+  const float smooth =
+      eta_ > 1.0f ? 1.0f - glass_here_.mean_fresnel(k) : eta_ * eta_ * (1.0f - glass_there_.mean_fresnel(k));
+  const float part = std::clamp(smooth * mean_there / std::max(mean_here, mean_there), 0.0f, 1.0f);
+  const float reflected = glass_weight_ * (1.0f - part) * loss;
+  const Color transmitted = glass_tint_ * (part * loss);
+  glass_multiple_reflect_ = reflected * kInvPi / mean_here;
+  glass_multiple_transmit_ = transmitted * (kInvPi / (mean_there * eta_ * eta_));
+  albedo_ += reflected + transmitted;
+  p_loss_reflect_ = reflected;
+  p_loss_transmit_ = scene::luminance(transmitted);
+  loss_lobe_ = LossLobe(roughness * roughness);
+}
+
+void Bsdf::set_up_layers(const SurfaceMaterial& material) {
+  has_layers_ = true;
+  const Color sheen = material.sheen_color.max(0.0f).min(1.0f);
+  sheen_color_ = sheen;
+  if ((sheen > 0.0f).any()) {
+    const float roughness = std::clamp(material.sheen_roughness, kMinSheenRoughness, 1.0f);
+    sheen_ = SheenLobe(roughness, SheenTables::get().row(roughness));
+    const float reflected = sheen_.row.albedo(ggx_.cos_o);
+    p_sheen_ = scene::luminance(sheen) * reflected;
+    base_scale_ = 1.0f - sheen.maxCoeff() * reflected;
+    albedo_ = albedo_ * base_scale_ + sheen * reflected;
+  }
+  const float base_scale = base_scale_;
+  float coat_scale = 1.0f;
+  coat_weight_ = std::clamp(material.clearcoat, 0.0f, 1.0f);
+  if (coat_weight_ > 0.0f) {
+    const float roughness = std::clamp(material.clearcoat_roughness, 0.0f, 1.0f);
+    coat_ = GgxLobe(roughness * roughness, std::max(wo_.dot(nc_), kMinCosine));
+    const GgxTables::Row row = coat_.delta ? GgxTables::Row() : GgxTables::get().row(roughness);
+    coat_albedo_ = coat_weight_ * row.at(coat_.cos_o).reflect(kCoatF0, 1.0f);
+    p_coat_ = coat_albedo_;
+    coat_scale = 1.0f - p_coat_;
+    albedo_ = albedo_ * coat_scale + p_coat_;
+    base_scale_ *= coat_scale;
+    sheen_color_ *= coat_scale;
+    p_sheen_ *= coat_scale;
+  }
+  p_microfacet_ *= base_scale * coat_scale;
+  p_diffuse_ *= base_scale * coat_scale;
+  p_clear_ *= base_scale * coat_scale;
+  p_loss_reflect_ *= base_scale * coat_scale;
+  p_loss_transmit_ *= base_scale * coat_scale;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,95 @@
+#pragma once
+// The isotropic GGX distribution with height-correlated Smith shadowing, without Fresnel. Cosines are with
+// the shading normal and positive on the side of wo.
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/sampling/warp.h"
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+using scene::kInvPi;
+using scene::kPi;
+
+/// Below this perceptual roughness a lobe is a delta: it is half a pixel wide at most, no different from a
+/// mirror in a picture, while its peak, 1 / (pi alpha^2), leaves the range where float directions resolve it.
+inline constexpr float kDeltaRoughness = 0.03f;
+inline constexpr float kDeltaAlpha = kDeltaRoughness * kDeltaRoughness;
+
+/// sqrt(alpha^2 + (1 - alpha^2) cos^2): Smith's Lambda is (this / cos - 1) / 2.
+inline float smith_root(float alpha2, float cosine) {
+  return std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine);
+}
+
+/// G2 / G1(wo), the weight of a visible normal: (1 + L_o) / (1 + L_o + L_i).
+inline float smith_ratio(float alpha2, float cos_o, float cos_i) {
+  const float o = cos_i * (cos_o + smith_root(alpha2, cos_o));
+  const float i = cos_o * smith_root(alpha2, cos_i);
+  return o / (cos_i * smith_root(alpha2, cos_o) + i);
+}
+
+/// A microfacet normal seen from wo (both in the frame of the normal, wo.z > 0), distributed as
+/// G1(wo) max(0, wo.h) D(h) / wo.z. Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical
+/// caps".
+inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
+  const Vec3 stretched = Vec3(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
+  const Vec2 phi = cos_sin_turn(u.x());
+  const float z = (1.0f - u.y()) * (1.0f + stretched.z()) - stretched.z();
+  const float sine = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  const Vec3 half(sine * phi.x() + stretched.x(), sine * phi.y() + stretched.y(), z + stretched.z());
+  // Only a rounding away from the horizon can make z negative or the vector vanish.
+  return Vec3(alpha * half.x(), alpha * half.y(), std::max(half.z(), 1e-7f)).normalized();
+}
+
+/// Directions as the light goes that a rough lobe loses: cos / (cos^2 + a^2), from cosine-distributed at a
+/// large alpha to near the horizon at a small one.
+struct LossLobe {
+  float a2 = 1.0f;
+  float log_norm = 1.0f;
+
+  LossLobe() = default;
+  explicit LossLobe(float alpha) : a2(2.0f * alpha * alpha), log_norm(std::log1p(1.0f / a2)) {}
+  float pdf(float cosine) const { return cosine * kInvPi / ((cosine * cosine + a2) * log_norm); }
+  Vec3 sample(const Vec2& u) const {
+    const float cos2 = std::min(a2 * std::expm1(u.x() * log_norm), 1.0f);
+    const Vec2 phi = cos_sin_turn(u.y());
+    const float sine = std::sqrt(1.0f - cos2);
+    return {sine * phi.x(), sine * phi.y(), std::sqrt(cos2)};
+  }
+};
+
+/// One distribution seen from one wo.
+struct GgxLobe {
+  float alpha2 = 1.0f;
+  float cos_o = 1.0f;
+  float root_o = 1.0f;     ///< smith_root(cos_o)
+  float pdf_scale = 0.0f;  ///< G1(wo) / (4 cos_o)
+  bool delta = false;
+
+  GgxLobe() = default;
+  GgxLobe(float alpha, float cosine) : alpha2(alpha * alpha), cos_o(cosine), delta(alpha < kDeltaAlpha) {
+    root_o = smith_root(alpha2, cos_o);
+    pdf_scale = 0.5f / (cos_o + root_o);
+  }
+
+  /// D of a half vector and the visibility G2 / (4 cos_o cos_i). The half vector need not be normalised;
+  /// h2 is its squared length, positive.
+  struct Terms {
+    float d;
+    float visibility;
+  };
+  Terms terms(const Vec3& n, const Vec3& h, float h2, float cos_i) const {
+    // The sine comes from a cross product: one minus a squared cosine has no digits left for a narrow lobe.
+    const float nh = n.dot(h);
+    const float sin2 = n.cross(h).squaredNorm();
+    const float root = alpha2 * nh * nh + sin2;
+    const float d_below = kPi * root * root;
+    const float v_below = cos_i * root_o + cos_o * smith_root(alpha2, cos_i);
+    const float inverse = 1.0f / (d_below * v_below);
+    return {alpha2 * h2 * h2 * v_below * inverse, 0.5f * d_below * inverse};
+  }
+};
+
+}  // namespace gatelight::renderer

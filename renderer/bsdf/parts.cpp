@@ -1,0 +1,74 @@
+// A surface without some of its lobes. A lobe without a chance has neither value nor density, so a part is a
+// copy in which the chances of the others are zero; what the lobes do to each other (the coupling of the
+// diffuse base, the scales of the layers) stays that of the whole.
+
+#include <algorithm>
+
+#include "renderer/bsdf/bsdf.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// alpha^2 is the fourth power of the perceptual roughness; the same products as in the lobe, so that a
+/// lobe is not narrower than its own roughness.
+bool is_narrow(const GgxLobe& lobe, float roughness) {
+  const float alpha = roughness * roughness;
+  return lobe.delta || lobe.alpha2 < alpha * alpha;
+}
+
+}  // namespace
+
+bool Bsdf::has_narrow(float roughness) const {
+  const float microfacets = p_microfacet_ + p_loss_reflect_ + p_loss_transmit_;
+  return p_clear_ > 0.0f || (microfacets > 0.0f && is_narrow(ggx_, roughness)) ||
+         (p_coat_ > 0.0f && is_narrow(coat_, roughness));
+}
+
+bool Bsdf::has_wide(float roughness) const {
+  const float microfacets = p_microfacet_ + p_loss_reflect_ + p_loss_transmit_;
+  return p_diffuse_ > 0.0f || p_sheen_ > 0.0f || (microfacets > 0.0f && !is_narrow(ggx_, roughness)) ||
+         (p_coat_ > 0.0f && !is_narrow(coat_, roughness));
+}
+
+Color Bsdf::diffuse_albedo() const {
+  if (!(p_diffuse_ > 0.0f)) return Color::Zero();
+  return diffuse_ * (kPi * std::max(passed(row_.mean()), 1e-6f) * base_scale_);
+}
+
+Color Bsdf::sheen_albedo() const {
+  if (!(p_sheen_ > 0.0f)) return Color::Zero();
+  return sheen_color_ * sheen_.row.albedo(ggx_.cos_o);
+}
+
+Bsdf Bsdf::part(float roughness, bool narrow) const {
+  const bool narrow_facets = is_narrow(ggx_, roughness);
+  const bool narrow_coat = is_narrow(coat_, roughness);
+  const bool keeps_facets = narrow_facets == narrow;
+  // The albedo of the side where the microfacets are not; the other side has the rest.
+  Color apart = Color::Zero();
+  if (narrow_facets) {
+    apart += diffuse_albedo() + sheen_albedo();
+  } else if (p_clear_ > 0.0f) {
+    apart += glass_tint_ * base_scale_;
+  }
+  if (p_coat_ > 0.0f && narrow_coat != narrow_facets) apart += coat_albedo_;
+  apart = apart.min(albedo_);
+
+  Bsdf result = *this;
+  if (!keeps_facets) result.p_microfacet_ = result.p_loss_reflect_ = result.p_loss_transmit_ = 0.0f;
+  if (narrow) {
+    result.p_diffuse_ = result.p_sheen_ = 0.0f;
+  } else {
+    result.p_clear_ = 0.0f;
+  }
+  if (narrow_coat != narrow) result.p_coat_ = 0.0f;
+  const bool keeps_glass = glass_ == Glass::clear ? narrow : keeps_facets;
+  if (!keeps_glass) result.glass_ = Glass::none;
+  result.albedo_ = keeps_facets ? Color(albedo_ - apart) : apart;
+  // What rounding leaves is no light.
+  if (!(narrow ? has_narrow(roughness) : has_wide(roughness))) result.albedo_.setZero();
+  result.normalize_chances();
+  return result;
+}
+
+}  // namespace gatelight::renderer

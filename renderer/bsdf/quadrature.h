@@ -1,0 +1,80 @@
+#pragma once
+// Quadrature over the unit square of visible normals, for the albedo tables.
+
+#include <array>
+
+#include "renderer/bsdf/ggx.h"
+
+namespace gatelight::renderer {
+
+/// Calls f(h, weight) for visible normals of wo = (sin, 0, cosine) on one side of its plane; mirrored, they
+/// make the whole distribution. The points are a Fibonacci lattice of `count` points, `previous` the
+/// Fibonacci number before. Both coordinates are v^2 (3 - 2 v) of the lattice's: at grazing incidence the
+/// integrand is singular in corners of the square, and the smooth step spends its points there and makes the
+/// integrand periodic, as lattices like it. Total reflection's kink, on which a product rule of as many
+/// points is off by 2 %, does no harm.
+template <int count, int previous, class F>
+void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
+  struct Point {
+    Vec2 u;
+    float weight;
+  };
+  static const std::array<Point, count> points = [] {
+    std::array<Point, count> result;
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const double x = (i + 0.5) / count;
+      const double y = static_cast<double>((static_cast<long>(i) * previous) % count) / count + 0.5 / count;
+      result[i].u = Vec2(static_cast<float>(0.5 * x * x * (3.0 - 2.0 * x)),
+                         static_cast<float>(y * y * (3.0 - 2.0 * y)));
+      result[i].weight = static_cast<float>(x * (1.0 - x) * y * (1.0 - y));
+      sum += x * (1.0 - x) * y * (1.0 - y);
+    }
+    for (Point& point : result) point.weight /= static_cast<float>(sum);
+    return result;
+  }();
+  for (const Point& point : points) f(sample_visible_normal(alpha, wo, point.u), point.weight);
+}
+
+/// Cosine of the coordinate u in [0, 1] of the albedo tables, the inverse of u = cosine (1 + alpha) / (cosine
+/// + alpha). Kept off the horizon itself.
+inline float table_cosine(float u, float alpha) {
+  return std::clamp(u * alpha / (1.0f + alpha - u), 1e-3f * alpha, 1.0f);
+}
+
+/// How much of the light of one node of the cosine goes to each other one, linearly interpolated.
+template <int count>
+class CosineMatrix {
+ public:
+  void add(int row, float cosine, float alpha, float amount) {
+    const float x = std::min(cosine, 1.0f) * (1.0f + alpha) / (std::min(cosine, 1.0f) + alpha) * (count - 1);
+    const int i = std::min(static_cast<int>(x), count - 2);
+    const float s = x - static_cast<float>(i);
+    cells_[row][i] += amount * (1.0f - s);
+    cells_[row][i + 1] += amount * s;
+  }
+  float row_sum(int row, const std::array<float, count>& factors) const {
+    float sum = 0.0f;
+    for (int i = 0; i < count; ++i) sum += cells_[row][i] * factors[i];
+    return sum;
+  }
+
+ private:
+  std::array<std::array<float, count>, count> cells_{};
+};
+
+/// Iterations of Sinkhorn's balance; the change is below 1e-6 after half as many.
+inline constexpr int kBalanceSteps = 24;
+
+/// Calls f(cosine, weight) for the cosine-weighted mean over the hemisphere, with steps that get finer
+/// towards the horizon. The weights add up to one.
+template <class F>
+void for_mean_cosines(F&& f) {
+  constexpr int kSteps = 384;
+  for (int i = 0; i < kSteps; ++i) {
+    const float x = (static_cast<float>(i) + 0.5f) / kSteps;
+    f(x * x, 4.0f * x * x * x / kSteps);
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,136 @@
+// Choice of a lobe and of a direction in it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bsdf/bsdf.h"
+#include "renderer/bsdf/fresnel.h"
+
+namespace gatelight::renderer {
+namespace {
+
+Vec3 mirror(const Vec3& wo, const Vec3& n) {
+  return 2.0f * wo.dot(n) * n - wo;
+}
+
+/// Unit again: leaving a dense medium multiplies the error of wo's length by the square of the index.
+Vec3 refracted(const Vec3& wo, const Vec3& n, float cos_o, float cos_t, float eta) {
+  const Vec3 wi = (cos_o / eta - cos_t) * n - wo / eta;
+  return wi / wi.norm();
+}
+
+/// A visible normal of a lobe, in the world.
+Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const Vec2& u) {
+  const Basis basis(normal);
+  const Vec3 local(wo.dot(basis.tangent), wo.dot(basis.bitangent), lobe.cos_o);
+  return basis.to_world(sample_visible_normal(std::sqrt(lobe.alpha2), local, u));
+}
+
+}  // namespace
+
+BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
+  float rest = u_lobe;
+  // A lobe is taken if the number falls into its share, or if rounding leaves a bit and no later lobe has a
+  // share.
+  float later = 1.0f - p_microfacet_;
+  const auto takes = [&](float p) {
+    later -= p;
+    if (p > 0.0f && (rest < p || later < 1e-6f)) return true;
+    rest -= p;
+    return false;
+  };
+  if (rest < p_microfacet_) return sample_microfacet(rest / p_microfacet_, u);
+  rest -= p_microfacet_;
+  if (takes(p_diffuse_)) return finish(Basis(ns_).to_world(sample_cosine_hemisphere(u)), ns_, 1.0f);
+  if (takes(p_loss_reflect_)) return finish(Basis(ns_).to_world(loss_lobe_.sample(u)), ns_, 1.0f);
+  if (takes(p_loss_transmit_)) return finish(-Basis(ns_).to_world(loss_lobe_.sample(u)), -ns_, 1.0f);
+  if (takes(p_sheen_)) return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
+  if (takes(p_clear_)) {
+    BsdfSample sample;
+    sample.wi = -wo_;
+    sample.pdf = p_clear_;
+    sample.weight = glass_tint_ * (base_scale_ / p_clear_);
+    sample.delta = true;
+    sample.transmitted = true;
+    sample.spread = 0.0f;
+    return sample;
+  }
+  if (p_coat_ > 0.0f) {
+    if (!coat_.delta) {
+      return finish(mirror(wo_, sample_half(coat_, nc_, wo_, u)), nc_, std::sqrt(coat_.alpha2));
+    }
+    BsdfSample sample;
+    sample.wi = mirror(wo_, nc_);
+    if (!(sample.wi.dot(ng_) > 0.0f)) return BsdfSample{};
+    const float fresnel = 0.04f + 0.96f * schlick_weight(coat_.cos_o);
+    sample.weight.setConstant(coat_weight_ * fresnel / p_coat_);
+    sample.pdf = p_coat_;
+    sample.delta = true;
+    sample.spread = 0.0f;
+    return sample;
+  }
+  if (p_microfacet_ > 0.0f) return sample_microfacet(1.0f - 0x1p-24f, u);
+  return {};
+}
+
+BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
+  if (ggx_.delta) {
+    const Facet half = facet(ggx_.cos_o);
+    return sample_delta(u_lobe >= half.probability_reflect, half);
+  }
+  const Vec3 h = sample_half(ggx_, ns_, wo_, u);
+  const float spread = std::sqrt(ggx_.alpha2);
+  if (glass_ == Glass::none || glass_ == Glass::clear) return finish(mirror(wo_, h), ns_, spread);
+  const float oh = wo_.dot(h);
+  if (!(oh > 0.0f)) return {};
+  const Facet half = facet(oh);
+  if (u_lobe < half.probability_reflect) return finish(mirror(wo_, h), ns_, spread);
+  if (glass_ == Glass::thin) {
+    const Vec3 reflected = mirror(wo_, h);
+    return finish(reflected - 2.0f * reflected.dot(ns_) * ns_, -ns_, spread);
+  }
+  return finish(refracted(wo_, h, oh, half.cos_t, eta_), -ns_, spread);
+}
+
+BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
+  BsdfSample sample;
+  sample.delta = true;
+  sample.spread = 0.0f;
+  sample.transmitted = transmitted;
+  if (!transmitted) {
+    sample.wi = mirror(wo_, ns_);
+    if (!(sample.wi.dot(ng_) > 0.0f)) return {};
+    sample.pdf = p_microfacet_ * half.probability_reflect;
+    const Color reflected = f0_ + (f90_ - f0_) * half.schlick + half.reflected;
+    sample.weight = reflected * (base_scale_ / sample.pdf);
+    return sample;
+  }
+  sample.pdf = p_microfacet_ * (1.0f - half.probability_reflect);
+  if (glass_ == Glass::thin) {
+    sample.wi = -wo_;
+  } else {
+    sample.wi = refracted(wo_, ns_, ggx_.cos_o, half.cos_t, eta_);
+    sample.radiance_scale = 1.0f / (eta_ * eta_);
+  }
+  if (!(sample.wi.dot(ng_) < 0.0f) || !(sample.pdf > 0.0f)) return {};
+  sample.weight = half.transmitted * (base_scale_ * sample.radiance_scale / sample.pdf);
+  return sample;
+}
+
+BsdfSample Bsdf::finish(const Vec3& wi, const Vec3& normal, float spread) const {
+  BsdfSample sample;
+  sample.wi = wi;
+  // A direction on the wrong side is lost to this lobe; it must not be taken for another lobe's.
+  sample.transmitted = wi.dot(ng_) < 0.0f;
+  const bool behind = normal.dot(ng_) < 0.0f;
+  if (!(wi.dot(normal) > 0.0f) || sample.transmitted != behind) return sample;
+  const BsdfValue value = evaluate(wi);
+  if (!(value.pdf > 0.0f)) return sample;
+  sample.weight = value.value / value.pdf;
+  sample.pdf = value.pdf;
+  if (sample.transmitted && glass_ == Glass::refracting) sample.radiance_scale = 1.0f / (eta_ * eta_);
+  sample.spread = spread;
+  return sample;
+}
+
+}  // namespace gatelight::renderer

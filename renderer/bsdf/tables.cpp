@@ -1,0 +1,64 @@
+#include "renderer/bsdf/tables.h"
+
+#include "renderer/bsdf/quadrature.h"
+
+namespace gatelight::renderer {
+
+GgxTables::GgxTables() {
+  for (int k = 0; k < kRoughness; ++k) {
+    const float roughness = static_cast<float>(k) / (kRoughness - 1);
+    const float alpha = std::max(roughness * roughness, kDeltaAlpha);
+    const float alpha2 = alpha * alpha;
+
+    // What goes from each cosine to each other one, for the reflectance 1 and for Schlick's weight.
+    CosineMatrix<kCosine> all;
+    CosineMatrix<kCosine> grazing;
+    for (int i = 0; i < kCosine; ++i) {
+      const float cosine = table_cosine(static_cast<float>(i) / (kCosine - 1), alpha);
+      const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+      for_visible_normals<377, 233>(alpha, wo, [&](const Vec3& h, float weight) {
+        const float oh = wo.dot(h);
+        const float cos_i = 2.0f * oh * h.z() - cosine;
+        if (!(cos_i > 0.0f)) return;
+        const float kept = weight * smith_ratio(alpha2, cosine, cos_i);
+        all.add(i, cos_i, alpha, kept);
+        grazing.add(i, cos_i, alpha, kept * schlick_weight(oh));
+      });
+    }
+
+    // The scale s with s_i sum_j all_ij s_j = 1: Sinkhorn's balance of a symmetric kernel.
+    std::array<float, kCosine> ones, scale;
+    ones.fill(1.0f);
+    scale = ones;
+    for (int iteration = 0; iteration < kBalanceSteps; ++iteration) {
+      std::array<float, kCosine> next;
+      for (int i = 0; i < kCosine; ++i) next[i] = std::sqrt(scale[i] / all.row_sum(i, scale));
+      scale = next;
+    }
+    for (int i = 0; i < kCosine; ++i) {
+      const float schlick = schlick_weight(table_cosine(static_cast<float>(i) / (kCosine - 1), alpha));
+      const float kept = all.row_sum(i, ones);
+      values_[k][i] = {1.0f - kept, grazing.row_sum(i, ones) - kept * schlick,
+                       scale[i] * grazing.row_sum(i, scale) - schlick, scale[i]};
+    }
+  }
+  // The means of the interpolated table itself, so that the coupled diffuse lobe adds up to what is let
+  // through.
+  means_ = {};
+  for (int k = 0; k < kRoughness; ++k) {
+    const Row own = row(std::max(static_cast<float>(k) / (kRoughness - 1), kDeltaRoughness));
+    for_mean_cosines([&](float cosine, float weight) {
+      const GgxAlbedo albedo = own.at(cosine);
+      means_[k].loss += weight * albedo.loss;
+      means_[k].b += weight * albedo.b;
+      means_[k].b_scaled += weight * albedo.b_scaled;
+    });
+  }
+}
+
+const GgxTables& GgxTables::get() {
+  static const GgxTables tables;
+  return tables;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,249 @@
+#include "renderer/film/film.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "renderer/machine/finite_float.h"
+
+namespace gatelight::renderer {
+
+namespace {
+
+bool from_first_hit(Aov aov) {
+  return aov != Aov::sample_count && aov != Aov::variance;
+}
+
+void accumulate(std::array<double, 3>& sum, const Eigen::Vector3f& v) {
+  for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(v[i]);
+}
+
+// Each member of a pixel in turn, for both directions.
+template <class Radiance, class Take>
+void each_of_radiance(Radiance& p, Take&& take) {
+  for (auto* array : {&p.sum, &p.square}) {
+    for (auto& value : *array) take.sum(value);
+  }
+  take.count(p.count);
+}
+
+template <class First, class Take>
+void each_of_first(First& p, Take&& take) {
+  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.answer, &p.node}) {
+    for (auto& value : *array) take.sum(value);
+  }
+  for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits}) take.count(*value);
+  for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
+}
+
+struct Exporter {
+  std::vector<double>& sums;
+  std::vector<std::uint32_t>& counts;
+  std::vector<float>* ids = nullptr;
+  void sum(double value) { sums.push_back(value); }
+  void count(std::uint32_t value) { counts.push_back(value); }
+  void id(float value) { ids->push_back(value); }
+};
+
+struct Importer {
+  std::vector<double>::const_iterator sums;
+  std::vector<std::uint32_t>::const_iterator counts;
+  std::vector<float>::const_iterator ids;
+  void sum(double& value) { value = *sums++; }
+  void count(std::uint32_t& value) { value = *counts++; }
+  void id(float& value) { value = *ids++; }
+};
+
+}  // namespace
+
+const char* aov_name(Aov aov) {
+  switch (aov) {
+    case Aov::albedo:
+      return "albedo";
+    case Aov::normal:
+      return "normal";
+    case Aov::depth:
+      return "depth";
+    case Aov::position:
+      return "position";
+    case Aov::primitive_id:
+      return "primitive";
+    case Aov::instance_id:
+      return "instance";
+    case Aov::sample_count:
+      return "samples";
+    case Aov::variance:
+      return "variance";
+    case Aov::cache_answer:
+      return "cache-answer";
+    case Aov::cache_error:
+      return "cache-error";
+    case Aov::training_count:
+      return "training-count";
+    case Aov::resolution:
+      return "resolution";
+    case Aov::nearest_node:
+      return "nearest-node";
+  }
+  return "";
+}
+
+Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
+    : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
+  needs_first_hits_ = std::any_of(aovs_.begin(), aovs_.end(), from_first_hit);
+  const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+  radiance_.resize(pixels);
+  if (needs_first_hits_) first_.resize(pixels);
+}
+
+std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
+  const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
+  return sizeof(Radiance) + (first ? sizeof(First) : 0);
+}
+
+void Film::add(int x, int y, const Color& radiance) {
+  Radiance& p = radiance_[pixel(x, y)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
+    p.sum[i] += v;
+    p.square[i] += v * v;
+  }
+  ++p.count;
+}
+
+void Film::add(int x, int y, const FirstHit& first) {
+  First& p = first_[pixel(x, y)];
+  if (p.count++ == 0 && first.hit) {
+    p.instance = static_cast<float>(first.instance);
+    p.primitive = static_cast<float>(first.primitive);
+  }
+  if (!first.hit) return;
+  accumulate(p.albedo, first.albedo.matrix());
+  accumulate(p.normal, first.normal);
+  accumulate(p.position, first.position);
+  p.depth += static_cast<double>(first.depth);
+  ++p.hits;
+  if (!first.asked) return;
+  accumulate(p.answer, first.answer.matrix());
+  accumulate(p.node, first.node.matrix());
+  p.error += static_cast<double>(first.error);
+  p.training_count += static_cast<double>(first.training_count);
+  p.resolution += static_cast<double>(first.resolution);
+  ++p.asked;
+}
+
+Layer Film::layer(Aov aov) const {
+  Layer layer;
+  layer.name = aov_name(aov);
+  layer.full_precision =
+      aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
+  const auto fill = [&](std::vector<std::string> channels, const auto& values, auto&& value) {
+    const std::size_t n = channels.size();
+    layer.channels = std::move(channels);
+    layer.values.reserve(values.size() * n);
+    for (const auto& p : values) {
+      for (std::size_t i = 0; i < n; ++i) layer.values.push_back(finite_float(value(p, i)));
+    }
+  };
+  const auto over_hits = [](double sum, const First& p) { return p.hits > 0 ? sum / p.hits : 0.0; };
+  const auto over_asked = [](double sum, const First& p) { return p.asked > 0 ? sum / p.asked : 0.0; };
+  switch (aov) {
+    case Aov::albedo:
+      // Background weighs in as black, as in the beauty layer: edges stay soft.
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.albedo[i] / p.count : 0.0; });
+      break;
+    case Aov::normal:
+      fill({"X", "Y", "Z"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.normal[i] / p.count : 0.0; });
+      break;
+    case Aov::depth:
+      fill({"Z"}, first_, [&](const First& p, std::size_t) { return over_hits(p.depth, p); });
+      break;
+    case Aov::position:
+      fill({"X", "Y", "Z"}, first_,
+           [&](const First& p, std::size_t i) { return over_hits(p.position[i], p); });
+      break;
+    case Aov::primitive_id:
+      fill({"id"}, first_, [](const First& p, std::size_t) { return p.primitive; });
+      break;
+    case Aov::instance_id:
+      fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
+      break;
+    case Aov::cache_answer:
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.answer[i] / p.count : 0.0; });
+      break;
+    case Aov::nearest_node:
+      fill({"R", "G", "B"}, first_,
+           [](const First& p, std::size_t i) { return p.count > 0 ? p.node[i] / p.count : 0.0; });
+      break;
+    case Aov::cache_error:
+      fill({"error"}, first_, [&](const First& p, std::size_t) { return over_asked(p.error, p); });
+      break;
+    case Aov::training_count:
+      fill({"count"}, first_, [&](const First& p, std::size_t) { return over_asked(p.training_count, p); });
+      break;
+    case Aov::resolution:
+      fill({"R"}, first_, [&](const First& p, std::size_t) { return over_asked(p.resolution, p); });
+      break;
+    case Aov::sample_count:
+      fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
+      break;
+    case Aov::variance:
+      // Of the pixel's mean, unbiased, as if samples were independent: an upper bound for low-discrepancy
+      // samples.
+      fill({"R", "G", "B"}, radiance_, [](const Radiance& p, std::size_t i) {
+        if (p.count < 2) return 0.0;
+        const double n = p.count;
+        return std::max(0.0, (p.square[i] - p.sum[i] * p.sum[i] / n) / (n * (n - 1.0)));
+      });
+      break;
+  }
+  return layer;
+}
+
+Picture Film::resolve() const {
+  Picture picture;
+  picture.width = rect_.width();
+  picture.height = rect_.height();
+  picture.x0 = rect_.x0;
+  picture.y0 = rect_.y0;
+  picture.full_width = full_width_;
+  picture.full_height = full_height_;
+  Layer beauty;
+  beauty.channels = {"R", "G", "B"};
+  beauty.values.reserve(radiance_.size() * 3);
+  for (const Radiance& p : radiance_) {
+    for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? finite_float(sum / p.count) : 0.0f);
+  }
+  picture.layers.push_back(std::move(beauty));
+  for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
+  return picture;
+}
+
+FilmState Film::export_state() const {
+  FilmState state;
+  state.radiance.reserve(radiance_.size() * 6);
+  state.radiance_counts.reserve(radiance_.size());
+  state.first.reserve(first_.size() * 19);
+  state.first_counts.reserve(first_.size() * 3);
+  state.first_ids.reserve(first_.size() * 2);
+  Exporter radiance{state.radiance, state.radiance_counts};
+  for (const Radiance& p : radiance_) each_of_radiance(p, radiance);
+  Exporter first{state.first, state.first_counts, &state.first_ids};
+  for (const First& p : first_) each_of_first(p, first);
+  return state;
+}
+
+void Film::import_state(const FilmState& state) {
+  assert(state.radiance_counts.size() == radiance_.size() && state.first_ids.size() == 2 * first_.size());
+  Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
+  for (Radiance& p : radiance_) each_of_radiance(p, radiance);
+  Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
+  for (First& p : first_) each_of_first(p, first);
+}
+
+}  // namespace gatelight::renderer

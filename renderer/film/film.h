@@ -1,0 +1,96 @@
+#pragma once
+// Sums of samples per pixel. A pixel belongs to one task at a time and takes its samples in order, so that
+// its bits do not depend on the number of threads; sums are double, so that a million samples do not drift.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/film/camera_sample.h"
+#include "renderer/image/picture.h"
+#include "renderer/settings/options.h"
+
+namespace gatelight::renderer {
+
+/// Pixels x0 <= x < x1, y0 <= y < y1 of a picture.
+struct PixelRect {
+  int x0 = 0;
+  int y0 = 0;
+  int x1 = 0;
+  int y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+};
+
+/// A film's sums to the bit, pixel after pixel. Of the first hits empty where the film keeps none.
+struct FilmState {
+  std::vector<double> radiance;
+  std::vector<std::uint32_t> radiance_counts;
+  std::vector<double> first;
+  std::vector<std::uint32_t> first_counts;
+  std::vector<float> first_ids;
+};
+
+class Film {
+ public:
+  Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
+
+  const PixelRect& rect() const { return rect_; }
+  bool has_aovs() const { return !aovs_.empty(); }
+  /// Whether some requested variable comes from the primary hit.
+  bool needs_first_hits() const { return needs_first_hits_; }
+
+  void add(int x, int y, const Color& radiance);
+  void add(int x, int y, const FirstHit& first);
+
+  /// Means so far. A pixel without samples is black.
+  Picture resolve() const;
+
+  FilmState export_state() const;
+  /// Of a film of the same size and variables.
+  void import_state(const FilmState& state);
+
+  static std::size_t bytes_per_pixel(std::span<const Aov> aovs);
+
+ private:
+  struct Radiance {
+    std::array<double, 3> sum{};
+    std::array<double, 3> square{};
+    std::uint32_t count = 0;
+  };
+  struct First {
+    std::array<double, 3> albedo{};
+    std::array<double, 3> normal{};
+    std::array<double, 3> position{};
+    std::array<double, 3> answer{};
+    std::array<double, 3> node{};
+    double depth = 0.0;
+    double error = 0.0;
+    double training_count = 0.0;
+    double resolution = 0.0;
+    std::uint32_t count = 0;  ///< of samples
+    std::uint32_t asked = 0;
+    std::uint32_t hits = 0;
+    float instance = -1.0f;
+    float primitive = -1.0f;
+  };
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+           static_cast<std::size_t>(x - rect_.x0);
+  }
+  Layer layer(Aov aov) const;
+
+  PixelRect rect_;
+  int full_width_;
+  int full_height_;
+  std::vector<Aov> aovs_;
+  bool needs_first_hits_ = false;
+  std::vector<Radiance> radiance_;
+  std::vector<First> first_;
+};
+
+/// The name of a variable on the command line and in files.
+const char* aov_name(Aov aov);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,67 @@
+#include "renderer/film/film_samples.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr std::size_t kNonFiniteKept = 16;
+
+}  // namespace
+
+void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+                         const Camera& camera, const FilterSampler& filter,
+                         std::vector<CameraSample>& samples) {
+  samples.clear();
+  for (const Pixel& p : pixels) {
+    const auto x = static_cast<std::uint32_t>(p.x);
+    const auto y = static_cast<std::uint32_t>(p.y);
+    CameraSample s;
+    s.sampler = Sampler(options.sampler, options.seed, x, y, sample);
+    s.seed = hash(hash(hash(hash(options.seed) + x) + y) + sample);
+    const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
+    s.camera_ray =
+        camera.ray(static_cast<float>(p.x) + 0.5f + offset.x(), static_cast<float>(p.y) + 0.5f + offset.y());
+    samples.push_back(s);
+  }
+}
+
+void SampleCounts::add(const SampleCounts& other) {
+  nonfinite += other.nonfinite;
+  clamped += other.clamped;
+  located.insert(located.end(), other.located.begin(), other.located.end());
+}
+
+void keep_first(std::vector<NonFiniteSample>& samples) {
+  std::sort(samples.begin(), samples.end(), [](const NonFiniteSample& a, const NonFiniteSample& b) {
+    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+  });
+  if (samples.size() > kNonFiniteKept) samples.resize(kNonFiniteKept);
+}
+
+void add_to_film(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+                 std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
+                 SampleCounts& counts) {
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto [x, y] = pixels[i];
+    Color radiance = results[i].radiance;
+    if (!first_hits.empty()) film.add(x, y, first_hits[i]);
+    if (!radiance.isFinite().all()) {
+      ++counts.nonfinite;
+      counts.located.push_back({x, y, sample, options.seed});
+      if (counts.located.size() > 16 * kNonFiniteKept) keep_first(counts.located);
+      continue;
+    }
+    if (options.clamp > 0.0f) {
+      const float l = scene::luminance(radiance);
+      if (l > options.clamp) {
+        radiance *= options.clamp / l;
+        ++counts.clamped;
+      }
+    }
+    film.add(x, y, radiance);
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,39 @@
+#pragma once
+// From pixels to camera samples, and from their results to the film.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/film/camera.h"
+#include "renderer/film/camera_sample.h"
+#include "renderer/film/film.h"
+#include "renderer/film/pixel_filter.h"
+#include "renderer/film/tiles.h"
+#include "renderer/settings/statistics.h"
+
+namespace gatelight::renderer {
+
+/// One sample for each pixel.
+void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+                         const Camera& camera, const FilterSampler& filter,
+                         std::vector<CameraSample>& samples);
+
+/// What was left out or changed on the way to the film.
+struct SampleCounts {
+  std::uint64_t nonfinite = 0;
+  std::uint64_t clamped = 0;
+  std::vector<NonFiniteSample> located;
+
+  void add(const SampleCounts& other);
+};
+
+/// The first of them, in the order of (y, x, sample), enough for statistics.
+void keep_first(std::vector<NonFiniteSample>& samples);
+
+/// Adds the results of sample number `sample` of each pixel. `first_hits` is empty or as long as the pixels.
+void add_to_film(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+                 std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
+                 SampleCounts& counts);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,22 @@
+#pragma once
+// What the output variables keep of a primary hit: one definition for all integrators.
+
+#include "renderer/film/camera_sample.h"
+#include "renderer/surface/surface.h"
+
+namespace gatelight::renderer {
+
+/// Its position is in the file's coordinates: `origin` is the scene's.
+inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& origin) {
+  FirstHit first;
+  first.hit = true;
+  first.albedo = surface.material.base_color;
+  first.normal = surface.shading_normal;
+  first.position = origin + surface.position;
+  first.depth = hit.t;
+  first.instance = hit.instance;
+  first.primitive = hit.primitive;
+  return first;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,56 @@
+#include "renderer/film/memory_estimate.h"
+
+#include <fmt/format.h>
+
+#include "renderer/film/film.h"
+#include "renderer/machine/errors.h"
+#include "renderer/machine/memory.h"
+
+namespace gatelight::renderer {
+
+namespace {
+
+/// Bytes per triangle of Embree's high-quality, robust BVH while it is being built. A generous guess, not a
+/// measurement: finished, it holds 64 to 67 (gatelight-bench --benchmark_filter=bvh).
+constexpr std::size_t kBvhBytes = 320;
+constexpr std::size_t kInstanceBytes = 512;
+/// A triangle light with its node of the tree.
+constexpr std::size_t kLightBytes = 256;
+
+}  // namespace
+
+MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& options) {
+  MemoryEstimate need;
+  need.geometry = scene::geometry_bytes(scene) + scene::image_bytes(scene);
+  for (const scene::Mesh& mesh : scene.meshes) need.bvh += mesh.triangles.size() * kBvhBytes;
+  need.bvh += scene.instances.size() * kInstanceBytes;
+  for (const scene::Instance& instance : scene.instances) {
+    if (scene.material_of(instance).emits())
+      need.lights += scene.mesh_of(instance).triangles.size() * kLightBytes;
+  }
+  for (const scene::Image& image : scene.images) {
+    // Four bytes a texel and a third more for the coarser levels.
+    need.textures += static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 16 / 3;
+  }
+  const std::size_t pixels =
+      options.region ? static_cast<std::size_t>((*options.region)[2] - (*options.region)[0]) *
+                           static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
+                     : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+  // The sums, and the resolved picture beside them: at most 13 floats.
+  need.film = pixels * (Film::bytes_per_pixel(options.aovs) + 13 * sizeof(float) + options.aovs.size() * 12);
+  return need;
+}
+
+void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more) {
+  if (options.memory_limit_bytes > 0 && all > options.memory_limit_bytes) {
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than --memory-limit {}", what, all >> 20,
+                                  options.memory_limit_bytes >> 20));
+  }
+  const MemoryRoom room = memory_room();
+  if (more > room.bytes) {
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, and {} leaves {} MiB", what, more >> 20, room.limit,
+                                  room.bytes >> 20));
+  }
+}
+
+}  // namespace gatelight::renderer

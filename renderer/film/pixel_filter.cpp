@@ -1,0 +1,70 @@
+#include "renderer/film/pixel_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::renderer {
+
+namespace {
+
+/// x in [-1, 1] over the full width.
+double profile(PixelFilter filter, double x) {
+  switch (filter) {
+    case PixelFilter::box:
+      return 1.0;
+    case PixelFilter::tent:
+      return 1.0 - std::abs(x);
+    case PixelFilter::gaussian:
+      // Three standard deviations at the edge, shifted down to end at zero.
+      return std::exp(-4.5 * x * x) - std::exp(-4.5);
+    case PixelFilter::blackman_harris: {
+      const double a = M_PI * (x + 1.0);
+      return 0.35875 - 0.48829 * std::cos(a) + 0.14128 * std::cos(2.0 * a) - 0.01168 * std::cos(3.0 * a);
+    }
+  }
+  return 0.0;
+}
+
+float default_width(PixelFilter filter) {
+  switch (filter) {
+    case PixelFilter::box:
+      return 1.0f;
+    case PixelFilter::tent:
+      return 2.0f;
+    case PixelFilter::gaussian:
+    case PixelFilter::blackman_harris:
+      break;
+  }
+  return 3.0f;
+}
+
+}  // namespace
+
+FilterSampler::FilterSampler(PixelFilter filter, float width)
+    : width_(width > 0.0f ? width : default_width(filter)) {
+  std::array<double, kBins + 1> sum{};
+  for (std::size_t i = 0; i < kBins; ++i) {
+    sum[i + 1] = sum[i] + std::max(0.0, profile(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));
+  }
+  for (std::size_t i = 0; i <= kBins; ++i) cumulative_[i] = static_cast<float>(sum[i] / sum[kBins]);
+  std::size_t edge = 1;
+  for (std::size_t i = 0; i < kGuides; ++i) {
+    while (edge < kBins && cumulative_[edge] <= static_cast<float>(i) / kGuides) ++edge;
+    guide_[i] = static_cast<std::uint16_t>(edge);
+  }
+}
+
+float FilterSampler::sample_1d(float u) const {
+  // The inverse itself in a table would be wrong at the tails, where it is steep; the guides only shorten the
+  // search (Chen and Asau 1974). Where the filter is not near zero there is at most one edge between two
+  // guides: a step without a branch, which nobody could predict.
+  std::size_t above = guide_[static_cast<std::size_t>(u * kGuides)];
+  above += cumulative_[above] <= u ? 1 : 0;
+  while (cumulative_[above] <= u) ++above;
+  const std::size_t bin = above - 1;
+  const float mass = cumulative_[bin + 1] - cumulative_[bin];
+  const float within = mass > 0.0f ? std::clamp((u - cumulative_[bin]) / mass, 0.0f, 1.0f) : 0.5f;
+  return ((static_cast<float>(bin) + within) / kBins - 0.5f) * width_;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,32 @@
+#pragma once
+// Small facts of a run as texts, in the metadata of a file and beside those of another run.
+
+#include <string>
+#include <vector>
+
+#include "neural/safetensors.h"
+#include "renderer/identity/scene_fingerprint.h"
+
+namespace gatelight::renderer {
+
+struct NamedText {
+  std::string name;
+  std::string text;
+};
+using NamedTexts = std::vector<NamedText>;
+
+/// Under "PREFIX.NAME".
+void add_texts(neural::Metadata& metadata, const std::string& prefix, const NamedTexts& texts);
+
+/// "seed: file 1, expected 2; filter: file nothing, expected box": where the metadata under the prefix
+/// differs. Empty where it does not.
+std::string list_differences(const neural::Metadata& metadata, const std::string& prefix,
+                             const NamedTexts& expected);
+
+/// Throws neural::CacheFileError naming the parts in which the scene of the file differs. Parts named in
+/// `ignored` may.
+void add_scene(neural::Metadata& metadata, const SceneFingerprint& scene);
+void expect_scene(const neural::SafetensorsReader& file, const SceneFingerprint& scene,
+                  const std::vector<std::string>& ignored = {});
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,191 @@
+#include "renderer/identity/scene_fingerprint.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "neural/digest.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::Digest;
+using neural::digest_of;
+using neural::DigestRecord;
+using neural::hexadecimal;
+
+template <class T>
+Digest digest_of_array(const std::vector<T>& values) {
+  return digest_of(std::as_bytes(std::span(values)));
+}
+
+template <class Dense>
+void add_numbers(DigestRecord& record, const Eigen::DenseBase<Dense>& values) {
+  for (Eigen::Index column = 0; column < values.cols(); ++column) {
+    for (Eigen::Index row = 0; row < values.rows(); ++row) record.add(float{values(row, column)});
+  }
+}
+
+/// An array with its length: two arrays of a mesh never pass for one.
+template <class T>
+void add_array(DigestRecord& record, const std::vector<T>& values) {
+  record.add(std::uint64_t{values.size()});
+  record.add(digest_of_array(values));
+}
+
+struct MeshDigests {
+  Digest geometry;
+  Digest attributes;
+};
+
+MeshDigests digest_mesh(const scene::Mesh& mesh) {
+  static_assert(sizeof(scene::Vec3) == 12 && sizeof(scene::Vec4) == 16 && sizeof(scene::Vec2) == 8);
+  DigestRecord geometry;
+  add_array(geometry, mesh.positions);
+  add_array(geometry, mesh.triangles);
+  DigestRecord attributes;
+  add_array(attributes, mesh.normals);
+  add_array(attributes, mesh.tangents);
+  add_array(attributes, mesh.uv0);
+  add_array(attributes, mesh.uv1);
+  add_array(attributes, mesh.colors);
+  return {geometry.digest(), attributes.digest()};
+}
+
+void add_instance(DigestRecord& record, const scene::Instance& instance) {
+  record.add(instance.mesh);
+  add_numbers(record, instance.transform.matrix());
+  record.add(instance.baked);
+  record.add(instance.mirrors);
+}
+
+void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
+  record.add(slot.texture);
+  if (!slot) return;
+  record.add(slot.texcoord);
+  add_numbers(record, slot.transform);
+}
+
+void add_material(DigestRecord& record, const scene::Material& material) {
+  // Every member by name: with one more in the struct this does not compile.
+  const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
+               metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
+               alpha_mode, alpha_cutoff, double_sided, unlit, ior, specular, specular_texture, specular_color,
+               specular_color_texture, transmission, transmission_texture, thickness, attenuation_distance,
+               attenuation_color, clearcoat, clearcoat_texture, clearcoat_roughness,
+               clearcoat_roughness_texture, clearcoat_normal_texture, clearcoat_normal_scale, sheen_color,
+               sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
+  for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color})
+    add_numbers(record, *color);
+  for (const float value :
+       {base_alpha, metallic, roughness, normal_scale, alpha_cutoff, ior, specular, transmission, thickness,
+        attenuation_distance, clearcoat, clearcoat_roughness, clearcoat_normal_scale, sheen_roughness})
+    record.add(value);
+  for (const auto* slot : {&base_color_texture, &metallic_roughness_texture, &normal_texture,
+                           &emission_texture, &specular_texture, &specular_color_texture,
+                           &transmission_texture, &clearcoat_texture, &clearcoat_roughness_texture,
+                           &clearcoat_normal_texture, &sheen_color_texture, &sheen_roughness_texture})
+    add_slot(record, *slot);
+  record.add(alpha_mode);
+  record.add(double_sided);
+  record.add(unlit);
+}
+
+void add_light(DigestRecord& record, const scene::PunctualLight& light) {
+  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer] = light;
+  record.add(type);
+  add_numbers(record, intensity);
+  add_numbers(record, position);
+  add_numbers(record, direction);
+  for (const float value : {range, cos_inner, cos_outer}) record.add(value);
+}
+
+Digest digest_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  DigestRecord record;
+  std::vector<char> block(1 << 20);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    record.add(digest_of(std::as_bytes(std::span(block).first(static_cast<std::size_t>(file.gcount())))));
+  }
+  if (!file.eof()) throw std::runtime_error(fmt::format("cannot read '{}'", path));
+  return record.digest();
+}
+
+Digest digest_environment(const EnvironmentOptions& environment) {
+  const auto& [file, constant, rotation_degrees, scale] = environment;
+  DigestRecord record;
+  record.add(!file.empty());
+  if (file.empty()) {
+    add_numbers(record, constant);
+  } else {
+    record.add(digest_file(file));
+    record.add(rotation_degrees);
+  }
+  record.add(scale);
+  return record.digest();
+}
+
+}  // namespace
+
+SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment) {
+  std::vector<MeshDigests> meshes(scene.meshes.size());
+  std::vector<Digest> pixels(scene.images.size());
+  tbb::parallel_for(std::size_t{0}, meshes.size() + pixels.size(), [&](std::size_t i) {
+    if (i < meshes.size()) {
+      meshes[i] = digest_mesh(scene.meshes[i]);
+    } else {
+      pixels[i - meshes.size()] = digest_of_array(scene.images[i - meshes.size()].pixels);
+    }
+  });
+
+  DigestRecord geometry;
+  DigestRecord attributes;
+  DigestRecord materials;
+  DigestRecord lights;
+  geometry.add(std::uint64_t{meshes.size()});
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    geometry.add(meshes[i].geometry);
+    attributes.add(meshes[i].attributes);
+    materials.add(scene.meshes[i].material);
+  }
+  for (const scene::Instance& instance : scene.instances) add_instance(geometry, instance);
+  materials.add(std::uint64_t{scene.materials.size()});
+  for (const scene::Material& material : scene.materials) add_material(materials, material);
+  materials.add(std::uint64_t{scene.textures.size()});
+  for (const scene::Texture& texture : scene.textures) {
+    materials.add(texture.image);
+    materials.add(texture.wrap_s);
+    materials.add(texture.wrap_t);
+    materials.add(texture.nearest);
+  }
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    for (const int value : {scene.images[i].width, scene.images[i].height, scene.images[i].channels})
+      materials.add(value);
+    materials.add(pixels[i]);
+  }
+  for (const scene::PunctualLight& light : scene.lights) add_light(lights, light);
+
+  return {.geometry = hexadecimal(geometry.digest()),
+          .attributes = hexadecimal(attributes.digest()),
+          .materials = hexadecimal(materials.digest()),
+          .lights = hexadecimal(lights.digest()),
+          .environment = hexadecimal(digest_environment(environment))};
+}
+
+std::string differing_parts(const SceneFingerprint& a, const SceneFingerprint& b) {
+  std::string text;
+  for (const FingerprintPart& part : kFingerprintParts) {
+    if (a.*part.digest == b.*part.digest) continue;
+    text += text.empty() ? "" : ", ";
+    text += part.name;
+  }
+  return text;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,122 @@
+#include "renderer/image/exr.h"
+
+#include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <system_error>
+
+namespace gatelight::renderer {
+namespace {
+
+/// OpenEXR goes back to fill in the table of line offsets, so the stream must seek.
+class StdioStream final : public Imf::OStream {
+ public:
+  explicit StdioStream(std::FILE* stream) : Imf::OStream("stream"), stream_(stream) {}
+
+  void write(const char* data, int bytes) override {
+    if (std::fwrite(data, 1, static_cast<std::size_t>(bytes), stream_) != static_cast<std::size_t>(bytes)) {
+      fail();
+    }
+  }
+  std::uint64_t tellp() override {
+    const long position = std::ftell(stream_);
+    if (position < 0) fail();
+    return static_cast<std::uint64_t>(position);
+  }
+  /// The library ends a file in a destructor, which swallows what goes wrong there.
+  void check() const {
+    if (error_ != 0) throw_error();
+  }
+  void seekp(std::uint64_t position) override {
+    if (std::fseek(stream_, static_cast<long>(position), SEEK_SET) != 0) fail();
+  }
+
+ private:
+  [[noreturn]] void throw_error() const {
+    throw std::system_error(error_, std::generic_category(), "stream");
+  }
+  [[noreturn]] void fail() {
+    if (error_ == 0) error_ = errno;
+    throw_error();
+  }
+
+  std::FILE* stream_;
+  int error_ = 0;
+};
+
+/// Half's conversion turns what is beyond its range into infinity; a finite radiance stays finite.
+half to_half(float value) {
+  constexpr float kLargest = 65504.0f;
+  if (value > kLargest && value <= std::numeric_limits<float>::max()) return half(kLargest);
+  if (value < -kLargest && value >= std::numeric_limits<float>::lowest()) return half(-kLargest);
+  return half(value);
+}
+
+/// Address of the pixel (0, 0), which lies before the buffer where the data window begins elsewhere.
+char* origin(void* base, std::size_t pixel_bytes, std::size_t row_bytes, const Picture& picture) {
+  return static_cast<char*>(base) - picture.x0 * static_cast<std::ptrdiff_t>(pixel_bytes) -
+         picture.y0 * static_cast<std::ptrdiff_t>(row_bytes);
+}
+
+Imf::Header make_header(const Picture& picture) {
+  const int full_width = picture.full_width > 0 ? picture.full_width : picture.width;
+  const int full_height = picture.full_height > 0 ? picture.full_height : picture.height;
+  const Imath::Box2i display({0, 0}, {full_width - 1, full_height - 1});
+  const Imath::Box2i data({picture.x0, picture.y0},
+                          {picture.x0 + picture.width - 1, picture.y0 + picture.height - 1});
+  Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  for (const auto& [key, value] : picture.metadata) {
+    header.insert("gatelight:" + key, Imf::StringAttribute(value));
+  }
+  return header;
+}
+
+}  // namespace
+
+void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
+  Imf::Header header = make_header(picture);
+  Imf::FrameBuffer frame;
+  const std::size_t width = static_cast<std::size_t>(picture.width);
+  // Reserved, because the frame buffer keeps addresses.
+  std::vector<std::vector<half>> halves;
+  halves.reserve(picture.layers.size());
+
+  for (const Layer& layer : picture.layers) {
+    const bool as_float = all_float || layer.full_precision;
+    const std::size_t count = layer.channels.size();
+    const std::size_t value_bytes = as_float ? sizeof(float) : sizeof(half);
+    // The library's interface is not const; it only reads from the frame buffer of an output file.
+    void* base = const_cast<float*>(layer.values.data());
+    if (!as_float) {
+      std::vector<half>& converted = halves.emplace_back(layer.values.size());
+      std::transform(layer.values.begin(), layer.values.end(), converted.begin(), to_half);
+      base = converted.data();
+    }
+    const Imf::PixelType type = as_float ? Imf::FLOAT : Imf::HALF;
+    char* first = origin(base, count * value_bytes, width * count * value_bytes, picture);
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
+      header.channels().insert(name, Imf::Channel(type));
+      frame.insert(
+          name, Imf::Slice(type, first + c * value_bytes, count * value_bytes, width * count * value_bytes));
+    }
+  }
+
+  StdioStream output(stream);
+  {
+    Imf::OutputFile file(output, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(picture.height);
+  }
+  output.check();
+}
+
+}  // namespace gatelight::renderer

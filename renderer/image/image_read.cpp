@@ -1,0 +1,112 @@
+#include "renderer/image/image_read.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+#include "renderer/image/claimed_size.h"
+#include "renderer/image/exr.h"
+#include "renderer/image/image_format.h"
+#include "renderer/image/image_write.h"
+#include "renderer/image/srgb.h"
+#include "scene/png_read.h"
+
+namespace gatelight::renderer {
+namespace {
+
+std::vector<std::string> channel_names(int channels) {
+  switch (channels) {
+    case 1:
+      return {"Y"};
+    case 2:
+      return {"Y", "A"};
+    case 3:
+      return {"R", "G", "B"};
+    default:
+      return {"R", "G", "B", "A"};
+  }
+}
+
+Picture one_layer(int width, int height, int channels) {
+  Picture picture{.width = width, .height = height};
+  Layer beauty{.channels = channel_names(channels)};
+  beauty.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                       static_cast<std::size_t>(channels));
+  picture.layers.push_back(std::move(beauty));
+  return picture;
+}
+
+Picture read_png(const std::filesystem::path& path) {
+  scene::PngReader reader = scene::open_png(path);
+  check_claimed_size(reader.width(), reader.height(), reader.channels(), path);
+  const std::vector<std::uint16_t> pixels = reader.read_16();
+  Picture picture = one_layer(reader.width(), reader.height(), reader.channels());
+  Layer& beauty = picture.layers.front();
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float value = static_cast<float>(pixels[i]) / 65535.0f;
+    beauty.values[i] = beauty.channels[i % beauty.channels.size()] == "A" ? value : srgb_to_linear(value);
+  }
+  return picture;
+}
+
+Picture read_hdr(const std::filesystem::path& path) {
+  // By its name alone: else a file that is no HDR is tried with every format that the library knows.
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("hdr");
+  if (!input) throw std::runtime_error(OIIO::geterror());
+  OIIO::ImageSpec spec;
+  if (!input->open(path.string(), spec)) throw std::runtime_error(input->geterror());
+  check_claimed_size(spec.width, spec.height, spec.nchannels, path);
+  const int channels = std::min(spec.nchannels, 4);
+  Picture picture = one_layer(spec.width, spec.height, channels);
+  Layer& beauty = picture.layers.front();
+  beauty.full_precision = true;
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, beauty.values.data())) {
+    throw std::runtime_error(input->geterror());
+  }
+  return picture;
+}
+
+Picture read_as(ImageFormat format, const std::filesystem::path& path) {
+  if (format == ImageFormat::exr) return read_exr(path);
+  return format == ImageFormat::png ? read_png(path) : read_hdr(path);
+}
+
+/// The libraries' messages end in line breaks and name the file again.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Picture read_image(const std::filesystem::path& path) {
+  const ImageFormat format = image_format(path);
+  if (format == ImageFormat::unknown) {
+    throw UnknownFormat(
+        fmt::format("cannot read '{}': its extension is '{}', supported are .exr, .hdr and .png",
+                    path.string(), path.extension().string()));
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw ImageError(fmt::format("cannot read '{}': there is no such file", path.string()));
+  }
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw ImageError(fmt::format("cannot read '{}': it is not a regular file", path.string()));
+  }
+  try {
+    return read_as(format, path);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& reason) {
+    throw ImageError(fmt::format("cannot read '{}': {}", path.string(), one_line(reason.what())));
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,93 @@
+#include "renderer/image/image_write.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "renderer/image/exr.h"
+#include "renderer/image/image_format.h"
+
+namespace gatelight::renderer {
+namespace {
+
+void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions& options) {
+  const std::vector<std::uint8_t> bytes = display_bytes(picture, options);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+  if (!output) throw std::runtime_error(OIIO::geterror());
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  // Into memory first, so that every error of the disk passes through AtomicFile.
+  std::vector<unsigned char> encoded;
+  OIIO::Filesystem::IOVecOutput memory(encoded);
+  if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) || !output->close()) {
+    throw std::runtime_error(output->geterror());
+  }
+  file.write(encoded.data(), encoded.size());
+}
+
+void require_writable_format(const std::filesystem::path& path) {
+  const ImageFormat format = image_format(path);
+  if (format != ImageFormat::exr && format != ImageFormat::png) {
+    throw UnknownFormat(fmt::format("cannot write '{}': its extension is '{}', supported are .exr and .png",
+                                    path.string(), path.extension().string()));
+  }
+}
+
+}  // namespace
+
+ImageFormat image_format(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  if (extension == ".exr") return ImageFormat::exr;
+  if (extension == ".png") return ImageFormat::png;
+  if (extension == ".hdr") return ImageFormat::hdr;
+  return ImageFormat::unknown;
+}
+
+std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWriteOptions& options) {
+  const Layer& beauty = picture.layers.front();
+  const std::size_t channels = beauty.channels.size();
+  const std::size_t pixels =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const float scale = exposure_scale(options.exposure);
+  std::vector<std::uint8_t> bytes(3 * pixels);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = beauty.values[p * channels + std::min(c, channels - 1)];
+      bytes[3 * p + c] = display_byte(value, scale, options.tonemap);
+    }
+  }
+  return bytes;
+}
+
+void check_image_output(const std::filesystem::path& path) {
+  require_writable_format(path);
+  check_writable(path);
+}
+
+void write_image(const Picture& picture, const std::filesystem::path& path,
+                 const ImageWriteOptions& options) {
+  require_writable_format(path);
+  AtomicFile file(path);
+  try {
+    if (image_format(path) == ImageFormat::exr) {
+      write_exr(picture, file.stream(), options.exr_float);
+    } else {
+      write_png(picture, file, options);
+    }
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw OutputError(fmt::format("cannot write '{}': {}", path.string(), error.what()));
+  }
+  file.commit();
+}
+
+}  // namespace gatelight::renderer

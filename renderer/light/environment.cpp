@@ -1,0 +1,153 @@
+#include "renderer/light/environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+#include "renderer/image/claimed_size.h"
+#include "renderer/image/color_channels.h"
+#include "renderer/image/image_read.h"
+#include "renderer/light/environment_picture.h"
+#include "renderer/sampling/warp.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Largest radiance that is kept: sums of a whole picture and products with a throughput stay finite.
+constexpr float kLargest = 1e30f;
+
+/// Black for what is no light: negative or NaN.
+float usable(double value) {
+  return value > 0.0 ? static_cast<float>(std::min(value, static_cast<double>(kLargest))) : 0.0f;
+}
+
+float scaled(float value, float scale) {
+  return usable(static_cast<double>(usable(value)) * static_cast<double>(scale));
+}
+
+/// The values of a picture as light, and what was wrong with them.
+class Repair {
+ public:
+  explicit Repair(std::span<const float> values) {
+    for (const float value : values) {
+      if (std::isfinite(value)) greatest_ = std::max(greatest_, value);
+    }
+  }
+
+  float operator()(float value) {
+    infinite_ += value == scene::kInfinity ? 1 : 0;
+    no_light_ += value >= 0.0f ? 0 : 1;
+    return value == scene::kInfinity ? greatest_ : value;
+  }
+
+  std::string warning(const std::string& file) const {
+    if (infinite_ + no_light_ == 0) return "";
+    return fmt::format(
+        "environment '{}': {} values are infinite and taken as {}, {} negative or NaN and taken as 0", file,
+        infinite_, greatest_, no_light_);
+  }
+
+ private:
+  float greatest_ = 65504.0f;  ///< in half precision all beyond it is infinite
+  std::size_t infinite_ = 0;
+  std::size_t no_light_ = 0;
+};
+
+/// What a file says of the whole sphere: an EXR may store a part of its picture, and the rest is black.
+void check_full_size(const Picture& picture, const std::string& file) {
+  try {
+    check_claimed_size(picture.full_width, picture.full_height, 3, file);
+  } catch (const std::runtime_error& error) {
+    throw ImageError(fmt::format("cannot read '{}': of its display window, {}", file, error.what()));
+  }
+}
+
+std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options, std::string& warning) {
+  Picture picture = read_image(options.file);
+  const Layer& layer = picture.layers.front();
+  const auto color = color_channels(layer);
+  if (!color) {
+    throw ImageError(
+        fmt::format("cannot use '{}' as environment: it has the {}", options.file, describe_channels(layer)));
+  }
+  if (picture.full_width <= 0) {
+    picture.full_width = picture.width;
+    picture.full_height = picture.height;
+  }
+  check_full_size(picture, options.file);
+  const auto texel = [](int width, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  std::vector<Color> texels(texel(picture.full_width, 0, picture.full_height), Color::Zero());
+  Repair repaired(layer.values);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::int64_t full_x = std::int64_t{picture.x0} + x;
+      const std::int64_t full_y = std::int64_t{picture.y0} + y;
+      if (full_x < 0 || full_y < 0 || full_x >= picture.full_width || full_y >= picture.full_height) continue;
+      const float* value = layer.values.data() + texel(picture.width, x, y) * layer.channels.size();
+      Color& target = texels[texel(picture.full_width, static_cast<int>(full_x), static_cast<int>(full_y))];
+      for (std::size_t c = 0; c < 3; ++c) {
+        target[static_cast<Eigen::Index>(c)] = scaled(repaired(value[(*color)[c]]), options.scale);
+      }
+    }
+  }
+  warning = repaired.warning(options.file);
+  return std::make_unique<const EnvironmentPicture>(picture.full_width, picture.full_height,
+                                                    std::move(texels));
+}
+
+}  // namespace
+
+Environment::Environment(const EnvironmentOptions& options) {
+  if (!(options.scale >= 0.0f) || !std::isfinite(options.scale)) {
+    throw std::runtime_error(
+        fmt::format("the environment's scale is {}; it must be finite and not negative", options.scale));
+  }
+  if (!std::isfinite(options.rotation_degrees)) {
+    throw std::runtime_error("the environment's rotation is not a finite number of degrees");
+  }
+  const double angle = static_cast<double>(options.rotation_degrees) * M_PI / 180.0;
+  cos_ = static_cast<float>(std::cos(angle));
+  sin_ = static_cast<float>(std::sin(angle));
+  if (options.file.empty()) {
+    for (Eigen::Index c = 0; c < 3; ++c) mean_[c] = scaled(options.constant[c], options.scale);
+  } else {
+    picture_ = load(options, warning_);
+    mean_ = picture_->mean();
+  }
+}
+
+Environment::~Environment() = default;
+Environment::Environment(Environment&&) noexcept = default;
+
+Color Environment::radiance(const Vec3& direction) const {
+  return picture_ ? picture_->radiance(to_picture(direction)) : mean_;
+}
+
+Color Environment::radiance(const Vec3& direction, float cone_angle) const {
+  return picture_ ? picture_->radiance(to_picture(direction), cone_angle) : mean_;
+}
+
+EnvironmentSample Environment::sample(const Vec2& u) const {
+  if (black()) return {};
+  if (!picture_) return {sample_uniform_sphere(u), mean_, pdf_uniform_sphere()};
+  EnvironmentSample sample = picture_->sample(u);
+  sample.wi = to_world(sample.wi);
+  return sample;
+}
+
+float Environment::pdf(const Vec3& direction) const {
+  if (black()) return 0.0f;
+  return picture_ ? picture_->pdf(to_picture(direction)) : pdf_uniform_sphere();
+}
+
+std::size_t Environment::bytes() const {
+  return picture_ ? picture_->bytes() : 0;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,49 @@
+#pragma once
+// A latitude-longitude picture as a function on the sphere: lookups, a pyramid for filtered ones, and
+// sampling.
+//
+// Radiance is interpolated between texel centres (wrapping round, clamped at the poles). Cells of the density
+// are the texels; a cell's weight is the exact integral of the interpolated luminance over it (in the
+// picture's plane: 3/4 of the texel and 1/8 of either neighbour, along both axes) times its solid angle, so
+// that a cell in which anything shines is never left out. Within a cell directions are uniform per solid
+// angle, which needs no sine and has no singular poles.
+
+#include <cstddef>
+#include <vector>
+
+#include "renderer/light/environment.h"
+
+namespace gatelight::renderer {
+
+class EnvironmentPicture {
+ public:
+  /// Rows from the top; values finite and not negative. Directions are in the picture's own frame.
+  EnvironmentPicture(int width, int height, std::vector<Color> texels);
+
+  Color radiance(const Vec3& direction) const;
+  Color radiance(const Vec3& direction, float cone_angle) const;
+  EnvironmentSample sample(const Vec2& u) const;
+  float pdf(const Vec3& direction) const;
+  Color mean() const { return mean_; }
+  std::size_t bytes() const;
+
+ private:
+  struct Level {
+    int width = 0;
+    int height = 0;
+    std::vector<Color> texels;
+  };
+
+  static Color bilinear(const Level& level, const Vec2& uv);
+  static Level halve(const Level& source);
+  void build_density();
+
+  std::vector<Level> levels_;  ///< from the finest to 1x1
+  Color mean_{0.0f, 0.0f, 0.0f};
+  std::vector<float> row_cosines_;  ///< height + 1: cosine of the polar angle at the rows' upper edges
+  std::vector<float> row_cdf_;      ///< height + 1
+  std::vector<float> column_cdf_;   ///< (width + 1) for each row
+  std::vector<float> density_;      ///< per solid angle, one for each texel
+};
+
+}  // namespace gatelight::renderer

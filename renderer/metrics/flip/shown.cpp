@@ -1,0 +1,46 @@
+#include "renderer/metrics/flip/shown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/metrics/beauty.h"
+
+namespace gatelight::renderer::flip {
+
+RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
+  const Beauty beauty(named);
+  const std::size_t pixels = pixel_count(named.picture);
+  if (pixels == 0) throw CompareError(fmt::format("'{}' has no pixels", named.name));
+  RgbPlanes planes;
+  for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
+    plane->resize(named.picture.height, named.picture.width);
+  }
+  std::size_t not_finite = 0;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const Rgb color = beauty.at(p);
+    not_finite += finite(color) ? 0 : 1;
+    planes.r.data()[p] = static_cast<float>(std::max(color[0], 0.0));
+    planes.g.data()[p] = static_cast<float>(std::max(color[1], 0.0));
+    planes.b.data()[p] = static_cast<float>(std::max(color[2], 0.0));
+  }
+  if (not_finite > 0) {
+    throw CompareError(fmt::format("'{}' has {} pixels that are not finite; {} is defined for finite ones",
+                                   named.name, not_finite, measure));
+  }
+  return planes;
+}
+
+RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap) {
+  RgbPlanes planes = read_planes(named, measure);
+  const float scale = exposure_scale(exposure);
+  for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
+    *plane = plane->unaryExpr([&](float x) {
+      const float exposed = x * scale;
+      return tonemap == Tonemap::filmic ? filmic(exposed) : std::min(exposed, 1.0f);
+    });
+  }
+  return planes;
+}
+
+}  // namespace gatelight::renderer::flip

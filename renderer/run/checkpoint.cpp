@@ -1,0 +1,279 @@
+#include "renderer/run/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "neural/content_digest.h"
+#include "renderer/cache/cache_content.h"
+#include "renderer/film/film_samples.h"
+#include "renderer/machine/atomic_file.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::SafetensorsReader;
+using neural::TensorType;
+using neural::TensorView;
+
+constexpr const char* kFormat = "gatelight-checkpoint";
+constexpr int kVersion = 3;
+constexpr const char* kOptions = "option";
+constexpr const char* kStatistics = "statistics";
+constexpr const char* kPhase = "phase";
+constexpr const char* kSamples = "samples";
+constexpr const char* kFirstStep = "first_step";
+constexpr const char* kHasCache = "cache";
+constexpr const char* kNonFinite = "nonfinite_samples";
+constexpr const char* kGuard = "training_guard";
+
+/// What adds up over the runs that make a picture: the same member of each of the statistics.
+template <class Visit, class... Statistics>
+void each_sum(Visit&& visit, Statistics&... s) {
+  visit("render-seconds", s.render_seconds...);
+  visit("camera-rays", s.rays.camera...);
+  visit("bounce-rays", s.rays.bounce...);
+  visit("shadow-rays", s.rays.shadow...);
+  visit("trace-seconds", s.rays.seconds...);
+  visit("nonfinite", s.nonfinite...);
+  visit("clamped", s.clamped...);
+  visit("cache-steps", s.cache.steps...);
+  visit("cache-records", s.cache.records...);
+  visit("cache-rejected", s.cache.rejected...);
+  visit("cache-unstored", s.cache.unstored...);
+  visit("cache-training-paths", s.cache.training_paths...);
+  visit("cache-scout-seconds", s.cache.scout_seconds...);
+  visit("cache-setup-seconds", s.cache.setup_seconds...);
+  visit("cache-train-seconds", s.cache.train_seconds...);
+  visit("cache-train-trace-seconds", s.cache.train_trace_seconds...);
+  visit("cache-train-query-seconds", s.cache.train_query_seconds...);
+  visit("cache-train-step-seconds", s.cache.train_step_seconds...);
+  visit("cache-render-trace-seconds", s.cache.render_trace_seconds...);
+  visit("cache-render-query-seconds", s.cache.render_query_seconds...);
+  visit("cache-queries", s.cache.queries...);
+  visit("cache-negative-answers", s.cache.negative_answers...);
+  visit("cache-unstored-hits", s.cache.unstored_hits...);
+}
+
+/// What the last run that trained has to say.
+template <class Visit, class... Statistics>
+void each_last(Visit&& visit, Statistics&... s) {
+  visit("cache-touched-nodes", s.cache.touched_nodes...);
+  visit("cache-loss", s.cache.loss...);
+}
+
+/// The film's arrays and their names.
+template <class State, class Visit>
+void each_array(State& film, Visit&& visit) {
+  visit("film.radiance", TensorType::f64, film.radiance);
+  visit("film.radiance_counts", TensorType::u32, film.radiance_counts);
+  visit("film.first", TensorType::f64, film.first);
+  visit("film.first_counts", TensorType::u32, film.first_counts);
+  visit("film.first_ids", TensorType::f32, film.first_ids);
+}
+
+const char* phase_name(Phase phase) {
+  return phase == Phase::train ? "train" : "render";
+}
+
+const std::string& text_at(const SafetensorsReader& file, const std::string& key) {
+  const auto found = file.metadata().find(key);
+  if (found == file.metadata().end()) file.fail(fmt::format("metadata '{}' is missing", key));
+  return found->second;
+}
+
+template <class Number>
+Number number_at(const SafetensorsReader& file, const std::string& key) {
+  const std::string& text = text_at(file, key);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= Number{0}))
+    file.fail(fmt::format("{}: '{}', expected a number, not negative", key, text));
+  return value;
+}
+
+std::vector<std::uint32_t> to_words(const std::vector<NonFiniteSample>& samples) {
+  std::vector<std::uint32_t> words;
+  for (const NonFiniteSample& s : samples) {
+    for (const std::uint32_t word :
+         {static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y), s.sample, s.seed})
+      words.push_back(word);
+  }
+  return words;
+}
+
+using GuardValues = std::array<double, 7>;
+
+GuardValues to_values(const TrainingGuard& guard) {
+  // Counts are far below 2^53.
+  return {guard.loss_average,
+          guard.loss_least,
+          static_cast<double>(guard.steps),
+          guard.group_loss,
+          static_cast<double>(guard.group_steps),
+          guard.brightest,
+          static_cast<double>(guard.good_steps)};
+}
+
+TrainingGuard read_guard(SafetensorsReader& file, std::uint64_t steps) {
+  GuardValues values{};
+  const std::uint64_t shape[] = {values.size()};
+  file.read(kGuard, TensorType::f64, shape, std::as_writable_bytes(std::span(values)));
+  const auto refuse = [&](std::size_t i, const std::string& expected) {
+    file.fail(fmt::format("tensor '{}': element {} is {}, expected {}", kGuard, i, values[i], expected));
+  };
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(values[i])) refuse(i, "a number");
+  for (const std::size_t i : {2u, 4u, 6u})
+    if (!(values[i] >= 0.0 && values[i] <= static_cast<double>(steps)))
+      refuse(i, fmt::format("0 to the {} steps of the training", steps));
+  const auto count = [&](std::size_t i) { return static_cast<std::uint64_t>(values[i]); };
+  return {values[0], values[1], count(2), values[3], count(4), values[5], count(6)};
+}
+
+std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
+  std::vector<std::uint32_t> words(file.length(kNonFinite, TensorType::u32));
+  const std::uint64_t shape[] = {words.size()};
+  file.read(kNonFinite, TensorType::u32, shape, std::as_writable_bytes(std::span(words)));
+  if (words.size() % 4 != 0)
+    file.fail(fmt::format("tensor '{}': {} numbers, expected four a sample", kNonFinite, words.size()));
+  std::vector<NonFiniteSample> samples;
+  for (std::size_t i = 0; i < words.size(); i += 4)
+    samples.push_back(
+        {static_cast<int>(words[i]), static_cast<int>(words[i + 1]), words[i + 2], words[i + 3]});
+  return samples;
+}
+
+std::set<std::string> own_tensors() {
+  std::set<std::string> names = {kNonFinite, kGuard};
+  const FilmState none;
+  each_array(none, [&](const char* name, TensorType, const auto&) { names.insert(name); });
+  return names;
+}
+
+}  // namespace
+
+void add_earlier(RenderStatistics& statistics, const RenderStatistics& earlier) {
+  if (statistics.cache.steps == 0)
+    each_last([](const char*, auto& value, const auto& before) { value = before; }, statistics, earlier);
+  each_sum([](const char*, auto& value, const auto& before) { value += before; }, statistics, earlier);
+  statistics.nonfinite_samples.insert(statistics.nonfinite_samples.end(), earlier.nonfinite_samples.begin(),
+                                      earlier.nonfinite_samples.end());
+  keep_first(statistics.nonfinite_samples);
+}
+
+void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentity& identity,
+                      const CheckpointProgress& progress, const RenderStatistics& statistics,
+                      const Film& film, const std::optional<CheckpointCache>& cache) {
+  CacheContent content;
+  if (cache) fill_cache_content(content, cache->model, cache->options, cache->state);
+  std::vector<TensorView> tensors = content.tensors;
+  FilmState sums;
+  if (progress.samples > 0) sums = film.export_state();
+  each_array(sums, [&](const char* name, TensorType type, const auto& values) {
+    tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
+  });
+  GuardValues guard{};
+  if (cache) {
+    guard = to_values(cache->state.guard);
+    tensors.push_back({kGuard, TensorType::f64, {guard.size()}, std::as_bytes(std::span(guard))});
+  }
+  const std::vector<std::uint32_t> nonfinite = to_words(statistics.nonfinite_samples);
+  tensors.push_back({kNonFinite, TensorType::u32, {nonfinite.size()}, std::as_bytes(std::span(nonfinite))});
+
+  neural::Metadata metadata = content.model.metadata;
+  metadata["format"] = kFormat;
+  metadata["version"] = fmt::format("{}", kVersion);
+  metadata[kPhase] = phase_name(progress.phase);
+  metadata[kSamples] = fmt::format("{}", progress.samples);
+  metadata[kFirstStep] = fmt::format("{}", progress.first_step);
+  metadata[kHasCache] = cache ? "yes" : "no";
+  add_texts(metadata, kOptions, identity.options);
+  add_scene(metadata, identity.scene);
+  const auto add = [&](const char* name, const auto& value) {
+    metadata[fmt::format("{}.{}", kStatistics, name)] = fmt::format("{}", value);
+  };
+  each_sum(add, statistics);
+  each_last(add, statistics);
+  metadata[neural::kDigestKey] = neural::content_digest(tensors, metadata);
+
+  AtomicFile file(path);
+  neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
+                            path, tensors, metadata);
+  file.commit();
+}
+
+Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
+  neural::expect_text(file_, "format", "format", kFormat);
+  neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
+  neural::expect_digest(file_);
+  const std::string& phase = text_at(file_, kPhase);
+  if (phase != phase_name(Phase::train) && phase != phase_name(Phase::render))
+    file_.fail(fmt::format("phase: '{}', expected train or render", phase));
+  progress_.phase = phase == phase_name(Phase::train) ? Phase::train : Phase::render;
+  progress_.samples = number_at<int>(file_, kSamples);
+  progress_.first_step = number_at<std::uint64_t>(file_, kFirstStep);
+  if (text_at(file_, kHasCache) == "yes") cache_setup_ = read_cache_setup(file_);
+}
+
+void Checkpoint::expect(const CheckpointIdentity& identity, int spp) const {
+  const std::string differences = list_differences(file_.metadata(), kOptions, identity.options);
+  if (!differences.empty()) file_.fail(fmt::format("it is of other options: {}", differences));
+  expect_scene(file_, identity.scene);
+  if (cache_setup_ && cache_setup_->sides.size() != identity.instances)
+    file_.fail(
+        fmt::format("sides of {} instances, expected {}", cache_setup_->sides.size(), identity.instances));
+  if (progress_.samples > spp)
+    file_.fail(fmt::format("spp: file {}, expected at most {}", progress_.samples, spp));
+}
+
+const CacheSetup& Checkpoint::cache_setup() const {
+  if (!cache_setup_) file_.fail("it holds no cache");
+  return *cache_setup_;
+}
+
+void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
+  if (progress_.samples > 0) {
+    FilmState sums = film.export_state();  // of the sizes that are expected
+    each_array(sums, [&](const char* name, TensorType type, auto& values) {
+      const std::uint64_t shape[] = {values.size()};
+      file_.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+    });
+    // What is not finite never gets there: a picture that went on from it would show it.
+    const auto bad =
+        std::find_if(sums.radiance.begin(), sums.radiance.end(), [](double x) { return !std::isfinite(x); });
+    if (bad != sums.radiance.end())
+      file_.fail(fmt::format("tensor 'film.radiance': element {} is {}, expected a finite number",
+                             bad - sums.radiance.begin(), *bad));
+    film.import_state(sums);
+  }
+  const auto read = [&](const char* name, auto& value) {
+    value =
+        number_at<std::remove_reference_t<decltype(value)>>(file_, fmt::format("{}.{}", kStatistics, name));
+  };
+  each_sum(read, statistics);
+  each_last(read, statistics);
+  statistics.nonfinite_samples = read_nonfinite(file_);
+  statistics.spp = progress_.samples;
+}
+
+void Checkpoint::expect_model(const neural::Model& model, const neural::TrainingOptions& options) const {
+  neural::expect_model(file_, model, options);
+}
+
+CacheState Checkpoint::read_cache(const neural::Model& model, const neural::TrainingOptions& options) {
+  cache_setup();
+  CacheState state = read_cache_state(file_, model, options, own_tensors());
+  state.guard = read_guard(file_, state.steps);
+  return state;
+}
+
+}  // namespace gatelight::renderer

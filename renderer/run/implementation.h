@@ -1,0 +1,83 @@
+#pragma once
+// What Renderer holds, and the parts that a picture and a series of pictures have in common.
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "renderer/cache/cache_session.h"
+#include "renderer/film/camera.h"
+#include "renderer/film/pixel_filter.h"
+#include "renderer/film/tiles.h"
+#include "renderer/render.h"
+#include "renderer/run/checkpoint.h"
+#include "renderer/transport/pass.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+/// A cache on its way. Without a session for integrators that have none.
+struct Training {
+  std::unique_ptr<CacheSession> session;
+  std::uint64_t first_step = 0;  ///< those of a loaded cache come before
+  int steps = 0;                 ///< wanted for the next picture
+  int all_steps = 0;             ///< of the last one
+  bool chosen = false;           ///< by the picture's pixels and samples
+  bool complete = false;
+  bool stopped = false;  ///< by the caller
+  std::string diverged;  ///< why it went back to its last good state, if it did
+};
+
+struct Renderer::Implementation {
+  Implementation(const scene::Scene& scene_in, const RenderOptions& options_in);
+
+  /// Of the scene with its environment.
+  SceneFingerprint scene_fingerprint();
+  CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
+  /// In the state of the checkpoint or of the cache file where there is one; new otherwise.
+  Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
+  /// Up to training.steps.
+  void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
+  /// After training diverged: back to the last good state, by training up to it once more, which costs
+  /// nothing as long as all goes well. False where there is none, but what a new cache begins with. `earlier`
+  /// is cleared where it tells of steps beyond that state.
+  bool return_to_good(Training& training, Checkpoint* found, RenderStatistics& earlier,
+                      const Callbacks& callbacks);
+  std::unique_ptr<Pass> make_pass(Training& training);
+  /// Of this run and those before it.
+  RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
+                          const RenderStatistics& earlier) const;
+
+  bool render_step_series(const std::vector<int>& train_steps, const SeriesPicture& picture,
+                          const Callbacks& callbacks);
+  bool render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
+                            const Callbacks& callbacks);
+
+  const scene::Scene& scene;
+  RenderOptions options;
+  scene::SceneRequirements requirements;
+  int threads;
+  tbb::global_control control;
+  tbb::task_arena arena;
+  PixelRect region;
+  TileGrid tiles;
+  scene::Camera view;
+  Camera camera;
+  FilterSampler filter;
+  std::size_t budget;
+  std::optional<Textures> textures;
+  std::optional<Environment> environment;
+  std::optional<Coverage> coverage;
+  std::optional<Surfaces> surfaces;
+  std::optional<Accel> accel;
+  std::optional<Lights> lights;
+  std::optional<World> world;
+  bool steps_chosen = false;  ///< of training, by the picture's pixels and samples
+  RenderStatistics statistics;
+};
+
+}  // namespace gatelight::renderer

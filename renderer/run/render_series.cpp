@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "neural/flush_denormals.h"
+#include "renderer/run/implementation.h"
+#include "renderer/run/sample_loop.h"
+
+namespace gatelight::renderer {
+namespace {
+
+void check_points(const char* name, const std::vector<int>& points, int least) {
+  if (points.empty()) throw BadOption(fmt::format("a series without {}: expected at least one", name));
+  const bool ascending =
+      std::adjacent_find(points.begin(), points.end(), std::greater_equal()) == points.end();
+  if (points.front() < least || !ascending) {
+    throw BadOption(
+        fmt::format("a series of {} {}: expected numbers of at least {}, each greater than the last", name,
+                    fmt::join(points, ","), least));
+  }
+}
+
+void check_series(const Series& series, const RenderOptions& options) {
+  const bool caches = uses_cache(options.integrator);
+  if (!(caches ? series.spp : series.train_steps).empty()) {
+    throw BadOption(caches ? "a series of spp: expected train_steps for nao and nrc"
+                           : "a series of train_steps: expected spp for path and ao");
+  }
+  caches ? check_points("train_steps", series.train_steps, 0) : check_points("spp", series.spp, 1);
+  const auto refuse = [](bool given, const char* what) {
+    if (given) throw BadOption(fmt::format("a series with {}: expected none", what));
+  };
+  refuse(options.time_limit_seconds > 0.0, "a time limit");
+  refuse(caches && options.cache.train_seconds > 0.0, "a time limit of training");
+  refuse(!options.checkpoint.file.empty(), "a checkpoint");
+  refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
+}
+
+}  // namespace
+
+bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
+  const neural::FlushDenormals flush;
+  Implementation& self = *implementation_;
+  check_series(series, self.options);
+  return uses_cache(self.options.integrator) ? self.render_step_series(series.train_steps, picture, callbacks)
+                                             : self.render_sample_series(series.spp, picture, callbacks);
+}
+
+bool Renderer::Implementation::render_step_series(const std::vector<int>& train_steps,
+                                                  const SeriesPicture& picture, const Callbacks& callbacks) {
+  Training training = begin_training(
+      nullptr, options.cache.cache_in.empty() ? SceneFingerprint{} : scene_fingerprint(), callbacks);
+  training.chosen = false;
+  training.all_steps = train_steps.back();
+  CacheSession& session = *training.session;
+  for (std::size_t point = 0; point < train_steps.size(); ++point) {
+    // A point within a group of steps ends that group early, for its own picture alone.
+    const auto steps = static_cast<std::uint64_t>(train_steps[point]);
+    const std::uint64_t between_groups =
+        session.last_group_end(training.first_step + steps) - training.first_step;
+    std::optional<CacheSession::Bookmark> bookmark;
+    for (const std::uint64_t end : {between_groups, steps}) {
+      if (end > between_groups && point + 1 < train_steps.size()) bookmark = session.bookmark();
+      training.steps = static_cast<int>(end);
+      train(training, callbacks, {});
+      if (training.stopped) return false;
+    }
+    Film film(region, options.width, options.height, options.aovs);
+    const std::unique_ptr<Pass> pass = make_pass(training);
+    SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
+    while (loop.done() < options.spp) {
+      if (loop.over()) return false;
+      loop.run_pass(options.spp);
+    }
+    statistics = sum_up(loop.done(), loop.seconds(), pass.get(), training, {});
+    statistics.interrupted = false;
+    loop.report_end();
+    picture(static_cast<int>(point), film.resolve(), statistics);
+    if (loop.over()) return point + 1 == train_steps.size();
+    if (bookmark) session.return_to(*bookmark);
+  }
+  return true;
+}
+
+bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
+                                                    const Callbacks& callbacks) {
+  Film film(region, options.width, options.height, options.aovs);
+  Training untrained;
+  const std::unique_ptr<Pass> pass = make_pass(untrained);
+  SampleLoop loop(arena, options, callbacks, *pass, film, spp.back());
+  for (std::size_t point = 0; point < spp.size(); ++point) {
+    while (loop.done() < spp[point]) {
+      if (loop.over()) return false;
+      loop.run_pass(spp[point]);
+    }
+    statistics = sum_up(loop.done(), loop.seconds(), pass.get(), untrained, {});
+    statistics.interrupted = false;
+    if (point + 1 == spp.size()) loop.report_end();
+    const Clock::time_point start = Clock::now();
+    picture(static_cast<int>(point), film.resolve(), statistics);
+    loop.leave_out(seconds_since(start));
+  }
+  return true;
+}
+
+}  // namespace gatelight::renderer

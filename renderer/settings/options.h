@@ -1,0 +1,98 @@
+#pragma once
+// What a picture is asked to be. Plain data with defaults; the command line binds its flags to these members.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/light/environment.h"
+#include "renderer/light/lights.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/settings/cache_options.h"
+
+namespace gatelight::renderer {
+
+enum class Integrator : std::uint8_t {
+  path,  ///< unbiased reference
+  ao,    ///< ambient occlusion, reference
+  nao,   ///< ambient occlusion answered by the cache
+  nrc,   ///< radiance answered by the cache
+};
+/// Whether it learns.
+constexpr bool uses_cache(Integrator integrator) {
+  return integrator == Integrator::nao || integrator == Integrator::nrc;
+}
+enum class MisHeuristic : std::uint8_t { balance, power };
+enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< nee and bsdf alone are for tests and teaching
+enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
+enum class NanPolicy : std::uint8_t { drop, error };
+
+enum class Aov : std::uint8_t {
+  albedo,
+  normal,
+  depth,
+  position,
+  primitive_id,
+  instance_id,
+  sample_count,
+  variance,
+  // Of the cache, at the vertex where it is first asked; black without one.
+  cache_answer,    ///< what it says, before reflectance
+  cache_error,     ///< squared relative error of the answer against one record traced there: the loss's heat
+  training_count,  ///< steps that trained the triangle
+  resolution,      ///< R of the instance's first level
+  nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
+};
+
+/// A file that holds all that is needed to go on with a picture, bit for bit, after the program was ended.
+struct CheckpointOptions {
+  std::string file;  ///< empty: none
+  double every_seconds = 60.0;
+  bool resume = false;  ///< go on with `file` where it is there
+};
+
+/// A view given by hand, in the file's coordinates; replaces the file's cameras.
+struct LookAt {
+  scene::Vec3 eye = scene::Vec3::Zero();
+  scene::Vec3 target{0.0f, 0.0f, -1.0f};
+  scene::Vec3 up{0.0f, 1.0f, 0.0f};
+};
+
+struct CameraOptions {
+  std::string name;  ///< name or index of a camera of the file; empty: the first, or auto-framing
+  std::optional<LookAt> look_at;
+  std::optional<float> fov_degrees;  ///< vertical; overrides the camera's
+};
+
+struct RenderOptions {
+  Integrator integrator = Integrator::path;
+  int width = 960;
+  int height = 540;
+  std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
+  int spp = 64;
+  double time_limit_seconds = 0.0;  ///< 0: none; rendering stops after the pass that reaches it
+  int max_depth = 8;                ///< scattering events; 1 is emission and direct light
+  int min_depth = 2;                ///< Russian roulette starts after this many scattering events
+  std::uint32_t seed = 0;
+  int threads = 0;  ///< 0: what the machine and the cgroup allow
+  SamplerKind sampler = SamplerKind::sobol;
+  PixelFilter filter = PixelFilter::blackman_harris;
+  float filter_width = 0.0f;  ///< pixels, full width; 0: the filter's own default
+  MisHeuristic mis = MisHeuristic::power;
+  DirectLight direct = DirectLight::mis;
+  LightSelection light_selection = LightSelection::tree;
+  float clamp = 0.0f;         ///< largest luminance of one sample; 0: off
+  float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed
+  std::vector<Aov> aovs;
+  NanPolicy nan_policy = NanPolicy::drop;
+  std::size_t memory_limit_bytes = 0;  ///< 0: none; building beyond it throws OutOfMemory
+  std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512
+  CameraOptions camera;
+  EnvironmentOptions environment;
+  CacheOptions cache;  ///< of nao and nrc
+  CheckpointOptions checkpoint;
+};
+
+}  // namespace gatelight::renderer

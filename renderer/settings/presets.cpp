@@ -1,0 +1,60 @@
+#include "renderer/settings/presets.h"
+
+namespace gatelight::renderer {
+
+void apply_preset(CachePreset preset, RenderOptions& options) {
+  CacheOptions& cache = options.cache;
+  switch (preset) {
+    case CachePreset::preview:
+      options.integrator = Integrator::nrc;
+      options.spp = 4;
+      cache.query_at = QueryAt::primary;
+      cache.holds = CacheHolds::no_delta;
+      break;
+    case CachePreset::final:
+      options.integrator = Integrator::nrc;
+      options.spp = 64;
+      cache.query_at = QueryAt::gather;
+      cache.holds = CacheHolds::no_delta;
+      break;
+    case CachePreset::paper_nao:
+    case CachePreset::paper_nrc: {
+      const bool ao = preset == CachePreset::paper_nao;
+      options.integrator = ao ? Integrator::nao : Integrator::nrc;
+      options.width = 1920;
+      options.height = 1080;
+      options.spp = 1;
+      cache = CacheOptions{};
+      cache.train_steps = ao ? 128 : 1024;
+      cache.batch = 49152;
+      cache.path_length = 4;
+      cache.candidates = 16;
+      cache.self_training.start_step = -1;
+      cache.gate.features = ao ? 2 : 8;
+      cache.gate.stack = {neural::kAdaptive, 1};
+      cache.gate.rule = neural::ResolutionRule::paper;
+      cache.gate.cluster = false;
+      cache.hash_grid.levels = 8;
+      cache.hash_grid.features = 4;
+      cache.hash_grid.base_resolution = 2;
+      cache.mlp.width = 32;
+      cache.mlp.hidden_layers = 2;
+      cache.mlp.leaky_slope = 0.01f;
+      cache.mlp.biases = false;
+      cache.training.loss = neural::Loss::l2;
+      cache.training.adam.learning_rate = 1e-2f;
+      cache.training.average.network = false;
+      cache.training.average.features = false;
+      cache.training.adam.decay_steps = 0.0f;
+      cache.training.start_at_mean = false;
+      cache.training.feature_step = neural::FeatureStep::per_triangle;
+      cache.min_roughness = 0.0f;
+      cache.holds = CacheHolds::all;
+      cache.query_at = QueryAt::primary;
+      cache.view = CacheView::cache;
+      break;
+    }
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,301 @@
+#include "renderer/surface/accel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+#include "renderer/machine/errors.h"
+
+namespace gatelight::renderer {
+
+namespace {
+
+constexpr unsigned kPacket = 16;
+struct Lane {
+  std::uint32_t seed = 0;
+  Vec3 direction = Vec3::Zero();  ///< world space: Embree's own is in the instance's
+  Color transmittance{1.0f, 1.0f, 1.0f};
+  int panes = 0;
+  std::uint64_t seen[Accel::kMaxPanes];  ///< `panes` of them: spatial splits report a triangle more than once
+};
+
+/// Embree hands its context back to the filters: the lanes travel behind it.
+struct Context {
+  RTCIntersectContext embree;
+  const Coverage* coverage = nullptr;
+  Lane lanes[kPacket];
+};
+
+std::uint32_t instance_of(RTCHitN* hit, unsigned n, unsigned i) {
+  const unsigned instance = RTCHitN_instID(hit, n, i, 0);
+  return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(hit, n, i);
+}
+
+Hit candidate(const RTCFilterFunctionNArguments* args, unsigned i) {
+  Hit hit;
+  hit.t = RTCRayN_tfar(args->ray, args->N, i);
+  hit.u = RTCHitN_u(args->hit, args->N, i);
+  hit.v = RTCHitN_v(args->hit, args->N, i);
+  hit.instance = instance_of(args->hit, args->N, i);
+  hit.primitive = RTCHitN_primID(args->hit, args->N, i);
+  return hit;
+}
+
+void alpha_filter(const RTCFilterFunctionNArguments* args) {
+  const Context& context = *reinterpret_cast<const Context*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
+    const Hit hit = candidate(args, i);
+    if (context.coverage->tests_alpha(hit.instance) && !context.coverage->is_there(hit, lane.seed)) {
+      args->valid[i] = 0;
+    }
+  }
+}
+
+void shadow_filter(const RTCFilterFunctionNArguments* args) {
+  Context& context = *reinterpret_cast<Context*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
+    const Hit hit = candidate(args, i);
+    if (context.coverage->tests_alpha(hit.instance) && !context.coverage->is_there(hit, lane.seed)) {
+      args->valid[i] = 0;
+      continue;
+    }
+    const Color passed = context.coverage->pane_transmittance(hit, lane.direction);
+    if ((passed <= 0.0f).all()) continue;
+    const std::uint64_t id = static_cast<std::uint64_t>(hit.instance) << 32 | hit.primitive;
+    if (std::find(lane.seen, lane.seen + lane.panes, id) == lane.seen + lane.panes) {
+      if (lane.panes == Accel::kMaxPanes) continue;
+      lane.seen[lane.panes++] = id;
+      lane.transmittance *= passed;
+    }
+    args->valid[i] = 0;
+  }
+}
+
+void set_lane(RTCRay16& packet, unsigned i, const Ray& ray) {
+  packet.org_x[i] = ray.origin.x();
+  packet.org_y[i] = ray.origin.y();
+  packet.org_z[i] = ray.origin.z();
+  packet.dir_x[i] = ray.direction.x();
+  packet.dir_y[i] = ray.direction.y();
+  packet.dir_z[i] = ray.direction.z();
+  packet.tnear[i] = 0.0f;
+  packet.tfar[i] = ray.t_max;
+  packet.time[i] = 0.0f;
+  packet.mask[i] = ~0u;
+  packet.id[i] = i;
+  packet.flags[i] = 0;
+}
+
+const char* embree_isa(const std::string& isa) {
+  if (isa == "scalar") return "sse2";
+  if (isa == "avx2") return "avx2";
+  if (isa == "avx512") return "avx512";
+  return nullptr;
+}
+
+bool has_isa(const std::string& isa) {
+  __builtin_cpu_init();
+  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (isa == "avx512") return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+  return true;
+}
+
+}  // namespace
+
+std::string best_isa() {
+  return has_isa("avx512") ? "avx512" : has_isa("avx2") ? "avx2" : "scalar";
+}
+
+struct Accel::State {
+  std::atomic<long long> bytes{0};
+  std::size_t limit = 0;
+  std::atomic<bool> refused{false};
+  std::string first_error;
+  std::vector<RTCScene> meshes;
+
+  static bool monitor(void* self, ssize_t bytes, bool) {
+    State& state = *static_cast<State*>(self);
+    const long long total = state.bytes.fetch_add(bytes) + bytes;
+    // Embree asks the same question about memory that it gives back; only growth can be refused.
+    if (state.limit > 0 && bytes > 0 && total > static_cast<long long>(state.limit)) {
+      state.refused = true;
+      return false;
+    }
+    return true;
+  }
+  static void error(void* self, RTCError code, const char* text) {
+    State& state = *static_cast<State*>(self);
+    if (code == RTC_ERROR_OUT_OF_MEMORY) state.refused = true;
+    if (state.first_error.empty()) state.first_error = text;
+  }
+};
+
+Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options)
+    : coverage_(coverage), state_(std::make_unique<State>()) {
+  if (!has_isa(options.isa)) {
+    throw Unavailable(
+        fmt::format("--isa {}: this processor does not have it; its best is {}", options.isa, best_isa()));
+  }
+  isa_ = options.isa == "auto" ? best_isa() : options.isa;
+  std::string config = fmt::format("threads={}", options.threads);
+  if (const char* isa = embree_isa(options.isa)) config += fmt::format(",isa={}", isa);
+  device_ = rtcNewDevice(config.c_str());
+  if (!device_) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    const std::string text = fmt::format("Embree refuses the device \"{}\"", config);
+    if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throw Unavailable(text);
+    throw OutOfMemory(text + ": there is no memory for it, or no thread");
+  }
+  state_->limit = options.memory_limit_bytes;
+  rtcSetDeviceErrorFunction(device_, State::error, state_.get());
+  rtcSetDeviceMemoryMonitorFunction(device_, State::monitor, state_.get());
+
+  const auto new_scene = [&] {
+    RTCScene s = rtcNewScene(device_);
+    rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
+    // Without it rays slip through the shared edges of triangles, and a closed room leaks light.
+    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    return s;
+  };
+  const auto new_mesh = [&](const scene::Mesh& mesh, std::uint32_t instance) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
+                               0, sizeof(Vec3), mesh.positions.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                               sizeof(mesh.triangles[0]), mesh.triangles.size());
+    if (coverage.tests_alpha(instance)) rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+    if (coverage.filters_shadows(instance)) {
+      rtcSetGeometryOccludedFilterFunction(geometry, shadow_filter);
+      any_filter_ = true;
+    }
+    rtcCommitGeometry(geometry);
+    return geometry;
+  };
+
+  top_ = new_scene();
+  state_->meshes.assign(scene.meshes.size(), nullptr);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
+    const scene::Mesh& mesh = scene.mesh_of(instance);
+    if (mesh.triangles.empty()) continue;
+    RTCGeometry geometry = nullptr;
+    if (instance.baked) {
+      geometry = new_mesh(mesh, i);
+    } else {
+      RTCScene& below = state_->meshes[static_cast<std::size_t>(instance.mesh)];
+      if (!below) {
+        below = new_scene();
+        RTCGeometry child = new_mesh(mesh, i);
+        rtcAttachGeometry(below, child);
+        rtcReleaseGeometry(child);
+        rtcCommitScene(below);
+      }
+      geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, below);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, instance.transform.data());
+      rtcCommitGeometry(geometry);
+    }
+    rtcAttachGeometryByID(top_, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(top_);
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error != RTC_ERROR_NONE || state_->refused || !state_->first_error.empty()) {
+    const std::string text = state_->first_error;
+    const bool refused = state_->refused;
+    const bool memory = refused || error == RTC_ERROR_OUT_OF_MEMORY;
+    const long long used = state_->bytes;
+    for (RTCScene below : state_->meshes) rtcReleaseScene(below);
+    rtcReleaseScene(top_);
+    rtcReleaseDevice(device_);
+    if (memory) {
+      const std::string limit =
+          refused ? fmt::format("--memory-limit {}", options.memory_limit_bytes >> 20) : "there is";
+      throw OutOfMemory(fmt::format("{}: the acceleration structure needs over {} MiB, more than {}",
+                                    scene.path, used >> 20, limit));
+    }
+    throw std::runtime_error(fmt::format("{}: Embree cannot build the scene: {}", scene.path, text));
+  }
+}
+
+Accel::~Accel() {
+  for (RTCScene below : state_->meshes) {
+    if (below) rtcReleaseScene(below);
+  }
+  rtcReleaseScene(top_);
+  rtcReleaseDevice(device_);
+}
+
+std::size_t Accel::bytes() const {
+  return static_cast<std::size_t>(std::max(0ll, state_->bytes.load()));
+}
+
+void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
+  Context context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags =
+      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.coverage = &coverage_;
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) int valid[kPacket];
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const unsigned count = static_cast<unsigned>(std::min<std::size_t>(kPacket, rays.size() - first));
+    for (unsigned i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const Ray& ray = rays[first + std::min(i, count - 1)];
+      set_lane(packet.ray, i, ray);
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      if (any_filter_) context.lanes[i].seed = ray.seed;
+    }
+    rtcIntersect16(valid, top_, &context.embree, &packet);
+    for (unsigned i = 0; i < count; ++i) {
+      Hit& hit = hits[first + i];
+      hit.t = packet.ray.tfar[i];
+      hit.u = packet.hit.u[i];
+      hit.v = packet.hit.v[i];
+      hit.primitive = packet.hit.primID[i];
+      hit.instance =
+          packet.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID ? packet.hit.instID[0][i] : packet.hit.geomID[i];
+    }
+  }
+}
+
+void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
+  Context context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.coverage = &coverage_;
+  alignas(64) RTCRay16 packet;
+  alignas(64) int valid[kPacket];
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const unsigned count = static_cast<unsigned>(std::min<std::size_t>(kPacket, rays.size() - first));
+    for (unsigned i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const Ray& ray = rays[first + std::min(i, count - 1)];
+      set_lane(packet, i, ray);
+      if (any_filter_) {
+        Lane& lane = context.lanes[i];
+        lane.seed = ray.seed;
+        lane.direction = ray.direction;
+        lane.transmittance = Color::Ones();
+        lane.panes = 0;
+      }
+    }
+    rtcOccluded16(valid, top_, &context.embree, &packet);
+    for (unsigned i = 0; i < count; ++i) {
+      const bool blocked = packet.tfar[i] < 0.0f;
+      result[first + i] = blocked       ? Color(0.0f, 0.0f, 0.0f)
+                          : any_filter_ ? context.lanes[i].transmittance
+                                        : Color(1.0f, 1.0f, 1.0f);
+    }
+  }
+}
+
+}  // namespace gatelight::renderer

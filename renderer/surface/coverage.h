@@ -1,0 +1,44 @@
+#pragma once
+// Whether a ray meets a surface at all: alpha masks, stochastic alpha, and panes of clear glass for shadow
+// rays.
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/surface/ray.h"
+#include "renderer/surface/texture.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+/// Thread-safe after construction; holds references to its arguments.
+class Coverage {
+ public:
+  Coverage(const scene::Scene& scene, const Textures& textures);
+
+  /// Some ray may pass through this instance: it has an alpha test.
+  bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }
+  /// Some shadow ray may pass through it: it has an alpha test, or is a pane.
+  bool filters_shadows(std::uint32_t instance) const { return flags_[instance] != 0; }
+
+  /// False where the surface is not there for a ray with this seed. A blended surface decides by a hash of
+  /// the seed, the instance and the primitive: independent between surfaces, and the same whatever order they
+  /// are met in.
+  bool is_there(const Hit& hit, std::uint32_t seed) const;
+
+  /// Smooth thin-walled transmission neither bends nor blurs light, so a shadow ray goes straight through it.
+  /// The fraction of light that does; zero for every other surface.
+  Color pane_transmittance(const Hit& hit, const Vec3& direction) const;
+
+ private:
+  static constexpr std::uint8_t kAlpha = 1;
+  static constexpr std::uint8_t kPane = 2;
+
+  float alpha(const Hit& hit) const;
+
+  const scene::Scene& scene_;
+  const Textures& textures_;
+  std::vector<std::uint8_t> flags_;  ///< by instance
+};
+
+}  // namespace gatelight::renderer

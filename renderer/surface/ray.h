@@ -1,0 +1,41 @@
+#pragma once
+// Rays and hits as the integrators see them; renderer/surface/accel.h turns them into Embree's packets.
+
+#include <cstdint>
+
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+using scene::Vec3;
+
+inline constexpr std::uint32_t kNoInstance = ~0u;
+
+struct Ray {
+  Vec3 origin = Vec3::Zero();
+  float t_max = scene::kInfinity;
+  Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
+  std::uint32_t seed = 0;             ///< of the stochastic alpha test: the same seed sees the same surfaces
+};
+
+struct Hit {
+  float t = scene::kInfinity;
+  float u = 0.0f;  ///< barycentric weight of the triangle's second corner
+  float v = 0.0f;  ///< barycentric weight of the triangle's third corner
+  std::uint32_t instance = kNoInstance;
+  std::uint32_t primitive = 0;
+
+  explicit operator bool() const { return instance != kNoInstance; }
+};
+
+/// One round of an integer hash with full avalanche (the constants of "lowbias32" by C. Wellons).
+inline std::uint32_t hash(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  x ^= x >> 16;
+  return x;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,214 @@
+#include "renderer/surface/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/triangle_normal.h"
+
+namespace gatelight::renderer {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+template <typename T>
+T interpolate(const std::vector<T>& values, const Corners& c, const Vec3& b) {
+  return values[c[0]] * b.x() + values[c[1]] * b.y() + values[c[2]] * b.z();
+}
+
+/// Reads the slots of one material at one point.
+class Reader {
+ public:
+  Reader(const Textures& textures, const scene::Mesh& mesh, const Corners& corners, const Vec3& b,
+         float footprint_world, float area_world, float u_level)
+      : textures_(textures), u_level_(u_level) {
+    const std::vector<Vec2>* sets[2] = {&mesh.uv0, &mesh.uv1};
+    for (int s = 0; s < 2; ++s) {
+      if (sets[s]->empty()) continue;
+      uv_[s] = interpolate(*sets[s], corners, b);
+      const Vec2 e1 = (*sets[s])[corners[1]] - (*sets[s])[corners[0]];
+      const Vec2 e2 = (*sets[s])[corners[2]] - (*sets[s])[corners[0]];
+      const float area_uv = std::abs(e1.x() * e2.y() - e1.y() * e2.x());
+      footprint_[s] = area_world > 0.0f ? footprint_world * std::sqrt(area_uv / area_world) : 0.0f;
+    }
+  }
+
+  Vec4 operator()(const scene::TextureSlot& slot, Encoding encoding) const {
+    const int set = slot.texcoord == 1 ? 1 : 0;
+    return textures_.lookup(slot, encoding, uv_[set], footprint_[set], u_level_);
+  }
+  Color color(const scene::TextureSlot& slot) const {
+    return (*this)(slot, Encoding::srgb).head<3>().array();
+  }
+  /// Always of the finest level: next-event estimation samples that one.
+  Color emission(const scene::TextureSlot& slot) const {
+    return textures_.lookup(slot, Encoding::srgb, uv_[slot.texcoord == 1 ? 1 : 0], 0.0f, 0.0f)
+        .head<3>()
+        .array();
+  }
+
+ private:
+  const Textures& textures_;
+  float u_level_;
+  Vec2 uv_[2] = {Vec2::Zero(), Vec2::Zero()};
+  float footprint_[2] = {0.0f, 0.0f};
+};
+
+/// Tangent-space normal map to world space; falls back to n where the map or the frame is degenerate.
+Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& tangent_w, bool flip_tangent) {
+  const Vec3 m((texel.x() * 2.0f - 1.0f) * scale, (texel.y() * 2.0f - 1.0f) * scale, texel.z() * 2.0f - 1.0f);
+  Vec3 t = tangent_w.head<3>();
+  t -= n * n.dot(t);
+  const float length = t.squaredNorm();
+  if (!(length > 1e-12f)) return n;
+  t /= std::sqrt(length);
+  const float handedness = flip_tangent ? -tangent_w.w() : tangent_w.w();
+  const Vec3 bitangent = n.cross(t) * handedness;
+  const Vec3 mapped = t * m.x() + bitangent * m.y() + n * m.z();
+  const float squared = mapped.squaredNorm();
+  if (!(squared > 1e-12f)) return n;
+  return mapped / std::sqrt(squared);
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textures_(textures) {
+  views_.resize(scene.instances.size());
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
+    View& view = views_[i];
+    view.mesh = &scene.mesh_of(instance);
+    view.material = &scene.material_of(instance);
+    view.baked = instance.baked;
+    view.mirrors = instance.mirrors;
+    if (!instance.baked) {
+      view.transform = instance.transform;
+      view.normal_matrix = scene::normal_matrix(instance.transform);
+      view.rounding = PlacementRounding(instance);
+    }
+  }
+}
+
+void Surfaces::prefetch_vertices(const Hit& hit) const {
+  if (!hit) return;
+  const scene::Mesh& mesh = *views_[hit.instance].mesh;
+  for (const std::uint32_t corner : mesh.triangles[hit.primitive]) {
+    __builtin_prefetch(&mesh.positions[corner]);
+    if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[corner]);
+    if (!mesh.uv0.empty()) __builtin_prefetch(&mesh.uv0[corner]);
+    if (!mesh.tangents.empty()) __builtin_prefetch(&mesh.tangents[corner]);
+  }
+}
+
+Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const {
+  const View& view = views_[hit.instance];
+  const scene::Mesh& mesh = *view.mesh;
+  const scene::Material& m = *view.material;
+  const Corners& corners = mesh.triangles[hit.primitive];
+  const Vec3 b(1.0f - hit.u - hit.v, hit.u, hit.v);
+
+  Vec3 p0 = mesh.positions[corners[0]];
+  Vec3 p1 = mesh.positions[corners[1]];
+  Vec3 p2 = mesh.positions[corners[2]];
+  if (!view.baked) {
+    p0 = view.transform * p0;
+    p1 = view.transform * p1;
+    p2 = view.transform * p2;
+  }
+  float area = 0.0f;  // twice the area
+  Vec3 ng = scene::triangle_normal(p0, p1, p2, area);
+  if (!(area > 0.0f)) ng = -direction;
+  Surface s;
+  s.position = p0 * b.x() + p1 * b.y() + p2 * b.z();
+  s.offset = rounding_offset(p0, p1, p2, view.rounding);
+
+  if (view.mirrors) ng = -ng;
+  s.front = ng.dot(direction) <= 0.0f;
+  Vec3 ns = ng;
+  if (!mesh.normals.empty()) {
+    Vec3 n = interpolate(mesh.normals, corners, b);
+    if (!view.baked) n = view.normal_matrix * n;
+    const float squared = n.squaredNorm();
+    if (squared > 0.0f) ns = n / std::sqrt(squared);
+  }
+  s.geometric_normal = s.front ? ng : Vec3(-ng);
+  // Normals of the file may disagree with the winding: the side of the geometric normal decides.
+  const bool turn = ns.dot(s.geometric_normal) < 0.0f;
+  s.smooth_normal = turn ? Vec3(-ns) : ns;
+  s.shading_normal = s.smooth_normal;
+  s.coat_normal = s.smooth_normal;
+
+  const float cosine = std::abs(ng.dot(direction));
+  // The footprint's short side is the cone's width and its long side width / cosine: the geometric mean of
+  // both.
+  const Reader read(textures_, mesh, corners, b, cone_width / std::sqrt(std::max(cosine, 0.01f)), area,
+                    u_level);
+
+  Color base = m.base_color;
+  if (m.base_color_texture) base *= read.color(m.base_color_texture);
+  if (!mesh.colors.empty()) base *= interpolate(mesh.colors, corners, b).head<3>().array();
+  s.material.base_color = base.max(0.0f).min(1.0f);
+  if (m.unlit) {
+    s.unlit = true;
+    s.emission = base;
+    return s;
+  }
+  if (m.emits() && (s.front || m.double_sided)) {
+    s.emission = m.emission;
+    if (m.emission_texture) s.emission *= read.emission(m.emission_texture);
+  }
+
+  s.material.metallic = m.metallic;
+  s.material.roughness = m.roughness;
+  if (m.metallic_roughness_texture) {
+    const Vec4 t = read(m.metallic_roughness_texture, Encoding::linear);
+    s.material.roughness *= t.y();
+    s.material.metallic *= t.z();
+  }
+  s.material.ior = m.ior;
+  s.material.specular = m.specular;
+  s.material.specular_color = m.specular_color;
+  if (m.specular_texture) s.material.specular *= read(m.specular_texture, Encoding::linear).w();
+  if (m.specular_color_texture) s.material.specular_color *= read.color(m.specular_color_texture);
+  if (m.transmits()) {
+    s.material.transmission = m.transmission;
+    s.material.thin_walled = !m.has_volume();
+    if (m.transmission_texture) s.material.transmission *= read(m.transmission_texture, Encoding::linear).x();
+  }
+  if ((m.sheen_color > 0.0f).any()) {
+    s.material.sheen_color = m.sheen_color;
+    s.material.sheen_roughness = m.sheen_roughness;
+    if (m.sheen_color_texture) s.material.sheen_color *= read.color(m.sheen_color_texture);
+    if (m.sheen_roughness_texture)
+      s.material.sheen_roughness *= read(m.sheen_roughness_texture, Encoding::linear).w();
+  }
+
+  const bool coat = m.clearcoat > 0.0f;
+  if (!mesh.tangents.empty() && (m.normal_texture || (coat && m.clearcoat_normal_texture))) {
+    Vec4 tangent = interpolate(mesh.tangents, corners, b);
+    tangent.w() = mesh.tangents[corners[0]].w();
+    if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
+    // The bitangent belongs to the frame of the file's normal; turning the normal turns the frame with it.
+    const bool flip = turn != view.mirrors;
+    if (m.normal_texture) {
+      s.shading_normal = mapped_normal(read(m.normal_texture, Encoding::linear), m.normal_scale,
+                                       s.smooth_normal, tangent, flip);
+    }
+    if (coat && m.clearcoat_normal_texture) {
+      s.coat_normal = mapped_normal(read(m.clearcoat_normal_texture, Encoding::linear),
+                                    m.clearcoat_normal_scale, s.smooth_normal, tangent, flip);
+    }
+  }
+  if (coat) {
+    s.material.clearcoat = m.clearcoat;
+    s.material.clearcoat_roughness = m.clearcoat_roughness;
+    if (m.clearcoat_texture) s.material.clearcoat *= read(m.clearcoat_texture, Encoding::linear).x();
+    if (m.clearcoat_roughness_texture) {
+      s.material.clearcoat_roughness *= read(m.clearcoat_roughness_texture, Encoding::linear).y();
+    }
+  }
+  return s;
+}
+
+}  // namespace gatelight::renderer

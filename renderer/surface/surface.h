@@ -1,0 +1,75 @@
+#pragma once
+// What a ray has met: position, normals, textured material and emission at a hit.
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/bsdf/bsdf.h"
+#include "renderer/surface/ray.h"
+#include "renderer/surface/rounding.h"
+#include "renderer/surface/texture.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+/// A ray's cone, for the choice of texture levels (Akenine-Moeller et al. 2019, "Texture level of detail
+/// strategies").
+struct RayCone {
+  float width = 0.0f;   ///< metres, at the origin of the ray
+  float spread = 0.0f;  ///< radians: growth of the width per metre
+};
+
+struct Surface {
+  Vec3 position = Vec3::Zero();
+  Vec3 geometric_normal = Vec3::Zero();  ///< unit, on the side of the viewer
+  Vec3 shading_normal = Vec3::Zero();    ///< unit, on the side of the viewer, normal map applied
+  Vec3 smooth_normal = Vec3::Zero();     ///< unit, on the side of the viewer, without the normal map
+  Vec3 coat_normal = Vec3::Zero();       ///< unit, on the side of the viewer
+  float offset =
+      0.0f;  ///< metres along the geometric normal by which a new ray starts outside the error of `position`
+  bool front = true;  ///< the viewer is on the front
+  bool unlit = false;
+  Color emission{0.0f, 0.0f, 0.0f};  ///< radiance towards the viewer
+  SurfaceMaterial material;
+
+  /// Where a ray towards `direction` starts.
+  Vec3 spawn(const Vec3& direction) const {
+    return position + geometric_normal * (geometric_normal.dot(direction) < 0.0f ? -offset : offset);
+  }
+};
+
+/// Thread-safe after construction; holds references to its arguments.
+class Surfaces {
+ public:
+  Surfaces(const scene::Scene& scene, const Textures& textures);
+
+  /// `cone_width` is the ray cone's width at the hit, metres; `u_level` in [0, 1) chooses between texture
+  /// levels.
+  Surface at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
+
+  /// Hints for a batch of hits, to be given some hits ahead of at(): first the indices of the triangle, then,
+  /// when these have arrived, what they point to. Vertex fetches are scattered and would stall one after the
+  /// other.
+  void prefetch_triangle(const Hit& hit) const {
+    if (hit) __builtin_prefetch(&views_[hit.instance].mesh->triangles[hit.primitive]);
+  }
+  void prefetch_vertices(const Hit& hit) const;
+
+  const scene::Material& material(std::uint32_t instance) const { return *views_[instance].material; }
+
+ private:
+  struct View {
+    const scene::Mesh* mesh = nullptr;
+    const scene::Material* material = nullptr;
+    Eigen::Matrix3f normal_matrix = Eigen::Matrix3f::Identity();
+    scene::Affine transform = scene::Affine::Identity();
+    PlacementRounding rounding;
+    bool baked = true;
+    bool mirrors = false;
+  };
+
+  const Textures& textures_;
+  std::vector<View> views_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,287 @@
+#include "renderer/surface/texture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "renderer/image/srgb.h"
+
+namespace gatelight::renderer {
+
+namespace {
+
+/// Texels are stored in blocks of 4x4: one cache line, so that a bilinear lookup reads 1.6 lines on average.
+constexpr int kBlock = 4;
+
+int blocks(int texels) {
+  return (texels + kBlock - 1) / kBlock;
+}
+
+std::size_t stored_texels(int width, int height) {
+  return static_cast<std::size_t>(blocks(width)) * static_cast<std::size_t>(blocks(height)) * kBlock * kBlock;
+}
+
+std::size_t block_index(int width, int x, int y) {
+  const std::size_t block = static_cast<std::size_t>(y >> 2) * static_cast<std::size_t>(blocks(width)) +
+                            static_cast<std::size_t>(x >> 2);
+  return block * 16 + static_cast<std::size_t>((y & 3) * 4 + (x & 3));
+}
+
+/// Row-major linear RGBA of the level being built.
+using FloatLevel = std::vector<Vec4>;
+
+FloatLevel to_float(const scene::Image& image, Encoding encoding) {
+  FloatLevel level(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  const int channels = image.channels;
+  const auto color = [&](std::uint8_t byte) {
+    return encoding == Encoding::srgb ? kSrgbToLinear[byte] : static_cast<float>(byte) * (1.0f / 255.0f);
+  };
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const std::uint8_t* p = image.pixels.data() + i * static_cast<std::size_t>(channels);
+    const bool grey = channels < 3;
+    const float r = color(p[0]);
+    const float alpha = channels == 2 ? p[1] / 255.0f : channels == 4 ? p[3] / 255.0f : 1.0f;
+    level[i] = Vec4(r, grey ? r : color(p[1]), grey ? r : color(p[2]), alpha);
+  }
+  return level;
+}
+
+/// Area-weighted reduction along one axis: exact for odd sizes, where a texel is shared by its two
+/// neighbours.
+FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) {
+  const int length = along_x ? width : height;
+  const int half = std::max(1, length / 2);
+  const int other = along_x ? height : width;
+  const float ratio = static_cast<float>(length) / static_cast<float>(half);
+  FloatLevel result(static_cast<std::size_t>(half) * static_cast<std::size_t>(other));
+  for (int i = 0; i < half; ++i) {
+    const float begin = static_cast<float>(i) * ratio;
+    const float end = begin + ratio;
+    const int first = static_cast<int>(begin);
+    const int last = std::min(length - 1, static_cast<int>(std::ceil(end)) - 1);
+    for (int j = 0; j < other; ++j) {
+      Vec4 sum = Vec4::Zero();
+      for (int k = first; k <= last; ++k) {
+        const float weight =
+            std::min(end, static_cast<float>(k + 1)) - std::max(begin, static_cast<float>(k));
+        sum += weight * source[along_x ? static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                                             static_cast<std::size_t>(k)
+                                       : static_cast<std::size_t>(k) * static_cast<std::size_t>(width) +
+                                             static_cast<std::size_t>(j)];
+      }
+      result[along_x
+                 ? static_cast<std::size_t>(j) * static_cast<std::size_t>(half) + static_cast<std::size_t>(i)
+                 : static_cast<std::size_t>(i) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(j)] = sum / ratio;
+    }
+  }
+  return result;
+}
+
+/// The finest level keeps the file's bytes.
+std::uint32_t pack_source(const scene::Image& image, std::size_t texel) {
+  const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
+  const bool grey = image.channels < 3;
+  const std::uint32_t alpha = image.channels == 2 ? p[1] : image.channels == 4 ? p[3] : 255u;
+  return p[0] | std::uint32_t{grey ? p[0] : p[1]} << 8 | std::uint32_t{grey ? p[0] : p[2]} << 16 |
+         alpha << 24;
+}
+
+std::uint32_t pack(const Vec4& c, Encoding encoding) {
+  const auto byte = [](float x) {
+    const float level = std::clamp(x, 0.0f, 1.0f) * 255.0f;
+    return static_cast<std::uint32_t>(level + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
+  };
+  const auto color = [&](float x) { return encoding == Encoding::srgb ? byte(linear_to_srgb(x)) : byte(x); };
+  return color(c.x()) | color(c.y()) << 8 | color(c.z()) << 16 | byte(c.w()) << 24;
+}
+
+/// 0..size-1 for any integer coordinate.
+int wrap(int x, int size, scene::Wrap mode) {
+  if (static_cast<unsigned>(x) < static_cast<unsigned>(size)) return x;
+  switch (mode) {
+    case scene::Wrap::clamp_to_edge:
+      return x < 0 ? 0 : size - 1;
+    case scene::Wrap::mirrored_repeat: {
+      int m = x % (2 * size);
+      if (m < 0) m += 2 * size;
+      return m < size ? m : 2 * size - 1 - m;
+    }
+    case scene::Wrap::repeat:
+      break;
+  }
+  const int m = x % size;
+  return m < 0 ? m + size : m;
+}
+
+/// In texels. Coordinates without meaning (not finite, or beyond what an int can count) read as 0.
+float texels_from(float coordinate, int size) {
+  const float x = coordinate * static_cast<float>(size);
+  return std::abs(x) < 1e9f ? x : 0.0f;
+}
+
+}  // namespace
+
+Textures::Textures(const scene::Scene& scene) {
+  lookups_.resize(scene.textures.size());
+  // Which encodings of which image some material reads.
+  std::vector<std::array<bool, 2>> needed(scene.images.size(), {false, false});
+  const auto need = [&](const scene::TextureSlot& slot, Encoding encoding) {
+    if (!slot) return;
+    const int image = scene.textures[static_cast<std::size_t>(slot.texture)].image;
+    if (image >= 0) needed[static_cast<std::size_t>(image)][static_cast<std::size_t>(encoding)] = true;
+  };
+  for (const scene::Material& m : scene.materials) {
+    need(m.base_color_texture, Encoding::srgb);
+    need(m.emission_texture, Encoding::srgb);
+    need(m.specular_color_texture, Encoding::srgb);
+    need(m.sheen_color_texture, Encoding::srgb);
+    for (const scene::TextureSlot* slot :
+         {&m.metallic_roughness_texture, &m.normal_texture, &m.specular_texture, &m.transmission_texture,
+          &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,
+          &m.sheen_roughness_texture}) {
+      need(*slot, Encoding::linear);
+    }
+  }
+
+  struct Job {
+    std::size_t image;
+    Encoding encoding;
+    Pyramid* pyramid;
+  };
+  std::vector<Job> jobs;
+  std::vector<std::array<const Pyramid*, 2>> by_image(scene.images.size(), {nullptr, nullptr});
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    if (scene.images[i].width <= 0 || scene.images[i].height <= 0) continue;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (!needed[i][e]) continue;
+      pyramids_.push_back(std::make_unique<Pyramid>());
+      by_image[i][e] = pyramids_.back().get();
+      jobs.push_back({i, static_cast<Encoding>(e), pyramids_.back().get()});
+    }
+  }
+
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+    const scene::Image& image = scene.images[jobs[j].image];
+    Pyramid& pyramid = *jobs[j].pyramid;
+    FloatLevel level = to_float(image, jobs[j].encoding);
+    int width = image.width;
+    int height = image.height;
+    std::size_t total = 0;
+    for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
+      total += stored_texels(w, h);
+      if (w == 1 && h == 1) break;
+    }
+    pyramid.texels.resize(total);
+    std::size_t offset = 0;
+    for (;;) {
+      pyramid.levels.push_back({width, height, offset});
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          const std::size_t texel =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+          pyramid.texels[offset + block_index(width, x, y)] =
+              offset == 0 ? pack_source(image, texel) : pack(level[texel], jobs[j].encoding);
+        }
+      }
+      offset += stored_texels(width, height);
+      if (width == 1 && height == 1) break;
+      if (width > 1) {
+        level = halve(level, width, height, true);
+        width /= 2;
+      }
+      if (height > 1) {
+        level = halve(level, width, height, false);
+        height /= 2;
+      }
+    }
+    pyramid.mean = level[0];
+  });
+
+  for (std::size_t t = 0; t < scene.textures.size(); ++t) {
+    const scene::Texture& texture = scene.textures[t];
+    Lookup& lookup = lookups_[t];
+    lookup.wrap_s = texture.wrap_s;
+    lookup.wrap_t = texture.wrap_t;
+    lookup.nearest = texture.nearest;
+    if (texture.image >= 0) {
+      lookup.pyramid[0] = by_image[static_cast<std::size_t>(texture.image)][0];
+      lookup.pyramid[1] = by_image[static_cast<std::size_t>(texture.image)][1];
+    }
+  }
+}
+
+Vec4 Textures::lookup(const scene::TextureSlot& slot, Encoding encoding, const Vec2& uv, float footprint,
+                      float u_level) const {
+  const Lookup& lookup = lookups_[static_cast<std::size_t>(slot.texture)];
+  const Pyramid* pyramid = lookup.pyramid[static_cast<std::size_t>(encoding)];
+  if (!pyramid) return Vec4::Ones();
+  const Vec2 st = slot.transform.leftCols<2>() * uv + slot.transform.col(2);
+
+  std::size_t index = 0;
+  const int last = static_cast<int>(pyramid->levels.size()) - 1;
+  if (footprint > 0.0f && last > 0) {
+    // The transform's area scale carries the footprint from uv to st; one texel of level l is 2^l / size
+    // wide.
+    const float scale = std::sqrt(
+        std::abs(slot.transform(0, 0) * slot.transform(1, 1) - slot.transform(0, 1) * slot.transform(1, 0)));
+    const float size = static_cast<float>(std::max(pyramid->levels[0].width, pyramid->levels[0].height));
+    const float texels = footprint * scale * size;
+    // log2 by parts: the exponent plus a linear mantissa, within 0.09 of the true value.
+    if (texels > 1.0f) {
+      const std::uint32_t bits = std::bit_cast<std::uint32_t>(texels);
+      const float lod = static_cast<float>(bits) * (1.0f / (1 << 23)) - 127.0f;
+      index = static_cast<std::size_t>(std::clamp(static_cast<int>(lod + u_level), 0, last));
+    }
+  }
+  const Level& level = pyramid->levels[index];
+  const std::uint32_t* texels = pyramid->texels.data() + level.offset;
+
+  const auto decode = [&](std::uint32_t t) -> Vec4 {
+    if (encoding == Encoding::srgb) {
+      return {kSrgbToLinear[t & 255], kSrgbToLinear[t >> 8 & 255], kSrgbToLinear[t >> 16 & 255],
+              static_cast<float>(t >> 24) * (1.0f / 255.0f)};
+    }
+    return Vec4(static_cast<float>(t & 255), static_cast<float>(t >> 8 & 255),
+                static_cast<float>(t >> 16 & 255), static_cast<float>(t >> 24)) *
+           (1.0f / 255.0f);
+  };
+
+  const float x = texels_from(st.x(), level.width);
+  const float y = texels_from(st.y(), level.height);
+  if (lookup.nearest && index == 0) {
+    const int ix = wrap(static_cast<int>(std::floor(x)), level.width, lookup.wrap_s);
+    const int iy = wrap(static_cast<int>(std::floor(y)), level.height, lookup.wrap_t);
+    return decode(texels[block_index(level.width, ix, iy)]);
+  }
+  const float fx = std::floor(x - 0.5f);
+  const float fy = std::floor(y - 0.5f);
+  const float wx = x - 0.5f - fx;
+  const float wy = y - 0.5f - fy;
+  const int x0 = wrap(static_cast<int>(fx), level.width, lookup.wrap_s);
+  const int x1 = wrap(static_cast<int>(fx) + 1, level.width, lookup.wrap_s);
+  const int y0 = wrap(static_cast<int>(fy), level.height, lookup.wrap_t);
+  const int y1 = wrap(static_cast<int>(fy) + 1, level.height, lookup.wrap_t);
+  const Vec4 top = decode(texels[block_index(level.width, x0, y0)]) * (1.0f - wx) +
+                   decode(texels[block_index(level.width, x1, y0)]) * wx;
+  const Vec4 bottom = decode(texels[block_index(level.width, x0, y1)]) * (1.0f - wx) +
+                      decode(texels[block_index(level.width, x1, y1)]) * wx;
+  return top * (1.0f - wy) + bottom * wy;
+}
+
+Vec4 Textures::mean(const scene::TextureSlot& slot, Encoding encoding) const {
+  const Pyramid* pyramid =
+      lookups_[static_cast<std::size_t>(slot.texture)].pyramid[static_cast<std::size_t>(encoding)];
+  return pyramid ? pyramid->mean : Vec4::Ones();
+}
+
+std::size_t Textures::bytes() const {
+  std::size_t total = 0;
+  for (const auto& pyramid : pyramids_) total += pyramid->texels.size() * sizeof(std::uint32_t);
+  return total;
+}
+
+}  // namespace gatelight::renderer

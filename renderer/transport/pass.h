@@ -1,0 +1,34 @@
+#pragma once
+// A pass adds some samples to every pixel: what the render loop knows of an integrator.
+
+#include <cstdint>
+#include <functional>
+
+#include "renderer/film/film.h"
+#include "renderer/film/film_samples.h"
+#include "renderer/film/tiles.h"
+#include "renderer/settings/statistics.h"
+
+namespace gatelight::renderer {
+
+/// What a pass belongs to. All outlive it.
+struct PassContext {
+  const TileGrid& tiles;
+  const RenderOptions& options;
+  const Camera& camera;
+  const FilterSampler& filter;
+};
+
+class Pass {
+ public:
+  virtual ~Pass() = default;
+  /// Adds the samples first <= s < end to the film, in order for each pixel. Runs in the caller's arena;
+  /// `report` is told the fraction done, from any thread.
+  virtual void run(std::uint32_t first, std::uint32_t end, Film& film,
+                   const std::function<void(double)>& report) = 0;
+  /// Of all runs so far.
+  virtual SampleCounts counts() const = 0;
+  virtual RayCounts rays() const = 0;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,56 @@
+#include "renderer/transport/reference_pass.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+namespace gatelight::renderer {
+
+ReferencePass::ReferencePass(const World& world, const PassContext& context)
+    : context_(context),
+      path_(world, context.options),
+      ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)) {}
+
+void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
+                        const std::function<void(double)>& report) {
+  const TileGrid& tiles = context_.tiles;
+  const RenderOptions& options = context_.options;
+  std::atomic<int> finished{0};
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, tiles.count(), 1),
+      [&](const tbb::blocked_range<int>& range) {
+        Worker& w = workers_.local();
+        for (int tile = range.begin(); tile < range.end(); ++tile) {
+          tiles.pixels(tile, w.pixels);
+          w.results.resize(w.pixels.size());
+          if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
+          for (std::uint32_t sample = first; sample < end; ++sample) {
+            make_camera_samples(w.pixels, sample, options, context_.camera, context_.filter, w.samples);
+            if (options.integrator == Integrator::path) {
+              path_.trace(w.samples, w.results, w.first_hits, w.rays, w.path);
+            } else {
+              ao_.trace(w.samples, w.results, w.first_hits, w.rays, w.ao);
+            }
+            add_to_film(w.pixels, sample, options, w.results, w.first_hits, film, w.counts);
+          }
+          report(static_cast<double>(++finished) / tiles.count());
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+SampleCounts ReferencePass::counts() const {
+  SampleCounts sum;
+  for (const Worker& w : workers_) sum.add(w.counts);
+  keep_first(sum.located);
+  return sum;
+}
+
+RayCounts ReferencePass::rays() const {
+  RayCounts sum;
+  for (const Worker& w : workers_) sum.add(w.rays);
+  return sum;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,113 @@
+#pragma once
+// What all integrators that follow light do alike at a vertex: multiple importance sampling (Veach 1997) of
+// lights and directions, shadow rays, absorption, and the seeds of decisions that need no low discrepancy.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "renderer/settings/options.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+/// How much a wholly diffuse bounce widens a ray's cone, radians. The next hit's textures are then read at a
+/// level that stays in the cache, and their detail is averaged by the hemisphere anyway.
+inline constexpr float kDiffuseSpread = 0.25f;
+
+/// Panes do not count as scattering events; after this many surfaces more than events a path ends.
+inline constexpr int kMaxPassed = 1024;
+
+/// The weights of the two techniques that find light.
+struct MisRule {
+  DirectLight direct = DirectLight::mis;
+  MisHeuristic heuristic = MisHeuristic::power;
+
+  float light_weight(float light_pdf, float bsdf_pdf) const {
+    return weight(DirectLight::nee, DirectLight::bsdf, light_pdf, bsdf_pdf);
+  }
+  float bsdf_weight(float bsdf_pdf, float light_pdf) const {
+    if (light_pdf <= 0.0f) return 1.0f;
+    return weight(DirectLight::bsdf, DirectLight::nee, bsdf_pdf, light_pdf);
+  }
+
+ private:
+  float weight(DirectLight mine, DirectLight other, float pdf, float other_pdf) const {
+    if (direct == mine) return 1.0f;
+    if (direct == other) return 0.0f;
+    const float ratio = other_pdf / pdf;
+    return heuristic == MisHeuristic::balance ? 1.0f / (1.0f + ratio) : 1.0f / (1.0f + ratio * ratio);
+  }
+};
+
+/// The vertex that chose a ray's direction, panes not counted: what emission found by the ray is weighted
+/// with.
+struct Departure {
+  Vec3 position = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  ///< as next-event estimation saw it there
+  float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
+  float pdf = 0.0f;            ///< of the direction, per solid angle
+  bool delta = true;  ///< the direction came from the camera or a delta lobe: no light sample competes
+  int panes = 0;      ///< between `position` and the ray's origin
+
+  /// Whether a light sample from `position` could have brought what the ray meets.
+  bool competes() const { return !delta && panes <= Accel::kMaxPanes; }
+};
+
+/// Weight of the emission of a surface that a ray in `direction` met at distance t.
+inline float emission_weight(const World& world, const MisRule& mis, const Departure& departure,
+                             const Hit& hit, const Surface& surface, const Vec3& direction) {
+  if (!departure.competes() || surface.unlit) return 1.0f;
+  return mis.bsdf_weight(departure.pdf,
+                         world.lights.pdf_triangle(departure.position, departure.normal, hit.instance,
+                                                   hit.primitive, direction, departure.travelled + hit.t));
+}
+
+/// The same for a ray that left the scene.
+inline float sky_weight(const World& world, const MisRule& mis, const Departure& departure,
+                        const Vec3& direction) {
+  if (!departure.competes()) return 1.0f;
+  return mis.bsdf_weight(departure.pdf,
+                         world.lights.pdf_environment(departure.position, departure.normal, direction));
+}
+
+/// From a surface to a light sample. It ends before the light by what rounding may move both: a fraction of
+/// the distance instead would let what is close to a far lamp shine through, and a large lamp close by shadow
+/// itself.
+inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uint32_t seed) {
+  Ray ray;
+  ray.origin = surface.spawn(light.wi);
+  ray.direction = light.wi;
+  ray.t_max = light.distance - (light.offset + 2.0f * surface.offset) / light.cosine;
+  ray.seed = hash(seed ^ 0x5bd1e995u);
+  if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
+  return ray;
+}
+
+/// Per metre. Colour c after distance d: c = exp(-absorption d); a black channel absorbs within a thousandth
+/// of the distance.
+inline Color absorption_of(const scene::Material& m) {
+  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
+  // Finite, so that no distance makes it NaN.
+  return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
+}
+
+/// Russian roulette by the root of what is left: in bright rooms, where long paths carry much, roulette by
+/// the throughput itself costs more noise than it saves time (Country Kitchen: a tenth more noise in the same
+/// time). The throughput is of power: BsdfSample::radiance_scale, which comes back, is not in it.
+inline float survival_probability(const Color& throughput) {
+  return std::min(0.95f, std::sqrt(throughput.maxCoeff()));
+}
+
+/// Decisions of a path at a vertex, from the path's running seed.
+inline float roulette_number(std::uint32_t seed) {
+  return sampling::to_unit_float(hash(seed ^ 0x68bc21ebu));
+}
+inline float texture_level_number(std::uint32_t seed) {
+  return sampling::to_unit_float(hash(seed ^ 0x2545f491u));
+}
+inline std::uint32_t next_seed(std::uint32_t seed) {
+  return hash(seed + 0x9e3779b9u);
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,88 @@
+#pragma once
+// Paths are followed breadth first, in waves: all rays of a depth are traced together in packets, then all
+// hits are shaded, then all shadow rays are traced.
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "renderer/settings/statistics.h"
+#include "renderer/transport/trace_timer.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+/// Every ray that was traced, in order: benchmarks replay them.
+struct RayLog {
+  std::vector<Ray> camera;
+  std::vector<Ray> bounce;
+  std::vector<Ray> shadow;
+};
+
+/// The memory in which one thread follows its paths. `Pending` is a light sample on its way through the
+/// scene.
+template <typename Path, typename Pending>
+struct Waves {
+  RayLog* log = nullptr;  ///< none is kept where there is no log
+  std::vector<Path> paths;
+  std::vector<Ray> rays;  ///< one for each path
+  std::vector<Hit> hits;
+  std::vector<Ray> shadow_rays;
+  std::vector<Pending> pending;  ///< one for each shadow ray
+  std::vector<Color> transmittance;
+};
+
+/// How many hits ahead of shading their data is asked for.
+inline constexpr std::size_t kTriangleAhead = 8;
+inline constexpr std::size_t kVerticesAhead = 4;
+
+/// Follows the paths until none is left. `first_hits` is empty, or has the hits of the first rays.
+/// scatter(path, ray, hit): gives the path its next ray, or returns false where it ends; adds shadow rays and
+/// what waits for them. arrive(pending, transmittance): a light sample arrives.
+template <typename Path, typename Pending, typename Scatter, typename Arrive>
+void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
+                 RayCounts& counts, Scatter scatter, Arrive arrive) {
+  auto& [log, paths, rays, hits, shadow_rays, pending, transmittance] = waves;
+  const auto append = [](std::vector<Ray>& to, const std::vector<Ray>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (bool first = true; !paths.empty(); first = false) {
+    hits.resize(paths.size());
+    if (first && !first_hits.empty()) {
+      std::copy(first_hits.begin(), first_hits.end(), hits.begin());
+    } else {
+      (first ? counts.camera : counts.bounce) += paths.size();
+      const TraceTimer timer(counts);
+      world.accel.intersect(rays, hits, first);
+      if (log) append(first ? log->camera : log->bounce, rays);
+    }
+
+    shadow_rays.clear();
+    pending.clear();
+    std::size_t alive = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (i + kTriangleAhead < paths.size()) world.surfaces.prefetch_triangle(hits[i + kTriangleAhead]);
+      if (i + kVerticesAhead < paths.size()) world.surfaces.prefetch_vertices(hits[i + kVerticesAhead]);
+      if (!scatter(paths[i], rays[i], hits[i])) continue;
+      if (alive != i) {
+        paths[alive] = paths[i];
+        rays[alive] = rays[i];
+      }
+      ++alive;
+    }
+    paths.resize(alive);
+    rays.resize(alive);
+
+    counts.shadow += shadow_rays.size();
+    transmittance.resize(shadow_rays.size());
+    {
+      const TraceTimer timer(counts);
+      world.accel.transmittance(shadow_rays, transmittance);
+    }
+    if (log) append(log->shadow, shadow_rays);
+    for (std::size_t i = 0; i < pending.size(); ++i) arrive(pending[i], transmittance[i]);
+  }
+}
+
+}  // namespace gatelight::renderer
