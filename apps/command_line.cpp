@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/config_file.h"
-#include "apps/errors.h"
-#include "apps/help_format.h"
-#include "apps/results.h"
+#include "apps/settings/config_file.h"
+#include "apps/settings/help_format.h"
 #include "apps/subcommand.h"
-#include "apps/version.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/results.h"
+#include "apps/terminal/version.h"
 
 namespace gatelight::apps {
 namespace {

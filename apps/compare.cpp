@@ -6,15 +6,15 @@
 #include <array>
 #include <memory>
 
-#include "apps/compare_report.h"
-#include "apps/errors.h"
-#include "apps/file_names.h"
-#include "apps/flags.h"
-#include "apps/log.h"
-#include "apps/render_settings.h"
-#include "apps/results.h"
+#include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
+#include "apps/settings/file_names.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/render_settings.h"
 #include "apps/subcommand.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/results.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/metrics/merge.h"

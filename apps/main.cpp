@@ -4,8 +4,8 @@
 #include <exception>
 
 #include "apps/command_line.h"
-#include "apps/errors.h"
-#include "apps/signals.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/signals.h"
 
 int main(int argc, char** argv) {
   // Denormals cost a hundred cycles each and mean nothing here. TBB copies this state to its threads at its

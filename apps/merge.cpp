@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/errors.h"
-#include "apps/log.h"
-#include "apps/results.h"
 #include "apps/seeds.h"
 #include "apps/subcommand.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/results.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"

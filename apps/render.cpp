@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/cache_flags.h"
-#include "apps/render_flags.h"
 #include "apps/render_run.h"
-#include "apps/render_settings.h"
+#include "apps/settings/cache_flags.h"
+#include "apps/settings/render_flags.h"
+#include "apps/settings/render_settings.h"
 #include "apps/subcommand.h"
 
 namespace gatelight::apps {

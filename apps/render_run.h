@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/render_settings.h"
+#include "apps/settings/render_settings.h"
 
 namespace gatelight::apps {
 

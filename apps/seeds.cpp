@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/log.h"
+#include "apps/terminal/log.h"
 
 namespace gatelight::apps {
 

@@ -5,15 +5,15 @@
 #include <memory>
 #include <set>
 
-#include "apps/cache_choices.h"
-#include "apps/errors.h"
-#include "apps/flags.h"
-#include "apps/render_flags.h"
-#include "apps/render_settings.h"
+#include "apps/settings/cache_choices.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/render_flags.h"
+#include "apps/settings/render_settings.h"
 #include "apps/subcommand.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
 #include "apps/sweep/sweep_run.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

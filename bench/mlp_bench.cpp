@@ -7,7 +7,7 @@
 
 #include "bench/mlp_eigen.h"
 #include "bench/neural_rows.h"
-#include "neural/random.h"
+#include "neural/base/random.h"
 
 namespace gatelight::bench {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "neural/random.h"
-#include "neural/surface_layout.h"
+#include "neural/base/random.h"
+#include "neural/layout/surface_layout.h"
 
 namespace gatelight::bench {
 

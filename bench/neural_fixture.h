@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/backend.h"
+#include "neural/model/backend.h"
 
 namespace gatelight::bench {
 

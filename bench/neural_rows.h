@@ -9,7 +9,7 @@
 #include "bench/machine_limits.h"
 #include "bench/neural_fixture.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/training_options.h"
+#include "neural/model/training_options.h"
 #include "renderer/machine/threads.h"
 
 namespace gatelight::bench {

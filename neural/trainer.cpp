@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "neural/checks.h"
-#include "neural/errors.h"
-#include "neural/model_file.h"
+#include "neural/base/errors.h"
+#include "neural/file/model_file.h"
+#include "neural/model/checks.h"
 
 namespace gatelight::neural {
 

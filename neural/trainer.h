@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "neural/backend.h"
+#include "neural/model/backend.h"
 
 namespace gatelight::neural {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 

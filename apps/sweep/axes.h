@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/values.h"
+#include "apps/settings/values.h"
 
 namespace gatelight::apps {
 

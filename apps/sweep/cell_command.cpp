@@ -1,6 +1,6 @@
 #include "apps/sweep/cell_command.h"
 
-#include "apps/text.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 

@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "apps/cache_choices.h"
-#include "apps/cache_statistics.h"
-#include "apps/json_file.h"
-#include "apps/json_numbers.h"
-#include "apps/recipe.h"
+#include "apps/reports/cache_statistics.h"
+#include "apps/reports/json_file.h"
+#include "apps/reports/json_numbers.h"
+#include "apps/reports/recipe.h"
+#include "apps/settings/cache_choices.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/results.h"
-#include "apps/text.h"
-#include "apps/version.h"
+#include "apps/terminal/text.h"
+#include "apps/terminal/version.h"
 #include "renderer/film/pixel_filter.h"
 #include "scene/png_read.h"
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 #include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {

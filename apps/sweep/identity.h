@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "apps/render_settings.h"
-#include "neural/digest.h"
+#include "apps/settings/render_settings.h"
+#include "neural/file/digest.h"
 #include "renderer/identity/scene_fingerprint.h"
 #include "scene/scene.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/render_settings.h"
+#include "apps/settings/render_settings.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/flip.h"
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "apps/cache_choices.h"
-#include "apps/errors.h"
-#include "apps/render_words.h"
+#include "apps/settings/cache_choices.h"
+#include "apps/settings/render_words.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/render_settings.h"
+#include "apps/settings/render_settings.h"
 #include "apps/sweep/axes.h"
 #include "apps/sweep/flag_values.h"
 #include "apps/sweep/scene_names.h"
@@ -35,7 +35,7 @@ struct SweepRequest {
   std::vector<SweepBlock> blocks;
   std::vector<int> plain_spp;
   bool allow_external = false;  ///< of all scenes
-  bool plain = true;  ///< beside each integrator with a cache the one that it stands in for
+  bool plain = true;            ///< beside each integrator with a cache the one that it stands in for
   std::uint32_t first_seed = 1;
   int seeds = 1;
 };

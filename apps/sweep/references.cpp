@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/errors.h"
-#include "apps/json_file.h"
-#include "apps/log.h"
+#include "apps/reports/json_file.h"
 #include "apps/sweep/identity.h"
-#include "apps/text.h"
-#include "apps/version.h"
-#include "neural/errors.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/text.h"
+#include "apps/terminal/version.h"
+#include "neural/base/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"

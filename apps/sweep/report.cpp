@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/render_settings.h"
+#include "apps/settings/render_settings.h"
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
 #include "renderer/image/image_read.h"

@@ -6,11 +6,11 @@
 #include <limits>
 #include <set>
 
-#include "apps/cache_choices.h"
-#include "apps/errors.h"
-#include "apps/render_words.h"
+#include "apps/settings/cache_choices.h"
+#include "apps/settings/render_words.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

@@ -8,12 +8,12 @@
 #include <fstream>
 #include <set>
 
-#include "apps/errors.h"
-#include "apps/json_file.h"
+#include "apps/reports/json_file.h"
+#include "apps/settings/values.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/machine.h"
-#include "apps/values.h"
-#include "apps/version.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/version.h"
 #include "renderer/machine/threads.h"
 #include "renderer/surface/accel.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 

@@ -6,15 +6,15 @@
 #include <filesystem>
 #include <set>
 
-#include "apps/errors.h"
-#include "apps/log.h"
-#include "apps/recipe.h"
-#include "apps/signals.h"
+#include "apps/reports/recipe.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/tasks.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/signals.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "renderer/transport/ao_integrator.h"

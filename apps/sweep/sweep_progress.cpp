@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "apps/terminal.h"
-#include "apps/text.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 namespace {

@@ -5,9 +5,9 @@
 #include <mutex>
 #include <string>
 
-#include "apps/progress.h"
-#include "apps/stopwatch.h"
 #include "apps/sweep/eta.h"
+#include "apps/terminal/progress.h"
+#include "apps/terminal/stopwatch.h"
 
 namespace gatelight::apps {
 

@@ -8,11 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/errors.h"
-#include "apps/log.h"
-#include "apps/results.h"
-#include "apps/signals.h"
-#include "apps/stopwatch.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/folder_lock.h"
@@ -20,7 +15,12 @@
 #include "apps/sweep/results.h"
 #include "apps/sweep/scene_sweep.h"
 #include "apps/sweep/tasks.h"
-#include "apps/version.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/results.h"
+#include "apps/terminal/signals.h"
+#include "apps/terminal/stopwatch.h"
+#include "apps/terminal/version.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"

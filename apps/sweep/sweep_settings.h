@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/progress.h"
 #include "apps/sweep/plan.h"
+#include "apps/terminal/progress.h"
 
 namespace gatelight::apps {
 

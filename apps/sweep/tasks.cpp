@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "apps/cache_choices.h"
+#include "apps/settings/cache_choices.h"
 
 namespace gatelight::apps {
 namespace {

@@ -1,6 +1,6 @@
 #include "neural/cpu/adam_table.h"
 
-#include "neural/adam.h"
+#include "neural/learning/adam.h"
 
 namespace gatelight::neural::cpu {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "neural/cpu/kernels.h"
-#include "neural/training_options.h"
+#include "neural/model/training_options.h"
 
 namespace gatelight::neural::cpu {
 

@@ -9,16 +9,16 @@
 #include <cmath>
 #include <limits>
 
-#include "neural/adam.h"
-#include "neural/checks.h"
+#include "neural/base/errors.h"
+#include "neural/base/flush_denormals.h"
 #include "neural/cpu/adam_table.h"
 #include "neural/cpu/feature_store.h"
 #include "neural/cpu/kernel_model.h"
 #include "neural/cpu/node_references.h"
 #include "neural/cpu/packed_network.h"
-#include "neural/errors.h"
-#include "neural/flush_denormals.h"
-#include "neural/start_mean.h"
+#include "neural/learning/adam.h"
+#include "neural/learning/start_mean.h"
+#include "neural/model/checks.h"
 
 namespace gatelight::neural::cpu {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "neural/backend.h"
 #include "neural/cpu/isa.h"
+#include "neural/model/backend.h"
 
 namespace gatelight::neural::cpu {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "neural/half.h"
+#include "neural/base/half.h"
 
 namespace gatelight::neural::cpu {
 

@@ -5,7 +5,7 @@
 
 #include "neural/cpu/huge_buffer.h"
 #include "neural/cpu/kernels.h"
-#include "neural/state.h"
+#include "neural/model/state.h"
 
 namespace gatelight::neural::cpu {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::cpu {
 

@@ -1,10 +1,10 @@
 #pragma once
 // From the model's structs to the kernels'.
 
-#include "neural/batch.h"
+#include "neural/base/batch.h"
 #include "neural/cpu/isa.h"
 #include "neural/cpu/kernels.h"
-#include "neural/model.h"
+#include "neural/model/model.h"
 
 namespace gatelight::neural::cpu {
 

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "neural/gate_tables.h"
+#include "neural/layout/gate_tables.h"
 
 namespace gatelight::neural::cpu {
 

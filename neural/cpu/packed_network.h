@@ -8,7 +8,7 @@
 
 #include "neural/cpu/huge_buffer.h"
 #include "neural/cpu/kernels.h"
-#include "neural/model.h"
+#include "neural/model/model.h"
 
 namespace gatelight::neural::cpu {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural {
 

@@ -8,9 +8,9 @@
 #include <bit>
 #include <cmath>
 
+#include "neural/base/random.h"
 #include "neural/layout/cluster_table.h"
 #include "neural/layout/prefix_sum.h"
-#include "neural/random.h"
 
 namespace gatelight::neural {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural {
 

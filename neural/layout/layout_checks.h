@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 
 namespace gatelight::neural {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "neural/layout/surface_layout.h"
 #include "neural/layout/vector3.h"
 #include "neural/layout/vertex_corners.h"
-#include "neural/surface_layout.h"
 
 namespace gatelight::neural {
 

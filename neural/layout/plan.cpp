@@ -8,10 +8,10 @@
 #include <bit>
 #include <cmath>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
+#include "neural/layout/mesh_colors.h"
 #include "neural/layout/resolution.h"
 #include "neural/layout/surface_areas.h"
-#include "neural/mesh_colors.h"
 
 namespace gatelight::neural {
 

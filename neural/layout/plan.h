@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "neural/gate_layout.h"
 #include "neural/layout/clusters.h"
+#include "neural/layout/gate_layout.h"
 #include "neural/layout/mesh_topology.h"
 
 namespace gatelight::neural {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 #include "neural/layout/surface_areas.h"
 
 namespace gatelight::neural {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "neural/surface_layout.h"
+#include "neural/layout/surface_layout.h"
 
 namespace gatelight::neural {
 

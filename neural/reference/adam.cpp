@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "neural/adam.h"
+#include "neural/learning/adam.h"
 
 namespace gatelight::neural::reference {
 

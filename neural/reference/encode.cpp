@@ -1,6 +1,6 @@
 #include "neural/reference/encode.h"
 
-#include "neural/mesh_colors.h"
+#include "neural/layout/mesh_colors.h"
 #include "neural/reference/auxiliary.h"
 #include "neural/reference/hash_grid_encoding.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/hash_grid.h"
+#include "neural/layout/hash_grid.h"
 #include "neural/reference/node_weight.h"
 
 namespace gatelight::neural::reference {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "neural/training_options.h"
+#include "neural/model/training_options.h"
 
 namespace gatelight::neural::reference {
 

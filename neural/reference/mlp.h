@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/model.h"
+#include "neural/model/model.h"
 
 namespace gatelight::neural::reference {
 

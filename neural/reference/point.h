@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "neural/model.h"
+#include "neural/model/model.h"
 
 namespace gatelight::neural::reference {
 

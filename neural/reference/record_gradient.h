@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "neural/model/training_options.h"
 #include "neural/reference/point.h"
-#include "neural/training_options.h"
 
 namespace gatelight::neural::reference {
 

@@ -6,14 +6,14 @@
 #include <limits>
 #include <utility>
 
-#include "neural/adam.h"
-#include "neural/checks.h"
-#include "neural/half.h"
-#include "neural/record_status.h"
+#include "neural/base/half.h"
+#include "neural/learning/adam.h"
+#include "neural/learning/record_status.h"
+#include "neural/learning/start_mean.h"
+#include "neural/model/checks.h"
 #include "neural/reference/adam.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
-#include "neural/start_mean.h"
 
 namespace gatelight::neural::reference {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "neural/backend.h"
+#include "neural/model/backend.h"
 
 namespace gatelight::neural::reference {
 

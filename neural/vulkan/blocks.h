@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "neural/hash_grid.h"
-#include "neural/model.h"
+#include "neural/layout/hash_grid.h"
+#include "neural/model/model.h"
 
 namespace gatelight::neural::vulkan {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

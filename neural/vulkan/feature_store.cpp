@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "neural/half.h"
+#include "neural/base/half.h"
 
 namespace gatelight::neural::vulkan {
 

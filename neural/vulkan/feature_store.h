@@ -1,7 +1,7 @@
 #pragma once
 // The feature vectors, what Adam keeps of them, and counters, on the device.
 
-#include "neural/state.h"
+#include "neural/model/state.h"
 #include "neural/vulkan/table.h"
 
 namespace gatelight::neural::vulkan {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

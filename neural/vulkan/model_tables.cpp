@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "neural/base/errors.h"
 #include "neural/cpu/adam_table.h"
-#include "neural/errors.h"
 
 namespace gatelight::neural::vulkan {
 

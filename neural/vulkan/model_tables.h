@@ -1,7 +1,7 @@
 #pragma once
 // What never changes of a model, on the device.
 
-#include "neural/training_options.h"
+#include "neural/model/training_options.h"
 #include "neural/vulkan/table.h"
 
 namespace gatelight::neural::vulkan {

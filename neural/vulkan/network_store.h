@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "neural/state.h"
+#include "neural/model/state.h"
 #include "neural/vulkan/blocks.h"
 #include "neural/vulkan/transfer.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A batch's spans behind one another, after the block that says where: what one copy brings to the device.
 
-#include "neural/batch.h"
+#include "neural/base/batch.h"
 #include "neural/vulkan/blocks.h"
 
 namespace gatelight::neural::vulkan {

@@ -1,7 +1,7 @@
 #pragma once
 // The dispatches of a training step, in their order.
 
-#include "neural/training_options.h"
+#include "neural/model/training_options.h"
 #include "neural/vulkan/commands.h"
 #include "neural/vulkan/feature_store.h"
 #include "neural/vulkan/step_scratch.h"

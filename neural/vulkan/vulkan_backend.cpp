@@ -10,8 +10,8 @@
 #include <deque>
 #include <optional>
 
-#include "neural/checks.h"
-#include "neural/errors.h"
+#include "neural/base/errors.h"
+#include "neural/model/checks.h"
 #include "neural/vulkan/barrier.h"
 #include "neural/vulkan/errors.h"
 #include "neural/vulkan/machine.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/backend.h"
+#include "neural/model/backend.h"
 
 namespace gatelight::neural::vulkan {
 

@@ -1,6 +1,6 @@
 // Stands in for the folder in builds without Vulkan.
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "neural/vulkan/measured_limits.h"
 #include "neural/vulkan/vulkan_backend.h"
 

@@ -1,12 +1,12 @@
 #pragma once
-// A cache's part of a file: the model's tensors and metadata (neural/model_file.h) beside what the renderer
-// keeps with them.
+// A cache's part of a file: the model's tensors and metadata (neural/file/model_file.h) beside what the
+// renderer keeps with them.
 
 #include <array>
 #include <set>
 #include <string>
 
-#include "neural/model_file.h"
+#include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 
 namespace gatelight::renderer {

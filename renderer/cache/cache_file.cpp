@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/content_digest.h"
+#include "neural/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/identity/named_texts.h"
 #include "renderer/machine/atomic_file.h"

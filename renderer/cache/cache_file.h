@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "neural/model_file.h"
+#include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/identity/scene_fingerprint.h"
 #include "renderer/settings/cache_options.h"

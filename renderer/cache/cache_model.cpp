@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "neural/base/errors.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/machine/errors.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "neural/mesh_colors.h"
+#include "neural/layout/mesh_colors.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/scene_layout.h"

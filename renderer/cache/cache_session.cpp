@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "neural/record_status.h"
+#include "neural/learning/record_status.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"

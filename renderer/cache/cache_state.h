@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "neural/state.h"
-#include "neural/surface_layout.h"
+#include "neural/layout/surface_layout.h"
+#include "neural/model/state.h"
 
 namespace gatelight::renderer {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "neural/mesh_colors.h"
+#include "neural/layout/mesh_colors.h"
 #include "renderer/film/first_hit.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/finite_float.h"

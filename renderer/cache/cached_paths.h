@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/surface_layout.h"
+#include "neural/layout/surface_layout.h"
 #include "renderer/cache/held_light.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/settings/statistics.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/batch.h"
+#include "neural/base/batch.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/surface_layout.h"
+#include "neural/layout/surface_layout.h"
 #include "renderer/surface/ray.h"
 #include "scene/scene.h"
 

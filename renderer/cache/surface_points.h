@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "neural/batch.h"
-#include "neural/model.h"
+#include "neural/base/batch.h"
+#include "neural/model/model.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "neural/training_counts.h"
+#include "neural/learning/training_counts.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/film/tiles.h"
 #include "renderer/sampling/warp.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/film.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/safetensors.h"
+#include "neural/file/safetensors.h"
 #include "renderer/identity/scene_fingerprint.h"
 
 namespace gatelight::renderer {

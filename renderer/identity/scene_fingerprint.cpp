@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "neural/digest.h"
+#include "neural/file/digest.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "neural/content_digest.h"
+#include "neural/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/film/film_samples.h"
 #include "renderer/machine/atomic_file.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "neural/safetensors.h"
+#include "neural/file/safetensors.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/film/film.h"
 #include "renderer/identity/named_texts.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "neural/flush_denormals.h"
+#include "neural/base/flush_denormals.h"
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cached_pass.h"

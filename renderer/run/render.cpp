@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "neural/errors.h"
-#include "neural/flush_denormals.h"
+#include "neural/base/errors.h"
+#include "neural/base/flush_denormals.h"
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_report.h"

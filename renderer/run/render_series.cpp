@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "neural/flush_denormals.h"
+#include "neural/base/flush_denormals.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "neural/model.h"
-#include "neural/training_options.h"
+#include "neural/model/model.h"
+#include "neural/model/training_options.h"
 
 namespace gatelight::renderer {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "neural/model_description.h"
+#include "neural/model/model_description.h"
 
 namespace gatelight::renderer {
 

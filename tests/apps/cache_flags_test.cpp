@@ -1,6 +1,6 @@
 // The flags of a cache, read without a scene.
 
-#include "apps/cache_flags.h"
+#include "apps/settings/cache_flags.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/config_file.h"
-#include "apps/errors.h"
-#include "apps/help_format.h"
-#include "apps/recipe.h"
-#include "apps/render_flags.h"
+#include "apps/reports/recipe.h"
+#include "apps/settings/config_file.h"
+#include "apps/settings/help_format.h"
+#include "apps/settings/render_flags.h"
+#include "apps/terminal/errors.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::apps {

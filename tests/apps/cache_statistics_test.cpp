@@ -1,12 +1,12 @@
-#include "apps/cache_statistics.h"
+#include "apps/reports/cache_statistics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/cache_report_text.h"
-#include "apps/run_report.h"
+#include "apps/reports/cache_report_text.h"
+#include "apps/reports/run_report.h"
 
 namespace gatelight::apps {
 namespace {
@@ -108,8 +108,8 @@ TEST(CacheStatistics, AreSummedUpForPeople) {
   renderer::CacheStatistics s = some_statistics();
   EXPECT_THAT(cache_summary(s),
               AllOf(HasSubstr("128 steps (chosen)"), HasSubstr("2.10 M records"), HasSubstr("loss 0.25"),
-                    HasSubstr("scout 0.50, setup 0.75, train 8.00"), HasSubstr("query 1.50"), HasSubstr("12 345 nodes"),
-                    HasSubstr("10 of 40 sides"), HasSubstr("1.00 MiB")));
+                    HasSubstr("scout 0.50, setup 0.75, train 8.00"), HasSubstr("query 1.50"),
+                    HasSubstr("12 345 nodes"), HasSubstr("10 of 40 sides"), HasSubstr("1.00 MiB")));
   s.steps = 100;
   s.steps_chosen = false;
   EXPECT_THAT(cache_summary(s), AllOf(HasSubstr("100 of 128 steps,"), Not(HasSubstr("chosen"))));

@@ -1,11 +1,11 @@
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <new>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"

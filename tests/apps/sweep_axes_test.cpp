@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/errors.h"
 #include "apps/sweep/request.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

@@ -8,12 +8,12 @@
 
 #include <set>
 
-#include "apps/errors.h"
-#include "apps/render_words.h"
+#include "apps/settings/render_words.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

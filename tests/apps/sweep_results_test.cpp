@@ -10,12 +10,12 @@
 #include <set>
 #include <sstream>
 
-#include "apps/errors.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/machine.h"
 #include "apps/sweep/request.h"
-#include "apps/version.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/version.h"
 #include "renderer/image/image_write.h"
 #include "tests/temporary_folder.h"
 

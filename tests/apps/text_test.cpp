@@ -1,4 +1,4 @@
-#include "apps/text.h"
+#include "apps/terminal/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/values.h"
+#include "apps/settings/values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/results.h"
 #include "apps/sweep/report.h"
+#include "apps/terminal/results.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 1;

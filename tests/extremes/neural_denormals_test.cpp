@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "neural/flush_denormals.h"
+#include "neural/base/flush_denormals.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 

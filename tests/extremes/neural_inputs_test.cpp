@@ -1,6 +1,6 @@
 // Inputs: points at borders and beyond, directions that are none.
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 

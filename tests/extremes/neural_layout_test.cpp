@@ -1,7 +1,7 @@
 // Layouts: numbers of nodes, sizes of scenes and triangles, memory.
 
-#include "neural/errors.h"
-#include "neural/mesh_colors.h"
+#include "neural/base/errors.h"
+#include "neural/layout/mesh_colors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 

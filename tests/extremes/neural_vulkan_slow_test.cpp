@@ -1,6 +1,6 @@
 // Vulkan beside the reference at the same extremes.
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"

@@ -1,7 +1,7 @@
 // Training: extremes of what learns: resolutions, feature vectors, weights.
 
-#include "neural/errors.h"
-#include "neural/half.h"
+#include "neural/base/errors.h"
+#include "neural/base/half.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 

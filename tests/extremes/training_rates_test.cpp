@@ -1,7 +1,7 @@
 // Training: extremes of the learning rate and of step counters.
 
-#include "neural/adam.h"
-#include "neural/errors.h"
+#include "neural/base/errors.h"
+#include "neural/learning/adam.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 

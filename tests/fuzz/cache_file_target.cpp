@@ -1,7 +1,7 @@
 // --cache-in: the bytes as they are, and with the digest that they ask for, as somebody would write them who
 // means harm.
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/cache/cache_file.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_cache.h"

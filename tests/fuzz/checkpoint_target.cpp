@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/run/checkpoint.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_cache.h"

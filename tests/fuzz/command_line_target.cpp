@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "apps/command_line.h"
-#include "apps/errors.h"
-#include "apps/render_words.h"
+#include "apps/settings/render_words.h"
 #include "apps/sweep/plan.h"
 #include "apps/sweep/request.h"
+#include "apps/terminal/errors.h"
 #include "renderer/machine/errors.h"
 #include "tests/fuzz/input_file.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/command_line.h"
-#include "apps/errors.h"
+#include "apps/terminal/errors.h"
 #include "tests/fuzz/input_file.h"
 
 namespace gatelight::fuzz {

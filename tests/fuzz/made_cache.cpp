@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "neural/content_digest.h"
+#include "neural/base/errors.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/errors.h"
+#include "neural/file/content_digest.h"
 #include "renderer/cache/cache_model.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/neural/held_state.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/errors.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/gate_memory.h"
@@ -12,6 +11,7 @@
 #include "apps/sweep/report.h"
 #include "apps/sweep/request.h"
 #include "apps/sweep/results.h"
+#include "apps/terminal/errors.h"
 #include "tests/fuzz/input_file.h"
 
 namespace gatelight::fuzz {

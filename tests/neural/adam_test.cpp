@@ -1,4 +1,4 @@
-#include "neural/adam.h"
+#include "neural/learning/adam.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "neural/adam.h"
+#include "neural/learning/adam.h"
 #include "neural/reference/reference_backend.h"
 #include "tests/neural/model_cases.h"
 

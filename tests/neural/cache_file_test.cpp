@@ -6,10 +6,10 @@
 #include <functional>
 #include <initializer_list>
 
+#include "neural/base/errors.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/errors.h"
-#include "neural/model_file.h"
-#include "neural/safetensors.h"
+#include "neural/file/model_file.h"
+#include "neural/file/safetensors.h"
 #include "neural/trainer.h"
 #include "tests/neural/held_state.h"
 #include "tests/neural/model_cases.h"

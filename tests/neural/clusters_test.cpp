@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "neural/mesh_colors.h"
+#include "neural/layout/mesh_colors.h"
 #include "tests/neural/meshes.h"
 
 namespace gatelight::neural {

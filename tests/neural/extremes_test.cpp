@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "tests/neural/parity.h"
 
 namespace gatelight::neural {

@@ -1,4 +1,4 @@
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <numeric>
 #include <set>
 
-#include "neural/errors.h"
-#include "neural/mesh_colors.h"
+#include "neural/base/errors.h"
+#include "neural/layout/mesh_colors.h"
 #include "tests/neural/meshes.h"
 
 namespace gatelight::neural {

@@ -11,11 +11,11 @@
 #include <functional>
 #include <set>
 
+#include "neural/model/state.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/loss.h"
 #include "neural/reference/mlp.h"
 #include "neural/reference/record_gradient.h"
-#include "neural/state.h"
 #include "tests/neural/model_cases.h"
 
 namespace gatelight::neural::reference {

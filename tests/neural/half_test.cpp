@@ -1,4 +1,4 @@
-#include "neural/half.h"
+#include "neural/base/half.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "neural/hash_grid.h"
+#include "neural/layout/hash_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural {
 namespace {

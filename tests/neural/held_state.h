@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "neural/backend.h"
-#include "neural/checks.h"
-#include "neural/half.h"
-#include "neural/random.h"
+#include "neural/base/half.h"
+#include "neural/base/random.h"
+#include "neural/model/backend.h"
+#include "neural/model/checks.h"
 
 namespace gatelight::neural::testing {
 

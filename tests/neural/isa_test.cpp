@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::cpu {
 namespace {

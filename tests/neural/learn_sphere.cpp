@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "neural/base/random.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/random.h"
-#include "neural/surface_layout.h"
+#include "neural/layout/surface_layout.h"
 #include "neural/trainer.h"
 
 namespace {

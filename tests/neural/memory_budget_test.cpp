@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "neural/errors.h"
-#include "neural/mesh_colors.h"
+#include "neural/base/errors.h"
+#include "neural/layout/mesh_colors.h"
 #include "tests/neural/meshes.h"
 
 namespace gatelight::neural {

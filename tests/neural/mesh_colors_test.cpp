@@ -1,4 +1,4 @@
-#include "neural/mesh_colors.h"
+#include "neural/layout/mesh_colors.h"
 
 #include <gtest/gtest.h>
 

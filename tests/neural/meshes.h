@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "neural/mesh_colors.h"
-#include "neural/random.h"
+#include "neural/base/random.h"
+#include "neural/layout/mesh_colors.h"
 
 namespace gatelight::neural::testing {
 

@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "neural/batch.h"
-#include "neural/model.h"
-#include "neural/random.h"
-#include "neural/training_options.h"
+#include "neural/base/batch.h"
+#include "neural/base/random.h"
+#include "neural/model/model.h"
+#include "neural/model/training_options.h"
 
 namespace gatelight::neural::testing {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "neural/cpu/cpu_backend.h"
-#include "neural/record_status.h"
+#include "neural/learning/record_status.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/mlp.h"
 #include "neural/reference/reference_backend.h"

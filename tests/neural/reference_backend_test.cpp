@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "neural/errors.h"
-#include "neural/half.h"
+#include "neural/base/errors.h"
+#include "neural/base/half.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
 #include "tests/neural/model_cases.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 #include "tests/neural/meshes.h"
 
 namespace gatelight::neural {

@@ -1,4 +1,4 @@
-#include "neural/safetensors.h"
+#include "neural/file/safetensors.h"
 
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <functional>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "tests/temporary_folder.h"
 
 namespace gatelight::neural {

@@ -1,4 +1,4 @@
-#include "neural/training_counts.h"
+#include "neural/learning/training_counts.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "neural/random.h"
-#include "neural/surface_layout.h"
+#include "neural/base/random.h"
+#include "neural/layout/surface_layout.h"
 
 namespace gatelight::neural {
 namespace {

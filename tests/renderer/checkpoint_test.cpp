@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/machine/atomic_file.h"
 #include "tests/renderer/cached_state.h"
 #include "tests/temporary_folder.h"

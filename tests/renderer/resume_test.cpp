@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
+#include "neural/base/errors.h"
 #include "neural/cpu/isa.h"
-#include "neural/errors.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 #include "tests/renderer/kinds_of_pictures.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <functional>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/cache/cache_content.h"
 #include "tests/renderer/cached_state.h"
 #include "tests/temporary_folder.h"

@@ -1,5 +1,5 @@
 #version 460
-// Before the first step: the mean target of the accepted records (neural/start_mean.h) becomes the output's bias, so
+// Before the first step: the mean target of the accepted records (neural/learning/start_mean.h) becomes the output's bias, so
 // that the network starts with the right brightness. One workgroup; Push::argument: the first output bias.
 #extension GL_GOOGLE_include_directive : require
 
@@ -34,7 +34,7 @@ uint count_up_to(uint o, uint bits) {
   return all;
 }
 
-// What a target counts for at most: a hundred times the median magnitude (neural/start_mean.h). The bits of
+// What a target counts for at most: a hundred times the median magnitude (neural/learning/start_mean.h). The bits of
 // positive floats are in their order.
 float most_of(uint o) {
   uint low = 0u, high = 0x7f7fffffu;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
 
 namespace gatelight::neural::testing {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 
 namespace gatelight::neural::vulkan {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "neural/errors.h"
+#include "neural/base/errors.h"
 #include "renderer/machine/errors.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/statistics.h"

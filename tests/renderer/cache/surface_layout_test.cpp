@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "neural/gate_layout.h"
+#include "neural/layout/gate_layout.h"
 #include "renderer/cache/surface_points.h"
 #include "tests/renderer/built_world.h"
 #include "tests/renderer/scene_builder.h"

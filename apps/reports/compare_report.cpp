@@ -1,0 +1,140 @@
+#include "apps/reports/compare_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "apps/reports/json_numbers.h"
+#include "apps/settings/render_settings.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+using renderer::ErrorMetrics;
+
+constexpr std::array<Choice<Metric>, 8> kMetrics{{{"mse", Metric::mse},
+                                                  {"rel_mse", Metric::rel_mse},
+                                                  {"psnr", Metric::psnr},
+                                                  {"mean", Metric::mean},
+                                                  {"max", Metric::max},
+                                                  {"ssim", Metric::ssim},
+                                                  {"flip", Metric::flip},
+                                                  {"hdr_flip", Metric::hdr_flip}}};
+
+struct Value {
+  const char* key;
+  double ErrorMetrics::*member;
+};
+
+/// Those that are plain numbers.
+std::vector<Value> values_of(Metric metric) {
+  switch (metric) {
+    case Metric::mse:
+      return {{"mse", &ErrorMetrics::mse}};
+    case Metric::rel_mse:
+      return {{"rel_mse", &ErrorMetrics::rel_mse}};
+    case Metric::psnr:
+      return {{"psnr", &ErrorMetrics::psnr}};
+    case Metric::mean:
+      return {{"mean_error", &ErrorMetrics::mean_error}, {"mean_difference", &ErrorMetrics::mean_difference}};
+    case Metric::max:
+      return {{"max_error", &ErrorMetrics::max_error}};
+    case Metric::ssim:
+    case Metric::flip:
+    case Metric::hdr_flip:
+      break;
+  }
+  return {};
+}
+
+const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) {
+  return metric == Metric::flip ? report.flip.value() : report.hdr_flip.value();
+}
+
+bool is_flip(Metric metric) {
+  return metric == Metric::flip || metric == Metric::hdr_flip;
+}
+
+ordered_json ssim_json(const CompareReport& report) {
+  if (!report.ssim) return nullptr;
+  return {{"mean", *report.ssim},
+          {"exposure", report.flip_options.exposure},
+          {"tonemap", name_of(tonemap_choices(), report.flip_options.tonemap)}};
+}
+
+ordered_json flip_json(const CompareReport& report, Metric metric) {
+  const renderer::FlipResult& flip = flip_of(report, metric);
+  const renderer::FlipSummary& s = flip.summary;
+  ordered_json json = {{"mean", s.mean},
+                       {"weighted_median", s.weighted_median},
+                       {"first_quartile", s.first_quartile},
+                       {"third_quartile", s.third_quartile},
+                       {"min", s.min},
+                       {"max", s.max},
+                       {"pixels_per_degree", report.flip_options.pixels_per_degree}};
+  if (metric == Metric::flip) {
+    json["exposure"] = report.flip_options.exposure;
+    json["tonemap"] = name_of(tonemap_choices(), report.flip_options.tonemap);
+  } else {
+    json["start_exposure"] = flip.start_exposure;
+    json["stop_exposure"] = flip.stop_exposure;
+    json["exposures"] = flip.exposures;
+  }
+  return json;
+}
+
+std::string flip_text(const CompareReport& report, Metric metric) {
+  const std::string name = name_of(metric_choices(), metric);
+  const renderer::FlipSummary& s = flip_of(report, metric).summary;
+  return fmt::format("{:<16} {:.6g}, weighted quartiles {:.6g} {:.6g} {:.6g}, from {:.6g} to {:.6g}\n", name,
+                     s.mean, s.first_quartile, s.weighted_median, s.third_quartile, s.min, s.max);
+}
+
+}  // namespace
+
+Choices<Metric> metric_choices() {
+  return kMetrics;
+}
+
+std::string compare_json(const CompareReport& report) {
+  ordered_json json = {
+      {"schema", 1},
+      {"reference", report.references.front()},
+      {"test", report.tests.front()},
+      {"width", report.width},
+      {"height", report.height},
+      {"pixels", report.errors.pixels},
+      {"nonfinite",
+       {{"reference", report.errors.nonfinite_reference}, {"test", report.errors.nonfinite_test}}}};
+  if (report.bias_rel_mse) {
+    json["halves"] = {report.references.back(), report.tests.back()};
+  }
+  for (const Metric metric : report.metrics) {
+    for (const Value& value : values_of(metric)) json[value.key] = json_number(report.errors.*value.member);
+    if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
+    if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
+    if (is_flip(metric)) json[name_of(metric_choices(), metric)] = flip_json(report, metric);
+  }
+  if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string compare_text(const CompareReport& report) {
+  std::string text;
+  for (const Metric metric : report.metrics) {
+    for (const Value& value : values_of(metric)) {
+      text += fmt::format("{:<16} {:.6g}{}\n", value.key, report.errors.*value.member,
+                          metric == Metric::psnr ? " dB" : "");
+    }
+    if (metric == Metric::ssim)
+      text += report.ssim ? fmt::format("{:<16} {:.6g}\n", "ssim", *report.ssim) : "ssim             -\n";
+    if (is_flip(metric)) text += flip_text(report, metric);
+  }
+  if (report.bias_rel_mse) text += fmt::format("{:<16} {:.6g}\n", "bias_rel_mse", *report.bias_rel_mse);
+  return text;
+}
+
+}  // namespace gatelight::apps

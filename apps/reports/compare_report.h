@@ -1,0 +1,35 @@
+#pragma once
+// What `compare` has measured, as text and as JSON.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/settings/values.h"
+#include "renderer/metrics/compare.h"
+#include "renderer/metrics/flip.h"
+
+namespace gatelight::apps {
+
+enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, ssim, flip, hdr_flip };
+
+Choices<Metric> metric_choices();
+
+struct CompareReport {
+  std::vector<std::string> references;  ///< files: one, or two halves
+  std::vector<std::string> tests;
+  int width = 0;
+  int height = 0;
+  std::vector<Metric> metrics;  ///< that were asked for, in the order of the report
+  renderer::ErrorMetrics errors;
+  renderer::FlipOptions flip_options;        ///< exposure and curve also of ssim
+  std::optional<double> ssim;                ///< none: not asked for, or smaller than its window
+  std::optional<renderer::FlipResult> flip;  ///< there where it is asked for, as hdr_flip
+  std::optional<renderer::FlipResult> hdr_flip;
+  std::optional<double> bias_rel_mse;  ///< of halves
+};
+
+std::string compare_text(const CompareReport& report);
+std::string compare_json(const CompareReport& report);
+
+}  // namespace gatelight::apps

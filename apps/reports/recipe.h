@@ -1,0 +1,27 @@
+#pragma once
+// What made a picture, so that it can be made again.
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/settings/render_settings.h"
+#include "renderer/settings/statistics.h"
+
+namespace gatelight::apps {
+
+/// Every option with the value that was used, by the name of its flag. Options that cannot change the picture
+/// (threads, progress, names of outputs) are left out where `reproducible` is set.
+nlohmann::ordered_json resolved_options(const RenderSettings& settings);
+
+/// The same as JSON text.
+std::string dump_options(const RenderSettings& settings);
+
+/// The EXR header's strings.
+std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
+                                               const std::vector<std::string>& command,
+                                               const renderer::RenderStatistics& statistics,
+                                               double seconds_so_far);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,34 @@
+#pragma once
+// What a run did, for people and for programs.
+
+#include <string>
+#include <vector>
+
+#include "apps/settings/render_settings.h"
+#include "renderer/settings/statistics.h"
+
+namespace gatelight::apps {
+
+struct RunReport {
+  std::vector<std::string> command;
+  renderer::RenderStatistics statistics;
+  double load_seconds = 0.0;
+  double write_seconds = 0.0;
+  double total_seconds = 0.0;
+  std::vector<std::string> warnings;
+  int signal = 0;  ///< that asked for the end; 0: none
+};
+
+/// Largest resident memory of this process so far, in bytes.
+std::size_t peak_resident_bytes();
+
+/// The statistics file (schema 1), one JSON object with a line break at its end.
+std::string stats_json(const RenderSettings& settings, const RunReport& report);
+
+/// A few lines, each with its line break.
+std::string summary(const RenderSettings& settings, const RunReport& report);
+
+/// After a signal: how far it came, in training where that was cut short, and what there is of it.
+std::string stop_notice(const RenderSettings& settings, const RunReport& report);
+
+}  // namespace gatelight::apps

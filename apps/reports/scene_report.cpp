@@ -1,0 +1,203 @@
+#include "apps/reports/scene_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "apps/reports/json_values.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/text.h"
+#include "renderer/film/memory_estimate.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+using scene::SceneRequirements;
+
+struct Requirement {
+  const char* key;
+  bool SceneRequirements::*flag;
+};
+constexpr Requirement kRequirements[] = {
+    {"two_sided", &SceneRequirements::two_sided},
+    {"view_dependent", &SceneRequirements::view_dependent},
+    {"alpha_mask", &SceneRequirements::alpha_mask},
+    {"alpha_blend", &SceneRequirements::alpha_blend},
+    {"transmission", &SceneRequirements::transmission},
+    {"volumes", &SceneRequirements::volumes},
+    {"clearcoat", &SceneRequirements::clearcoat},
+    {"sheen", &SceneRequirements::sheen},
+    {"unlit", &SceneRequirements::unlit},
+    {"normal_maps", &SceneRequirements::normal_maps},
+    {"vertex_colors", &SceneRequirements::vertex_colors},
+    {"base_color_textures", &SceneRequirements::base_color_textures},
+    {"metallic_roughness_textures", &SceneRequirements::metallic_roughness_textures},
+    {"emission_textures", &SceneRequirements::emission_textures},
+    {"other_textures", &SceneRequirements::other_textures},
+    {"instances", &SceneRequirements::instances},
+    {"delta_lights", &SceneRequirements::delta_lights},
+    {"directional_lights", &SceneRequirements::directional_lights},
+};
+
+const char* name_of_type(scene::LightType type) {
+  switch (type) {
+    case scene::LightType::directional:
+      return "directional";
+    case scene::LightType::point:
+      return "point";
+    case scene::LightType::spot:
+      return "spot";
+  }
+  return "";
+}
+
+const char* name_of_type(const scene::Camera& camera) {
+  return camera.orthographic ? "orthographic" : "perspective";
+}
+
+class Rows {
+ public:
+  /// Names of the file may hold anything: a terminal gets nothing to obey.
+  void add(const std::string& name, const std::string& value) {
+    text_ += fmt::format("{:<14} {}\n", name, one_line(value));
+  }
+
+  /// The first entry beside the name, the others below it.
+  void add_list(const std::string& name, const std::vector<std::string>& entries) {
+    if (entries.empty()) add(name, "none");
+    for (std::size_t i = 0; i < entries.size(); ++i) add(i == 0 ? name : "", entries[i]);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneRequirements& requirements) {
+  std::vector<std::string> lines;
+  for (const scene::PunctualLight& light : scene.lights) {
+    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}", name_of_type(light.type),
+                                light.name, light.intensity.x(), light.intensity.y(), light.intensity.z()));
+  }
+  if (requirements.emissive_triangles > 0) {
+    lines.push_back(fmt::format("{} emissive triangles of {} materials",
+                                format_integer(requirements.emissive_triangles),
+                                requirements.emissive_materials));
+  }
+  return lines;
+}
+
+std::vector<std::string> describe_cameras(const scene::Scene& scene) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const scene::Camera& camera = scene.cameras[i];
+    const std::string lens = camera.orthographic
+                                 ? fmt::format("{:.4g} m high", 2.0f * camera.half_height)
+                                 : fmt::format("{:.4g} degrees", camera.vertical_fov * 180.0f / scene::kPi);
+    lines.push_back(fmt::format("{} '{}', {}, {}", i, camera.name, name_of_type(camera), lens));
+  }
+  return lines;
+}
+
+/// In the file's coordinates.
+scene::Box file_bounds(const scene::Scene& scene) {
+  scene::Box bounds = scene.bounds;
+  if (!bounds.isEmpty()) bounds.translate(scene.origin);
+  return bounds;
+}
+
+std::string describe_bounds(const scene::Box& bounds) {
+  if (bounds.isEmpty()) return "empty";
+  const scene::Vec3& low = bounds.min();
+  const scene::Vec3& high = bounds.max();
+  return fmt::format("{:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m, diagonal {:.4g} m", low.x(), low.y(),
+                     low.z(), high.x(), high.y(), high.z(), (high - low).norm());
+}
+
+std::string describe_requirements(const SceneRequirements& requirements) {
+  std::vector<std::string_view> names;
+  for (const Requirement& requirement : kRequirements) {
+    if (requirements.*requirement.flag) names.emplace_back(requirement.key);
+  }
+  return names.empty() ? "nothing special" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+SceneReport make_scene_report(const scene::Scene& scene, double load_seconds) {
+  SceneReport report;
+  report.requirements = scene::compute_requirements(scene);
+  for (const scene::Mesh& mesh : scene.meshes) report.triangles_stored += mesh.triangles.size();
+  report.triangles = scene::count_triangles(scene);
+  report.geometry_bytes = scene::geometry_bytes(scene);
+  report.image_bytes = scene::image_bytes(scene);
+  const renderer::RenderOptions defaults;
+  report.render_bytes = renderer::estimate_memory(scene, defaults).total();
+  report.load_seconds = load_seconds;
+  return report;
+}
+
+std::string scene_report_text(const scene::Scene& scene, const SceneReport& report) {
+  Rows rows;
+  rows.add("scene", scene.path);
+  rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(report.triangles_stored),
+                                    format_integer(report.triangles)));
+  rows.add("meshes", format_integer(scene.meshes.size()));
+  rows.add("instances", format_integer(scene.instances.size()));
+  rows.add("materials", format_integer(scene.materials.size()));
+  rows.add("textures", fmt::format("{} of {} images", scene.textures.size(), scene.images.size()));
+  rows.add_list("lights", describe_lights(scene, report.requirements));
+  rows.add_list("cameras", describe_cameras(scene));
+  rows.add_list("variants", scene.variants);
+  rows.add("bounds", describe_bounds(file_bounds(scene)));
+  rows.add("requires", describe_requirements(report.requirements));
+  rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
+                                 format_bytes(report.geometry_bytes), format_bytes(report.image_bytes),
+                                 format_bytes(report.render_bytes)));
+  rows.add("loaded in", fmt::format("{:.2f} s", report.load_seconds));
+  return rows.text();
+}
+
+ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& report) {
+  const SceneRequirements& requirements = report.requirements;
+  ordered_json json;
+  json["schema"] = 1;
+  json["scene"] = scene.path;
+  json["triangles_stored"] = report.triangles_stored;
+  json["triangles"] = report.triangles;
+  json["meshes"] = scene.meshes.size();
+  json["instances"] = scene.instances.size();
+  json["materials"] = scene.materials.size();
+  json["textures"] = scene.textures.size();
+  json["images"] = scene.images.size();
+  json["lights"] = ordered_json::array();
+  for (const scene::PunctualLight& light : scene.lights) {
+    json["lights"].push_back({{"name", light.name}, {"type", name_of_type(light.type)}});
+  }
+  json["cameras"] = ordered_json::array();
+  for (const scene::Camera& camera : scene.cameras) {
+    json["cameras"].push_back({{"name", camera.name}, {"type", name_of_type(camera)}});
+  }
+  json["variants"] = scene.variants;
+  if (!scene.bounds.isEmpty()) {
+    const scene::Box bounds = file_bounds(scene);
+    json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
+  }
+  for (const Requirement& requirement : kRequirements) {
+    json["requirements"][requirement.key] = requirements.*requirement.flag;
+  }
+  json["requirements"]["emissive_triangles"] = requirements.emissive_triangles;
+  json["requirements"]["emissive_materials"] = requirements.emissive_materials;
+  json["memory_bytes"] = {{"geometry", report.geometry_bytes},
+                          {"images", report.image_bytes},
+                          {"render_estimate", report.render_bytes}};
+  json["seconds"] = {{"load", report.load_seconds}};
+  json["warnings"] = scene.warnings;
+  return json;
+}
+
+}  // namespace gatelight::apps

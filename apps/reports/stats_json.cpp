@@ -1,0 +1,96 @@
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/reports/cache_statistics.h"
+#include "apps/reports/recipe.h"
+#include "apps/reports/run_report.h"
+#include "apps/terminal/version.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Rises when a key changes its meaning or goes away.
+constexpr int kSchema = 1;
+
+ordered_json nonfinite(const renderer::RenderStatistics& statistics) {
+  ordered_json samples = ordered_json::array();
+  for (const renderer::NonFiniteSample& s : statistics.nonfinite_samples) {
+    samples.push_back({{"x", s.x}, {"y", s.y}, {"sample", s.sample}, {"seed", s.seed}});
+  }
+  return {{"count", statistics.nonfinite}, {"samples", samples}};
+}
+
+ordered_json seconds(const RunReport& report, bool with_cache) {
+  const renderer::RenderStatistics& s = report.statistics;
+  const renderer::CacheStatistics& cache = s.cache;
+  ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
+  if (with_cache) {
+    json["scout"] = cache.scout_seconds;
+    json["setup"] = cache.setup_seconds;
+    json["train"] = cache.train_seconds;
+    json["train_trace"] = cache.train_trace_seconds;
+    json["train_query"] = cache.train_query_seconds;
+    json["train_step"] = cache.train_step_seconds;
+  }
+  json["render"] = s.render_seconds;
+  if (with_cache) {
+    json["render_trace"] = cache.render_trace_seconds;
+    json["render_query"] = cache.render_query_seconds;
+  } else {
+    json["render_trace"] = s.threads > 0 ? s.rays.seconds / s.threads : 0.0;
+  }
+  json["write"] = report.write_seconds;
+  json["total"] = report.total_seconds;
+  return json;
+}
+
+}  // namespace
+
+std::size_t peak_resident_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+std::string stats_json(const RenderSettings& settings, const RunReport& report) {
+  const renderer::RenderStatistics& s = report.statistics;
+  const bool with_cache = renderer::uses_cache(settings.render.integrator);
+  ordered_json json;
+  json["schema"] = kSchema;
+  json["version"] = version();
+  json["command"] = report.command;
+  json["scene"] = settings.scene;
+  json["options"] = resolved_options(settings);
+  json["outputs"] = settings.outputs;
+  json["isa"] = s.isa;
+  json["threads"] = s.threads;
+  json["device"] = with_cache ? settings.render.cache.device : "cpu";
+  json["width"] = s.width;
+  json["height"] = s.height;
+  json["spp"] = s.spp;
+  json["samples"] = s.samples;
+  json["interrupted"] = s.interrupted;
+  if (report.signal != 0) json["signal"] = report.signal;
+  json["seconds"] = seconds(report, with_cache);
+  json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};
+  json["memory_bytes"] = {{"geometry", s.geometry_bytes},
+                          {"bvh", s.bvh_bytes},
+                          {"textures", s.texture_bytes},
+                          {"lights", s.light_bytes}};
+  if (with_cache) {
+    json["memory_bytes"].update(cache_memory_json(s.cache));
+    json["train"] = training_json(s.cache);
+    json["cache"] = cache_json(s.cache);
+  }
+  json["memory_bytes"]["peak_rss"] = peak_resident_bytes();
+  json["nonfinite"] = nonfinite(s);
+  json["clamped"] = s.clamped;
+  json["warnings"] = report.warnings;
+  // A file name need not be UTF-8; the statistics must be.
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,43 @@
+#include "apps/settings/file_names.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "apps/terminal/errors.h"
+#include "renderer/machine/atomic_file.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const std::string& name) {
+  return !name.empty() && name != "-";
+}
+
+/// What cannot be looked at stays as it is named: it will be refused for that.
+fs::path place_of(const std::string& name) {
+  std::error_code error;
+  const fs::path file = renderer::replaced_file(fs::absolute(name, error));
+  const fs::path folder = fs::weakly_canonical(file.parent_path(), error);
+  return error ? file.lexically_normal() : folder / file.filename();
+}
+
+}  // namespace
+
+void FileNames::read(std::string_view flag, const std::string& name) {
+  if (is_file(name)) flags_.emplace(place_of(name), flag);
+}
+
+void FileNames::write(std::string_view flag, const std::string& name, std::string_view may_replace) {
+  if (!is_file(name)) return;
+  const auto [entry, is_new] = flags_.emplace(place_of(name), flag);
+  if (is_new || entry->second == may_replace) return;
+  if (entry->second == flag)
+    throw UsageError(fmt::format("{}: '{}' is named twice, expected different files", flag, name));
+  throw UsageError(
+      fmt::format("{}: '{}' is the file of {} too, expected another", flag, name, entry->second));
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,43 @@
+#include "apps/terminal/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace gatelight::apps {
+namespace {
+
+spdlog::logger& logger() {
+  static const std::shared_ptr<spdlog::logger> instance = [] {
+    auto made = spdlog::stderr_color_mt("gatelight");
+    made->set_pattern("%n: %^%l%$: %v");
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void set_log_level(LogLevel level) {
+  switch (level) {
+    case LogLevel::errors:
+      logger().set_level(spdlog::level::err);
+      break;
+    case LogLevel::warnings:
+      logger().set_level(spdlog::level::warn);
+      break;
+    case LogLevel::details:
+      logger().set_level(spdlog::level::info);
+      break;
+  }
+}
+
+// The text is an argument, never a format: file names may hold braces.
+void log_warning(const std::string& text) {
+  logger().warn("{}", text);
+}
+
+void log_detail(const std::string& text) {
+  logger().info("{}", text);
+}
+
+}  // namespace gatelight::apps

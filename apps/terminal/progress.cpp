@@ -1,0 +1,160 @@
+#include "apps/terminal/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// JSON lines end up in log files: one a second is enough. A bar may move faster.
+constexpr double kJsonInterval = 1.0;
+constexpr double kBarInterval = 0.1;
+
+const char* name_of(renderer::Phase phase) {
+  switch (phase) {
+    case renderer::Phase::scout:
+      return "scout";
+    case renderer::Phase::train:
+      return "train";
+    case renderer::Phase::render:
+      return "render";
+  }
+  return "";
+}
+
+/// What the bar tells of a phase beside its fraction.
+std::string measures(const renderer::Progress& progress, double samples_per_second) {
+  if (progress.phase == renderer::Phase::train) {
+    return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);
+  }
+  if (progress.phase == renderer::Phase::render) {
+    return fmt::format("  {}/{} spp  {}{}samples/s", progress.spp_done, progress.spp,
+                       format_count(samples_per_second), samples_per_second < 999.5 ? " " : "");
+  }
+  return "";
+}
+
+}  // namespace
+
+ProgressReporter::ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds)
+    : mode_(mode), pixels_(pixels), time_limit_seconds_(time_limit_seconds) {
+  if (mode_ == ProgressMode::automatic) {
+    mode_ = ::isatty(STDERR_FILENO) == 1 ? ProgressMode::bar : ProgressMode::none;
+  }
+}
+
+ProgressReporter::~ProgressReporter() {
+  clear();
+}
+
+void ProgressReporter::phase(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  if (mode_ == ProgressMode::json) {
+    print_json_line({{"event", "phase"}, {"phase", name}});
+  } else if (mode_ == ProgressMode::bar) {
+    clear_line();
+    tell(fmt::format("{} ...", name));
+    std::fflush(stderr);
+    line_shown_ = true;
+  }
+}
+
+void ProgressReporter::update(const renderer::Progress& progress) {
+  const std::lock_guard lock(mutex_);
+  if (mode_ == ProgressMode::none) return;
+  const bool first = enter_phase(progress);
+  const bool last = progress.fraction >= 1.0;
+  const auto now = std::chrono::steady_clock::now();
+  const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
+  if (!first && !last && std::chrono::duration<double>(now - last_).count() < interval) return;
+  last_ = now;
+  if (mode_ == ProgressMode::bar) {
+    show_bar(progress, rates(progress));
+  } else {
+    show_json(progress, rates(progress));
+  }
+}
+
+bool ProgressReporter::enter_phase(const renderer::Progress& progress) {
+  if (phase_ == progress.phase) return false;
+  phase_ = progress.phase;
+  first_ = progress;
+  return true;
+}
+
+ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progress) const {
+  Rates rates;
+  const double seconds = progress.seconds - first_.seconds;
+  const double done = progress.fraction - first_.fraction;
+  if (done > 0.0) rates.eta_seconds = seconds / done * std::max(0.0, 1.0 - progress.fraction);
+  if (progress.phase != renderer::Phase::render) return rates;
+  if (seconds > 0.0) rates.samples_per_second = done * pixels_ * progress.spp / seconds;
+  if (time_limit_seconds_ > 0.0) {
+    const double left = std::max(0.0, time_limit_seconds_ - progress.seconds);
+    rates.eta_seconds = rates.eta_seconds < 0.0 ? left : std::min(rates.eta_seconds, left);
+  }
+  return rates;
+}
+
+void ProgressReporter::show_json(const renderer::Progress& progress, const Rates& rates) {
+  nlohmann::ordered_json line = {
+      {"event", "progress"}, {"phase", name_of(progress.phase)}, {"fraction", progress.fraction}};
+  if (progress.phase == renderer::Phase::train) {
+    line["steps_done"] = progress.steps_done;
+    line["steps"] = progress.steps;
+    line["loss"] = progress.loss;
+  } else if (progress.phase == renderer::Phase::render) {
+    line["spp_done"] = progress.spp_done;
+    line["spp"] = progress.spp;
+    line["samples_per_second"] = rates.samples_per_second;
+  }
+  line["seconds"] = progress.seconds;
+  if (rates.eta_seconds >= 0.0) line["eta_seconds"] = rates.eta_seconds;
+  print_json_line(line);
+}
+
+void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
+  const std::string name = name_of(progress.phase);
+  const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,
+                                          measures(progress, rates.samples_per_second),
+                                          rates.eta_seconds < 0.0 ? "?" : format_duration(rates.eta_seconds));
+  // "NAME [" and "]", and the last column stays free: some terminals wrap there.
+  const int room = terminal_columns() - static_cast<int>(name.size() + numbers.size()) - 4;
+  const int width = std::clamp(room, 0, 40);
+  const int filled = static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * width));
+  clear_line();
+  if (width >= 8) tell(fmt::format("{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled));
+  tell(numbers);
+  std::fflush(stderr);
+  line_shown_ = true;
+}
+
+bool ProgressReporter::done(const std::vector<std::string>& outputs, double seconds) {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+  if (mode_ != ProgressMode::json) return false;
+  print_json_line({{"event", "done"}, {"outputs", outputs}, {"seconds", seconds}});
+  return true;
+}
+
+void ProgressReporter::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void ProgressReporter::clear_line() {
+  if (!line_shown_) return;
+  tell("\r\x1b[K");
+  std::fflush(stderr);
+  line_shown_ = false;
+}
+
+}  // namespace gatelight::apps

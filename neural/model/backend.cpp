@@ -1,0 +1,18 @@
+#include "neural/model/backend.h"
+
+#include "neural/base/errors.h"
+
+namespace gatelight::neural {
+
+void Backend::start(const TrainingBatch& batch) {
+  made_.push_back(train(batch));
+}
+
+StepStatistics Backend::finish() {
+  if (made_.empty()) throw BadConfiguration("finish: no step was started");
+  const StepStatistics oldest = made_.front();
+  made_.pop_front();
+  return oldest;
+}
+
+}  // namespace gatelight::neural
