@@ -26,7 +26,7 @@ struct PlacementRounding {
 
 /// Metres along the normal that a point on the triangle and an intersection with it may be off: rounding in
 /// the corners, the interpolation and the intersection test is some units in the last place of the largest
-/// coordinate; 16 of them were enough from 1e-3 to 1e6 metres (tests/renderer/accel_test.cpp).
+/// coordinate; 16 of them were enough from 1e-3 to 1e6 metres (tests/renderer/surface/accel_test.cpp).
 inline float rounding_offset(const scene::Vec3& p0, const scene::Vec3& p1, const scene::Vec3& p2,
                              const PlacementRounding& placement) {
   constexpr float kUlps = 16.0f * 0x1p-23f;

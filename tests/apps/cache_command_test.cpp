@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "renderer/image/image_read.h"
-#include "tests/apps/process.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "tests/apps/process.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {

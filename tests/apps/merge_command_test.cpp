@@ -7,9 +7,9 @@
 
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "tests/apps/process.h"
-#include "tests/apps/tiny_scene.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 namespace {

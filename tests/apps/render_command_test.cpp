@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "renderer/image/image_read.h"
-#include "tests/apps/process.h"
-#include "tests/apps/tiny_scene.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 namespace {

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/apps/process.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {

@@ -8,8 +8,8 @@
 #include "renderer/machine/errors.h"
 #include "renderer/render.h"
 #include "tests/extremes/extreme.h"
-#include "tests/renderer/room.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/room.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {

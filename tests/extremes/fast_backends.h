@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/neural/parity.h"
+#include "tests/support/parity.h"
 
 namespace gatelight::neural::testing {
 

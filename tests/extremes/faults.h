@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/process.h"
-#include "tests/apps/tiny_scene.h"
 #include "tests/extremes/extreme.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 

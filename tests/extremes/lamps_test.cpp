@@ -6,8 +6,8 @@
 #include "renderer/transport/scattering.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
-#include "tests/renderer/built_world.h"
-#include "tests/statistics.h"
+#include "tests/support/built_world.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "renderer/film/film.h"
 #include "tests/extremes/extreme.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -6,9 +6,9 @@
 #include "renderer/transport/scattering.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/room.h"
-#include "tests/statistics.h"
+#include "tests/support/built_world.h"
+#include "tests/support/room.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/extremes/scene_file.h"
-#include "tests/renderer/room.h"
+#include "tests/support/room.h"
 
 namespace gatelight::renderer {
 namespace {

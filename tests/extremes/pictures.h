@@ -8,8 +8,8 @@
 
 #include "renderer/render.h"
 #include "scene/bounds.h"
-#include "tests/renderer/room.h"
-#include "tests/renderer/scene_builder.h"
+#include "tests/support/room.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::testing {
 

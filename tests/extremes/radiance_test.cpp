@@ -10,9 +10,9 @@
 #include "renderer/light/environment_picture.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
-#include "tests/renderer/room.h"
-#include "tests/statistics.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/room.h"
+#include "tests/support/statistics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {

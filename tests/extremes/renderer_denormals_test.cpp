@@ -11,7 +11,7 @@
 
 #include "renderer/render.h"
 #include "tests/extremes/extreme.h"
-#include "tests/renderer/room.h"
+#include "tests/support/room.h"
 
 namespace gatelight::renderer {
 namespace {

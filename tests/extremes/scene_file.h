@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace gatelight::testing {
 

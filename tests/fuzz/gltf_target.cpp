@@ -8,7 +8,7 @@
 #include "scene/requirements.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_glb.h"
-#include "tests/scene/scene_fault.h"
+#include "tests/support/scene_fault.h"
 
 namespace gatelight::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/fuzz/targets.h"
-#include "tests/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::fuzz {
 

@@ -9,9 +9,9 @@
 #include "neural/file/content_digest.h"
 #include "renderer/cache/cache_model.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/neural/held_state.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
+#include "tests/support/built_world.h"
+#include "tests/support/held_state.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::fuzz {
 namespace {

@@ -10,8 +10,8 @@
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_glb.h"
-#include "tests/fuzz/png_checksums.h"
-#include "tests/scene/scene_fault.h"
+#include "tests/support/png_checksums.h"
+#include "tests/support/scene_fault.h"
 
 namespace gatelight::fuzz {
 namespace {

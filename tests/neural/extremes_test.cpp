@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "neural/base/errors.h"
-#include "tests/neural/parity.h"
+#include "tests/support/parity.h"
 
 namespace gatelight::neural {
 namespace {

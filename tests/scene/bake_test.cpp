@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace gatelight::scene {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/scene/gltf_builder.h"
-#include "tests/scene/scene_fault.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/scene_fault.h"
 
 namespace gatelight::scene {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace gatelight::scene {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/fuzz/png_checksums.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/png_checksums.h"
 
 namespace gatelight::scene {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace gatelight::scene {
 namespace {

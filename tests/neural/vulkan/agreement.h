@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "tests/neural/parity.h"
 #include "tests/neural/vulkan/device.h"
+#include "tests/support/parity.h"
 
 namespace gatelight::neural::testing {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "neural/trainer.h"
-#include "tests/neural/held_state.h"
 #include "tests/neural/vulkan/agreement.h"
+#include "tests/support/held_state.h"
 
 namespace gatelight::neural {
 namespace {

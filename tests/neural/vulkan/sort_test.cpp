@@ -9,8 +9,8 @@
 #include "neural/vulkan/step_scratch.h"
 #include "neural/vulkan/submission.h"
 #include "neural/vulkan/transfer.h"
-#include "tests/neural/model_cases.h"
 #include "tests/neural/vulkan/device.h"
+#include "tests/support/model_cases.h"
 
 namespace gatelight::neural::vulkan {
 namespace {

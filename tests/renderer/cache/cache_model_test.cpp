@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/settings/presets.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
+#include "tests/support/built_world.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -12,7 +12,7 @@
 #include "neural/base/errors.h"
 #include "renderer/machine/errors.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -7,7 +7,7 @@
 #include "renderer/machine/errors.h"
 #include "renderer/render.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

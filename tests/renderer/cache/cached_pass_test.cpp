@@ -9,7 +9,7 @@
 
 #include "renderer/render.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

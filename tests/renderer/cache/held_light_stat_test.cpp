@@ -13,9 +13,9 @@
 #include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/film/camera.h"
 #include "renderer/transport/path_integrator.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
-#include "tests/statistics.h"
+#include "tests/support/built_world.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "renderer/cache/occlusion_records.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "renderer/cache/radiance_records.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

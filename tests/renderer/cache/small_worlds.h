@@ -9,8 +9,8 @@
 #include "renderer/film/camera.h"
 #include "renderer/film/film.h"
 #include "renderer/settings/options.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
+#include "tests/support/built_world.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::testing {
 

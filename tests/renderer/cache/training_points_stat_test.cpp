@@ -10,9 +10,9 @@
 #include "neural/layout/gate_layout.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/training_points.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
-#include "tests/statistics.h"
+#include "tests/support/built_world.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -12,8 +12,8 @@
 #include <set>
 
 #include "renderer/cache/scene_layout.h"
-#include "tests/renderer/built_world.h"
-#include "tests/renderer/scene_builder.h"
+#include "tests/support/built_world.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -1,0 +1,133 @@
+// Training and answers are the same, bit for bit, for any number of threads.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "neural/cpu/cpu_backend.h"
+#include "neural/trainer.h"
+#include "tests/support/model_cases.h"
+
+namespace gatelight::neural {
+namespace {
+
+using namespace testing;
+using cpu::Isa;
+
+constexpr int kThreads[] = {1, 2, 7};
+
+template <class F>
+auto on_threads(int threads, F&& body) {
+  // The control lets the arena have more threads than the machine has cores.
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
+  tbb::task_arena arena(threads);
+  return arena.execute(body);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Outcome {
+  ModelState state;
+  std::vector<double> losses;
+  std::vector<float> answers;  // fp32, then bf16
+  std::string file;
+};
+
+Outcome train(const std::shared_ptr<const Model>& model, const TrainingOptions& options, Isa isa,
+              std::span<const OwnedBatch> batches, int steps) {
+  Trainer trainer(model, options, cpu::make_cpu_backend(model, options, isa));
+  Outcome outcome;
+  for (int step = 0; step < steps; ++step)
+    outcome.losses.push_back(
+        trainer.train(batches[static_cast<std::size_t>(step) % batches.size()].training()).loss);
+  outcome.state = trainer.backend().export_state();
+  const OwnedBatch& points = batches[0];
+  const std::size_t count = points.size() * model->config.mlp.outputs;
+  outcome.answers.resize(2 * count);
+  const std::span<float> out = outcome.answers;
+  trainer.query(points.points(), {}, out.first(count));
+  trainer.query(points.points(), {QueryPrecision::bf16}, out.last(count));
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("gatelight_determinism_{}.safetensors", getpid());
+  trainer.save(path, "determinism");
+  outcome.file = read_bytes(path);
+  std::filesystem::remove(path);
+  return outcome;
+}
+
+void expect_same_for_any_threads(const std::string& name, const std::shared_ptr<const Model>& model,
+                                 const TrainingOptions& options, std::span<const OwnedBatch> batches,
+                                 int steps) {
+  for (const Isa isa : cpu::available_isas()) {
+    Outcome first;
+    for (const int threads : kThreads) {
+      SCOPED_TRACE(fmt::format("{} {} {} threads", name, isa_name(isa), threads));
+      Outcome outcome = on_threads(threads, [&] { return train(model, options, isa, batches, steps); });
+      if (threads == kThreads[0]) {
+        first = std::move(outcome);
+        EXPECT_GT(first.file.size(), 1000u);
+        continue;
+      }
+      EXPECT_TRUE(outcome.state == first.state);
+      EXPECT_EQ(outcome.losses, first.losses);
+      EXPECT_EQ(std::memcmp(outcome.answers.data(), first.answers.data(), first.answers.size() * 4), 0);
+      EXPECT_TRUE(outcome.file == first.file) << "cache files differ";
+    }
+  }
+}
+
+std::vector<OwnedBatch> batches_of(const Model& model, std::span<const std::size_t> sizes, float crowded) {
+  std::vector<OwnedBatch> batches;
+  for (const std::size_t size : sizes)
+    batches.push_back(make_batch(
+        model, size, 40 + size, {.nonfinite = 0.02f, .unstored = 0.02f, .border = 0.1f, .crowded = crowded}));
+  return batches;
+}
+
+// The kernels' chunks hold 768 records.
+constexpr std::size_t kSizes[] = {1600, 768, 1, 769, 0, 100};
+
+TEST(Determinism, AHundredStepsAreTheSameForAnyNumberOfThreads) {
+  for (const char* name : {"nrc", "hash_F4"}) {
+    const ModelCase c = find_model_case(name);
+    for (const FeatureUpdate update : {FeatureUpdate::sparse, FeatureUpdate::dense}) {
+      TrainingOptions options;
+      options.update = update;
+      const auto batches = batches_of(*c.model, kSizes, 0.2f);
+      expect_same_for_any_threads(fmt::format("{}{}", name, update == FeatureUpdate::dense ? " dense" : ""),
+                                  c.model, options, batches, 100);
+    }
+  }
+}
+
+TEST(Determinism, EveryOptionIsTheSameForAnyNumberOfThreads) {
+  constexpr std::size_t kFew[] = {1600, 100};
+  for (const char* name : {"gate_L5_per_triangle", "hash_F3"}) {
+    const ModelCase c = find_model_case(name);
+    const auto batches = batches_of(*c.model, kFew, 0.5f);
+    for (const OptionsCase& o : all_training_options(*c.model))
+      expect_same_for_any_threads(fmt::format("{} {}", name, o.name), c.model, o.options, batches, 6);
+  }
+}
+
+// 65536 nodes and more: a thousand buckets of many nodes each, and one that all records meet in.
+TEST(Determinism, ManyNodesAreTheSameForAnyNumberOfThreads) {
+  ModelConfig config = default_gate_config();
+  config.gate.stack = {kMaxResolution, 1};
+  const ModelCase c = make_case("finest", config);
+  ASSERT_GT(c.model->parameters.node_count, 65536u);
+  constexpr std::size_t kLarge[] = {8000};
+  expect_same_for_any_threads("finest", c.model, {}, batches_of(*c.model, kLarge, 0.3f), 3);
+}
+
+}  // namespace
+}  // namespace gatelight::neural

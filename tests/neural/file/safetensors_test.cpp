@@ -1,0 +1,278 @@
+#include "neural/file/safetensors.h"
+
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <functional>
+
+#include "neural/base/errors.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::neural {
+namespace {
+
+using gatelight::tests::read_file;
+using gatelight::tests::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const CacheFileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string file_bytes(std::uint64_t length, const std::string& header, const std::string& data = "") {
+  std::string bytes(8, '\0');
+  std::memcpy(bytes.data(), &length, 8);
+  return bytes + header + data;
+}
+
+/// A file of this header, with so many bytes of data.
+std::string file_bytes(const std::string& header, std::size_t data_bytes) {
+  return file_bytes(header.size(), header, std::string(data_bytes, 'x'));
+}
+
+std::string reading(const TemporaryFolder& folder, const std::string& bytes) {
+  const auto path = folder.write("cache.safetensors", bytes);
+  return refusal([&] { SafetensorsReader reader(path); });
+}
+
+TEST(Safetensors, TensorsAndMetadataComeBack) {
+  const TemporaryFolder folder;
+  const std::array<float, 6> floats = {1.0f, -0.0f, 1e-42f, 3e38f, 0.1f, -7.0f};
+  const std::array<std::uint16_t, 3> halves = {0x3c00, 0x8000, 0x7bff};
+  const std::array<std::uint64_t, 1> count = {0xfedcba9876543210u};
+  const std::array<double, 2> sums = {0.1, -1e300};
+  const std::vector<TensorView> tensors = {
+      {"halves", TensorType::f16, {3}, std::as_bytes(std::span(halves))},
+      {"floats \"quoted\"", TensorType::f32, {2, 3}, std::as_bytes(std::span(floats))},
+      {"nothing", TensorType::u32, {0, 8}, {}},
+      {"count", TensorType::u64, {}, std::as_bytes(std::span(count))},
+      {"sums", TensorType::f64, {2}, std::as_bytes(std::span(sums))}};
+  const Metadata metadata = {{"name", "caf\u00e9 {\"a\": 1}\n"}, {"empty", ""}};
+  write_safetensors(folder / "a", tensors, metadata);
+
+  SafetensorsReader reader(folder / "a");
+  EXPECT_EQ(reader.metadata(), metadata);
+  EXPECT_THAT(reader.names(), ElementsAre("count", "floats \"quoted\"", "halves", "nothing", "sums"));
+  std::array<std::byte, 24> out;
+  for (const TensorView& tensor : tensors) {
+    reader.read(tensor.name, tensor.type, tensor.shape, std::span(out).first(tensor.data.size()));
+    EXPECT_TRUE(std::equal(tensor.data.begin(), tensor.data.end(), out.begin())) << tensor.name;
+  }
+  EXPECT_THAT(refusal([&] { reader.read("halves", TensorType::f32, tensors[0].shape, out); }),
+              AllOf(HasSubstr("'halves': F16 [3], expected F32 [3]")));
+  EXPECT_THAT(refusal([&] { reader.read("halves", TensorType::f16, tensors[1].shape, out); }),
+              HasSubstr("expected F16 [2, 3]"));
+  EXPECT_THAT(refusal([&] { reader.read("other", TensorType::f32, {}, out); }),
+              HasSubstr("'other' is missing"));
+  EXPECT_EQ(reader.length("sums", TensorType::f64), 2u);
+  EXPECT_THAT(refusal([&] { reader.length("sums", TensorType::u64); }),
+              HasSubstr("'sums': F64 [2], expected U64 [any]"));
+  EXPECT_THAT(refusal([&] { reader.length("count", TensorType::u64); }), HasSubstr("U64 [], expected U64"));
+  EXPECT_THAT(refusal([&] { reader.length("other", TensorType::u64); }), HasSubstr("'other' is missing"));
+}
+
+TEST(Safetensors, EachTensorIsAlignedToItsElements) {
+  const TemporaryFolder folder;
+  const std::array<std::byte, 24> zeros{};
+  const std::span bytes(zeros);
+  const std::vector<TensorView> tensors = {{"a", TensorType::f16, {3}, bytes.first(6)},
+                                           {"b", TensorType::f32, {1}, bytes.first(4)},
+                                           {"c", TensorType::u64, {3}, bytes.first(24)}};
+  write_safetensors(folder / "a", tensors, {});
+  const std::string file = read_file(folder / "a");
+  std::uint64_t length = 0;
+  std::memcpy(&length, file.data(), 8);
+  EXPECT_EQ(length % 8, 0u);
+  const std::string header = file.substr(8, length);
+  EXPECT_THAT(header, AllOf(HasSubstr("\"c\":{\"dtype\":\"U64\",\"shape\":[3],\"data_offsets\":[0,24]}"),
+                            HasSubstr("\"b\":{\"dtype\":\"F32\",\"shape\":[1],\"data_offsets\":[24,28]}"),
+                            HasSubstr("\"a\":{\"dtype\":\"F16\",\"shape\":[3],\"data_offsets\":[28,34]}")));
+  EXPECT_EQ(file.size(), 8 + length + 34);
+}
+
+TEST(Safetensors, BrokenLengthsAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(reading(folder, ""),
+              AllOf(HasSubstr("cache.safetensors"), HasSubstr("0 bytes, expected at least")));
+  EXPECT_THAT(reading(folder, "1234567"), HasSubstr("7 bytes"));
+  EXPECT_THAT(reading(folder, file_bytes(0, "")), HasSubstr("header of 0 bytes"));
+  EXPECT_THAT(reading(folder, file_bytes(3, "{}")), HasSubstr("header of 3 bytes, expected 2 to 2"));
+  EXPECT_THAT(reading(folder, file_bytes(~std::uint64_t{0}, "{}")),
+              HasSubstr("header of 18446744073709551615"));
+  EXPECT_THAT(reading(folder, file_bytes(std::uint64_t{1} << 63, "{}")),
+              HasSubstr("header of 9223372036854775808"));
+  const std::string large(std::size_t{1} << 20, ' ');
+  EXPECT_THAT(reading(folder, file_bytes("{}" + large, 0)),
+              HasSubstr("header of 1048578 bytes, expected 2 to 1048576"));
+  EXPECT_THAT(reading(folder, file_bytes("{}", 0)), "");
+}
+
+TEST(Safetensors, BrokenHeadersAreRefused) {
+  const TemporaryFolder folder;
+  const auto entry = [](const std::string& dtype, const std::string& shape, const std::string& offsets) {
+    return R"({"a":{"dtype":)" + dtype + R"(,"shape":)" + shape + R"(,"data_offsets":)" + offsets + "}}";
+  };
+  struct Case {
+    std::string header;
+    std::size_t data_bytes;
+    const char* expected;
+  };
+  const std::vector<Case> cases = {
+      {entry("\"F32\"", "[2,1]", "[0,8]"), 8, ""},
+      {"[]", 0, "does not begin with '{'"},
+      {" {}", 0, "does not begin with '{'"},
+      {"{\"a\":", 0, "no JSON"},
+      {"{} x", 0, "no JSON"},
+      {std::string("{}\0\0", 4), 0, "NUL byte"},
+      {"{\"\xff\":1}", 0, "no JSON"},
+      {std::string(100000, '['), 0, "does not begin"},
+      {"{\"a\":" + std::string(100000, '['), 0, "nested deeper than 3"},
+      {"{\"a\":[[" + std::string(50000, '[') + std::string(50000, ']') + "]]}", 0, "nested deeper than 3"},
+      {entry("[[1]]", "[1]", "[0,8]"), 8, "nested deeper than 3"},
+      {entry("[1]", "[1]", "[0,8]"), 8, "dtype [1], expected F16"},
+      {R"({"a":1})", 0, "'a' is no object"},
+      {R"({"__metadata__":{"k":1}})", 0, "metadata 'k' is no text"},
+      {R"({"__metadata__":"k"})", 0, "'__metadata__' is no object"},
+      {R"({"__metadata__":{"k":"1","k":"2"}})", 0, "'k' twice"},
+      {R"({"a":{"dtype":"F32","shape":[1]}})", 4, "expected dtype, shape and data_offsets"},
+      {entry("\"I64\"", "[1]", "[0,8]"), 8, "dtype \"I64\", expected F16"},
+      {entry("7", "[1]", "[0,8]"), 8, "dtype 7"},
+      {entry("\"F32\"", "2", "[0,8]"), 8, "shape 2"},
+      {entry("\"F32\"", "[-2]", "[0,8]"), 8, "shape [-2]"},
+      {entry("\"F32\"", "[2.0]", "[0,8]"), 8, "shape [2.0]"},
+      {entry("\"F32\"", "[1e400]", "[0,8]"), 8, "no JSON"},
+      {entry("\"F32\"", "[18446744073709551616]", "[0,8]"), 8, "shape ["},
+      {entry("\"F32\"", "[2]", "[0]"), 8, "data_offsets [0]"},
+      {entry("\"F32\"", "[2]", "[0,4,8]"), 8, "data_offsets [0,4,8]"},
+      {entry("\"F32\"", "[2]", "[-8,0]"), 8, "data_offsets [-8,0]"},
+      {entry("\"F32\"", "[2]", "[8,0]"), 8, "data_offsets [8, 0]"},
+      {entry("\"F32\"", "[3]", "[0,12]"), 8, "data_offsets [0, 12], but the file holds 8 bytes"},
+      {entry("\"F32\"", "[2]", "[18446744073709551608,18446744073709551615]"), 8,
+       "but the file holds 8 bytes"},
+      {entry("\"F32\"", "[3]", "[0,8]"), 8, "8 bytes do not make F32 of shape [3]"},
+      {entry("\"F16\"", "[2]", "[0,8]"), 8, "8 bytes do not make F16"},
+      // 2^62 floats and 2^33 x 2^31 of them: both have 0 bytes in 64 bits.
+      {entry("\"F32\"", "[4611686018427387904]", "[0,0]"), 0, "0 bytes do not make"},
+      {entry("\"F32\"", "[8589934592,2147483648]", "[0,0]"), 0, "0 bytes do not make"},
+      {entry("\"F32\"", "[1]", "[4,8]"), 8, "begins at byte 4 of the data, expected 0"},
+      {entry("\"F32\"", "[1]", "[0,4]"), 8, "end at byte 4 of the data, expected 8"},
+      {R"({"a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]},)"
+       R"("a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}})",
+       4, "'a' twice"},
+      {R"({"a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]},)"
+       R"("b":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}})",
+       4, "begins at byte 0 of the data, expected 4"},
+      {R"({"a":{"dtype":"F32","shape":[2],"data_offsets":[0,8]},)"
+       R"("b":{"dtype":"F32","shape":[2],"data_offsets":[4,12]}})",
+       12, "begins at byte 4 of the data, expected 8"},
+  };
+  for (const Case& c : cases) {
+    const std::string what = reading(folder, file_bytes(c.header, c.data_bytes));
+    if (*c.expected == '\0') {
+      EXPECT_EQ(what, "") << c.header;
+    } else {
+      EXPECT_THAT(what, AllOf(HasSubstr("cannot read"), HasSubstr(c.expected))) << c.header.substr(0, 200);
+    }
+  }
+}
+
+TEST(Safetensors, WhatIsNoFileIsRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(refusal([&] { SafetensorsReader reader(folder / "none"); }),
+              AllOf(HasSubstr("none"), HasSubstr("does not exist")));
+  EXPECT_THAT(refusal([&] { SafetensorsReader reader(folder.path()); }), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal([&] { write_safetensors(folder.path(), {}, {}); }), HasSubstr("it is a folder"));
+  EXPECT_THAT(refusal([&] { write_safetensors("/dev/null", {}, {}); }), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal([&] { write_safetensors(folder / "none/file", {}, {}); }),
+              AllOf(HasSubstr("cannot write"), HasSubstr("none/file"), HasSubstr("No such file")));
+  EXPECT_THAT(refusal([&] {
+                write_safetensors(folder / "file", {}, {{"k", "\xff"}});
+              }),
+              HasSubstr("not UTF-8"));
+  EXPECT_EQ(folder.count_files(), 0u);
+}
+
+TEST(Safetensors, ALinkToWhatIsNotThereYetIsFollowed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/file", folder / "link");
+  write_safetensors(folder / "link", {}, {{"k", "v"}});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(SafetensorsReader(folder / "there/file").metadata().at("k"), "v");
+}
+
+TEST(Safetensors, ASymbolicLinkStaysOne) {
+  const TemporaryFolder folder;
+  folder.write("there/file", "old");
+  std::filesystem::create_symlink("there/file", folder / "link");
+  write_safetensors(folder / "link", {}, {{"k", "v"}});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(SafetensorsReader(folder / "there/file").metadata().at("k"), "v");
+}
+
+/// No file of this process may grow beyond `bytes`: writing fails as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    old_handler_ = ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {bytes, old_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    ::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit old_{};
+  void (*old_handler_)(int) = nullptr;
+};
+
+TEST(Safetensors, AnOldFileStaysWholeWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("cache", "old");
+  const std::vector<std::byte> zeros(100000);
+  const std::vector<TensorView> tensors = {{"a", TensorType::f32, {25000}, zeros}};
+  for (const rlim_t limit : {0u, 1u, 9u, 4096u, 70000u}) {
+    const std::string what = [&] {
+      const FileSizeLimit full(limit);
+      return refusal([&] { write_safetensors(path, tensors, {}); });
+    }();
+    EXPECT_THAT(what, AllOf(HasSubstr("cannot write"), HasSubstr("cache"), HasSubstr("too large"))) << limit;
+    EXPECT_EQ(read_file(path), "old");
+    EXPECT_EQ(folder.count_files(), 1u);
+  }
+  // A small file is still in the buffer after the last write: it is closing it that fails.
+  const std::string what = [&] {
+    const FileSizeLimit full(5);
+    return refusal([&] { write_safetensors(path, {}, {}); });
+  }();
+  EXPECT_THAT(what, HasSubstr("too large"));
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(folder.count_files(), 1u);
+}
+
+TEST(Safetensors, AForeignTemporaryFileIsLeftAlone) {
+  const TemporaryFolder folder;
+  folder.write(".gatelight.0.tmp", "of another writer");
+  write_safetensors(folder / "cache", {}, {});
+  EXPECT_EQ(read_file(folder / ".gatelight.0.tmp"), "of another writer");
+  EXPECT_EQ(folder.count_files(), 2u);
+}
+
+}  // namespace
+}  // namespace gatelight::neural

@@ -1,0 +1,135 @@
+#include "neural/learning/training_counts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include "tests/support/statistics.h"
+
+namespace gatelight::neural {
+namespace {
+
+using gatelight::testing::accepts;
+using gatelight::testing::chi_square_test;
+using gatelight::testing::Random;
+using gatelight::testing::sidak;
+
+constexpr std::size_t kCandidates = 16;
+constexpr std::size_t kSamples = 200000;
+constexpr double kSignificance = 1e-4;
+constexpr std::size_t kTests = 3;
+
+/// The paper's formula, in double.
+double expected_weight(std::uint32_t count) {
+  return 1.0 / std::min(512.0, std::max(1.0, static_cast<double>(count)));
+}
+
+struct Choice {
+  std::vector<std::uint32_t> candidates;
+  std::vector<std::uint32_t> counts;
+};
+
+void expect_choices_by_weight(const Choice& choice, std::uint64_t seed) {
+  const std::size_t n = choice.candidates.size();
+  std::vector<double> expected(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t triangle = choice.candidates[i];
+    expected[i] = expected_weight(triangle < choice.counts.size() ? choice.counts[triangle] : 0);
+  }
+  const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
+  for (double& value : expected) value *= static_cast<double>(kSamples) / total;
+  std::vector<double> observed(n, 0.0);
+  Random random(seed);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const std::size_t index = choose_candidate(choice.candidates, choice.counts, random.uniform_float());
+    ASSERT_LT(index, n);
+    observed[index] += 1.0;
+  }
+  EXPECT_TRUE(accepts(chi_square_test(observed, expected), sidak(kSignificance, kTests)));
+}
+
+std::vector<std::uint32_t> every_third_triangle() {
+  std::vector<std::uint32_t> candidates(kCandidates);
+  for (std::uint32_t i = 0; i < kCandidates; ++i) candidates[i] = 3 * i;
+  return candidates;
+}
+
+TEST(TrainingCounts, WeightIsTheInverseOfTheCountWithin1And512) {
+  EXPECT_EQ(training_weight(0), 1.0f);
+  EXPECT_EQ(training_weight(1), 1.0f);
+  EXPECT_EQ(training_weight(2), 0.5f);
+  EXPECT_EQ(training_weight(511), 1.0f / 511.0f);
+  EXPECT_EQ(training_weight(512), 1.0f / 512.0f);
+  EXPECT_EQ(training_weight(513), 1.0f / 512.0f);
+  EXPECT_EQ(training_weight(0xffffffffu), 1.0f / 512.0f);
+}
+
+TEST(TrainingCounts, ChoiceFollowsTheWeights) {
+  Choice choice{every_third_triangle(), std::vector<std::uint32_t>(3 * kCandidates)};
+  for (std::uint32_t i = 0; i < choice.counts.size(); ++i) choice.counts[i] = i % 7;
+  choice.counts[3] = 400;
+  choice.counts[6] = 100000;
+  expect_choices_by_weight(choice, 1);
+}
+
+TEST(TrainingCounts, ACandidateNamedTwiceHasTwiceTheChance) {
+  expect_choices_by_weight({{5, 2, 5, 1}, {9, 1, 4, 9, 9, 2}}, 2);
+}
+
+TEST(TrainingCounts, ACandidateOutsideTheCountsIsUntrained) {
+  expect_choices_by_weight({{0, 7, 1, 0xffffffffu}, {3, 512}}, 3);
+}
+
+TEST(TrainingCounts, EqualCountsAreTheUniformChoiceExactly) {
+  const std::vector<std::uint32_t> candidates = every_third_triangle();
+  for (const std::uint32_t count : {0u, 1u, 3u, 47u, 509u, 512u, 100000u}) {
+    const std::vector<std::uint32_t> counts(3 * kCandidates, count);
+    for (std::uint32_t step = 0; step < 16 * kCandidates; ++step) {
+      const float u = static_cast<float>(step) / (16 * kCandidates);
+      EXPECT_EQ(choose_candidate(candidates, counts, u), step / 16) << "count " << count;
+    }
+    EXPECT_EQ(choose_candidate(candidates, counts, 0x1.fffffep-1f), kCandidates - 1);
+  }
+}
+
+TEST(TrainingCounts, ASingleCandidateIsChosen) {
+  const std::array<std::uint32_t, 1> candidate = {4};
+  for (const float u : {0.0f, 0.5f, 0x1.fffffep-1f}) EXPECT_EQ(choose_candidate(candidate, {}, u), 0u);
+}
+
+// With the snapshot frozen a choice knows nothing of the ones before it, nor of triangles that are no
+// candidates.
+TEST(TrainingCounts, ChoicesOfABatchDoNotDependOnTheirOrder) {
+  constexpr std::size_t kRecords = 1000;
+  Random random(4);
+  std::vector<std::uint32_t> counts(200);
+  for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(random.bits() % 600);
+  std::vector<std::array<std::uint32_t, kCandidates>> candidates(kRecords);
+  std::vector<float> numbers(kRecords);
+  for (std::size_t i = 0; i < kRecords; ++i) {
+    for (std::uint32_t& candidate : candidates[i])
+      candidate = static_cast<std::uint32_t>(random.bits() % 200);
+    numbers[i] = random.uniform_float();
+  }
+  std::vector<std::uint32_t> forward(kRecords);
+  std::vector<std::uint32_t> trained = counts;
+  for (std::size_t i = 0; i < kRecords; ++i) {
+    forward[i] = candidates[i][choose_candidate(candidates[i], counts, numbers[i])];
+    ++trained[forward[i]];
+  }
+  ASSERT_NE(trained, counts);
+  for (std::size_t i = kRecords; i-- > 0;) {
+    EXPECT_EQ(candidates[i][choose_candidate(candidates[i], counts, numbers[i])], forward[i]);
+  }
+  for (std::size_t i = 0; i < kRecords; ++i) {
+    std::vector<std::uint32_t> others(200, 77);
+    for (const std::uint32_t candidate : candidates[i]) others[candidate] = counts[candidate];
+    EXPECT_EQ(candidates[i][choose_candidate(candidates[i], others, numbers[i])], forward[i]);
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::neural

@@ -1,0 +1,390 @@
+#include "neural/reference/reference_backend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "neural/base/errors.h"
+#include "neural/base/half.h"
+#include "neural/reference/encode.h"
+#include "neural/reference/record_gradient.h"
+#include "tests/support/model_cases.h"
+
+namespace gatelight::neural::reference {
+namespace {
+
+using testing::BatchOptions;
+using testing::Fate;
+using testing::find_model_case;
+using testing::make_batch;
+using testing::OwnedBatch;
+
+constexpr const char* kCases[] = {
+    "nrc", "nao", "hash_F4", "gate_with_everything", "gate_L5_per_triangle", "plain_roughness_one_blob_8"};
+
+std::vector<float> answers(const Backend& backend, const Model& model, const OwnedBatch& points,
+                           const QueryOptions& options = {}) {
+  std::vector<float> out(points.size() * model.config.mlp.outputs);
+  backend.query(points.points(), options, out);
+  return out;
+}
+
+TEST(ReferenceBackend, StateComesBackFromExportAndImport) {
+  for (const char* name : kCases) {
+    const auto model = find_model_case(name).model;
+    for (const auto& [word, options] : testing::all_training_options(*model)) {
+      SCOPED_TRACE(std::string(name) + " " + word);
+      const auto backend = make_reference_backend(model, options);
+      EXPECT_EQ(backend->export_state(), initial_state(*model, options));
+      for (std::uint64_t step = 0; step < 2; ++step) backend->train(make_batch(*model, 20, step).training());
+      const ModelState state = backend->export_state();
+      const auto other = make_reference_backend(model, options);
+      other->import_state(state);
+      EXPECT_EQ(other->export_state(), state);
+      EXPECT_EQ(state.steps, 2u);
+    }
+  }
+}
+
+TEST(ReferenceBackend, StatesOfOtherSizesAreRefused) {
+  const auto model = find_model_case("nrc").model;
+  TrainingOptions options;
+  options.count_triangles = true;
+  const auto backend = make_reference_backend(model, options);
+  const ModelState state = backend->export_state();
+  const auto refuses = [&](auto change) {
+    ModelState other = state;
+    change(other);
+    EXPECT_THROW(backend->import_state(other), BadConfiguration);
+    EXPECT_EQ(backend->export_state(), state);
+  };
+  refuses([](ModelState& s) { s.parameters.pop_back(); });
+  refuses([](ModelState& s) { s.averages.push_back(0); });
+  refuses([](ModelState& s) { s.first_moments.clear(); });
+  refuses([](ModelState& s) { s.second_moments.pop_back(); });
+  refuses([](ModelState& s) { s.node_steps.clear(); });
+  refuses([](ModelState& s) { s.triangle_steps.push_back(1); });
+}
+
+TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothing) {
+  const auto model = find_model_case("gate_with_everything").model;
+  const auto backend = make_reference_backend(model, {});
+  const ModelState state = backend->export_state();
+  const auto refuses = [&](auto change) {
+    OwnedBatch batch = make_batch(*model, 5, 1);
+    change(batch);
+    EXPECT_THROW(backend->train(batch.training()), BadConfiguration);
+    EXPECT_EQ(backend->export_state(), state);
+  };
+  refuses([](OwnedBatch& b) { b.surfaces.clear(); });
+  refuses([](OwnedBatch& b) { b.surfaces.pop_back(); });
+  refuses([](OwnedBatch& b) { b.triangles.clear(); });
+  refuses([](OwnedBatch& b) { b.triangles.pop_back(); });
+  refuses([](OwnedBatch& b) { b.barycentrics.clear(); });
+  refuses([](OwnedBatch& b) { b.barycentrics.pop_back(); });
+  refuses([](OwnedBatch& b) { b.positions.clear(); });
+  refuses([](OwnedBatch& b) { b.positions.pop_back(); });
+  refuses([](OwnedBatch& b) { b.directions.clear(); });
+  refuses([](OwnedBatch& b) { b.directions.pop_back(); });
+  refuses([](OwnedBatch& b) { b.normals.clear(); });
+  refuses([](OwnedBatch& b) { b.normals.pop_back(); });
+  refuses([](OwnedBatch& b) { b.albedos.clear(); });
+  refuses([](OwnedBatch& b) { b.albedos.pop_back(); });
+  refuses([](OwnedBatch& b) { b.roughnesses.clear(); });
+  refuses([](OwnedBatch& b) { b.roughnesses.pop_back(); });
+  refuses([](OwnedBatch& b) { b.targets.clear(); });
+  refuses([](OwnedBatch& b) { b.targets.pop_back(); });
+  refuses([](OwnedBatch& b) { b.directions.push_back({0, 0, 1}); });
+  const OwnedBatch batch = make_batch(*model, 5, 1);
+  std::vector<float> few(5 * 3 - 1);
+  EXPECT_THROW(backend->query(batch.points(), {}, few), BadConfiguration);
+  // What the model does not read may be left empty, but not be half there.
+  const auto gate_alone = make_reference_backend(find_model_case("gate_alone").model, {});
+  OwnedBatch more = make_batch(*find_model_case("gate_alone").model, 5, 1);
+  EXPECT_EQ(gate_alone->train(more.training()).records, 5u);
+  more.normals.resize(5);
+  EXPECT_EQ(gate_alone->train(more.training()).records, 5u);
+  more.normals.resize(3);
+  EXPECT_THROW(gate_alone->train(more.training()), BadConfiguration);
+}
+
+TEST(ReferenceBackend, OptionsOutOfRangeAreRefused) {
+  const auto model = find_model_case("hash_F4").model;
+  const auto refuses = [&](auto change) {
+    TrainingOptions options;
+    change(options);
+    EXPECT_THROW(make_reference_backend(model, options), BadConfiguration);
+  };
+  refuses([](TrainingOptions& o) { o.adam.beta1 = 1; });
+  refuses([](TrainingOptions& o) { o.adam.beta2 = -0.1f; });
+  refuses([](TrainingOptions& o) { o.adam.epsilon = 0; });
+  refuses([](TrainingOptions& o) { o.adam.learning_rate = std::nanf(""); });
+  refuses([](TrainingOptions& o) { o.adam.decay_steps = -1; });
+  refuses([](TrainingOptions& o) { o.adam.l2_network = -1; });
+  refuses([](TrainingOptions& o) { o.average.decay = 1; });
+  refuses([](TrainingOptions& o) { o.average.ramp = 0; });
+  refuses([](TrainingOptions& o) { o.max_target = 0; });
+  refuses([](TrainingOptions& o) { o.feature_step = FeatureStep::per_triangle; });  // no triangles in a grid
+}
+
+TEST(ReferenceBackend, BadRecordsAreCountedAndNeverReachTheState) {
+  for (const char* name : kCases) {
+    SCOPED_TRACE(name);
+    const auto model = find_model_case(name).model;
+    const auto mixed = make_reference_backend(model, {}), clean = make_reference_backend(model, {});
+    std::uint64_t rejected = 0, clipped = 0;
+    for (std::uint64_t step = 0; step < 4; ++step) {
+      const OwnedBatch batch = make_batch(
+          *model, 60, step, {.nonfinite = 0.25f, .unstored = 0.2f, .beyond = 0.1f, .border = 0.1f});
+      const StepStatistics statistics = mixed->train(batch.training());
+      const StepStatistics expected = clean->train(good_records(batch).training());
+      EXPECT_EQ(statistics.rejected, batch.count(Fate::rejected));
+      EXPECT_EQ(statistics.unstored, batch.count(Fate::unstored));
+      EXPECT_EQ(statistics.clipped, batch.count(Fate::clipped));
+      EXPECT_EQ(statistics.records, batch.count(Fate::accepted) + batch.count(Fate::clipped));
+      EXPECT_EQ(statistics.loss, expected.loss);
+      EXPECT_EQ(statistics.touched_nodes, expected.touched_nodes);
+      EXPECT_EQ(mixed->export_state(), clean->export_state());
+      rejected += statistics.rejected;
+      clipped += statistics.clipped;
+    }
+    EXPECT_GT(rejected, 0u);
+    EXPECT_GT(clipped, 0u);
+  }
+}
+
+TEST(ReferenceBackend, BatchWithoutAnAcceptedRecordChangesNothing) {
+  for (const char* name : kCases) {
+    const auto model = find_model_case(name).model;
+    const auto backend = make_reference_backend(model, {});
+    const ModelState state = backend->export_state();
+    const OwnedBatch bad = make_batch(*model, 30, 1, {.nonfinite = 1});
+    const StepStatistics statistics = backend->train(bad.training());
+    EXPECT_EQ(statistics.rejected, 30u);
+    EXPECT_EQ(statistics.records, 0u);
+    EXPECT_EQ(statistics.loss, 0.0);
+    backend->train(make_batch(*model, 0, 1).training());
+    EXPECT_EQ(backend->export_state(), state);
+  }
+}
+
+TEST(ReferenceBackend, TargetsBeyondTheLimitAreClampedToIt) {
+  const auto model = find_model_case("nao").model;
+  TrainingOptions options;
+  options.max_target = 2.0f;
+  const auto clamping = make_reference_backend(model, options),
+             plain = make_reference_backend(model, options);
+  OwnedBatch batch = make_batch(*model, 4, 1);
+  batch.targets = {5.0f, -3e38f, 2.0f, 1.0f};
+  EXPECT_EQ(clamping->train(batch.training()).clipped, 2u);
+  batch.targets = {2.0f, -2.0f, 2.0f, 1.0f};
+  EXPECT_EQ(plain->train(batch.training()).clipped, 0u);
+  EXPECT_EQ(clamping->export_state(), plain->export_state());
+}
+
+TEST(ReferenceBackend, OutputBiasStartsAtTheMeanTargetOfTheFirstBatch) {
+  const auto model = find_model_case("outputs_2").model;
+  const LayerLayout& last = model->parameters.layers.back();
+  TrainingOptions options;
+  options.adam.learning_rate = 0;
+  OwnedBatch batch = make_batch(*model, 4, 1);
+  batch.targets = {1, 10, 2, 20, 3, 30, 6, -20};
+  const auto backend = make_reference_backend(model, options);
+  backend->train(batch.training());
+  const auto bias = [&](std::size_t output) {
+    return backend->export_state().parameters[last.biases + output];
+  };
+  EXPECT_EQ(bias(0), 3.0f);
+  EXPECT_EQ(bias(1), 10.0f);
+  EXPECT_EQ(backend->export_state().averages[last.biases], 3.0f);
+  batch.targets.assign(8, 100.0f);
+  backend->train(batch.training());
+  EXPECT_EQ(bias(0), 3.0f);
+
+  options.start_at_mean = false;
+  const auto from_zero = make_reference_backend(model, options);
+  from_zero->train(batch.training());
+  EXPECT_EQ(from_zero->export_state().parameters[last.biases], 0.0f);
+}
+
+TEST(ReferenceBackend, CountsTheNodesThatAreReadWithAWeight) {
+  const auto model = find_model_case("gate_L2_stack_3").model;
+  const auto backend = make_reference_backend(model, {});
+  OwnedBatch batch = make_batch(*model, 1, 1);
+  batch.barycentrics = {{0.2f, 0.3f}};
+  EXPECT_EQ(backend->train(batch.training()).touched_nodes, 3u);
+  batch.barycentrics = {{0, 0}};  // on a node
+  EXPECT_EQ(backend->train(batch.training()).touched_nodes, 1u);
+  batch.barycentrics = {{0.5f, 0}};  // on an edge between two nodes
+  EXPECT_EQ(backend->train(batch.training()).touched_nodes, 2u);
+}
+
+TEST(ReferenceBackend, WeightsWithAGradientThatIsNotFiniteAreLeftAlone) {
+  const auto model = find_model_case("gate_alone").model;
+  const ParameterLayout& layout = model->parameters;
+  TrainingOptions options;
+  options.loss = Loss::l2;
+  options.start_at_mean = false;
+  const auto backend = make_reference_backend(model, options);
+  ModelState state = backend->export_state();
+  // The first output is infinite: so are all gradients but those of the other outputs' weights.
+  const LayerLayout& last = layout.layers.back();
+  state.parameters[last.weights] = std::numeric_limits<float>::infinity();
+  backend->import_state(state);
+  const OwnedBatch batch = make_batch(*model, 10, 1);
+  const StepStatistics statistics = backend->train(batch.training());
+  const std::uint64_t fine = (last.outputs - 1) * (last.inputs + 1);
+  EXPECT_EQ(statistics.skipped_updates, layout.network_count() - fine + statistics.touched_nodes);
+  const ModelState after = backend->export_state();
+  for (std::size_t p = 0; p < layout.count; ++p) {
+    const bool other_output = (p >= last.weights + last.inputs && p < last.biases) || p > last.biases;
+    EXPECT_EQ(after.parameters[p] != state.parameters[p], other_output) << p;
+    EXPECT_TRUE(std::isfinite(after.first_moments[p]));
+    EXPECT_TRUE(std::isfinite(after.second_moments[p]));
+  }
+  EXPECT_EQ(after.node_steps, state.node_steps);
+}
+
+TEST(ReferenceBackend, HalfFeaturesAreReadRoundedAndMastersKeepTheRest) {
+  const auto model = find_model_case("nrc").model;
+  const auto holds = [&](const ModelState& state) {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      count += half_to_float(float_to_half(state.parameters[p])) == state.parameters[p] &&
+               half_to_float(float_to_half(state.averages[p])) == state.averages[p];
+    return count;
+  };
+  const OwnedBatch points = make_batch(*model, 50, 7);
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
+    TrainingOptions options;
+    options.precision = precision;
+    const auto backend = make_reference_backend(model, options);
+    for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 300, step).training());
+    ModelState state = backend->export_state();
+    if (precision == FeaturePrecision::fp16)
+      EXPECT_EQ(holds(state), model->parameters.network);
+    else
+      EXPECT_LT(holds(state), model->parameters.network * 9 / 10);
+    // A backend in fp32 with the rounded features answers the same.
+    const std::vector<float> half = answers(*backend, *model, points);
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      state.averages[p] = half_to_float(float_to_half(state.averages[p]));
+    const auto rounded = make_reference_backend(model, {});
+    rounded->import_state(state);
+    const std::vector<float> full = answers(*rounded, *model, points);
+    for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i], full[i], 1e-5f);
+  }
+}
+
+TEST(ReferenceBackend, HalfFeaturesStayWithinTheirRange) {
+  const auto model = find_model_case("nao").model;
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
+    TrainingOptions options;
+    options.precision = precision;
+    options.adam.learning_rate = 1e5f;
+    const auto backend = make_reference_backend(model, options);
+    for (std::uint64_t step = 0; step < 3; ++step) backend->train(make_batch(*model, 50, step).training());
+    float greatest = 0;
+    const ModelState state = backend->export_state();
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      greatest = std::max(greatest, std::abs(state.parameters[p]));
+    EXPECT_EQ(greatest, 65504.0f);
+  }
+}
+
+TEST(ReferenceBackend, TrainingReadsMastersRounded) {
+  // Masters between two halves give the loss that the half gives.
+  const auto model = find_model_case("gate_alone").model;
+  TrainingOptions options;
+  options.start_at_mean = false;
+  options.precision = FeaturePrecision::fp16_masters;
+  const OwnedBatch batch = make_batch(*model, 30, 7);
+  const auto loss = [&](double offset) {
+    const auto backend = make_reference_backend(model, options);
+    ModelState state = backend->export_state();
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      state.parameters[p] = static_cast<float>((p % 5 + 1) * (1 + offset));
+    backend->import_state(state);
+    return backend->train(batch.training()).loss;
+  };
+  EXPECT_EQ(loss(0.0), loss(1e-4));
+  EXPECT_NE(loss(0.0), loss(1e-2));
+}
+
+TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
+  const auto model = find_model_case("nrc").model;
+  TrainingOptions options;
+  options.count_triangles = true;
+  const auto backend = make_reference_backend(model, options);
+  std::vector<std::uint32_t> expected(model->gate.triangle_count, 0);
+  for (std::uint64_t step = 0; step < 3; ++step) {
+    const OwnedBatch batch = make_batch(*model, 40, step, {.nonfinite = 0.2f, .unstored = 0.2f});
+    backend->train(batch.training());
+    std::vector<bool> touched(expected.size(), false);
+    for (std::size_t r = 0; r < batch.size(); ++r)
+      if (batch.fates[r] == Fate::accepted)
+        touched[model->gate.surfaces[batch.surfaces[r]].first_triangle + batch.triangles[r]] = true;
+    for (std::size_t t = 0; t < expected.size(); ++t) expected[t] += touched[t] ? 1 : 0;
+  }
+  EXPECT_EQ(backend->export_state().triangle_steps, expected);
+}
+
+TEST(ReferenceBackend, QueriesKeepTheirRange) {
+  const auto model = find_model_case("nrc").model;
+  const auto backend = make_reference_backend(model, {});
+  ModelState state = backend->export_state();
+  const LayerLayout& last = model->parameters.layers.back();
+  state.averages[last.biases] = -1000.0f;
+  state.averages[last.biases + 1] = 1000.0f;
+  state.averages[last.biases + 2] = std::numeric_limits<float>::quiet_NaN();
+  backend->import_state(state);
+  const OwnedBatch points = make_batch(*model, 5, 1);
+  const auto with = [&](OutputRange range) {
+    QueryOptions options;
+    options.range = range;
+    return answers(*backend, *model, points, options);
+  };
+  const std::vector<float> raw = with(OutputRange::raw), positive = with(OutputRange::non_negative),
+                           unit = with(OutputRange::unit);
+  for (std::size_t r = 0; r < points.size(); ++r) {
+    EXPECT_LT(raw[3 * r], -900.0f);
+    EXPECT_GT(raw[3 * r + 1], 900.0f);
+    EXPECT_TRUE(std::isnan(raw[3 * r + 2]));
+    EXPECT_EQ(positive[3 * r], 0.0f);
+    EXPECT_EQ(positive[3 * r + 1], raw[3 * r + 1]);
+    EXPECT_EQ(positive[3 * r + 2], 0.0f);
+    EXPECT_EQ(unit[3 * r], 0.0f);
+    EXPECT_EQ(unit[3 * r + 1], 1.0f);
+    EXPECT_EQ(unit[3 * r + 2], 0.0f);
+  }
+}
+
+TEST(ReferenceBackend, QueriesOfBadPointsAnswerFiniteNumbers) {
+  for (const char* name : kCases) {
+    const auto model = find_model_case(name).model;
+    const auto backend = make_reference_backend(model, {});
+    const OwnedBatch points =
+        make_batch(*model, 300, 3, {.nonfinite = 0.5f, .unstored = 0.3f, .border = 0.5f});
+    for (const float answer : answers(*backend, *model, points)) {
+      EXPECT_TRUE(std::isfinite(answer));
+      EXPECT_GE(answer, 0.0f);
+    }
+  }
+}
+
+TEST(ReferenceBackend, EveryConfigurationTrainsAndStaysFinite) {
+  for (const auto& [name, config] : testing::all_model_configs()) {
+    const auto model = testing::make_case(name, config).model;
+    const auto backend = make_reference_backend(model, {});
+    const OwnedBatch batch = make_batch(*model, 8, 5, {.border = 0.2f});
+    const StepStatistics statistics = backend->train(batch.training());
+    EXPECT_EQ(statistics.records, 8u) << name;
+    EXPECT_EQ(statistics.skipped_updates, 0u) << name;
+    EXPECT_EQ(statistics.touched_nodes > 0, config.encoding != FeatureEncoding::none) << name;
+    for (const float answer : answers(*backend, *model, batch)) EXPECT_TRUE(std::isfinite(answer)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::neural::reference

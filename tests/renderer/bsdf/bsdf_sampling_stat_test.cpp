@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "tests/renderer/bsdf/bsdf_cases.h"
+#include "tests/renderer/bsdf/bsdf_measures.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::Random;
+
+TEST(BsdfSampling, SamplesFollowTheDensity) {
+  constexpr int kSamples = 60000;
+  std::vector<BsdfCase> cases = colored_cases();
+  std::erase_if(cases, [](const BsdfCase& c) { return c.name == "ior 0" || c.name == "ior 3"; });
+  const std::array<float, 3> roughnesses{0.25f, 0.5f, 1.0f};
+  const std::array<float, 3> cosines{1.0f, 0.5f, 0.02f};
+  const double significance = testing::sidak(1e-4, cases.size() * roughnesses.size() * cosines.size());
+  Random random(7);
+  for (const BsdfCase& c : cases) {
+    for (const float roughness : roughnesses) {
+      for (const float cosine : cosines) {
+        SCOPED_TRACE(describe(c, roughness, cosine));
+        const Bsdf bsdf = flat_bsdf(c, roughness, incident(cosine));
+        const bool narrow =
+            roughness < 0.3f || (c.material.clearcoat > 0.0f && c.material.clearcoat_roughness < 0.3f);
+        EXPECT_TRUE(
+            testing::accepts(samples_against_density(bsdf, narrow ? 5 : 3, kSamples, random), significance));
+      }
+    }
+  }
+}
+
+TEST(BsdfSampling, WeightIsValueOverDensity) {
+  Random random(11);
+  for (const BsdfCase& c : colored_cases()) {
+    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
+      for (const float cosine : {1.0f, 0.3f, 0.02f}) {
+        SCOPED_TRACE(describe(c, roughness, cosine));
+        const Bsdf bsdf = flat_bsdf(c, roughness, incident(cosine));
+        for (int i = 0; i < 200; ++i) {
+          const BsdfSample sample =
+              bsdf.sample(random.uniform_float(), {random.uniform_float(), random.uniform_float()});
+          if (sample.delta || !(sample.pdf > 0.0f)) continue;
+          const BsdfValue value = bsdf.evaluate(sample.wi);
+          ASSERT_NEAR(sample.wi.norm(), 1.0f, 1e-5f);
+          ASSERT_FLOAT_EQ(value.pdf, sample.pdf);
+          for (int k = 0; k < 3; ++k) ASSERT_FLOAT_EQ(value.value[k], sample.weight[k] * sample.pdf);
+          ASSERT_EQ(sample.transmitted, sample.wi.z() < 0.0f);
+        }
+      }
+    }
+  }
+}
+
+TEST(BsdfSampling, EveryLobeIsFoundAtBothEndsOfItsShare) {
+  // The largest number below one must not fall through to no lobe at all.
+  const float last = 1.0f - 0x1p-24f;
+  for (const BsdfCase& c : colored_cases()) {
+    for (const float roughness : {0.0f, 0.5f, 1.0f}) {
+      SCOPED_TRACE(describe(c, roughness, 0.8f));
+      const Bsdf bsdf = flat_bsdf(c, roughness, incident(0.8f));
+      EXPECT_GT(bsdf.sample(0.0f, {0.3f, 0.3f}).pdf, 0.0f);
+      EXPECT_GT(bsdf.sample(last, {0.3f, 0.3f}).pdf, 0.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

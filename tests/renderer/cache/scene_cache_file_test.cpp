@@ -1,0 +1,222 @@
+#include "renderer/cache/cache_file.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <functional>
+
+#include "neural/base/errors.h"
+#include "renderer/cache/cache_content.h"
+#include "tests/support/cached_state.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using neural::CacheFileError;
+using neural::FeatureEncoding;
+using neural::TrainingOptions;
+using ::testing::AllOf;
+using testing::any_cache_state;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::same_bits;
+using testing::small_model;
+using tests::read_file;
+using tests::TemporaryFolder;
+
+const SceneFingerprint kScene = {"a1", "b2", "c3", "d4", "e5"};
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const CacheFileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneCacheFile, EverythingComesBackToTheBit) {
+  const TemporaryFolder folder;
+  for (const FeatureEncoding encoding : {FeatureEncoding::gate, FeatureEncoding::hash_grid}) {
+    const auto model = small_model(encoding);
+    for (const auto& [name, options] : neural::testing::all_training_options(*model)) {
+      SCOPED_TRACE(name);
+      CacheState state = any_cache_state(*model, options, 1);
+      if (name.size() % 2 == 0) state.triangle_counts.clear();
+      write_cache_file(folder / "a", state, *model, options, {}, kScene);
+      CacheFile file(folder / "a");
+      EXPECT_TRUE(same_bits(file.setup(), state.setup));
+      EXPECT_TRUE(same_bits(file.read_state(*model, options), state));
+      const std::string bytes = read_file(folder / "a");
+      write_cache_file(folder / "a", state, *model, options, {}, kScene);
+      EXPECT_EQ(read_file(folder / "a"), bytes);
+      EXPECT_EQ(folder.count_files(), 1u);
+    }
+  }
+}
+
+TEST(SceneCacheFile, WhatMeansSomethingElseIsRefusedByName) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  const CacheMeaning nrc{.min_roughness = 0.3f};
+  const CacheMeaning nao{.integrator = Integrator::nao, .ao_distance = 0.5f};
+  write_cache_file(folder / "nrc", state, *model, {}, nrc, kScene);
+  write_cache_file(folder / "nao", state, *model, {}, nao, kScene);
+  const auto opening = [&](const char* name, const CacheMeaning& meaning, const SceneFingerprint& scene,
+                           std::size_t instances) {
+    return refusal([&] { CacheFile(folder / name).expect(meaning, scene, instances); });
+  };
+  EXPECT_EQ(opening("nrc", nrc, kScene, 5), "");
+  EXPECT_EQ(opening("nao", nao, kScene, 5), "");
+
+  CacheMeaning other = nrc;
+  other.holds = CacheHolds::indirect;
+  EXPECT_THAT(opening("nrc", other, kScene, 5),
+              AllOf(HasSubstr("cannot read"), HasSubstr("/nrc'"),
+                    HasSubstr("cache-holds: file no-delta, expected indirect"), Not(HasSubstr("roughness"))));
+  other.min_roughness = 0.1f;
+  EXPECT_THAT(opening("nrc", other, kScene, 5),
+              AllOf(HasSubstr("cache-holds: file no-delta, expected indirect"),
+                    HasSubstr("cache-roughness: file 0.3, expected 0.1")));
+  other = nrc;
+  other.encoding = FeatureEncoding::hash_grid;
+  EXPECT_THAT(opening("nrc", other, kScene, 5), HasSubstr("encoding: file gate, expected hashgrid"));
+  other = nrc;
+  other.node_spacing = 0.2f;
+  EXPECT_THAT(opening("nrc", other, kScene, 5), HasSubstr("node-spacing: file 0.1, expected 0.2"));
+  other.node_spacing = state.setup.node_spacing;
+  EXPECT_EQ(opening("nrc", other, kScene, 5), "");
+  EXPECT_THAT(opening("nrc", nao, kScene, 5),
+              AllOf(HasSubstr("integrator: file nrc, expected nao"),
+                    HasSubstr("ao-distance: file nothing, expected 0.5"),
+                    HasSubstr("cache-holds: file no-delta, expected nothing")));
+  other = nao;
+  other.ao_distance = 0.25f;
+  EXPECT_THAT(opening("nao", other, kScene, 5), HasSubstr("ao-distance: file 0.5, expected 0.25"));
+
+  EXPECT_THAT(opening("nrc", nrc, kScene, 4), HasSubstr("sides of 5 instances, expected 4"));
+  SceneFingerprint scene = kScene;
+  scene.lights = scene.environment = "f6";
+  EXPECT_THAT(opening("nrc", nrc, scene, 5),
+              HasSubstr("it is of another scene: it differs in lights, environment"));
+  EXPECT_EQ(opening("nao", nao, scene, 5), "") << "light does not change occlusion";
+  scene.geometry = "f6";
+  EXPECT_THAT(opening("nao", nao, scene, 5), HasSubstr("it differs in geometry"));
+}
+
+TEST(SceneCacheFile, AnotherNetworkIsRefusedButNotAnotherLearningRate) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+  TrainingOptions options;
+  options.loss = neural::Loss::l2;
+  options.adam.learning_rate = 1e-3f;
+  options.seed = 5;
+  EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, options), state));
+  neural::ModelConfig config = model->config;
+  config.mlp.width = 32;
+  const auto wider = neural::testing::make_case("wide", config).model;
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "a").read_state(*wider, {}); }),
+              HasSubstr("hidden width: file 16, model 32"));
+  options.average.network = false;
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "a").read_state(*model, options); }),
+              HasSubstr("average of network: file true, model false"));
+}
+
+TEST(SceneCacheFile, NumbersThatNoSetupHasAreRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const auto opening = [&](const std::function<void(CacheState&)>& change) {
+    CacheState state = any_cache_state(*model, {}, 1);
+    change(state);
+    write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+    return refusal([&] { CacheFile(folder / "a").read_state(*model, {}); });
+  };
+  EXPECT_THAT(opening([](CacheState& s) { s.setup.sides[3] = static_cast<neural::Sides>(4); }),
+              HasSubstr("'renderer.sides': element 3 is 4, expected 0 to 3"));
+  EXPECT_THAT(opening([](CacheState& s) { s.setup.node_spacing = 0.0f; }),
+              HasSubstr("'renderer.scales': element 0 is 0, expected a finite number above zero"));
+  EXPECT_THAT(opening([](CacheState& s) { s.setup.target_scale = NAN; }), HasSubstr("element 1 is nan"));
+  EXPECT_THAT(opening([](CacheState& s) { s.setup.records_per_path = INFINITY; }),
+              HasSubstr("element 2 is inf"));
+  EXPECT_THAT(opening([](CacheState& s) { s.steps = 1ull << 31; }),
+              HasSubstr("'renderer.steps': 2147483648, expected less than 2^31"));
+}
+
+TEST(SceneCacheFile, ForeignFilesAreRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  neural::write_model_file(folder / "model", *model, {}, neural::initial_state(*model, {}), "");
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "model"); }),
+              HasSubstr("format: file 'gatelight-cache', expected 'gatelight-scene-cache'"));
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "none"); }), HasSubstr("it does not exist"));
+  EXPECT_THAT(refusal([&] { CacheFile(folder.write("text", "no cache")); }), HasSubstr("/text'"));
+}
+
+TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+  const std::string bytes = read_file(folder / "a");
+  const auto opening = [&](const std::string& content) {
+    std::filesystem::remove(folder / "b");
+    folder.write("b", content);
+    return refusal([&] { CacheFile(folder / "b"); });
+  };
+  ASSERT_EQ(opening(bytes), "");
+  for (std::size_t place = 0; place < bytes.size(); ++place) {
+    const auto put = [&](int byte) {
+      std::fstream(folder / "b", std::ios::binary | std::ios::in | std::ios::out)
+          .seekp(static_cast<std::streamoff>(place))
+          .put(static_cast<char>(byte));
+    };
+    put(bytes[place] ^ 1 << place % 8);
+    ASSERT_NE(refusal([&] { CacheFile(folder / "b"); }), "") << "byte " << place << " of " << bytes.size();
+    put(bytes[place]);
+  }
+  for (std::size_t size = 0; size < bytes.size(); size += 97)
+    ASSERT_NE(opening(bytes.substr(0, size)), "") << size;
+  EXPECT_THAT(opening(bytes + '\0'), HasSubstr("/b'"));
+}
+
+TEST(SceneCacheFile, OneOfTheVersionWithoutADigestIsStillRead) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  CacheContent content;
+  fill_cache_content(content, *model, {}, state);
+  neural::Metadata metadata = content.model.metadata;
+  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, {}), state));
+  metadata["version"] = "3";
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  EXPECT_THAT(refusal([&] { CacheFile(folder / "a"); }), HasSubstr("metadata 'digest' is missing"));
+}
+
+// The setup in the file decides how many nodes the model has: the tensors must be there for them.
+TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeThereIsMemoryForIt) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const CacheState state = any_cache_state(*model, {}, 1);
+  CacheContent content;
+  fill_cache_content(content, *model, {}, state);
+  for (neural::TensorView& tensor : content.tensors) {
+    if (tensor.name != "features") continue;
+    tensor.shape[0] = 1;
+    tensor.data = tensor.data.first(4 * tensor.shape[1]);
+  }
+  neural::Metadata metadata = content.model.metadata;
+  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
+  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  const CacheFile file(folder / "a");
+  EXPECT_THAT(refusal([&] { file.expect_model(*model, {}); }),
+              HasSubstr("tensor 'features': F32 [1, 1], expected"));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

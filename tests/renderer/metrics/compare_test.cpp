@@ -1,0 +1,142 @@
+#include "renderer/metrics/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/rgb_pictures.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using gatelight::testing::rgb;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+ErrorMetrics compare(const Picture& reference, const Picture& test) {
+  return compare_pictures({reference, "ref.exr"}, {test, "test.exr"});
+}
+
+TEST(Compare, MetricsMatchTheHandWorkedExample) {
+  // Differences: +1, 0, -0.5 | 0, +2, 0.
+  const Picture reference = rgb(2, 1, {1.0f, 0.0f, 0.5f, 3.0f, 2.0f, 0.25f});
+  const Picture test = rgb(2, 1, {2.0f, 0.0f, 0.0f, 3.0f, 4.0f, 0.25f});
+  const ErrorMetrics m = compare(reference, test);
+  EXPECT_DOUBLE_EQ(m.mse, (1.0 + 0.25 + 4.0) / 6.0);
+  EXPECT_DOUBLE_EQ(m.rel_mse, (1.0 / 1.01 + 0.25 / 0.26 + 4.0 / 4.01) / 6.0);
+  EXPECT_DOUBLE_EQ(m.mean_error, 3.5 / 6.0);
+  EXPECT_DOUBLE_EQ(m.mean_difference, 2.5 / 6.0);
+  EXPECT_DOUBLE_EQ(m.max_error, 2.0);
+  EXPECT_DOUBLE_EQ(m.psnr, -10.0 * std::log10(5.25 / 6.0));
+  EXPECT_EQ(m.pixels, 2u);
+}
+
+TEST(Compare, EqualPicturesHaveNoError) {
+  const Picture picture = rgb(1, 2, {1e-6f, 1e6f, 0.0f, -1.0f, 2.0f, 3.0f});
+  const ErrorMetrics m = compare(picture, picture);
+  EXPECT_EQ(m.mse, 0.0);
+  EXPECT_EQ(m.rel_mse, 0.0);
+  EXPECT_EQ(m.max_error, 0.0);
+  EXPECT_EQ(m.psnr, std::numeric_limits<double>::infinity());
+}
+
+TEST(Compare, NonFinitePixelsAreCountedAndLeftOut) {
+  const float nan = std::nanf("");
+  const float inf = std::numeric_limits<float>::infinity();
+  const Picture reference = rgb(4, 1, {1, 1, 1, inf, 0, 0, 5, 5, nan, 2, 2, 2});
+  const Picture test = rgb(4, 1, {nan, 1, 1, 0, 0, 0, inf, 5, 5, 2.5f, 2, 2});
+  const ErrorMetrics m = compare(reference, test);
+  EXPECT_EQ(m.nonfinite_reference, 2u);
+  EXPECT_EQ(m.nonfinite_test, 2u);
+  EXPECT_EQ(m.pixels, 1u);
+  EXPECT_DOUBLE_EQ(m.mse, 0.25 / 3.0);
+  EXPECT_DOUBLE_EQ(m.max_error, 0.5);
+}
+
+TEST(Compare, WithoutAFinitePixelNoErrorIsToldAsNone) {
+  const float nan = std::nanf("");
+  const Picture reference = rgb(1, 1, {1, 1, 1});
+  const Picture test = rgb(1, 1, {nan, 1, 1});
+  const ErrorMetrics m = compare(reference, test);
+  EXPECT_EQ(m.pixels, 0u);
+  for (const double error : {m.mse, m.rel_mse, m.psnr, m.mean_error, m.mean_difference, m.max_error})
+    EXPECT_TRUE(std::isnan(error));
+  EXPECT_TRUE(std::isnan(squared_bias({{reference, "r"}, {reference, "r"}}, {{test, "t"}, {test, "t"}})));
+}
+
+TEST(Compare, DifferencesBeyondFloatAreSummedInDouble) {
+  // (1e20)^2 is beyond float; and a small error beside it is not lost to the difference of squares.
+  const ErrorMetrics m = compare(rgb(1, 1, {0, 0, 0}), rgb(1, 1, {1e20f, 0, 0}));
+  EXPECT_NEAR(m.mse / (1e40 / 3.0), 1.0, 1e-6);
+}
+
+TEST(Compare, AlphaIsIgnoredAndOneChannelIsGrey) {
+  Picture rgba{.width = 1, .height = 1};
+  rgba.layers = {{.channels = {"A", "B", "G", "R"}, .values = {0.1f, 3.0f, 2.0f, 1.0f}}};
+  EXPECT_EQ(compare(rgb(1, 1, {1, 2, 3}), rgba).mse, 0.0);
+  Picture grey{.width = 1, .height = 1};
+  grey.layers = {{.channels = {"Y"}, .values = {2.0f}}};
+  Picture brighter = grey;
+  brighter.layers[0].values[0] = 2.5f;
+  EXPECT_EQ(compare(grey, brighter).mse, 0.25);
+}
+
+std::string refusal(const Picture& reference, const Picture& test) {
+  try {
+    compare(reference, test);
+  } catch (const CompareError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Compare, DifferentSizesNameBothPictures) {
+  EXPECT_THAT(refusal(rgb(2, 1, std::vector<float>(6)), rgb(1, 2, std::vector<float>(6))),
+              AllOf(HasSubstr("'ref.exr' has 2x1"), HasSubstr("'test.exr' has 1x2")));
+}
+
+TEST(Compare, DifferentRegionsOfOnePictureNameBoth) {
+  Picture left = rgb(2, 1, std::vector<float>(6)), right = left;
+  left.full_width = right.full_width = 4;
+  left.full_height = right.full_height = 1;
+  right.x0 = 2;
+  EXPECT_THAT(refusal(left, right),
+              AllOf(HasSubstr("of 4x1"), HasSubstr("'ref.exr' begins at 0,0, 'test.exr' at 2,0")));
+  EXPECT_EQ(refusal(right, right), "");
+  EXPECT_EQ(refusal(rgb(2, 1, std::vector<float>(6)), right), "") << "a PNG of the same region";
+}
+
+TEST(Compare, GreyAndColoursAreRefused) {
+  Picture grey{.width = 1, .height = 1};
+  grey.layers = {{.channels = {"Y", "A"}, .values = {2.0f, 1.0f}}};
+  for (const bool first : {false, true}) {
+    const Picture colours = rgb(1, 1, {2, 2, 2});
+    EXPECT_THAT(first ? refusal(grey, colours) : refusal(colours, grey),
+                AllOf(HasSubstr("differ in channels"),
+                      HasSubstr(first ? "'ref.exr' is grey, 'test.exr'" : "'test.exr' is grey, 'ref.exr'")));
+  }
+}
+
+TEST(Compare, APictureWithoutColoursIsRefusedByName) {
+  Picture depth{.width = 1, .height = 1};
+  depth.layers = {{.name = "depth", .channels = {"Z"}, .values = {1.0f}}};
+  EXPECT_THAT(refusal(rgb(1, 1, {1, 2, 3}), depth), HasSubstr("'test.exr' has no beauty layer"));
+  EXPECT_THAT(refusal(Picture{.width = 1, .height = 1}, rgb(1, 1, {1, 2, 3})), HasSubstr("'ref.exr'"));
+  Picture part = rgb(1, 1, {1, 2, 3});
+  part.layers[0].channels = {"R", "G", "Z"};
+  EXPECT_THAT(refusal(part, part), HasSubstr("channels R, G, Z, expected R, G and B, or Y"));
+}
+
+TEST(ErrorMap, RunsFromBlackToWhiteAndMarksNonFinite) {
+  const float nan = std::nanf("");
+  const Picture reference = rgb(3, 1, {1, 1, 1, 0, 0, 0, 1, 1, 1});
+  const Picture test = rgb(3, 1, {1, 1, 1, 9, 9, 9, 1, nan, 1});
+  const Picture map = error_map({reference, "a"}, {test, "b"});
+  EXPECT_THAT(map.layers[0].values, ElementsAre(0, 0, 0, 1, 1, 1, 0, 1, 0));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

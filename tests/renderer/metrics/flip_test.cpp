@@ -1,0 +1,364 @@
+#include "renderer/metrics/flip.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/image/srgb.h"
+#include "renderer/machine/errors.h"
+#include "renderer/metrics/flip/color_map.h"
+#include "renderer/metrics/flip/exposures.h"
+#include "renderer/metrics/flip/filters.h"
+#include "renderer/metrics/flip/summary.h"
+#include "tests/renderer/metrics/flip_reference.h"
+#include "tests/support/rgb_pictures.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using gatelight::testing::Random;
+using gatelight::testing::rgb;
+using gatelight::testing::uniform;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+/// Blotches with edges, points and noise; in [0, scale].
+Picture pattern(int width, int height, std::uint64_t seed, float scale = 1.0f) {
+  Random random(seed);
+  std::vector<float> values;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float blotch = (x / 5 + y / 4 + c) % 3 == 0 ? 0.7f : 0.1f;
+        values.push_back(scale * (blotch + 0.3f * random.uniform_float()));
+      }
+    }
+  }
+  return rgb(width, height, std::move(values));
+}
+
+/// Some pixels of the pattern are changed: a little everywhere, much at some points.
+Picture disturbed(Picture picture, std::uint64_t seed, float scale = 1.0f) {
+  Random random(seed);
+  for (float& value : picture.layers[0].values) {
+    value += scale * 0.1f * (random.uniform_float() - 0.5f);
+    if (random.uniform() < 0.05) value = scale * random.uniform_float();
+    value = std::clamp(value, 0.0f, scale);
+  }
+  return picture;
+}
+
+FlipResult ldr(const Picture& reference, const Picture& test, const FlipOptions& options = {}) {
+  return ldr_flip({reference, "ref.exr"}, {test, "test.exr"}, options);
+}
+FlipResult hdr(const Picture& reference, const Picture& test, const FlipOptions& options = {}) {
+  return hdr_flip({reference, "ref.exr"}, {test, "test.exr"}, options);
+}
+
+reference::Image as_image(const Picture& picture, double scale = 1.0) {
+  reference::Image image{picture.width, picture.height, {}};
+  const std::vector<float>& v = picture.layers[0].values;
+  for (std::size_t i = 0; i < v.size(); i += 3) {
+    image.pixels.push_back({scale * static_cast<double>(v[i]), scale * static_cast<double>(v[i + 1]),
+                            scale * static_cast<double>(v[i + 2])});
+  }
+  return image;
+}
+
+double largest_difference(const std::vector<float>& a, const std::vector<double>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
+  }
+  return largest;
+}
+
+struct Shape {
+  int width, height;
+  double ppd;
+};
+class LdrFlipShapes : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(LdrFlipShapes, EveryPixelAgreesWithTheWholeConvolutions) {
+  const auto [width, height, ppd] = GetParam();
+  const Picture a = pattern(width, height, 1);
+  const Picture b = disturbed(a, 2);
+  const FlipResult result = ldr(a, b, {.pixels_per_degree = ppd});
+  EXPECT_EQ(result.width, width);
+  EXPECT_EQ(result.height, height);
+  EXPECT_LT(largest_difference(result.errors, reference::ldr_flip(as_image(a), as_image(b), ppd)), 1e-4);
+  EXPECT_GT(result.summary.mean, 0.01) << "there is something to compare";
+}
+// More rows than a band, pictures smaller than the filters, filters of one and of a hundred pixels.
+INSTANTIATE_TEST_SUITE_P(Shapes, LdrFlipShapes,
+                         ::testing::Values(Shape{37, 70, 67.02}, Shape{23, 11, 20.0}, Shape{12, 9, 1.0},
+                                           Shape{1, 1, 67.02}, Shape{2, 40, 120.0}, Shape{9, 3, 300.0}));
+
+TEST(LdrFlip, EqualPicturesGiveExactlyZero) {
+  for (const float scale : {1e-6f, 1.0f, 1e6f}) {
+    const Picture picture = pattern(33, 41, 3, scale);
+    const FlipResult result = ldr(picture, picture);
+    EXPECT_THAT(result.errors, Each(0.0f));
+    EXPECT_EQ(result.summary.mean, 0.0);
+    EXPECT_EQ(result.summary.weighted_median, 0.0);
+    EXPECT_EQ(result.summary.max, 0.0);
+    EXPECT_THAT(hdr(picture, picture).errors, Each(0.0f));
+  }
+}
+
+TEST(LdrFlip, IsSymmetric) {
+  const Picture a = pattern(31, 35, 4);
+  const Picture b = disturbed(a, 5);
+  EXPECT_EQ(ldr(a, b).errors, ldr(b, a).errors);
+}
+
+TEST(LdrFlip, EvenPicturesHaveClosedForms) {
+  // The filters leave them as they are and find no features. Green and blue are the farthest colours.
+  const FlipResult far = ldr(uniform(5, 4, {0, 1, 0}), uniform(5, 4, {0, 0, 1}));
+  for (const float error : far.errors) EXPECT_NEAR(error, 1.0, 1e-5);
+  // Black to white is 100 in lightness alone.
+  const double largest =
+      std::pow(reference::hyab(reference::hunt_lab({0, 1, 0}), reference::hunt_lab({0, 0, 1})), 0.7);
+  const double expected = 0.95 + 0.05 * (std::pow(100.0, 0.7) - 0.4 * largest) / (0.6 * largest);
+  const FlipResult contrast = ldr(uniform(6, 6, {0, 0, 0}), uniform(6, 6, {1, 1, 1}));
+  for (const float error : contrast.errors) EXPECT_NEAR(error, expected, 1e-5);
+  // Dark grey differs from black by the straight foot of the lightness: 903.3 t.
+  const double foot = 24389.0 / 27.0 * 0.004;
+  const FlipResult dark = ldr(uniform(6, 6, {0, 0, 0}), uniform(6, 6, {0.004f, 0.004f, 0.004f}));
+  for (const float error : dark.errors) {
+    EXPECT_NEAR(error, 0.95 / (0.4 * largest) * std::pow(foot, 0.7), 1e-5);
+  }
+}
+
+TEST(LdrFlip, RadianceIsShownWithExposureAndCurveAndCut) {
+  const Picture a = pattern(9, 8, 6);
+  const Picture b = disturbed(a, 7);
+  const auto changed = [](Picture picture, auto&& change) {
+    for (float& value : picture.layers[0].values) value = change(value);
+    return picture;
+  };
+  const auto doubled = [](float x) { return 2.0f * x; };
+  EXPECT_EQ(ldr(a, b, {.exposure = 1.0f}).errors, ldr(changed(a, doubled), changed(b, doubled)).errors);
+  EXPECT_EQ(ldr(a, b, {.tonemap = Tonemap::filmic}).errors,
+            ldr(changed(a, filmic), changed(b, filmic)).errors);
+  const auto cut = [](float x) { return std::clamp(3.0f * x - 0.5f, 0.0f, 1.0f); };
+  const auto wide = [](float x) { return 3.0f * x - 0.5f; };
+  EXPECT_EQ(ldr(changed(a, wide), changed(b, wide)).errors, ldr(changed(a, cut), changed(b, cut)).errors);
+}
+
+TEST(LdrFlip, TheSameBitsForAnyNumberOfThreads) {
+  const Picture a = pattern(50, 150, 8);
+  const Picture b = disturbed(a, 9);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return hdr(a, b);
+  };
+  const FlipResult one = with_threads(1);
+  const FlipResult seven = with_threads(7);
+  EXPECT_EQ(one.errors, seven.errors);
+  EXPECT_EQ(one.summary.mean, seven.summary.mean);
+}
+
+TEST(HdrFlip, IsTheLargestLdrErrorOverTheExposures) {
+  const Picture a = pattern(14, 11, 10, 50.0f);
+  const Picture b = disturbed(a, 11, 50.0f);
+  const FlipResult result = hdr(a, b);
+  std::vector<double> expected(result.errors.size(), 0.0);
+  for (int i = 0; i < result.exposures; ++i) {
+    const double stops =
+        result.start_exposure + i * (result.stop_exposure - result.start_exposure) / (result.exposures - 1);
+    const auto shown = [&](const Picture& picture) {
+      reference::Image image = as_image(picture, 0.6 * std::exp2(stops));
+      for (reference::Color& color : image.pixels) {
+        for (double& v : color) {
+          v = std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0);
+        }
+      }
+      return image;
+    };
+    const std::vector<double> errors =
+        reference::ldr_flip(shown(a), shown(b), FlipOptions{}.pixels_per_degree);
+    for (std::size_t p = 0; p < errors.size(); ++p) expected[p] = std::max(expected[p], errors[p]);
+  }
+  EXPECT_LT(largest_difference(result.errors, expected), 1e-4);
+}
+
+/// A reference of greys; the test is something else.
+FlipResult hdr_of_greys(const std::vector<float>& greys) {
+  std::vector<float> values;
+  for (const float grey : greys) values.insert(values.end(), 3, grey);
+  const Picture picture = rgb(static_cast<int>(greys.size()), 1, values);
+  return hdr(picture, uniform(picture.width, 1, {1, 0, 0}));
+}
+
+double shown_at(double radiance, double stops) {
+  return static_cast<double>(filmic(static_cast<float>(0.6 * radiance * std::exp2(stops))));
+}
+
+TEST(HdrFlip, ExposuresShowTheBrightestAndTheMedianJustBelowWhite) {
+  const FlipResult odd = hdr_of_greys({0.25f, 20.0f, 0.5f, 0.1f, 7.0f});
+  EXPECT_NEAR(shown_at(20.0, odd.start_exposure), 0.85, 1e-5);
+  EXPECT_NEAR(shown_at(0.5, odd.stop_exposure), 0.85, 1e-5);
+  EXPECT_EQ(odd.exposures, 6) << "log2(40) = 5.3 stops";
+  const FlipResult even = hdr_of_greys({1.0f, 4.0f, 3.0f, 2.0f});
+  EXPECT_NEAR(even.stop_exposure - even.start_exposure, std::log2(4.0 / 2.5), 1e-6);
+  EXPECT_EQ(even.exposures, 2);
+  EXPECT_EQ(hdr_of_greys({1.0f, 1.0f, 1.0f}).exposures, 2);
+}
+
+TEST(HdrFlip, IsToldOfAndCanBeEndedBeforeEachExposure) {
+  const Picture a = rgb(5, 1, {0.25f, 0.25f, 0.25f, 20, 20, 20, 0.5f, 0.5f, 0.5f, 0.1f, 0.1f, 0.1f, 7, 7, 7});
+  const Picture b = disturbed(a, 14, 20.0f);
+  std::vector<double> told;
+  const auto call = [&](std::size_t most) {
+    told.clear();
+    return hdr_flip({a, "a.exr"}, {b, "b.exr"}, {}, [&](double fraction) {
+      told.push_back(fraction);
+      return told.size() <= most;
+    });
+  };
+  EXPECT_EQ(call(100)->errors, hdr(a, b).errors);
+  EXPECT_THAT(told, ::testing::ElementsAre(0.0, 1.0 / 6, 2.0 / 6, 3.0 / 6, 4.0 / 6, 5.0 / 6));
+  EXPECT_FALSE(call(2).has_value());
+  EXPECT_EQ(told.size(), 3u);
+}
+
+TEST(HdrFlip, BlackReferencesHaveExposuresToo) {
+  const FlipResult mostly = hdr_of_greys({0, 0, 0, 0, 0, 8.0f, 2.0f, 1.0f});
+  EXPECT_NEAR(shown_at(2.0, mostly.stop_exposure), 0.85, 1e-5) << "the median of what is not black";
+  const FlipResult black = hdr_of_greys({0, 0, 0, -1.0f});
+  EXPECT_EQ(black.start_exposure, 0.0);
+  EXPECT_EQ(black.exposures, 1);
+  EXPECT_GT(black.summary.mean, 0.1);
+}
+
+TEST(HdrFlip, DoesNotDependOnTheUnitOfRadiance) {
+  const Picture a = pattern(20, 10, 12);
+  const Picture b = disturbed(a, 13);
+  const FlipResult expected = hdr(a, b);
+  for (const float scale : {0x1p-20f, 0x1p20f}) {
+    Picture scaled_a = a;
+    Picture scaled_b = b;
+    for (float& value : scaled_a.layers[0].values) value *= scale;
+    for (float& value : scaled_b.layers[0].values) value *= scale;
+    const FlipResult result = hdr(scaled_a, scaled_b);
+    for (std::size_t p = 0; p < result.errors.size(); ++p) {
+      EXPECT_NEAR(result.errors[p], expected.errors[p], 1e-4);
+    }
+  }
+}
+
+TEST(HdrFlip, StaysFiniteAtTheEndsOfFloat) {
+  const float tiny = std::numeric_limits<float>::denorm_min();
+  const float huge = std::numeric_limits<float>::max();
+  const Picture a = rgb(3, 1, {tiny, 0, tiny, tiny, tiny, tiny, huge, 0, huge});
+  const Picture b = rgb(3, 1, {huge, huge, 0, 0, 0, 0, -huge, tiny, 1});
+  for (const FlipResult& result : {hdr(a, b), ldr(a, b)}) {
+    for (const float error : result.errors) EXPECT_TRUE(error >= 0.0f && error <= 1.0f) << error;
+  }
+}
+
+TEST(HdrFlip, SeesRadianceNearTheGreatestFloat) {
+  const Picture black = rgb(1, 1, {0, 0, 0});
+  const float expected = hdr(rgb(1, 1, {1, 1, 1}), black).errors[0];
+  EXPECT_GT(expected, 0.5f);
+  EXPECT_NEAR(hdr(rgb(1, 1, {3e38f, 3e38f, 3e38f}), black).errors[0], expected, 1e-4);
+}
+
+TEST(FlipSummary, MatchesTheHandWorkedExample) {
+  const FlipSummary s = flip::summarize(std::vector<float>{0.5f, 0.0f, 0.25f, 0.125f, 0.125f});
+  // Sorted 0, 1/8, 1/8, 1/4, 1/2; running sums 0, 1/8, 1/4, 1/2, 1: each quantile is where it is passed.
+  EXPECT_DOUBLE_EQ(s.mean, 0.2);
+  EXPECT_DOUBLE_EQ(s.first_quartile, 0.25);
+  EXPECT_DOUBLE_EQ(s.weighted_median, 0.5);
+  EXPECT_DOUBLE_EQ(s.third_quartile, 0.5);
+  EXPECT_DOUBLE_EQ(s.min, 0.0);
+  EXPECT_DOUBLE_EQ(s.max, 0.5);
+}
+
+TEST(FlipFilters, ConstantsPassAndDerivativesSeeNone) {
+  for (const double ppd : {1.0, 7.3, 67.02, 1000.0}) {
+    const flip::Filters f = flip::make_filters(ppd);
+    const auto sum = [](const flip::Kernel& kernel) {
+      double total = 0.0;
+      for (const float w : kernel.weights) total += static_cast<double>(w);
+      return total;
+    };
+    EXPECT_NEAR(sum(f.achromatic), 1.0, 1e-6);
+    EXPECT_NEAR(sum(f.red_green), 1.0, 1e-6);
+    EXPECT_NEAR(std::hypot(sum(f.blue_yellow_wide), sum(f.blue_yellow_narrow)), 1.0, 1e-6);
+    EXPECT_NEAR(sum(f.gaussian), 1.0, 1e-6);
+    EXPECT_NEAR(sum(f.edge), 0.0, 1e-6);
+    EXPECT_NEAR(sum(f.point), 0.0, 1e-6);
+    EXPECT_GE(f.radius(), f.achromatic.radius());
+    EXPECT_GE(f.radius(), f.gaussian.radius());
+  }
+}
+
+std::string refusal(const Picture& reference, const Picture& test) {
+  std::string first;
+  for (const auto compare : {&ldr, &hdr}) {
+    try {
+      compare(reference, test, {});
+      ADD_FAILURE() << "not refused";
+    } catch (const CompareError& error) {
+      EXPECT_TRUE(first.empty() || first == error.what());
+      first = error.what();
+    }
+  }
+  return first;
+}
+
+TEST(Flip, UnusablePicturesAreRefusedByName) {
+  const Picture good = uniform(2, 1, {1, 1, 1});
+  EXPECT_THAT(refusal(good, uniform(1, 2, {1, 1, 1})),
+              AllOf(HasSubstr("'ref.exr' has 2x1"), HasSubstr("'test.exr' has 1x2")));
+  const Picture nan = rgb(2, 1, {1, 1, 1, 1, std::nanf(""), 1});
+  EXPECT_THAT(refusal(good, nan), AllOf(HasSubstr("'test.exr' has 1 pixels"), HasSubstr("not finite")));
+  EXPECT_THAT(refusal(uniform(2, 1, {1, std::numeric_limits<float>::infinity(), 1}), good),
+              HasSubstr("'ref.exr' has 2 pixels"));
+  Picture depth{.width = 2, .height = 1};
+  depth.layers = {{.name = "depth", .channels = {"Z"}, .values = {1.0f, 2.0f}}};
+  EXPECT_THAT(refusal(good, depth), HasSubstr("'test.exr' has no beauty layer"));
+  EXPECT_THAT(refusal(rgb(0, 0, {}), rgb(0, 0, {})), HasSubstr("'ref.exr' has no pixels"));
+}
+
+TEST(Flip, PixelsPerDegreeHaveARange) {
+  const Picture picture = uniform(2, 1, {1, 1, 1});
+  for (const double ppd : {0.5, 1001.0, std::nan("")}) {
+    EXPECT_THROW(ldr(picture, picture, {.pixels_per_degree = ppd}), BadOption);
+    EXPECT_THROW(hdr(picture, picture, {.pixels_per_degree = ppd}), BadOption);
+  }
+}
+
+TEST(FlipMap, ShowsThePublishedColours) {
+  struct Entry {
+    int index;
+    std::array<float, 3> color;
+  };
+  // Of the table of 256 colours; most lie between those in the source.
+  for (const Entry& entry :
+       {Entry{0, {0.001462f, 0.000466f, 0.013866f}}, Entry{3, {0.004512f, 0.003490f, 0.029965f}},
+        Entry{43, {0.178212f, 0.066576f, 0.379497f}}, Entry{64, {0.316654f, 0.071690f, 0.485380f}},
+        Entry{128, {0.716387f, 0.214982f, 0.475290f}}, Entry{187, {0.981000f, 0.498428f, 0.369734f}},
+        Entry{253, {0.987691f, 0.977154f, 0.734536f}}, Entry{255, {0.987053f, 0.991438f, 0.749504f}}}) {
+    const std::array<float, 3> color = flip::magma(static_cast<float>(entry.index) / 255.0f);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(color[c], entry.color[c], 1.0 / 255.0) << entry.index;
+  }
+  const FlipResult result{.width = 1, .height = 2, .errors = {0.0f, 1.0f}};
+  const Picture map = flip_map(result);
+  EXPECT_EQ(map.width, 1);
+  EXPECT_EQ(map.height, 2);
+  EXPECT_NEAR(linear_to_srgb(map.layers[0].values[5]), 0.749504f, 1e-5);
+  EXPECT_NEAR(linear_to_srgb(map.layers[0].values[2]), 0.013866f, 1e-5);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

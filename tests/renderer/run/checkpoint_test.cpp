@@ -1,0 +1,280 @@
+#include "renderer/run/checkpoint.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "neural/base/errors.h"
+#include "renderer/machine/atomic_file.h"
+#include "tests/support/cached_state.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using ::testing::AllOf;
+using testing::any_cache_state;
+using ::testing::HasSubstr;
+using testing::same_bits;
+using testing::small_model;
+using tests::read_file;
+using tests::TemporaryFolder;
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const neural::CacheFileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+CheckpointIdentity identity() {
+  return {{{"seed", "1"}, {"size", "3x2"}}, {"a1", "b2", "c3", "d4", "e5"}, 5};
+}
+
+Film blank_film(bool with_first_hits) {
+  const std::vector<Aov> aovs =
+      with_first_hits ? std::vector{Aov::depth, Aov::cache_error} : std::vector<Aov>{};
+  return {{1, 1, 4, 3}, 8, 8, aovs};
+}
+
+/// Another sample for each pixel, with some of everything.
+void add_sample(Film& film, std::uint64_t seed) {
+  std::uint64_t i = seed << 32;
+  const auto next = [&] { return 1e-3f + static_cast<float>(neural::mix_bits(++i) >> 40) * 1e-7f; };
+  for (int y = 1; y < 3; ++y) {
+    for (int x = 1; x < 4; ++x) {
+      film.add(x, y, Color(next(), next(), next()));
+      if (!film.needs_first_hits()) continue;
+      FirstHit hit;
+      hit.hit = x != 2;
+      hit.asked = y != 2;
+      for (Color* color : {&hit.albedo, &hit.answer, &hit.node}) *color = Color(next(), next(), next());
+      for (scene::Vec3* vector : {&hit.normal, &hit.position}) *vector = scene::Vec3(next(), next(), next());
+      for (float* value : {&hit.depth, &hit.error}) *value = next();
+      hit.instance = static_cast<decltype(hit.instance)>(x);
+      hit.primitive = static_cast<decltype(hit.primitive)>(y);
+      hit.training_count = static_cast<decltype(hit.training_count)>(x);
+      hit.resolution = static_cast<decltype(hit.resolution)>(y);
+      film.add(x, y, hit);
+    }
+  }
+}
+
+bool same(const FilmState& a, const FilmState& b) {
+  return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.first == b.first &&
+         a.first_counts == b.first_counts && a.first_ids == b.first_ids;
+}
+
+TEST(FilmState, AFilmGoesOnToTheBit) {
+  for (const bool first_hits : {false, true}) {
+    Film whole = blank_film(first_hits);
+    Film resumed = blank_film(first_hits);
+    for (std::uint64_t sample = 0; sample < 6; ++sample) {
+      add_sample(whole, sample);
+      if (sample == 2) resumed.import_state(whole.export_state());
+      if (sample > 2) add_sample(resumed, sample);
+    }
+    EXPECT_TRUE(same(whole.export_state(), resumed.export_state()));
+    const Picture a = whole.resolve();
+    const Picture b = resumed.resolve();
+    for (std::size_t i = 0; i < a.layers.size(); ++i) EXPECT_EQ(a.layers[i].values, b.layers[i].values);
+  }
+}
+
+TEST(Checkpoint, FilmAndStatisticsComeBack) {
+  const TemporaryFolder folder;
+  RenderStatistics statistics;
+  statistics.render_seconds = 0.1;
+  statistics.rays = {1, 2, ~std::uint64_t{0}, 1e-300};
+  statistics.nonfinite = 2;
+  statistics.nonfinite_samples = {{3, 4, 5, 6}, {7, 8, 9, 10}};
+  statistics.clamped = 11;
+  statistics.cache.steps = 12;
+  statistics.cache.loss = std::numeric_limits<double>::infinity();
+  statistics.cache.train_step_seconds = 13.5;
+  statistics.cache.unstored_hits = 14;
+  for (const bool first_hits : {false, true}) {
+    Film film = blank_film(first_hits);
+    add_sample(film, 1);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 17}, statistics, film, {});
+    Checkpoint checkpoint(folder / "a");
+    EXPECT_EQ(checkpoint.progress().phase, Phase::render);
+    EXPECT_EQ(checkpoint.progress().samples, 17);
+    EXPECT_FALSE(checkpoint.has_cache());
+    EXPECT_THAT(refusal([&] { checkpoint.cache_setup(); }), HasSubstr("it holds no cache"));
+    checkpoint.expect(identity(), 17);
+    Film restored = blank_film(first_hits);
+    RenderStatistics back;
+    back.threads = 5;
+    checkpoint.restore(restored, back);
+    EXPECT_TRUE(same(restored.export_state(), film.export_state()));
+    EXPECT_EQ(back.render_seconds, 0.1);
+    EXPECT_EQ(back.rays.camera, 1u);
+    EXPECT_EQ(back.rays.bounce, 2u);
+    EXPECT_EQ(back.rays.shadow, ~std::uint64_t{0});
+    EXPECT_EQ(back.rays.seconds, 1e-300);
+    EXPECT_EQ(back.nonfinite, 2u);
+    ASSERT_EQ(back.nonfinite_samples.size(), 2u);
+    EXPECT_EQ(back.nonfinite_samples[1].y, 8);
+    EXPECT_EQ(back.nonfinite_samples[1].seed, 10u);
+    EXPECT_EQ(back.clamped, 11u);
+    EXPECT_EQ(back.cache.steps, 12);
+    EXPECT_EQ(back.cache.loss, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(back.cache.train_step_seconds, 13.5);
+    EXPECT_EQ(back.cache.unstored_hits, 14u);
+    EXPECT_EQ(back.spp, 17);
+    EXPECT_EQ(back.threads, 5);
+  }
+}
+
+const TrainingGuard kGuard = {0.1, std::numeric_limits<double>::infinity(), 1000, 0.3, 4, 2.5, 900};
+
+TEST(Checkpoint, TheCacheComesBackToTheBitInBothPhases) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  for (const auto& [name, options] : neural::testing::all_training_options(*model)) {
+    SCOPED_TRACE(name);
+    CacheState state = any_cache_state(*model, options, 1);
+    state.guard = kGuard;
+    const CheckpointCache cache{state, *model, options};
+    Film film = blank_film(true);
+    for (const CheckpointProgress progress :
+         {CheckpointProgress{Phase::train, 0}, CheckpointProgress{Phase::render, 3}}) {
+      if (progress.samples > 0) add_sample(film, 1);
+      write_checkpoint(folder / "a", identity(), progress, {}, film, cache);
+      Checkpoint checkpoint(folder / "a");
+      EXPECT_EQ(checkpoint.progress().phase, progress.phase);
+      EXPECT_TRUE(same_bits(checkpoint.cache_setup(), state.setup));
+      EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
+      Film restored = blank_film(true);
+      RenderStatistics statistics;
+      checkpoint.restore(restored, statistics);
+      EXPECT_TRUE(same(restored.export_state(), film.export_state()));
+    }
+  }
+}
+
+TEST(Checkpoint, WhatDiffersIsRefusedByName) {
+  const TemporaryFolder folder;
+  Film film = blank_film(false);
+  add_sample(film, 1);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 17}, {}, film, {});
+  Checkpoint checkpoint(folder / "a");
+  CheckpointIdentity other = identity();
+  other.options[0].text = "other";
+  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }),
+              AllOf(HasSubstr("cannot read"), HasSubstr("/a'"),
+                    HasSubstr("it is of other options: seed: file 1, expected other")));
+  other = identity();
+  other.scene.materials = "other";
+  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }), HasSubstr("it differs in materials"));
+  other.scene.lights = "other";
+  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }), HasSubstr("it differs in materials, lights"));
+  EXPECT_THAT(refusal([&] { checkpoint.expect(identity(), 16); }),
+              HasSubstr("spp: file 17, expected at most 16"));
+  EXPECT_EQ(refusal([&] { checkpoint.expect(identity(), 17); }), "");
+  EXPECT_EQ(refusal([&] { checkpoint.expect(identity(), 1000); }), "") << "more samples go on";
+  Film other_film({0, 0, 1, 1}, 8, 8, {});
+  RenderStatistics statistics;
+  EXPECT_THAT(refusal([&] { checkpoint.restore(other_film, statistics); }),
+              HasSubstr("'film.radiance': F64 [36], expected F64 [6]"));
+  neural::write_safetensors(folder / "b", {}, {{"format", "gatelight-cache"}});
+  EXPECT_THAT(refusal([&] { Checkpoint(folder / "b"); }),
+              HasSubstr("format: file 'gatelight-cache', expected 'gatelight-checkpoint'"));
+}
+
+// Its digest is right: somebody wrote it so.
+TEST(Checkpoint, SumsThatNoPictureHasAreRefused) {
+  const TemporaryFolder folder;
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Film film = blank_film(false);
+    add_sample(film, 1);
+    FilmState sums = film.export_state();
+    sums.radiance[7] = value;
+    film.import_state(sums);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, film, {});
+    Checkpoint checkpoint(folder / "a");
+    RenderStatistics statistics;
+    EXPECT_THAT(refusal([&] { checkpoint.restore(film, statistics); }),
+                HasSubstr("tensor 'film.radiance': element 7 is"));
+  }
+}
+
+// A picture that went on from damaged sums would be wrong without a word.
+TEST(Checkpoint, EveryChangedByteAndEveryTruncationIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  const CacheState state = any_cache_state(*model, options, 1);
+  Film film = blank_film(true);
+  add_sample(film, 1);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 3}, {}, film,
+                   CheckpointCache{state, *model, options});
+  std::string bytes = read_file(folder / "a");
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes.data(), 8);
+  const auto reading = [&](const std::string& content) {
+    std::filesystem::remove(folder / "b");
+    folder.write("b", content);
+    return refusal([&] {
+      Checkpoint checkpoint(folder / "b");
+      checkpoint.expect(identity(), 3);
+      EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
+    });
+  };
+  ASSERT_EQ(reading(bytes), "");
+  // A header's byte may be white space, or the case of nothing: harmless changes there are none in the data.
+  for (std::size_t place = 0; place < bytes.size(); place += place < 8 + length ? 3 : 41) {
+    const char old = bytes[place];
+    bytes[place] = static_cast<char>(old ^ 0x04);
+    const bool padding = place < 8 + length && old == ' ';
+    if (!padding) {
+      EXPECT_NE(reading(bytes), "") << "byte " << place << " '" << old << "' of " << bytes.size();
+    }
+    bytes[place] = old;
+  }
+  for (std::size_t size = 0; size < bytes.size(); size += 211)
+    EXPECT_NE(reading(bytes.substr(0, size)), "") << size;
+}
+
+TEST(Checkpoint, AGuardThatNoTrainingHasIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  const auto reading = [&](TrainingGuard guard) {
+    CacheState state = any_cache_state(*model, options, 1);
+    state.steps = 1000;
+    state.guard = guard;
+    write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, blank_film(false),
+                     CheckpointCache{state, *model, options});
+    return refusal([&] { Checkpoint(folder / "a").read_cache(*model, options); });
+  };
+  EXPECT_EQ(reading(kGuard), "");
+  EXPECT_THAT(reading({.loss_average = NAN}), HasSubstr("'training_guard': element 0 is nan"));
+  EXPECT_THAT(reading({.good_steps = 1001}),
+              HasSubstr("'training_guard': element 6 is 1001, expected 0 to the 1000 steps"));
+}
+
+TEST(Checkpoint, AnOldOneStaysWhereTheNewOneCannotBeWritten) {
+  const TemporaryFolder folder;
+  const Film film = blank_film(false);
+  EXPECT_THROW(write_checkpoint(folder / "none" / "a", identity(), {Phase::render, 0}, {}, film, {}),
+               OutputError);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 0}, {}, film, {});
+  const std::string before = read_file(folder / "a");
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  CacheState broken = any_cache_state(*model, options, 1);
+  broken.model.parameters.pop_back();
+  EXPECT_THROW(write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, film,
+                                CheckpointCache{broken, *model, options}),
+               neural::BadConfiguration);
+  EXPECT_EQ(read_file(folder / "a"), before);
+  EXPECT_EQ(folder.count_files(), 1u);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

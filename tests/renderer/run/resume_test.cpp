@@ -1,0 +1,254 @@
+// Pictures that are stopped and gone on with, and caches that are saved and loaded.
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+
+#include "neural/base/errors.h"
+#include "neural/cpu/isa.h"
+#include "renderer/machine/atomic_file.h"
+#include "renderer/render.h"
+#include "tests/renderer/image/kinds_of_pictures.h"
+#include "tests/support/room.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using kinds::expect_same;
+using kinds::Kind;
+using kinds::kKinds;
+using kinds::picture_of;
+using kinds::Result;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::room;
+using tests::read_file;
+using tests::TemporaryFolder;
+
+/// Stops at the n-th time that it is asked whether to; 0: never.
+Result render(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
+  Renderer renderer(scene, options);
+  std::atomic<int> asked{0};
+  Callbacks callbacks;
+  // Once: a caller that has pressed a key does not press it again.
+  callbacks.stop = [&] { return ++asked == stop_at; };
+  Result result;
+  result.picture = renderer.render(callbacks);
+  result.statistics = renderer.statistics();
+  return result;
+}
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const neural::CacheFileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Resume : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(Resume, APictureThatWasStoppedHasTheBitsOfOneThatWasNot) {
+  const scene::Scene s = room();
+  RenderOptions options = picture_of(GetParam().integrator);
+  GetParam().change(options);
+  options.threads = 2;
+  const Result straight = render(s, options);
+  EXPECT_FALSE(straight.statistics.interrupted);
+  const bool trains = uses_cache(options.integrator);
+  for (const int first_stop : {1, trains ? 2 : 4, trains ? 4 : 5, trains ? 5 : 7}) {
+    SCOPED_TRACE(first_stop);
+    const TemporaryFolder folder;
+    options.checkpoint.file = folder / "picture";
+    options.checkpoint.resume = true;
+    options.checkpoint.every_seconds = first_stop == 1 ? 0.0 : 60.0;
+    // Further and further stops, each with another number of threads.
+    int runs = 0;
+    Result result;
+    for (int stop = first_stop; runs < 20; ++runs, stop = stop * 2 + 1) {
+      options.threads = 1 + runs % 3;
+      result = render(s, options, stop);
+      EXPECT_EQ(folder.count_files(), 1u);
+      if (!result.statistics.interrupted) break;
+      EXPECT_LT(result.statistics.spp, options.spp);
+    }
+    EXPECT_GT(runs, 0) << "it was never stopped";
+    EXPECT_LT(runs, 20);
+    expect_same(result, straight);
+    EXPECT_GT(result.statistics.render_seconds, 0.0);
+  }
+}
+
+TEST_P(Resume, MoreSamplesGoOn) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(GetParam().integrator);
+  GetParam().change(options);
+  const Result straight = render(s, options);
+  options.checkpoint.file = folder / "picture";
+  options.checkpoint.resume = true;
+  options.spp = 2;
+  render(s, options);
+  options.spp = 5;
+  const Result more = render(s, options);
+  expect_same(more, straight);
+  // Nothing is left to do.
+  expect_same(render(s, options), straight);
+  options.spp = 4;
+  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("spp: file 5, expected at most 4"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Resume, ::testing::ValuesIn(kKinds),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST(Checkpoints, AMissingOneStartsAnewAndWithoutResumeAnOldOneIsNotRead) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(Integrator::path);
+  const Result straight = render(s, options);
+  options.checkpoint.file = folder / "picture";
+  options.checkpoint.resume = true;
+  expect_same(render(s, options), straight);
+  const std::string bytes = read_file(options.checkpoint.file);
+  EXPECT_FALSE(bytes.empty());
+  options.checkpoint.resume = false;
+  options.seed = 1;
+  EXPECT_EQ(render(s, options).statistics.spp, 5);
+  EXPECT_NE(read_file(options.checkpoint.file), bytes);
+  folder.write("picture", "garbage");
+  render(s, options);
+  options.checkpoint.resume = true;
+  expect_same(render(s, options), render(s, options));
+}
+
+TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
+  scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(Integrator::nrc);
+  options.checkpoint.file = folder / "picture";
+  options.checkpoint.resume = true;
+  render(s, options, 3);
+  const auto resuming = [&](const std::function<void(RenderOptions&)>& change) {
+    RenderOptions other = options;
+    change(other);
+    return refusal([&] { render(s, other); });
+  };
+  EXPECT_THAT(resuming([](RenderOptions& o) { o.seed = 7; }),
+              AllOf(HasSubstr("/picture'"), HasSubstr("seed: file 0, expected 7")));
+  EXPECT_THAT(resuming([](RenderOptions& o) { o.cache.train_steps = 11; }),
+              HasSubstr("train-steps: file 8, expected 11"));
+  EXPECT_THAT(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }),
+              HasSubstr("camera: file"));
+  EXPECT_THAT(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
+              HasSubstr("integrator: file nrc, expected path"));
+  EXPECT_THAT(resuming([](RenderOptions& o) { o.environment.constant.x() = 1.0f; }),
+              HasSubstr("it is of another scene: it differs in environment"));
+  if (neural::cpu::available_isas().size() > 1) {
+    EXPECT_THAT(resuming([](RenderOptions& o) { o.isa = "scalar"; }), HasSubstr("kernels: file "));
+  }
+  s.materials[0].base_color.x() = 0.1f;
+  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("it differs in materials"));
+  s = room();
+  std::string bytes = read_file(options.checkpoint.file);
+  bytes[bytes.size() - 9] ^= 1;
+  folder.write("picture", bytes);
+  EXPECT_THAT(refusal([&] { render(s, options); }), AllOf(HasSubstr("/picture'"), HasSubstr("damaged")));
+  options.checkpoint.file = (folder / "none" / "picture").string();
+  EXPECT_THROW(render(s, options), OutputError);
+}
+
+TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
+  const scene::Scene s = room();
+  for (const Integrator integrator : {Integrator::nao, Integrator::nrc}) {
+    const TemporaryFolder folder;
+    RenderOptions options = picture_of(integrator);
+    const Result straight = render(s, options);
+    options.cache.cache_out = folder / "eight";
+    render(s, options);
+    options.cache.cache_in = options.cache.cache_out;
+    options.cache.cache_out = folder / "more";
+
+    options.cache.train_steps = std::nullopt;
+    const Result loaded = render(s, options);
+    EXPECT_EQ(loaded.picture.layers[0].values, straight.picture.layers[0].values);
+    EXPECT_EQ(loaded.statistics.cache.steps, 0);
+    EXPECT_EQ(loaded.statistics.cache.steps_wanted, 0);
+    EXPECT_EQ(read_file(folder / "more"), read_file(folder / "eight"));
+
+    options.cache.train_steps = 8;
+    const Result more = render(s, options);
+    EXPECT_EQ(more.statistics.cache.steps, 8);
+    RenderOptions whole = picture_of(integrator);
+    whole.cache.train_steps = 16;
+    const Result sixteen = render(s, whole);
+    EXPECT_EQ(more.picture.layers[0].values, sixteen.picture.layers[0].values);
+    EXPECT_NE(more.picture.layers[0].values, straight.picture.layers[0].values);
+
+    // Another camera, another size, and other ways to learn.
+    options.camera.look_at->eye = Vec3(-0.5f, 1.0f, 4.0f);
+    options.width = 20;
+    options.cache.batch = 500;
+    options.cache.training.adam.learning_rate = 1e-3f;
+    EXPECT_EQ(render(s, options).statistics.cache.steps, 8);
+  }
+}
+
+TEST(CacheFiles, ACheckpointGoesOnWithALoadedCache) {
+  const scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(Integrator::nrc);
+  options.cache.cache_out = folder / "eight";
+  render(s, options);
+  options.cache.cache_in = options.cache.cache_out;
+  options.cache.cache_out = folder / "more";
+  options.cache.train_steps = 24;  // groups of 8, 16
+  const Result straight = render(s, options);
+  const std::string saved = read_file(folder / "more");
+  for (const int stop : {1, 2, 4}) {
+    options.checkpoint.file = folder / "picture";
+    options.checkpoint.resume = true;
+    std::filesystem::remove(folder / "picture");
+    std::filesystem::remove(folder / "more");
+    EXPECT_TRUE(render(s, options, stop).statistics.interrupted);
+    EXPECT_EQ(std::filesystem::exists(folder / "more"), stop >= 2) << "half a cache was saved";
+    std::filesystem::rename(folder / "eight", folder / "away");
+    expect_same(render(s, options), straight);
+    std::filesystem::rename(folder / "away", folder / "eight");
+    EXPECT_EQ(read_file(folder / "more"), saved);
+  }
+}
+
+TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
+  scene::Scene s = room();
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(Integrator::nrc);
+  options.cache.cache_out = folder / "a";
+  render(s, options);
+  options.cache.cache_in = options.cache.cache_out;
+  options.cache.cache_out.clear();
+  const auto loading = [&](const std::function<void(RenderOptions&)>& change) {
+    RenderOptions other = options;
+    change(other);
+    return refusal([&] { render(s, other); });
+  };
+  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.holds = CacheHolds::all; }),
+              HasSubstr("cache-holds: file no-delta, expected all"));
+  EXPECT_THAT(loading([](RenderOptions& o) { o.integrator = Integrator::nao; }),
+              HasSubstr("integrator: file nrc, expected nao"));
+  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }),
+              HasSubstr("hidden width: file 16, model 32"));
+  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.gate.features = 4; }),
+              HasSubstr("features: file 8, model 4"));
+  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.cache_in += "b"; }), HasSubstr("it does not exist"));
+  s.meshes[0].positions[0].x() += 0.1f;
+  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("it differs in geometry"));
+  options.cache.cache_out = (folder / "none" / "a").string();
+  EXPECT_THROW(render(room(), options), OutputError);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,87 @@
+// Panes of clear glass: what their textures and vertex colours do to the light of a shadow ray.
+
+#include "renderer/surface/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scene_builder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using gatelight::testing::SceneBuilder;
+using scene::Vec2;
+using scene::Vec4;
+
+/// Straight down through the middle of a pane's first triangle.
+Color through(const scene::Scene& scene) {
+  const Textures textures(scene);
+  const Coverage coverage(scene, textures);
+  Hit hit;
+  hit.instance = 0;
+  hit.primitive = 0;
+  hit.u = 0.25f;
+  hit.v = 0.25f;
+  EXPECT_TRUE(coverage.filters_shadows(0));
+  return coverage.pane_transmittance(hit, Vec3(0, 0, -1));
+}
+
+scene::Scene pane_of(const scene::Material& material, const scene::Image* image = nullptr) {
+  SceneBuilder builder;
+  scene::Mesh& mesh = builder.quad(builder.material(material), Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));
+  mesh.uv0.assign(4, Vec2(0.5f, 0.5f));
+  scene::Scene scene = builder.scene();
+  if (image) {
+    scene.images.push_back(*image);
+    scene.textures.push_back({.image = 0});
+  }
+  return scene;
+}
+
+/// One texel.
+scene::Image texel(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+  return {.name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {red, green, blue, 255}};
+}
+
+TEST(Panes, ATextureTintsAsTheFactorDoes) {
+  scene::Material textured = SceneBuilder::clear_glass();
+  textured.base_color_texture.texture = 0;
+  const scene::Image image = texel(255, 188, 0);  // sRGB 188 is half the light
+  const Color seen = through(pane_of(textured, &image));
+  const Color clear = through(pane_of(SceneBuilder::clear_glass()));
+  EXPECT_GT(clear.minCoeff(), 0.9f);
+  EXPECT_FLOAT_EQ(seen.x(), clear.x());
+  scene::Material tinted = SceneBuilder::clear_glass();
+  tinted.base_color = Color(1.0f, 0.50289f, 0.0f);
+  EXPECT_TRUE(seen.isApprox(through(pane_of(tinted)), 1e-3f)) << seen.transpose();
+}
+
+TEST(Panes, VertexColoursTintAsTheFactorDoes) {
+  scene::Scene coloured = pane_of(SceneBuilder::clear_glass());
+  coloured.meshes[0].colors.assign(4, Vec4(0.25f, 0.5f, 1.0f, 1.0f));
+  scene::Material tinted = SceneBuilder::clear_glass();
+  tinted.base_color = Color(0.25f, 0.5f, 1.0f);
+  EXPECT_TRUE(through(coloured).isApprox(through(pane_of(tinted)), 1e-5f));
+}
+
+TEST(Panes, TexturesOfTransmissionAndMetalDarkenAsTheirFactorsDo) {
+  // Transmission is read from red, metal from blue.
+  const scene::Image image = texel(64, 255, 128);
+  scene::Material textured = SceneBuilder::clear_glass();
+  textured.transmission_texture.texture = 0;
+  scene::Material factors = SceneBuilder::clear_glass();
+  factors.transmission = 64.0f / 255.0f;
+  EXPECT_TRUE(through(pane_of(textured, &image)).isApprox(through(pane_of(factors)), 1e-4f));
+
+  textured = SceneBuilder::clear_glass();
+  textured.metallic = 1.0f;
+  textured.metallic_roughness_texture.texture = 0;
+  factors = SceneBuilder::clear_glass();
+  factors.metallic = 128.0f / 255.0f;
+  const Color metal = through(pane_of(textured, &image));
+  EXPECT_TRUE(metal.isApprox(through(pane_of(factors)), 1e-4f));
+  EXPECT_LT(metal.maxCoeff(), 0.6f);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,169 @@
+// White furnaces through the whole path tracer: a smooth-shaded ball that absorbs nothing, under a sky of
+// radiance 1, cannot be seen. What energy the BSDF, its shading normals or the light sampling lose or add
+// shows as a shape.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "renderer/render.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using scene::Material;
+using testing::Moments;
+using testing::SceneBuilder;
+
+constexpr int kSize = 34;
+constexpr float kPixelsPerRadius = 14.0f;
+
+struct Case {
+  std::string name;
+  std::function<void(Material&)> make;
+};
+
+Material white() {
+  Material m;
+  m.metallic = 0.0f;
+  m.roughness = 0.0f;
+  return m;
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (int percent : {0, 15, 45, 100}) {
+    const float roughness = 0.01f * static_cast<float>(percent);
+    const std::string end = std::to_string(percent);
+    all.push_back({"Metal" + end, [=](Material& m) { m.metallic = 1.0f, m.roughness = roughness; }});
+    all.push_back({"Dielectric" + end, [=](Material& m) { m.roughness = roughness; }});
+    all.push_back({"GlassBall" + end,
+                   [=](Material& m) { m.roughness = roughness, m.transmission = 1.0f, m.thickness = 1.0f; }});
+    all.push_back({"ThinGlass" + end, [=](Material& m) {
+                     m.roughness = roughness, m.transmission = 1.0f, m.double_sided = true;
+                   }});
+  }
+  all.push_back({"HalfTransmitting",
+                 [](Material& m) { m.roughness = 0.4f, m.transmission = 0.5f, m.thickness = 1.0f; }});
+  all.push_back({"Diamond", [](Material& m) { m.transmission = 1.0f, m.thickness = 1.0f, m.ior = 2.4f; }});
+  all.push_back({"SmoothCoatOnMatte", [](Material& m) { m.roughness = 1.0f, m.clearcoat = 1.0f; }});
+  all.push_back({"RoughCoatOnMetal", [](Material& m) {
+                   m.metallic = 1.0f, m.roughness = 0.3f, m.clearcoat = 1.0f, m.clearcoat_roughness = 0.4f;
+                 }});
+  all.push_back({"Sheen", [](Material& m) {
+                   m.roughness = 0.8f, m.sheen_color = Color::Constant(1.0f), m.sheen_roughness = 0.4f;
+                 }});
+  all.push_back({"Lambert", [](Material& m) { m.roughness = 1.0f, m.specular = 0.0f; }});
+  return all;
+}
+
+/// The ball in the middle of the picture, seen from so far that its radius is kPixelsPerRadius everywhere.
+Picture ball(const Material& material, int spp) {
+  SceneBuilder builder;
+  builder.sphere(builder.material(material), Vec3(0, 0, 0), 1.0f, 96, true);
+  RenderOptions options;
+  options.width = options.height = kSize;
+  options.spp = spp;
+  // Glass keeps some light inside for long; roulette would only add noise.
+  options.max_depth = options.min_depth = 100;
+  options.sampler = SamplerKind::independent;
+  options.filter = PixelFilter::box;
+  options.aovs = {Aov::variance};
+  options.environment.constant = Color::Constant(1.0f);
+  LookAt view;
+  view.eye = Vec3(0, 30, 40);
+  options.camera.look_at = view;
+  options.camera.look_at->target = Vec3::Zero();
+  options.camera.fov_degrees =
+      2.0f * std::atan(0.5f * kSize / kPixelsPerRadius / 50.0f) * 180.0f / scene::kPi;
+  return Renderer(builder.scene(), options).render();
+}
+
+/// Distance of a pixel's centre from the middle of the ball, in radii.
+float radius_at(int x, int y) {
+  return std::hypot(static_cast<float>(x) + 0.5f - 0.5f * kSize,
+                    static_cast<float>(y) + 0.5f - 0.5f * kSize) /
+         kPixelsPerRadius;
+}
+
+/// Radii between which the silhouette lies; the mesh is inscribed.
+constexpr float kInner = 0.92f;
+constexpr float kOuter = 1.08f;
+
+/// Standard errors that none of some ten thousand pixels may exceed.
+constexpr double kErrors = 5.7;
+
+class WhiteFurnace : public ::testing::TestWithParam<Case> {};
+
+TEST_P(WhiteFurnace, HidesTheBall) {
+  Material material = white();
+  GetParam().make(material);
+  const Picture picture = ball(material, 128);
+  const std::vector<float>& values = picture.layers[0].values;
+  const std::vector<float>& variances = picture.find("variance")->values;
+  // All pixels of a ring see the same. A pixel that has missed a rare lobe finds its variance too small.
+  std::array<Moments, 64> ring_variance;
+  Moments inner;
+  Moments rim;
+  Moments sky;
+  const auto ring = [](float radius) { return static_cast<std::size_t>(radius * 12.0f); };
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const std::size_t i = static_cast<std::size_t>(3 * (y * kSize + x));
+      const float r = radius_at(x, y);
+      (r < kInner ? inner : r < kOuter ? rim : sky).add(values[i]);
+      ring_variance[ring(r)].add(variances[i]);
+    }
+  }
+  double worst = 0.0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const std::size_t i = static_cast<std::size_t>(3 * (y * kSize + x));
+      const float r = radius_at(x, y);
+      if (r >= kInner) continue;
+      const double variance = std::max<double>(variances[i], ring_variance[ring(r)].mean());
+      worst = std::max(worst, std::abs(values[i] - 1.0) - kErrors * std::sqrt(variance));
+    }
+  }
+  EXPECT_LT(worst, 0.01) << "difference of one pixel beyond its noise";
+  EXPECT_LT(std::abs(inner.mean() - 1.0) - 3.0 * inner.standard_error(), 0.005) << "mean " << inner.mean();
+  EXPECT_LT(std::abs(rim.mean() - 1.0) - 3.0 * rim.standard_error(), 0.015)
+      << "mean of the rim " << rim.mean();
+  EXPECT_EQ(sky.mean(), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WhiteFurnace, ::testing::ValuesIn(cases()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(MaterialsStat, AbsorptionInGlassIsSeenInTheFurnace) {
+  Material material = white();
+  material.transmission = 1.0f;
+  material.thickness = 1.0f;
+  material.ior = 1.0f;
+  material.attenuation_color = Color(0.25f, 0.5f, 1.0f);
+  material.attenuation_distance = 2.0f;
+  const Picture picture = ball(material, 64);
+  // With an index of 1 rays go straight on, by the law of Beer over the chord 2 sqrt(1 - r^2).
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const float r = radius_at(x, y);
+      if (r > 0.85f) continue;
+      const float chord = 2.0f * std::sqrt(1.0f - r * r);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float expected =
+            std::pow(material.attenuation_color[static_cast<Eigen::Index>(c)], chord / 2.0f);
+        EXPECT_NEAR(picture.layers[0].values[static_cast<std::size_t>(3 * (y * kSize + x)) + c], expected,
+                    0.01f);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,243 @@
+// The path tracer against closed forms. Pixels of a picture are independent estimates of the same number
+// wherever the scene looks the same in all of them: their mean is compared with it by a t-test.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/render.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::Moments;
+using testing::SceneBuilder;
+
+const double kSignificance = testing::sidak(1e-4, 40);
+
+RenderOptions looking(const Vec3& eye, const Vec3& target, float fov_degrees) {
+  RenderOptions options;
+  options.width = 24;
+  options.height = 24;
+  options.spp = 64;
+  options.max_depth = 64;
+  options.threads = 2;
+  LookAt view;
+  view.eye = eye;
+  view.target = target;
+  if ((target - eye).normalized().cwiseAbs().y() > 0.99f) view.up = Vec3(0, 0, -1);
+  options.camera.look_at = view;
+  options.camera.fov_degrees = fov_degrees;
+  return options;
+}
+
+Moments pixel_moments(const Picture& picture, std::size_t channel = 0) {
+  Moments moments;
+  const std::vector<float>& v = picture.layers[0].values;
+  for (std::size_t i = channel; i < v.size(); i += 3) moments.add(static_cast<double>(v[i]));
+  return moments;
+}
+
+void expect_radiance(const scene::Scene& s, const RenderOptions& options, double expected,
+                     double rounding = 1e-5) {
+  Renderer renderer(s, options);
+  const Moments m = pixel_moments(renderer.render());
+  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kSignificance)
+      << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
+}
+
+class DirectLightModes : public ::testing::TestWithParam<DirectLight> {};
+
+TEST_P(DirectLightModes, ClosedFurnaceShowsEmissionOverOneMinusAlbedo) {
+  SceneBuilder builder;
+  const int m = builder.material(SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f)));
+  builder.box(m, Vec3(-2, -1, -3), Vec3(2, 2, 3), true);
+  builder.box(m, Vec3(-0.5f, -0.6f, -1), Vec3(0.3f, 0.4f, -0.2f));
+  RenderOptions options = looking(Vec3(0.3f, 0.5f, 2.5f), Vec3(0, 0, 0), 70.0f);
+  options.direct = GetParam();
+  expect_radiance(builder.scene(), options, 2.0);
+}
+
+TEST_P(DirectLightModes, DepthCountsScatteringEvents) {
+  SceneBuilder builder;
+  const int m = builder.material(SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f)));
+  builder.box(m, Vec3(-1, -1, -1), Vec3(1, 1, 1), true);
+  RenderOptions options = looking(Vec3(0, 0, 0.5f), Vec3(0, 0, 0), 60.0f);
+  options.direct = GetParam();
+  double expected = 1.0;
+  double power = 1.0;
+  for (int depth = 1; depth <= 3; ++depth) {
+    options.max_depth = depth;
+    expected += power *= 0.5;
+    expect_radiance(builder.scene(), options, expected);
+  }
+}
+
+/// Irradiance at p with normal n from a polygon of unit radiance (Lambert's formula), wholly above the
+/// horizon.
+double polygon_irradiance(const Vec3& p, const Vec3& n, const std::vector<Vec3>& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d a = (polygon[i] - p).cast<double>().normalized();
+    const Eigen::Vector3d b = (polygon[(i + 1) % polygon.size()] - p).cast<double>().normalized();
+    sum += std::acos(a.dot(b)) * a.cross(b).normalized().dot(n.cast<double>());
+  }
+  return std::abs(sum) / 2.0;
+}
+
+TEST_P(DirectLightModes, QuadLightMatchesLambertsFormula) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.7f)));
+  const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(5.0f)));
+  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  // The front looks down.
+  builder.quad(lamp, Vec3(0.5f, 1.5f, -1), Vec3(1, 0, 0), Vec3(0, 0.5f, 2));
+  const double e = 5.0 * polygon_irradiance(Vec3(0, 0, 0), Vec3(0, 1, 0),
+                                            {Vec3(0.5f, 1.5f, -1), Vec3(1.5f, 1.5f, -1), Vec3(1.5f, 2, 1),
+                                             Vec3(0.5f, 2, 1)});
+  // So narrow a view that every pixel sees the origin.
+  RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
+  options.direct = GetParam();
+  expect_radiance(builder.scene(), options, 0.7 / M_PI * e, 2e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DirectLightModes,
+                         ::testing::Values(DirectLight::mis, DirectLight::nee, DirectLight::bsdf));
+
+TEST(PathStat, SphereLightMatchesTheClosedForm) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.6f)));
+  const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(3.0f)));
+  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  builder.sphere(lamp, Vec3(1, 2, 0), 0.5f, 128, false);
+  // Radiance albedo * L * (R/d)^2 * cos; the mesh is inscribed, 128 segments lose 0.1 % of the cross-section.
+  const double d2 = 5.0;
+  RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
+  expect_radiance(builder.scene(), options, 0.6 * 3.0 * 0.25 / d2 * 2.0 / std::sqrt(d2), 2e-3);
+}
+
+TEST(PathStat, SunPointAndSpotMatchTheClosedForms) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  const RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
+  scene::PunctualLight light;
+  light.type = scene::LightType::directional;
+  light.intensity = Color::Constant(4.0f);
+  light.direction = Vec3(0.6f, -0.8f, 0.0f);
+  builder.scene().lights = {light};
+  expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 * 0.8, 1e-4);
+
+  light.type = scene::LightType::point;
+  light.position = Vec3(0, 2, 0);
+  builder.scene().lights = {light};
+  expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 / 4.0, 1e-3);
+
+  light.type = scene::LightType::spot;
+  light.direction = Vec3(0, -1, 0);
+  builder.scene().lights = {light};
+  expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 / 4.0, 1e-3);
+  light.direction = Vec3(1, 0, 0);
+  builder.scene().lights = {light};
+  expect_radiance(builder.scene(), options, 0.0, 1e-6);
+}
+
+TEST(PathStat, ConvexObjectUnderAConstantSkyShowsAlbedoTimesSky) {
+  SceneBuilder builder;
+  builder.sphere(builder.material(SceneBuilder::lambert(Color(0.8f, 0.4f, 0.1f))), Vec3(0, 0, 0), 1.0f, 64,
+                 false);
+  RenderOptions options = looking(Vec3(0, 0, 3), Vec3(0, 0, 0), 20.0f);
+  options.environment.constant = Color::Constant(2.0f);
+  Renderer renderer(builder.scene(), options);
+  const Picture picture = renderer.render();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double expected = 2.0 * std::array{0.8, 0.4, 0.1}[c];
+    EXPECT_GT(testing::mean_p_value(pixel_moments(picture, c), expected, 1e-4), kSignificance) << c;
+  }
+}
+
+TEST(PathStat, VolumeAbsorbsByBeerLambert) {
+  // ior 1: no reflection, no refraction. A slab 0.5 m thick, colour 0.25 after 1 m: half the light.
+  SceneBuilder builder;
+  scene::Material m;
+  m.metallic = 0.0f;
+  m.roughness = 0.0f;
+  m.ior = 1.0f;
+  m.transmission = 1.0f;
+  m.thickness = 1.0f;
+  m.attenuation_distance = 1.0f;
+  m.attenuation_color = Color(0.25f, 1.0f, 0.25f);
+  builder.box(builder.material(m), Vec3(-5, -5, -0.5f), Vec3(5, 5, 0));
+  RenderOptions options = looking(Vec3(0, 0, 2), Vec3(0, 0, 0), 0.5f);
+  options.environment.constant = Color::Constant(1.0f);
+  Renderer renderer(builder.scene(), options);
+  const Picture picture = renderer.render();
+  EXPECT_NEAR(pixel_moments(picture, 0).mean(), 0.5, 1e-3);
+  EXPECT_NEAR(pixel_moments(picture, 1).mean(), 1.0, 1e-3);
+}
+
+TEST(PathStat, PanesPassTheSunToWhatIsBehindThem) {
+  // The same floor under the same sun, with and without a pane: the ratio is the pane's transmittance,
+  // squared with two panes. A renderer whose shadow rays stop at glass shows black here.
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  scene::Material glass = SceneBuilder::clear_glass();
+  builder.quad(builder.material(glass), Vec3(-1, 1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
+  scene::PunctualLight light;
+  light.type = scene::LightType::directional;
+  light.intensity = Color::Constant(M_PI);
+  light.direction = Vec3(0, -1, 0);
+  builder.scene().lights = {light};
+  RenderOptions options = looking(Vec3(-3, 0.5f, 0), Vec3(0, 0, 0), 0.05f);
+  options.max_depth = 1;
+  Renderer renderer(builder.scene(), options);
+  const double mean = pixel_moments(renderer.render()).mean();
+  EXPECT_GT(mean, 0.5 * 0.91);
+  EXPECT_LT(mean, 0.5 * 0.961);
+}
+
+TEST(PathStat, PanesAddNoLightOfTheirOwn) {
+  // A matte floor and a pane above it in a white furnace: whatever the pane reflects down, it keeps from
+  // coming through. Shadow rays through panes and BSDF samples through panes must not count the sky twice.
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
+  builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
+  scene::Material glass = SceneBuilder::clear_glass();
+  glass.base_color = Color::Constant(1.0f);
+  builder.quad(builder.material(glass), Vec3(-50, 0.5f, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
+  RenderOptions options = looking(Vec3(0, 2, 1), Vec3(0, 0, 0), 10.0f);
+  options.environment.constant = Color::Constant(1.0f);
+  for (DirectLight direct : {DirectLight::mis, DirectLight::nee, DirectLight::bsdf}) {
+    options.direct = direct;
+    Renderer renderer(builder.scene(), options);
+    EXPECT_NEAR(pixel_moments(renderer.render()).mean(), 1.0, 0.015);
+  }
+}
+
+TEST(PathStat, AmbientOcclusionOfADiscMatchesItsFormFactor) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
+  builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
+  // A disc of radius 1 at height 0.75: form factor R^2 / (R^2 + h^2) = 0.64.
+  std::vector<Vec3> points{Vec3(0, 0.75f, 0)};
+  std::vector<std::array<std::uint32_t, 3>> fan;
+  constexpr std::uint32_t kSegments = 256;
+  for (std::uint32_t i = 0; i < kSegments; ++i) {
+    const float phi = 2.0f * scene::kPi * static_cast<float>(i) / kSegments;
+    points.emplace_back(std::cos(phi), 0.75f, std::sin(phi));
+    fan.push_back({0, 1 + i, 1 + (i + 1) % kSegments});
+  }
+  builder.mesh(matte, points, fan);
+  RenderOptions options = looking(Vec3(-3, 0.4f, 0), Vec3(0, 0, 0), 0.02f);
+  options.integrator = Integrator::ao;
+  options.ao_distance = scene::kInfinity;
+  expect_radiance(builder.scene(), options, 0.36, 2e-3);
+  options.ao_distance = 0.7f;
+  expect_radiance(builder.scene(), options, 1.0);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
