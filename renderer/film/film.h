@@ -9,19 +9,10 @@
 
 #include "renderer/film/camera_sample.h"
 #include "renderer/image/picture.h"
+#include "renderer/image/pixel_rect.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
-
-/// Pixels x0 <= x < x1, y0 <= y < y1 of a picture.
-struct PixelRect {
-  int x0 = 0;
-  int y0 = 0;
-  int x1 = 0;
-  int y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-};
 
 /// A film's sums to the bit, pixel after pixel. Of the first hits empty where the film keeps none.
 struct FilmState {

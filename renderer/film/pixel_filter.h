@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "renderer/settings/options.h"
+#include "renderer/settings/choices.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {

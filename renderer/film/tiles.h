@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/film/film.h"
+#include "renderer/image/pixel_rect.h"
 
 namespace gatelight::renderer {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "renderer/light/environment.h"
+#include "renderer/settings/environment_options.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/light/environment_sample.h"
+#include "renderer/settings/environment_options.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {
@@ -13,21 +15,6 @@ namespace gatelight::renderer {
 using scene::Color;
 using scene::Vec2;
 using scene::Vec3;
-
-struct EnvironmentOptions {
-  std::string file;                  ///< EXR or HDR picture, latitude-longitude; empty: constant
-  Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
-  float rotation_degrees = 0.0f;     ///< about +y, counter-clockwise seen from above
-  float scale = 1.0f;
-
-  bool none() const { return file.empty() && (constant == 0.0f).all(); }
-};
-
-struct EnvironmentSample {
-  Vec3 wi = Vec3::Zero();
-  Color radiance{0.0f, 0.0f, 0.0f};
-  float pdf = 0.0f;  ///< per solid angle; 0: no sample
-};
 
 class EnvironmentPicture;
 

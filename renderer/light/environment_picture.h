@@ -11,9 +11,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "renderer/light/environment.h"
+#include "renderer/light/environment_sample.h"
 
 namespace gatelight::renderer {
+
+using scene::Color;
+using scene::Vec2;
+using scene::Vec3;
 
 class EnvironmentPicture {
  public:

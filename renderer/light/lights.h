@@ -10,15 +10,11 @@
 #include "renderer/light/environment.h"
 #include "renderer/light/light_tree.h"
 #include "renderer/sampling/alias_table.h"
+#include "renderer/settings/choices.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
-
-enum class LightSelection : std::uint8_t {
-  tree,   ///< light tree: distance, orientation and power (Conty Estevez and Kulla 2018)
-  power,  ///< alias table over power alone
-};
 
 struct LightSample {
   Vec3 wi = Vec3::Zero();            ///< unit, from the point to the light

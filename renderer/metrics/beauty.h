@@ -4,10 +4,22 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 
-#include "renderer/metrics/compare.h"
+#include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
+
+/// Pictures that cannot be compared. The message names both.
+struct CompareError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct NamedPicture {
+  const Picture& picture;
+  std::string name;  ///< for messages
+};
 
 using Rgb = std::array<double, 3>;
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "renderer/image/srgb.h"
-#include "renderer/metrics/beauty.h"
 
 namespace gatelight::renderer {
 namespace {

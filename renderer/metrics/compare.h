@@ -2,17 +2,10 @@
 // How far one picture is from another, over the red, green and blue of their beauty layers.
 
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 
-#include "renderer/image/picture.h"
+#include "renderer/metrics/beauty.h"
 
 namespace gatelight::renderer {
-
-/// Pictures that cannot be compared. The message names both.
-struct CompareError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Means run over pixels and channels, in double precision and in the order of the pixels. A pixel that is
 /// not finite in one of the pictures is counted and left out of all the others.
@@ -31,11 +24,6 @@ struct ErrorMetrics {
 /// Display white; radiance above it is not special.
 inline constexpr double kPsnrPeak = 1.0;
 inline constexpr double kRelMseEpsilon = 1e-2;
-
-struct NamedPicture {
-  const Picture& picture;
-  std::string name;  ///< for messages
-};
 
 /// Alpha is ignored; a beauty layer of one channel is grey. Throws CompareError when the sizes differ, when
 /// one is grey and one has colours, or when a picture has no beauty layer. Where no pixel is finite in both,

@@ -4,7 +4,6 @@
 
 #include "renderer/image/srgb.h"
 #include "renderer/machine/errors.h"
-#include "renderer/metrics/beauty.h"
 #include "renderer/metrics/flip/color_map.h"
 #include "renderer/metrics/flip/exposures.h"
 #include "renderer/metrics/flip/filters.h"

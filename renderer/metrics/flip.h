@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "renderer/image/tonemap.h"
-#include "renderer/metrics/compare.h"
+#include "renderer/metrics/beauty.h"
+#include "renderer/metrics/flip/summary.h"
 
 namespace gatelight::renderer {
 
@@ -25,17 +26,6 @@ struct FlipOptions {
 
 inline constexpr double kMinPixelsPerDegree = 1.0;
 inline constexpr double kMaxPixelsPerDegree = 1000.0;
-
-/// Of the errors of all pixels. The quartiles are weighted: the errors up to `first_quartile`, say, make a
-/// quarter of the sum of all errors. Zero where there is no error.
-struct FlipSummary {
-  double mean = 0.0;
-  double weighted_median = 0.0;
-  double first_quartile = 0.0;
-  double third_quartile = 0.0;
-  double min = 0.0;
-  double max = 0.0;
-};
 
 struct FlipResult {
   int width = 0;

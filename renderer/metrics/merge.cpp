@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "renderer/machine/finite_float.h"
-#include "renderer/metrics/beauty.h"
 
 namespace gatelight::renderer {
 namespace {

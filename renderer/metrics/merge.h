@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/metrics/compare.h"
+#include "renderer/metrics/beauty.h"
 
 namespace gatelight::renderer {
 

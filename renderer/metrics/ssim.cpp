@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "renderer/image/srgb.h"
-#include "renderer/metrics/beauty.h"
 #include "renderer/metrics/flip/shown.h"
 
 namespace gatelight::renderer {

@@ -4,7 +4,7 @@
 // Transactions on Image Processing 13 (4), 2004.
 
 #include "renderer/image/tonemap.h"
-#include "renderer/metrics/compare.h"
+#include "renderer/metrics/beauty.h"
 
 namespace gatelight::renderer {
 

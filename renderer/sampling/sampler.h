@@ -9,16 +9,12 @@
 
 #include <cstdint>
 
+#include "renderer/settings/choices.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {
 
 using scene::Vec2;
-
-enum class SamplerKind : std::uint8_t {
-  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a (0,2)-sequence of its own
-  independent,  ///< a hash of the key
-};
 
 namespace sampling {
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "renderer/metrics/beauty.h"
-
 namespace gatelight::renderer::flip {
 
 RgbPlanes read_planes(const NamedPicture& named, const char* measure) {

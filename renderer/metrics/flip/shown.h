@@ -2,7 +2,7 @@
 // Pictures as a screen shows them.
 
 #include "renderer/image/tonemap.h"
-#include "renderer/metrics/compare.h"
+#include "renderer/metrics/beauty.h"
 #include "renderer/metrics/flip/planes.h"
 
 namespace gatelight::renderer::flip {

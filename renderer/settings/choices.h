@@ -1,0 +1,50 @@
+#pragma once
+// What options choose between. The words for the choices are in option_words.h.
+
+#include <cstdint>
+
+namespace gatelight::renderer {
+
+enum class Integrator : std::uint8_t {
+  path,  ///< unbiased reference
+  ao,    ///< ambient occlusion, reference
+  nao,   ///< ambient occlusion answered by the cache
+  nrc,   ///< radiance answered by the cache
+};
+/// Whether it learns.
+constexpr bool uses_cache(Integrator integrator) {
+  return integrator == Integrator::nao || integrator == Integrator::nrc;
+}
+enum class MisHeuristic : std::uint8_t { balance, power };
+enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< nee and bsdf alone are for tests and teaching
+enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
+enum class NanPolicy : std::uint8_t { drop, error };
+
+enum class Aov : std::uint8_t {
+  albedo,
+  normal,
+  depth,
+  position,
+  primitive_id,
+  instance_id,
+  sample_count,
+  variance,
+  // Of the cache, at the vertex where it is first asked; black without one.
+  cache_answer,    ///< what it says, before reflectance
+  cache_error,     ///< squared relative error of the answer against one record traced there: the loss's heat
+  training_count,  ///< steps that trained the triangle
+  resolution,      ///< R of the instance's first level
+  nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
+};
+
+enum class SamplerKind : std::uint8_t {
+  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a (0,2)-sequence of its own
+  independent,  ///< a hash of the key
+};
+
+enum class LightSelection : std::uint8_t {
+  tree,   ///< light tree: distance, orientation and power (Conty Estevez and Kulla 2018)
+  power,  ///< alias table over power alone
+};
+
+}  // namespace gatelight::renderer
