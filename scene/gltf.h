@@ -2,18 +2,12 @@
 // glTF 2.0 in. The loader trusts nothing: every index, range, stride, count and number is checked before use.
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include "scene/scene.h"
+#include "scene/scene_error.h"
 
 namespace gatelight::scene {
-
-/// A file that cannot be used. The message names the file, the offending value and what was expected, in one
-/// line.
-struct SceneError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct LoadOptions {
   int scene = -1;       ///< index of the glTF scene; -1: the file's default, or its first

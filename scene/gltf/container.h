@@ -1,0 +1,40 @@
+#pragma once
+// A file's bytes, and the two parts of a .glb.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/gltf/error.h"
+
+namespace gatelight::scene::gltf {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// Bytes with one owner, not zeroed before they are filled.
+struct OwnedBytes {
+  std::unique_ptr<std::uint8_t[]> data;
+  std::size_t size = 0;
+
+  explicit OwnedBytes(std::size_t n = 0) : data(std::make_unique_for_overwrite<std::uint8_t[]>(n)), size(n) {}
+  Bytes bytes() const { return {data.get(), size}; }
+};
+
+/// Throws SceneError in the name of `file` (the scene, with `where` the place that asked for it).
+OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, std::string_view where);
+
+struct Container {
+  OwnedBytes file;
+  std::string_view json;  ///< points into file
+  Bytes binary;           ///< the .glb's BIN chunk; points into file
+  bool has_binary = false;
+};
+
+/// Tells .glb from .gltf by the first bytes, not by the name.
+Container open_container(const std::filesystem::path& path, Warnings& warnings);
+
+}  // namespace gatelight::scene::gltf

@@ -1,0 +1,40 @@
+#pragma once
+// KHR_draco_mesh_compression: one primitive's triangles and attributes out of libdraco.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/gltf/accessors.h"
+#include "scene/gltf/tinygltf.h"
+
+namespace gatelight::scene::gltf {
+
+class DracoPrimitive {
+ public:
+  /// Decodes at once. Throws SceneError.
+  DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where);
+  ~DracoPrimitive();
+
+  std::size_t vertex_count() const;
+  bool has(const std::string& semantic) const;
+  /// Rows of `width` floats, as AccessorReader's. How integers are meant (`normalized`) is for the caller to
+  /// say: the accessor of the attribute has it, the compressed data need not.
+  void read_floats(const std::string& semantic, Selection selection, int width, bool normalized,
+                   float* out) const;
+  void read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const;
+
+ private:
+  struct Decoded;
+
+  int attribute_id(const std::string& semantic) const;
+
+  const Document& document_;
+  const tinygltf::Value& extension_;
+  std::string where_;
+  std::unique_ptr<Decoded> decoded_;
+};
+
+}  // namespace gatelight::scene::gltf

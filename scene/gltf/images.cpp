@@ -1,0 +1,124 @@
+#include "scene/gltf/images.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "scene/png_read.h"
+
+namespace gatelight::scene::gltf {
+namespace {
+
+constexpr int kMaxSide = 32768;
+/// Neither deflate (1032:1) nor a JPEG of one colour shrinks further; a header that claims more is wrong.
+constexpr std::size_t kMaxRatio = 2048;
+constexpr std::size_t kSmall = std::size_t{1} << 20;
+
+enum class Format { png, jpeg, other };
+
+/// glTF knows two formats; the bytes tell which, since MIME types and file names are often wrong.
+Format format_of(Bytes bytes) {
+  constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::uint8_t kJpeg[] = {0xff, 0xd8, 0xff};
+  if (bytes.size() > 8 && std::equal(std::begin(kPng), std::end(kPng), bytes.begin())) return Format::png;
+  if (bytes.size() > 3 && std::equal(std::begin(kJpeg), std::end(kJpeg), bytes.begin())) return Format::jpeg;
+  return Format::other;
+}
+
+SceneError image_error(const Document& document, std::string_view where, std::string_view what) {
+  return make_error(document.file(), where, fmt::format("{}, expected a PNG or JPEG picture", what));
+}
+
+/// How many values a picture has; throws for sizes that are no picture's.
+std::size_t checked_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
+                         int channels) {
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
+    throw image_error(
+        document, where,
+        fmt::format("{}x{} pixels of {} channels, at most {} a side", width, height, channels, kMaxSide));
+  }
+  const std::size_t size =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
+  if (size > kSmall && size / kMaxRatio > bytes.size()) {
+    throw image_error(document, where, fmt::format("{}x{} pixels in {} bytes", width, height, bytes.size()));
+  }
+  return size;
+}
+
+Image decode_png(const Document& document, Bytes bytes, std::string_view where) try {
+  PngReader reader(bytes);
+  checked_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
+  return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
+} catch (const SceneError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw image_error(document, where, fmt::format("cannot be decoded ({})", error.what()));
+}
+
+Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("jpeg");
+  if (!input) {
+    throw image_error(document, where, fmt::format("no decoder ({}) in OpenImageIO", OIIO::geterror()));
+  }
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+  input->set_ioproxy(&memory);
+  OIIO::ImageSpec spec;
+  if (!input->open("image.jpeg", spec, {})) {
+    throw image_error(document, where, fmt::format("cannot be decoded ({})", input->geterror()));
+  }
+  // JPEG has no alpha: the second of two components is none.
+  Image image{"", spec.width, spec.height, spec.nchannels >= 3 ? 3 : 1, {}};
+  image.pixels.resize(checked_size(document, bytes, where, image.width, image.height, image.channels));
+  const bool read = input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data());
+  // libjpeg makes up what is missing or damaged, and says so once, in its first words.
+  const std::string said = input->geterror();
+  const bool harmless = said.empty() || said.find("extraneous bytes") != std::string::npos;
+  if (!read || !harmless) throw image_error(document, where, fmt::format("cannot be decoded ({})", said));
+  if (!said.empty()) warnings.add(fmt::format("{}: {}", where, said));
+  return image;
+}
+
+Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
+  switch (format_of(bytes)) {
+    case Format::png:
+      return decode_png(document, bytes, where);
+    case Format::jpeg:
+      return decode_jpeg(document, bytes, where, warnings);
+    case Format::other:
+      break;
+  }
+  throw image_error(document, where, "neither PNG nor JPEG data");
+}
+
+Image read(const Document& document, const ImageSource& source, const std::string& where,
+           Warnings& warnings) {
+  if (!source.uri.empty()) {
+    const OwnedBytes bytes = document.read(source.uri, where + ".uri");
+    return decode(document, bytes.bytes(), where + " (" + source.name + ")", warnings);
+  }
+  if (source.buffer_view < 0) throw image_error(document, where, "neither uri nor bufferView");
+  return decode(document, document.view(source.buffer_view, where), where + " (" + source.name + ")",
+                warnings);
+}
+
+}  // namespace
+
+Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings) {
+  const ImageSource& source = document.images()[static_cast<std::size_t>(index)];
+  Image image;
+  try {
+    image = read(document, source, fmt::format("images[{}]", index), warnings);
+  } catch (const SceneError& e) {
+    if (missing_is_error) throw;
+    warnings.add(fmt::format("{}; white instead", e.what()));
+    image = {"", 1, 1, 3, {255, 255, 255}};
+  }
+  image.name = source.name;
+  return image;
+}
+
+}  // namespace gatelight::scene::gltf

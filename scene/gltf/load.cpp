@@ -1,0 +1,300 @@
+#include "scene/gltf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "scene/bake.h"
+#include "scene/bounds.h"
+#include "scene/gltf/accessors.h"
+#include "scene/gltf/document.h"
+#include "scene/gltf/extensions.h"
+#include "scene/gltf/images.h"
+#include "scene/gltf/materials.h"
+#include "scene/gltf/nodes.h"
+#include "scene/gltf/primitives.h"
+#include "scene/parallel.h"
+
+namespace gatelight::scene {
+namespace gltf {
+namespace {
+
+/// Coordinates beyond this are refused: the square of a triangle's area would leave single precision.
+constexpr float kLargestCoordinate = 1e9f;
+
+/// Positions, normals, tangents, two texture coordinates, colours.
+constexpr std::size_t kVertexBytes = (3 + 3 + 4 + 2 + 2 + 4) * sizeof(float);
+
+/// Gives numbers to the things that are used, in the order of their first use.
+class Numbering {
+ public:
+  int number_of(int original) {
+    const auto [entry, is_new] = numbers_.try_emplace(original, static_cast<int>(order_.size()));
+    if (is_new) order_.push_back(original);
+    return entry->second;
+  }
+  const std::vector<int>& order() const { return order_; }
+
+ private:
+  std::map<int, int> numbers_;
+  std::vector<int> order_;
+};
+
+class Loader {
+ public:
+  Loader(const std::filesystem::path& path, const LoadOptions& options)
+      : options_(options), document_(path, options.allow_external, warnings_) {
+    scene_.path = path.string();
+  }
+
+  Scene load() {
+    check_accessors(document_);
+    read_variants();
+    Graph graph = flatten_nodes(document_, options_.scene, warnings_);
+    scene_.lights = std::move(graph.lights);
+    scene_.cameras = std::move(graph.cameras);
+    load_materials(graph.placements);
+    claim_memory(graph.placements);
+    load_meshes();
+    choose_origin(graph);
+    place(graph.placements);
+    load_images();
+    if (options_.bake_transforms) bake_transforms(scene_);
+    scene_.bounds = compute_bounds(scene_);
+    check_bounds();
+    scene_.warnings = warnings_.take();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Part {
+    int mesh;
+    int primitive;
+    int material;  ///< number in scene_.materials
+  };
+
+  void read_variants() {
+    const tinygltf::Value* extension = find_extension(document_.model().extensions, "KHR_materials_variants");
+    if (extension) {
+      const tinygltf::Value& list = extension->Get("variants");
+      for (std::size_t i = 0; i < list.ArrayLen(); ++i) {
+        scene_.variants.push_back(text_or(list.Get(static_cast<int>(i)), "name", ""));
+      }
+    }
+    if (options_.variant.empty()) return;
+    const auto found = std::find(scene_.variants.begin(), scene_.variants.end(), options_.variant);
+    if (found == scene_.variants.end()) {
+      document_.fail(
+          "KHR_materials_variants",
+          fmt::format("variant '{}' is not there, expected {}", options_.variant,
+                      scene_.variants.empty() ? "none: the file has no variants"
+                                              : fmt::format("one of: {}", fmt::join(scene_.variants, ", "))));
+    }
+    variant_ = static_cast<int>(found - scene_.variants.begin());
+  }
+
+  int material_of(const tinygltf::Primitive& primitive) const {
+    const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_materials_variants");
+    if (variant_ < 0 || !extension) return primitive.material;
+    const tinygltf::Value& mappings = extension->Get("mappings");
+    for (std::size_t i = 0; i < mappings.ArrayLen(); ++i) {
+      const tinygltf::Value& mapping = mappings.Get(static_cast<int>(i));
+      const tinygltf::Value& variants = mapping.Get("variants");
+      for (std::size_t k = 0; k < variants.ArrayLen(); ++k) {
+        if (variants.Get(static_cast<int>(k)).GetNumberAsInt() == variant_) {
+          return integer_or(mapping, "material", primitive.material);
+        }
+      }
+    }
+    return primitive.material;
+  }
+
+  /// The first image of the file with the same bytes behind it: they are decoded once.
+  int first_alike(int image) {
+    const ImageSource& source = document_.images()[static_cast<std::size_t>(image)];
+    if (source.uri.empty() && source.buffer_view < 0) return image;
+    return alike_.try_emplace({source.uri, source.buffer_view}, image).first->second;
+  }
+
+  /// Materials, textures and image numbers of what is placed in the scene, and nothing else.
+  void load_materials(const std::vector<Placement>& placements) {
+    Numbering materials;
+    Numbering textures;
+    first_part_.assign(document_.model().meshes.size(), -1);
+    for (const Placement& placement : placements) {
+      int& first = first_part_[static_cast<std::size_t>(placement.mesh)];
+      if (first >= 0) continue;
+      first = static_cast<int>(parts_.size());
+      const auto& primitives = document_.model().meshes[static_cast<std::size_t>(placement.mesh)].primitives;
+      for (std::size_t i = 0; i < primitives.size(); ++i) {
+        parts_.push_back(
+            {placement.mesh, static_cast<int>(i), materials.number_of(material_of(primitives[i]))});
+      }
+    }
+    for (const int original : materials.order()) {
+      Material material = convert_material(document_, original, warnings_);
+      for_each_slot(material, [&](TextureSlot& slot) {
+        if (slot) slot.texture = textures.number_of(slot.texture);
+      });
+      scene_.materials.push_back(std::move(material));
+    }
+    for (const int original : textures.order()) {
+      Texture texture = convert_texture(document_, original);
+      texture.image = images_.number_of(first_alike(texture.image));
+      scene_.textures.push_back(texture);
+    }
+  }
+
+  /// Of a primitive whose accessors tell: of Draco's data only the data does.
+  std::size_t mesh_bytes(const Part& part) const {
+    const tinygltf::Primitive& primitive = primitive_of(part);
+    const auto& accessors = document_.model().accessors;
+    const auto position = primitive.attributes.find("POSITION");
+    const bool lines = primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES;
+    if (position == primitive.attributes.end() || lines) return 0;
+    if (find_extension(primitive.extensions, "KHR_draco_mesh_compression")) return 0;
+    const std::size_t vertices = accessors[static_cast<std::size_t>(position->second)].count;
+    const std::size_t indices =
+        primitive.indices >= 0 ? accessors[static_cast<std::size_t>(primitive.indices)].count : vertices;
+    const bool list = primitive.mode < 0 || primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    const std::size_t triangles = list ? indices / 3 : indices;
+    return triangles * sizeof(std::array<std::uint32_t, 3>) +
+           std::min(vertices, 3 * triangles) * kVertexBytes;
+  }
+
+  void claim_memory(const std::vector<Placement>& placements) const {
+    for (const Part& part : parts_) {
+      document_.claim(mesh_bytes(part), fmt::format("meshes[{}].primitives[{}]", part.mesh, part.primitive));
+    }
+    for (const Placement& placement : placements) {
+      const bool copied = options_.bake_transforms && is_flat(placement.transform);
+      std::size_t bytes = 0;
+      for (std::size_t i = static_cast<std::size_t>(first_part_[static_cast<std::size_t>(placement.mesh)]);
+           i < parts_.size() && parts_[i].mesh == placement.mesh; ++i) {
+        bytes += sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(parts_[i]) : 0);
+      }
+      document_.claim(bytes, fmt::format("meshes[{}]", placement.mesh));
+    }
+  }
+
+  const tinygltf::Primitive& primitive_of(const Part& part) const {
+    return document_.model()
+        .meshes[static_cast<std::size_t>(part.mesh)]
+        .primitives[static_cast<std::size_t>(part.primitive)];
+  }
+
+  void load_meshes() {
+    scene_.meshes.resize(parts_.size());
+    std::vector<Warnings> warnings(parts_.size());
+    parallel_for(parts_.size(), [&](std::size_t i) {
+      const Part& part = parts_[i];
+      const Material& material = scene_.materials[static_cast<std::size_t>(part.material)];
+      scene_.meshes[i] = load_primitive(document_, part.mesh, part.primitive, material, warnings[i]);
+      scene_.meshes[i].material = part.material;
+    });
+    for (const Warnings& w : warnings) warnings_.merge(w);
+  }
+
+  void load_images() {
+    const std::vector<int>& order = images_.order();
+    scene_.images.resize(order.size());
+    std::vector<Warnings> warnings(order.size());
+    parallel_for(order.size(), [&](std::size_t i) {
+      scene_.images[i] = load_image(document_, order[i], options_.missing_is_error, warnings[i]);
+    });
+    for (const Warnings& w : warnings) warnings_.merge(w);
+  }
+
+  /// The scene's centre where that is far away; then everything is placed relative to it.
+  void choose_origin(const Graph& graph) {
+    std::vector<Box> boxes(parts_.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (const Vec3& p : scene_.meshes[i].positions) boxes[i].extend(p);
+    }
+    Eigen::AlignedBox3d bounds;
+    for (const Placement& placement : graph.placements) {
+      for_each_part(placement, [&](std::size_t i) {
+        if (boxes[i].isEmpty()) return;
+        for (int corner = 0; corner < 8; ++corner) {
+          const Vec3 p = boxes[i].corner(static_cast<Box::CornerType>(corner));
+          bounds.extend(placement.transform.linear().cast<double>() * p.cast<double>() +
+                        placement.translation);
+        }
+      });
+    }
+    if (bounds.isEmpty()) return;
+    const double radius = 0.5 * bounds.diagonal().norm();
+    if (!(bounds.center().norm() > kFarFromOrigin * radius) || !(radius > 0.0)) return;
+    // With so few digits that single precision has them all.
+    const Eigen::Vector3d center = bounds.center();
+    const double step = std::exp2(std::ceil(std::log2(center.cwiseAbs().maxCoeff())) - 23.0);
+    const Eigen::Vector3d origin = (center / step).array().round() * step;
+    scene_.origin = origin.cast<float>();
+    for (std::size_t i = 0; i < scene_.cameras.size(); ++i)
+      scene_.cameras[i].transform.translation() = from_origin(graph.camera_positions[i]);
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
+      scene_.lights[i].position = from_origin(graph.light_positions[i]);
+  }
+
+  Vec3 from_origin(const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d origin = scene_.origin.cast<double>();
+    const Eigen::Vector3d from = position - origin;
+    return from.cast<float>();
+  }
+
+  template <typename Function>
+  void for_each_part(const Placement& placement, Function function) const {
+    const auto first = static_cast<std::size_t>(first_part_[static_cast<std::size_t>(placement.mesh)]);
+    for (std::size_t i = first; i < parts_.size() && parts_[i].mesh == placement.mesh; ++i) function(i);
+  }
+
+  void place(const std::vector<Placement>& placements) {
+    for (const Placement& placement : placements) {
+      for_each_part(placement, [&](std::size_t i) {
+        if (scene_.meshes[i].triangles.empty()) return;
+        Instance instance;
+        instance.name = placement.name;
+        instance.mesh = static_cast<int>(i);
+        instance.transform = placement.transform;
+        instance.transform.translation() = from_origin(placement.translation);
+        // In double: the product of three small scales leaves single precision.
+        instance.mirrors = placement.transform.linear().cast<double>().determinant() < 0.0;
+        scene_.instances.push_back(std::move(instance));
+      });
+    }
+    drop_unused_meshes(scene_);
+  }
+
+  void check_bounds() const {
+    if (scene_.bounds.isEmpty() && scene_.instances.empty()) return;
+    const Vec3 furthest = (scene_.origin + scene_.bounds.min())
+                              .cwiseAbs()
+                              .cwiseMax((scene_.origin + scene_.bounds.max()).cwiseAbs());
+    if (furthest.allFinite() && furthest.maxCoeff() <= kLargestCoordinate) return;
+    document_.fail("the world", fmt::format("a vertex at ({}, {}, {}), expected at most {:g} from the origin",
+                                            furthest.x(), furthest.y(), furthest.z(), kLargestCoordinate));
+  }
+
+  LoadOptions options_;
+  Warnings warnings_;
+  Document document_;
+  Scene scene_;
+  int variant_ = -1;
+  std::vector<Part> parts_;
+  std::vector<int> first_part_;  ///< by the file's mesh; its parts follow each other
+  Numbering images_;
+  std::map<std::pair<std::string, int>, int> alike_;  ///< by URI and buffer view
+};
+
+}  // namespace
+}  // namespace gltf
+
+Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
+  return gltf::Loader(path, options).load();
+}
+
+}  // namespace gatelight::scene

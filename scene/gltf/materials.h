@@ -1,0 +1,34 @@
+#pragma once
+// glTF materials, textures and samplers to ours.
+
+#include <vector>
+
+#include "scene/gltf/document.h"
+
+namespace gatelight::scene::gltf {
+
+/// Material number `index` of the file, or glTF's default material for -1. Texture indices are the file's.
+/// Factors outside their range are clamped, with a warning.
+Material convert_material(const Document& document, int index, Warnings& warnings);
+
+/// Texture number `index`; the image index is the file's, -1 when the texture has none.
+Texture convert_texture(const Document& document, int index);
+
+/// Calls visit(TextureSlot&) for every slot of a material.
+template <typename M, typename Visit>
+void for_each_slot(M& m, const Visit& visit) {
+  visit(m.base_color_texture);
+  visit(m.metallic_roughness_texture);
+  visit(m.normal_texture);
+  visit(m.emission_texture);
+  visit(m.specular_texture);
+  visit(m.specular_color_texture);
+  visit(m.transmission_texture);
+  visit(m.clearcoat_texture);
+  visit(m.clearcoat_roughness_texture);
+  visit(m.clearcoat_normal_texture);
+  visit(m.sheen_color_texture);
+  visit(m.sheen_roughness_texture);
+}
+
+}  // namespace gatelight::scene::gltf

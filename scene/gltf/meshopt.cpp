@@ -1,0 +1,53 @@
+#include "scene/gltf/meshopt.h"
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+#include "scene/gltf/extensions.h"
+
+namespace gatelight::scene::gltf {
+
+OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
+                          std::string_view file, std::string_view where) {
+  const std::size_t count = static_cast<std::size_t>(integer_or(extension, "count", 0));
+  const std::size_t stride = static_cast<std::size_t>(integer_or(extension, "byteStride", 0));
+  const std::string mode = text_or(extension, "mode", "");
+  const std::string filter = text_or(extension, "filter", "NONE");
+  const auto require = [&](bool fits, std::string_view what) {
+    if (!fits) throw make_error(file, where, what);
+  };
+
+  const bool vertices = mode == "ATTRIBUTES";
+  require(vertices ? stride % 4 == 0 : stride == 2 || stride == 4,
+          fmt::format("byteStride {}, expected {}", stride, vertices ? "a multiple of 4" : "2 or 4"));
+  require(mode != "TRIANGLES" || count % 3 == 0, fmt::format("count {}, expected a multiple of 3", count));
+  require(count * stride == length,
+          fmt::format("{} elements of {} bytes, expected {} bytes (byteLength of the view)", count, stride,
+                      length));
+  // The codecs spend at least 2 bits on 16 bytes of a vertex, and a byte on a triangle or an index. Data that
+  // claims more is wrong, and must not cost the memory it claims.
+  require(count * stride / 64 <= source.size(), fmt::format("count {}, expected data for it", count));
+  require(filter == "NONE" || vertices, fmt::format("filter {}, expected NONE with mode {}", filter, mode));
+  require(filter != "OCTAHEDRAL" || stride == 4 || stride == 8,
+          fmt::format("byteStride {}, expected 4 or 8", stride));
+  require(filter != "QUATERNION" || stride == 8, fmt::format("byteStride {}, expected 8", stride));
+
+  OwnedBytes out(length);
+  int status = 0;
+  if (vertices) {
+    status = meshopt_decodeVertexBuffer(out.data.get(), count, stride, source.data(), source.size());
+  } else if (mode == "TRIANGLES") {
+    status = meshopt_decodeIndexBuffer(out.data.get(), count, stride, source.data(), source.size());
+  } else {
+    status = meshopt_decodeIndexSequence(out.data.get(), count, stride, source.data(), source.size());
+  }
+  require(status == 0,
+          fmt::format("{} data that cannot be decoded (code {}), expected meshopt data", mode, status));
+
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data.get(), count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data.get(), count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data.get(), count, stride);
+  return out;
+}
+
+}  // namespace gatelight::scene::gltf

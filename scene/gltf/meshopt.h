@@ -1,0 +1,13 @@
+#pragma once
+// EXT_meshopt_compression: a buffer view whose bytes libmeshoptimizer decodes.
+
+#include "scene/gltf/container.h"
+#include "scene/gltf/tinygltf.h"
+
+namespace gatelight::scene::gltf {
+
+/// `length` is the buffer view's own byteLength: what the decoded data must fill. Throws SceneError.
+OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
+                          std::string_view file, std::string_view where);
+
+}  // namespace gatelight::scene::gltf

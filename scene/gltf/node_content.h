@@ -1,0 +1,20 @@
+#pragma once
+// What hangs on a node: cameras, lights, instances.
+
+#include <vector>
+
+#include "scene/gltf/document.h"
+
+namespace gatelight::scene::gltf {
+
+Camera make_camera(const Document& document, int node, const Eigen::Affine3d& world);
+PunctualLight make_light(const Document& document, int node, int light, const Eigen::Affine3d& world);
+
+/// The transforms of EXT_mesh_gpu_instancing, relative to the node.
+std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
+                                            const std::string& where);
+
+/// Of a skin's inverse bind matrices.
+Eigen::Affine3d read_first_matrix(const Document& document, int accessor);
+
+}  // namespace gatelight::scene::gltf

@@ -1,0 +1,211 @@
+#include "scene/gltf/nodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf/accessors.h"
+#include "scene/gltf/extensions.h"
+#include "scene/gltf/node_content.h"
+
+namespace gatelight::scene::gltf {
+namespace {
+
+using Transform = Eigen::Affine3d;
+
+Transform local_transform(const Document& document, int index) {
+  const tinygltf::Node& node = document.model().nodes[static_cast<std::size_t>(index)];
+  const std::string where = fmt::format("nodes[{}]", index);
+  if (node.matrix.size() == 16) {
+    const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+    if ((m.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)).cwiseAbs().maxCoeff() > 1e-6) {
+      document.fail(where + ".matrix", fmt::format("last row {} {} {} {}, expected 0 0 0 1", m(3, 0), m(3, 1),
+                                                   m(3, 2), m(3, 3)));
+    }
+    Transform t = Transform::Identity();
+    t.matrix().topRows<3>() = m.topRows<3>();
+    return t;
+  }
+  Transform t = Transform::Identity();
+  if (node.translation.size() == 3) t.translate(Eigen::Vector3d(node.translation.data()));
+  if (node.rotation.size() == 4) {
+    Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    if (!(q.norm() > 1e-12)) document.fail(where + ".rotation", "0 0 0 0, expected a unit quaternion");
+    t.rotate(q.normalized());
+  }
+  if (node.scale.size() == 3) t.scale(Eigen::Vector3d(node.scale.data()));
+  return t;
+}
+
+/// A strict forest: at most one parent each, and no cycle.
+std::vector<int> find_parents(const Document& document) {
+  const auto& nodes = document.model().nodes;
+  std::vector<int> parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const int child : nodes[i].children) {
+      int& parent = parents[static_cast<std::size_t>(child)];
+      if (parent >= 0) {
+        document.fail(
+            fmt::format("nodes[{}].children", i),
+            fmt::format("node {} is a child of node {} already, expected one parent", child, parent));
+      }
+      parent = static_cast<int>(i);
+    }
+  }
+  // Every walk towards a root marks its way; meeting the mark of the same walk means a cycle.
+  std::vector<std::size_t> seen(nodes.size(), 0);
+  for (std::size_t start = 0; start < nodes.size(); ++start) {
+    for (int i = static_cast<int>(start); i >= 0; i = parents[static_cast<std::size_t>(i)]) {
+      std::size_t& mark = seen[static_cast<std::size_t>(i)];
+      if (mark == start + 1) document.fail(fmt::format("nodes[{}]", i), "its own ancestor, expected a tree");
+      if (mark != 0) break;
+      mark = start + 1;
+    }
+  }
+  return parents;
+}
+
+class Walker {
+ public:
+  Walker(const Document& document, Warnings& warnings)
+      : document_(document), warnings_(warnings), parents_(find_parents(document)) {}
+
+  Graph walk(int scene) {
+    struct Entry {
+      int node;
+      Transform parent;
+    };
+    const std::vector<int>& roots = document_.model().scenes[static_cast<std::size_t>(scene)].nodes;
+    std::vector<char> is_root(document_.model().nodes.size(), 0);
+    std::vector<Entry> stack;
+    for (std::size_t i = roots.size(); i-- > 0;) {
+      const std::size_t root = static_cast<std::size_t>(roots[i]);
+      const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
+      if (parents_[root] >= 0) {
+        document_.fail(where, fmt::format("node {} has a parent, expected a root", root));
+      }
+      if (is_root[root]) document_.fail(where, fmt::format("node {} is listed twice, expected once", root));
+      is_root[root] = 1;
+      stack.push_back({roots[i], Transform::Identity()});
+    }
+    while (!stack.empty()) {
+      const Entry entry = stack.back();
+      stack.pop_back();
+      const Transform world = entry.parent * local_transform(document_, entry.node);
+      visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)));
+      const std::vector<int>& children =
+          document_.model().nodes[static_cast<std::size_t>(entry.node)].children;
+      for (std::size_t i = children.size(); i-- > 0;) stack.push_back({children[i], world});
+    }
+    return std::move(graph_);
+  }
+
+ private:
+  const Transform& checked(const Transform& t, std::string_view where) const {
+    if (!t.matrix().cast<float>().allFinite()) {
+      document_.fail(where, "a transform to the world that is not finite, expected finite numbers");
+    }
+    return t;
+  }
+
+  void visit(int index, const Transform& world) {
+    const tinygltf::Node& node = document_.model().nodes[static_cast<std::size_t>(index)];
+    if (node.mesh >= 0) place_mesh(index, node, world);
+    if (node.camera >= 0) {
+      graph_.cameras.push_back(make_camera(document_, index, world));
+      graph_.camera_positions.push_back(world.translation());
+    }
+    if (const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual")) {
+      graph_.lights.push_back(make_light(document_, index, integer_or(*light, "light", 0), world));
+      graph_.light_positions.push_back(world.translation());
+    }
+  }
+
+  void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
+    const tinygltf::Mesh& mesh = document_.model().meshes[static_cast<std::size_t>(node.mesh)];
+    Transform base = world;
+    if (node.skin >= 0) {
+      warnings_.add("skins and morph targets are shown in their bind pose");
+      base = checked(bind_pose(node.skin), fmt::format("skins[{}]", node.skin));
+    }
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (!primitive.targets.empty()) warnings_.add("skins and morph targets are shown in their bind pose");
+    }
+    const std::string name = node.name.empty() ? mesh.name : node.name;
+    if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
+      const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
+      claim_instances(*instancing, mesh, where);
+      if (instancing->Get("attributes").Keys().empty()) {
+        warnings_.add(where + ": no attributes that tell how many; drawn once");
+        add(node.mesh, name, base);
+      }
+      for (const Transform& t : read_instances(document_, *instancing, where)) {
+        add(node.mesh, name, checked(base * t, where));
+      }
+    } else {
+      add(node.mesh, name, base);
+    }
+  }
+
+  /// Before there are any: a count is cheap to write.
+  void claim_instances(const tinygltf::Value& extension, const tinygltf::Mesh& mesh,
+                       const std::string& where) {
+    const tinygltf::Value& attributes = extension.Get("attributes");
+    std::size_t count = 0;
+    for (const std::string& semantic : attributes.Keys()) {
+      const auto accessor = static_cast<std::size_t>(attributes.Get(semantic).GetNumberAsInt());
+      count = std::max(count, document_.model().accessors[accessor].count);
+    }
+    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
+  }
+
+  /// The glTF specification places a skinned mesh by its joints alone. In the bind pose all of them agree, so
+  /// the first one tells the way from the mesh to the world.
+  Transform bind_pose(int index) const {
+    const tinygltf::Skin& skin = document_.model().skins[static_cast<std::size_t>(index)];
+    Transform joint = Transform::Identity();
+    if (skin.joints.empty()) return joint;
+    for (int i = skin.joints[0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+      joint = local_transform(document_, i) * joint;
+    }
+    if (skin.inverseBindMatrices >= 0) joint = joint * read_first_matrix(document_, skin.inverseBindMatrices);
+    return joint;
+  }
+
+  void add(int mesh, const std::string& name, const Transform& t) {
+    Placement placement{mesh, name, Affine::Identity(), t.translation()};
+    placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
+    // Scaled to a line or a point, as one hides things: nothing to see, and nothing a ray could be carried
+    // into.
+    const Eigen::Matrix3f linear = placement.transform.linear();
+    if (normal_matrix(placement.transform).isZero(0.0f) || linear.isZero(0.0f)) {
+      warnings_.add("meshes that are scaled to nothing are left out");
+      return;
+    }
+    graph_.placements.push_back(std::move(placement));
+  }
+
+  const Document& document_;
+  Warnings& warnings_;
+  std::vector<int> parents_;
+  Graph graph_;
+};
+
+}  // namespace
+
+Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
+  const std::size_t count = document.model().scenes.size();
+  if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
+    document.fail("scenes", fmt::format("scene {} asked for, expected less than {}", scene, count));
+  }
+  Walker walker(document, warnings);
+  if (count == 0) {
+    warnings.add("the file has no scene");
+    return {};
+  }
+  if (scene < 0) scene = std::max(document.model().defaultScene, 0);
+  return walker.walk(scene);
+}
+
+}  // namespace gatelight::scene::gltf

@@ -1,0 +1,197 @@
+#include "scene/gltf/schema.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/gltf/error.h"
+
+namespace gatelight::scene::gltf {
+namespace {
+
+using nlohmann::json;
+
+/// The way from the root to the value under inspection, as a list on the call stack: it is spelled out only
+/// when something is wrong.
+struct Path {
+  const Path* parent = nullptr;
+  std::string_view name;
+  std::size_t index = 0;
+
+  std::string text() const {
+    if (!parent) return "";
+    const std::string before = parent->text();
+    if (name.empty()) return fmt::format("{}[{}]", before, index);
+    return before.empty() ? std::string(name) : fmt::format("{}.{}", before, name);
+  }
+};
+
+std::string show(const json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return fmt::format("an array of {}", value.size());
+  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 60) + "...";
+  return text;
+}
+
+bool is_choice(std::string_view choices, std::string_view value) {
+  while (!choices.empty()) {
+    const std::size_t bar = choices.find('|');
+    if (choices.substr(0, bar) == value) return true;
+    if (bar == std::string_view::npos) break;
+    choices.remove_prefix(bar + 1);
+  }
+  return false;
+}
+
+class Checker {
+ public:
+  Checker(json& root, std::string_view file) : root_(root), file_(file) {
+    for (const Rule& rule : schema_rules()) rules_[rule.owner].push_back(&rule);
+  }
+
+  void check_object(json& value, std::string_view type, const Path& path) const {
+    if (!value.is_object()) fail(path, value, "an object");
+    if (type.ends_with(".extensions")) {
+      for (auto& [name, extension] : value.items()) {
+        if (!extension.is_object()) fail({&path, name}, extension, "an object");
+      }
+    }
+    const auto found = rules_.find(type);
+    if (found == rules_.end()) return;
+    for (const Rule* rule : found->second) {
+      const auto member = value.find(rule->name);
+      const Path here{&path, rule->name};
+      if (member == value.end()) {
+        if (rule->required) throw make_error(file_, here.text(), "missing, expected " + expectation(*rule));
+        continue;
+      }
+      check_member(*member, *rule, here);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const Path& path, const json& value, std::string_view expected) const {
+    throw make_error(file_, path.text(), fmt::format("{}, expected {}", show(value), expected));
+  }
+
+  void check_member(json& value, const Rule& rule, const Path& path) const {
+    switch (rule.shape) {
+      case Shape::single:
+        check_value(value, rule, path);
+        return;
+      case Shape::list:
+        if (!value.is_array() || (rule.length > 0 && value.size() != static_cast<std::size_t>(rule.length))) {
+          fail(path, value, rule.length > 0 ? fmt::format("an array of {}", rule.length) : "an array");
+        }
+        for (std::size_t i = 0; i < value.size(); ++i) check_value(value[i], rule, {&path, {}, i});
+        return;
+      case Shape::dictionary:
+        if (!value.is_object()) fail(path, value, "an object");
+        for (auto& [name, entry] : value.items()) check_value(entry, rule, {&path, name});
+        return;
+    }
+  }
+
+  void check_value(json& value, const Rule& rule, const Path& path) const {
+    switch (rule.kind) {
+      case Kind::object:
+        check_object(value, rule.target, path);
+        return;
+      case Kind::boolean:
+        if (!value.is_boolean()) fail(path, value, "true or false");
+        return;
+      case Kind::string:
+        if (!value.is_string() ||
+            (!rule.target.empty() && !is_choice(rule.target, value.get_ref<const std::string&>()))) {
+          fail(path, value, expectation(rule));
+        }
+        return;
+      case Kind::number: {
+        if (!value.is_number()) fail(path, value, expectation(rule));
+        const double number = value.get<double>();
+        if (!(number >= rule.low && number <= rule.high)) fail(path, value, expectation(rule));
+        value = number;
+        return;
+      }
+      case Kind::integer: {
+        const double number = whole_number(value, rule, path);
+        if (!(number >= rule.low && number <= rule.high)) fail(path, value, expectation(rule));
+        if (!rule.target.empty() && !is_choice(rule.target, fmt::format("{:.0f}", number))) {
+          fail(path, value, expectation(rule));
+        }
+        value = static_cast<std::int64_t>(number);
+        return;
+      }
+      case Kind::index: {
+        const double number = whole_number(value, rule, path);
+        if (!(number >= 0.0 && number < static_cast<double>(size_of(rule.target)))) {
+          fail(path, value, expectation(rule));
+        }
+        value = static_cast<std::int64_t>(number);
+        return;
+      }
+    }
+  }
+
+  double whole_number(const json& value, const Rule& rule, const Path& path) const {
+    if (!value.is_number()) fail(path, value, expectation(rule));
+    const double number = value.get<double>();
+    if (std::floor(number) != number) fail(path, value, expectation(rule));
+    return number;
+  }
+
+  std::string expectation(const Rule& rule) const {
+    switch (rule.kind) {
+      case Kind::object:
+        return rule.shape == Shape::list ? "an array of objects" : "an object";
+      case Kind::boolean:
+        return "true or false";
+      case Kind::string:
+        return rule.target.empty() ? "a string" : fmt::format("one of {}", rule.target);
+      case Kind::integer:
+        if (!rule.target.empty()) return fmt::format("one of {}", rule.target);
+        return fmt::format("an integer from {:.0f} to {:.0f}", rule.low, rule.high);
+      case Kind::index:
+        return fmt::format("an index into {} ({} there)", rule.target, size_of(rule.target));
+      case Kind::number:
+        break;
+    }
+    const double most = std::numeric_limits<float>::max();
+    if (rule.low == -most && rule.high == most) return "a number in the range of single precision";
+    if (rule.high < most) return fmt::format("a number from {:g} to {:g}", rule.low, rule.high);
+    return fmt::format("a number {}, in the range of single precision",
+                       rule.low == 0.0 ? "that is not negative" : "above zero");
+  }
+
+  /// Length of one of the lists that indices point into.
+  std::size_t size_of(std::string_view list) const {
+    const json* owner = &root_;
+    std::string_view member = list;
+    if (list.starts_with("KHR_")) {
+      const auto extensions = root_.find("extensions");
+      if (extensions == root_.end() || !extensions->is_object()) return 0;
+      const auto extension = extensions->find(list);
+      if (extension == extensions->end() || !extension->is_object()) return 0;
+      owner = &*extension;
+      member = list == "KHR_lights_punctual" ? "lights" : "variants";
+    }
+    const auto found = owner->find(member);
+    return found != owner->end() && found->is_array() ? found->size() : 0;
+  }
+
+  json& root_;
+  std::string_view file_;
+  std::unordered_map<std::string_view, std::vector<const Rule*>> rules_;
+};
+
+}  // namespace
+
+void check_schema(nlohmann::json& root, std::string_view file) {
+  Checker(root, file).check_object(root, "root", {});
+}
+
+}  // namespace gatelight::scene::gltf

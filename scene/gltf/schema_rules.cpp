@@ -1,0 +1,262 @@
+#include "scene/gltf/schema.h"
+
+namespace gatelight::scene::gltf {
+namespace {
+
+constexpr double kByteLimit = 9007199254740992.0;  // 2^53: integers beyond it are not exact in JSON
+constexpr double kIntLimit = 2147483647.0;         // tinygltf keeps these as int
+
+constexpr Rule number(std::string_view owner, std::string_view name) {
+  return {owner, name, Kind::number};
+}
+constexpr Rule numbers(std::string_view owner, std::string_view name, int length) {
+  return {owner, name, Kind::number, "", Shape::list, false, length};
+}
+constexpr Rule integer(std::string_view owner, std::string_view name, double low, double high) {
+  return {owner, name, Kind::integer, "", Shape::single, false, 0, low, high};
+}
+constexpr Rule integer_of(std::string_view owner, std::string_view name, std::string_view choices) {
+  return {owner, name, Kind::integer, choices};
+}
+constexpr Rule text(std::string_view owner, std::string_view name, std::string_view choices = "") {
+  return {owner, name, Kind::string, choices};
+}
+constexpr Rule texts(std::string_view owner, std::string_view name) {
+  return {owner, name, Kind::string, "", Shape::list};
+}
+constexpr Rule boolean(std::string_view owner, std::string_view name) {
+  return {owner, name, Kind::boolean};
+}
+constexpr Rule index(std::string_view owner, std::string_view name, std::string_view list) {
+  return {owner, name, Kind::index, list};
+}
+constexpr Rule indices(std::string_view owner, std::string_view name, std::string_view list) {
+  return {owner, name, Kind::index, list, Shape::list};
+}
+constexpr Rule object(std::string_view owner, std::string_view name, std::string_view type) {
+  return {owner, name, Kind::object, type};
+}
+constexpr Rule objects(std::string_view owner, std::string_view name, std::string_view type) {
+  return {owner, name, Kind::object, type, Shape::list};
+}
+constexpr Rule attributes(std::string_view owner, std::string_view name) {
+  return {owner, name, Kind::index, "accessors", Shape::dictionary};
+}
+constexpr Rule required(Rule rule) {
+  rule.required = true;
+  return rule;
+}
+constexpr Rule positive(Rule rule) {
+  rule.low = std::numeric_limits<float>::min();
+  return rule;
+}
+constexpr Rule not_negative(Rule rule) {
+  rule.low = 0.0;
+  return rule;
+}
+
+// An object's name below is the path of its type; "x.extensions" are the extensions that object may carry.
+constexpr Rule kRules[] = {
+    required(object("root", "asset", "asset")),
+    required(text("asset", "version")),
+    text("asset", "minVersion"),
+    texts("root", "extensionsUsed"),
+    texts("root", "extensionsRequired"),
+    objects("root", "accessors", "accessor"),
+    objects("root", "buffers", "buffer"),
+    objects("root", "bufferViews", "bufferView"),
+    objects("root", "cameras", "camera"),
+    objects("root", "images", "image"),
+    objects("root", "materials", "material"),
+    objects("root", "meshes", "mesh"),
+    objects("root", "nodes", "node"),
+    objects("root", "samplers", "sampler"),
+    objects("root", "scenes", "scene"),
+    objects("root", "skins", "skin"),
+    objects("root", "textures", "texture"),
+    index("root", "scene", "scenes"),
+    object("root", "extensions", "root.extensions"),
+    object("root.extensions", "KHR_lights_punctual", "lights"),
+    required(objects("lights", "lights", "light")),
+    object("root.extensions", "KHR_materials_variants", "variants"),
+    required(objects("variants", "variants", "variant")),
+    required(text("variant", "name")),
+
+    text("buffer", "name"),
+    text("buffer", "uri"),
+    required(integer("buffer", "byteLength", 1, kByteLimit)),
+    object("buffer", "extensions", "buffer.extensions"),
+    object("buffer.extensions", "EXT_meshopt_compression", "meshopt_fallback"),
+    boolean("meshopt_fallback", "fallback"),
+
+    text("bufferView", "name"),
+    required(index("bufferView", "buffer", "buffers")),
+    integer("bufferView", "byteOffset", 0, kByteLimit),
+    required(integer("bufferView", "byteLength", 1, kByteLimit)),
+    integer("bufferView", "byteStride", 4, 252),
+    integer("bufferView", "target", 0, kIntLimit),
+    object("bufferView", "extensions", "bufferView.extensions"),
+    object("bufferView.extensions", "EXT_meshopt_compression", "meshopt"),
+    required(index("meshopt", "buffer", "buffers")),
+    integer("meshopt", "byteOffset", 0, kByteLimit),
+    required(integer("meshopt", "byteLength", 1, kByteLimit)),
+    required(integer("meshopt", "byteStride", 1, 256)),
+    required(integer("meshopt", "count", 1, kIntLimit)),
+    required(text("meshopt", "mode", "ATTRIBUTES|TRIANGLES|INDICES")),
+    text("meshopt", "filter", "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL"),
+
+    text("accessor", "name"),
+    index("accessor", "bufferView", "bufferViews"),
+    integer("accessor", "byteOffset", 0, kByteLimit),
+    required(integer_of("accessor", "componentType", "5120|5121|5122|5123|5125|5126")),
+    boolean("accessor", "normalized"),
+    required(integer("accessor", "count", 1, kByteLimit)),
+    required(text("accessor", "type", "SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4")),
+    object("accessor", "sparse", "sparse"),
+    required(integer("sparse", "count", 1, kIntLimit)),
+    required(object("sparse", "indices", "sparse.indices")),
+    required(object("sparse", "values", "sparse.values")),
+    required(index("sparse.indices", "bufferView", "bufferViews")),
+    integer("sparse.indices", "byteOffset", 0, kIntLimit),
+    required(integer_of("sparse.indices", "componentType", "5121|5123|5125")),
+    required(index("sparse.values", "bufferView", "bufferViews")),
+    integer("sparse.values", "byteOffset", 0, kIntLimit),
+
+    text("mesh", "name"),
+    required(objects("mesh", "primitives", "primitive")),
+    required(attributes("primitive", "attributes")),
+    index("primitive", "indices", "accessors"),
+    index("primitive", "material", "materials"),
+    integer("primitive", "mode", 0, 6),
+    {"primitive", "targets", Kind::object, "target", Shape::list},
+    object("primitive", "extensions", "primitive.extensions"),
+    object("primitive.extensions", "KHR_draco_mesh_compression", "draco"),
+    required(index("draco", "bufferView", "bufferViews")),
+    required({"draco", "attributes", Kind::integer, "", Shape::dictionary, false, 0, 0, kIntLimit}),
+    object("primitive.extensions", "KHR_materials_variants", "mappings"),
+    required(objects("mappings", "mappings", "mapping")),
+    required(index("mapping", "material", "materials")),
+    required(indices("mapping", "variants", "KHR_materials_variants")),
+    numbers("mesh", "weights", 0),
+
+    text("node", "name"),
+    index("node", "camera", "cameras"),
+    indices("node", "children", "nodes"),
+    index("node", "mesh", "meshes"),
+    index("node", "skin", "skins"),
+    numbers("node", "matrix", 16),
+    numbers("node", "rotation", 4),
+    numbers("node", "scale", 3),
+    numbers("node", "translation", 3),
+    numbers("node", "weights", 0),
+    object("node", "extensions", "node.extensions"),
+    object("node.extensions", "KHR_lights_punctual", "node.light"),
+    required(index("node.light", "light", "KHR_lights_punctual")),
+    object("node.extensions", "EXT_mesh_gpu_instancing", "instancing"),
+    required(attributes("instancing", "attributes")),
+
+    text("scene", "name"),
+    indices("scene", "nodes", "nodes"),
+    text("skin", "name"),
+    index("skin", "inverseBindMatrices", "accessors"),
+    index("skin", "skeleton", "nodes"),
+    required(indices("skin", "joints", "nodes")),
+
+    text("camera", "name"),
+    required(text("camera", "type", "perspective|orthographic")),
+    object("camera", "perspective", "perspective"),
+    object("camera", "orthographic", "orthographic"),
+    positive(number("perspective", "aspectRatio")),
+    required({"perspective", "yfov", Kind::number, "", Shape::single, false, 0, 1e-6, 3.141592}),
+    required(not_negative(number("perspective", "znear"))),
+    number("perspective", "zfar"),
+    required(number("orthographic", "xmag")),
+    required(number("orthographic", "ymag")),
+    required(number("orthographic", "znear")),
+    required(number("orthographic", "zfar")),
+
+    text("light", "name"),
+    required(text("light", "type", "directional|point|spot")),
+    numbers("light", "color", 3),
+    not_negative(number("light", "intensity")),
+    positive(number("light", "range")),
+    object("light", "spot", "spot"),
+    not_negative(number("spot", "innerConeAngle")),
+    not_negative(number("spot", "outerConeAngle")),
+
+    text("image", "name"),
+    text("image", "uri"),
+    text("image", "mimeType"),
+    index("image", "bufferView", "bufferViews"),
+    integer_of("sampler", "magFilter", "9728|9729"),
+    integer_of("sampler", "minFilter", "9728|9729|9984|9985|9986|9987"),
+    integer_of("sampler", "wrapS", "33071|33648|10497"),
+    integer_of("sampler", "wrapT", "33071|33648|10497"),
+    text("texture", "name"),
+    index("texture", "sampler", "samplers"),
+    index("texture", "source", "images"),
+
+    text("material", "name"),
+    object("material", "pbrMetallicRoughness", "pbr"),
+    numbers("pbr", "baseColorFactor", 4),
+    object("pbr", "baseColorTexture", "textureInfo"),
+    number("pbr", "metallicFactor"),
+    number("pbr", "roughnessFactor"),
+    object("pbr", "metallicRoughnessTexture", "textureInfo"),
+    object("material", "normalTexture", "textureInfo"),
+    object("material", "occlusionTexture", "textureInfo"),
+    object("material", "emissiveTexture", "textureInfo"),
+    numbers("material", "emissiveFactor", 3),
+    text("material", "alphaMode", "OPAQUE|MASK|BLEND"),
+    not_negative(number("material", "alphaCutoff")),
+    boolean("material", "doubleSided"),
+    required(index("textureInfo", "index", "textures")),
+    integer("textureInfo", "texCoord", 0, kIntLimit),
+    number("textureInfo", "scale"),
+    number("textureInfo", "strength"),
+    object("textureInfo", "extensions", "textureInfo.extensions"),
+    object("textureInfo.extensions", "KHR_texture_transform", "transform"),
+    numbers("transform", "offset", 2),
+    number("transform", "rotation"),
+    numbers("transform", "scale", 2),
+    integer("transform", "texCoord", 0, kIntLimit),
+
+    object("material", "extensions", "material.extensions"),
+    object("material.extensions", "KHR_materials_unlit", "unlit"),
+    object("material.extensions", "KHR_materials_emissive_strength", "emissive_strength"),
+    not_negative(number("emissive_strength", "emissiveStrength")),
+    object("material.extensions", "KHR_materials_ior", "ior"),
+    not_negative(number("ior", "ior")),
+    object("material.extensions", "KHR_materials_specular", "specular"),
+    number("specular", "specularFactor"),
+    object("specular", "specularTexture", "textureInfo"),
+    numbers("specular", "specularColorFactor", 3),
+    object("specular", "specularColorTexture", "textureInfo"),
+    object("material.extensions", "KHR_materials_transmission", "transmission"),
+    number("transmission", "transmissionFactor"),
+    object("transmission", "transmissionTexture", "textureInfo"),
+    object("material.extensions", "KHR_materials_volume", "volume"),
+    not_negative(number("volume", "thicknessFactor")),
+    object("volume", "thicknessTexture", "textureInfo"),
+    positive(number("volume", "attenuationDistance")),
+    numbers("volume", "attenuationColor", 3),
+    object("material.extensions", "KHR_materials_clearcoat", "clearcoat"),
+    number("clearcoat", "clearcoatFactor"),
+    object("clearcoat", "clearcoatTexture", "textureInfo"),
+    number("clearcoat", "clearcoatRoughnessFactor"),
+    object("clearcoat", "clearcoatRoughnessTexture", "textureInfo"),
+    object("clearcoat", "clearcoatNormalTexture", "textureInfo"),
+    object("material.extensions", "KHR_materials_sheen", "sheen"),
+    numbers("sheen", "sheenColorFactor", 3),
+    object("sheen", "sheenColorTexture", "textureInfo"),
+    number("sheen", "sheenRoughnessFactor"),
+    object("sheen", "sheenRoughnessTexture", "textureInfo"),
+};
+
+}  // namespace
+
+std::span<const Rule> schema_rules() {
+  return kRules;
+}
+
+}  // namespace gatelight::scene::gltf

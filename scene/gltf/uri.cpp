@@ -1,0 +1,164 @@
+#include "scene/gltf/uri.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+
+namespace gatelight::scene::gltf {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+/// Leaves a % that no two hexadecimal digits follow: files with such names exist.
+std::string decode_percent(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0) {
+      out.push_back(static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2])));
+      i += 2;
+    } else {
+      out.push_back(text[i]);
+    }
+  }
+  return out;
+}
+
+constexpr std::array<std::int8_t, 256> base64_table() {
+  std::array<std::int8_t, 256> table{};
+  table.fill(-1);
+  for (std::size_t i = 0; i < 26; ++i) {
+    table['A' + i] = static_cast<std::int8_t>(i);
+    table['a' + i] = static_cast<std::int8_t>(26 + i);
+  }
+  for (std::size_t i = 0; i < 10; ++i) table['0' + i] = static_cast<std::int8_t>(52 + i);
+  table['+'] = 62;
+  table['/'] = 63;
+  return table;
+}
+
+/// nullopt when a character or the length is wrong. Padding may be left out.
+std::optional<OwnedBytes> decode_base64(std::string_view text) {
+  static constexpr std::array<std::int8_t, 256> kTable = base64_table();
+  for (int pad = 0; pad < 2 && !text.empty() && text.back() == '='; ++pad) text.remove_suffix(1);
+  if (text.size() % 4 == 1) return std::nullopt;
+  OwnedBytes out(text.size() * 3 / 4);
+  std::uint32_t bits = 0;
+  int held = 0;
+  std::size_t n = 0;
+  for (const char c : text) {
+    const std::int8_t value = kTable[static_cast<unsigned char>(c)];
+    if (value < 0) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    held += 6;
+    if (held >= 8) {
+      held -= 8;
+      out.data[n++] = static_cast<std::uint8_t>(bits >> held);
+    }
+  }
+  return out;
+}
+
+/// Length of "scheme:" at the beginning (RFC 3986, section 3.1), or 0.
+std::size_t scheme_length(std::string_view uri) {
+  if (uri.empty() || !std::isalpha(static_cast<unsigned char>(uri[0]))) return 0;
+  for (std::size_t i = 1; i < uri.size(); ++i) {
+    const unsigned char c = static_cast<unsigned char>(uri[i]);
+    if (c == ':') return i + 1;
+    if (!std::isalnum(c) && c != '+' && c != '-' && c != '.') return 0;
+  }
+  return 0;
+}
+
+/// Of small letters and capitals alike; `lower` has no capitals.
+bool equal_letters(std::string_view text, std::string_view lower) {
+  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
+bool has_scheme(std::string_view uri, std::string_view scheme) {
+  return equal_letters(uri.substr(0, scheme.size()), scheme);
+}
+bool is_data(std::string_view uri) {
+  return has_scheme(uri, "data:");
+}
+bool is_file(std::string_view uri) {
+  return has_scheme(uri, "file:");
+}
+
+/// Whether the path, with all its links followed, is outside the folder. What is not there is not.
+bool leaves(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  if (error) return false;
+  const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (error) return true;
+  return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end();
+}
+
+OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_view where) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) {
+    throw make_error(file, where, "a data URI without a comma, expected data:[type][;base64],content");
+  }
+  const std::string_view head = uri.substr(0, comma);
+  const std::string_view body = uri.substr(comma + 1);
+  constexpr std::string_view kBase64 = ";base64";
+  if (equal_letters(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
+    std::optional<OwnedBytes> bytes = decode_base64(body);
+    if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
+    if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");
+    return std::move(*bytes);
+  }
+  const std::string text = decode_percent(body);
+  OwnedBytes bytes(text.size());
+  std::copy(text.begin(), text.end(), bytes.data.get());
+  return bytes;
+}
+
+}  // namespace
+
+OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
+                    std::string_view where) {
+  if (is_data(uri)) return read_data(uri, file, where);
+  const auto refuse = [&](std::string_view why) {
+    return make_error(file, where,
+                      fmt::format("'{}' {}, expected a file in the scene's folder{}", uri_name(uri), why,
+                                  options.allow_external ? "" : " (others with --allow-external)"));
+  };
+  if (uri.empty()) throw refuse("is empty");
+  std::string_view rest = uri;
+  if (const std::size_t scheme = scheme_length(uri); scheme > 0) {
+    if (!options.allow_external || !is_file(uri)) throw refuse("has a scheme");
+    rest.remove_prefix(scheme);
+    // "file:///path", "file://localhost/path" or "file:path"; another host is another machine.
+    for (const std::string_view host : {"//localhost/", "///"}) {
+      if (rest.starts_with(host)) rest.remove_prefix(host.size() - 1);
+    }
+    if (rest.starts_with("//")) throw refuse("is on another machine");
+  }
+  const std::string name = decode_percent(rest);
+  if (name.find('\0') != std::string::npos) throw refuse("has a zero byte");
+  if (options.allow_external) return read_file(options.folder / name, file, where);
+  const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
+  if (relative.is_absolute() || name[0] == '\\') throw refuse("is an absolute path");
+  if (!relative.empty() && *relative.begin() == "..") throw refuse("leaves the folder");
+  const std::filesystem::path path = options.folder / relative;
+  if (leaves(options.folder, path)) throw refuse("is a symbolic link that leaves the folder");
+  return read_file(path, file, where);
+}
+
+std::string uri_name(std::string_view uri) {
+  if (is_data(uri)) return one_line(uri.substr(0, std::min<std::size_t>(uri.find(','), 64)));
+  return one_line(uri.substr(0, 256));
+}
+
+}  // namespace gatelight::scene::gltf

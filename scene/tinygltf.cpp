@@ -1,4 +1,0 @@
-#include <fstream>  // the header forgets it without file access
-
-#define TINYGLTF_IMPLEMENTATION
-#include "scene/tinygltf.h"
