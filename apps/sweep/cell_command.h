@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/sweep/plan.h"
+#include "apps/sweep/planned.h"
 
 namespace gatelight::apps {
 

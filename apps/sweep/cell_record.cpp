@@ -14,7 +14,6 @@
 #include "apps/settings/cache_choices.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/machine.h"
-#include "apps/sweep/results.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/film/pixel_filter.h"

@@ -2,13 +2,17 @@
 // What is known of a cell, as the JSON object of cells/ID.json and results.json.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/sweep/measure.h"
-#include "apps/sweep/plan.h"
+#include "apps/sweep/planned.h"
 #include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
+
+/// Rises when a key changes its meaning or goes away.
+inline constexpr int kSweepSchema = 2;
 
 /// A cell in its plan.
 struct CellPlace {

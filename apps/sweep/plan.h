@@ -2,24 +2,15 @@
 // Which pictures a sweep makes: every combination of its axes, each picture once.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/settings/render_settings.h"
 #include "apps/sweep/axes.h"
 #include "apps/sweep/flag_values.h"
+#include "apps/sweep/planned.h"
 #include "apps/sweep/scene_names.h"
 
 namespace gatelight::apps {
-
-/// What a picture is compared with.
-enum class ReferenceKind : std::uint8_t {
-  path,   ///< radiance
-  ao,     ///< ambient occlusion
-  cache,  ///< what the bare cache should answer (nrc --view cache)
-};
-Choices<ReferenceKind> reference_kind_choices();
 
 /// Axes that are combined with each other. A sweep of flags has one block; presets have several.
 struct SweepBlock {
@@ -38,41 +29,6 @@ struct SweepRequest {
   bool plain = true;            ///< beside each integrator with a cache the one that it stands in for
   std::uint32_t first_seed = 1;
   int seeds = 1;
-};
-
-/// --cache-memory same-as-gate: as many bytes as this cache takes, divided.
-struct GateMemory {
-  RenderSettings settings;
-  double divisor = 1.0;
-};
-
-/// Cells that differ in seed and step count (samples of a plain integrator) alone: a line in a plot. With one
-/// seed it is a run: what one training, or one rendering, gives.
-struct PlannedSeries {
-  std::string label;        ///< "nrc gate features 8"
-  FlagValues axes;          ///< of what varies in this sweep, without dashes
-  FlagValues flags;         ///< of a cell, without seed and point
-  RenderSettings settings;  ///< complete, but for scene, seed and point
-  ReferenceKind reference = ReferenceKind::path;
-  std::vector<int> points;           ///< training steps, or samples of a plain integrator; ascending
-  std::optional<GateMemory> memory;  ///< decides settings.render.cache.memory_bytes when the scene is there
-
-  bool has_cache() const { return renderer::uses_cache(settings.render.integrator); }
-};
-
-struct PlannedScene {
-  std::string name;
-  std::string file;
-  std::vector<PlannedSeries> series;
-};
-
-/// Each series with each seed.
-struct SweepPlan {
-  std::vector<PlannedScene> scenes;
-  std::vector<std::uint32_t> seeds;
-
-  std::size_t run_count() const;
-  std::size_t cell_count() const;
 };
 
 /// Checks every cell; throws UsageError naming the bad value.

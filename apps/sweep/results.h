@@ -7,9 +7,6 @@
 
 namespace gatelight::apps {
 
-/// Rises when a key changes its meaning or goes away.
-inline constexpr int kSweepSchema = 2;
-
 struct SceneResults {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing, though it could
   nlohmann::ordered_json scene;  ///< {"name", "file", "references"}
   std::vector<nlohmann::ordered_json> cells;

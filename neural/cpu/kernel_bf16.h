@@ -1,6 +1,6 @@
 #pragma once
 // Forward in bf16: products of pairs summed in fp32 (vdpbf16ps). Where the instruction is missing, the same
-// rounding of weights and activations with fp32 arithmetic. Part of kernels.cpp.
+// rounding of weights and activations with fp32 arithmetic. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_network.h"
 

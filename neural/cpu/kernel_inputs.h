@@ -1,6 +1,6 @@
 #pragma once
 // The inputs beside the features: one-blob, frequency and identity of positions, directions, normals, albedos
-// and roughness. Part of kernels.cpp.
+// and roughness. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"

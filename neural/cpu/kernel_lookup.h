@@ -1,5 +1,5 @@
 #pragma once
-// Points to nodes: mesh colours and hash grid, one point a lane. Part of kernels.cpp.
+// Points to nodes: mesh colours and hash grid, one point a lane. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Loss and its gradient for the rows of a tile. Part of kernels.cpp.
+// Loss and its gradient for the rows of a tile. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"

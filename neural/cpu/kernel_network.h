@@ -1,5 +1,5 @@
 #pragma once
-// Forward and backward through the network for one tile. Part of kernels.cpp.
+// Forward and backward through the network for one tile. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_products.h"

@@ -1,6 +1,6 @@
 #pragma once
 // A tile's points taken from the batch: which are usable, and copies that the lookups may read in whole
-// vectors. Part of kernels.cpp.
+// vectors. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_lookup.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Memory asked for ahead of its use, at the pace of the arithmetic. Part of kernels.cpp.
+// Memory asked for ahead of its use, at the pace of the arithmetic. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"

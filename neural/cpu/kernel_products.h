@@ -2,7 +2,7 @@
 // The three matrix products of a layer, all as one pattern: blocks of kBlockRows x kBlockVectors
 // accumulators, a broadcast from the left matrix times vectors of the right one. The left matrix is a tile's
 // activations (records in rows) or, for weight gradients, their transpose; nothing is ever transposed in
-// memory. Part of kernels.cpp.
+// memory. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/simd.h"

@@ -1,6 +1,6 @@
 #pragma once
 // Vectors as long as a feature vector or a part of it: 8, 4, 2 or 1 floats, read from floats or halves. The
-// compiler lowers them to what the instruction set has. Part of kernels.cpp.
+// compiler lowers them to what the instruction set has. Part of kernel_table.cpp.
 
 #include "neural/cpu/simd.h"
 

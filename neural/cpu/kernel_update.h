@@ -1,5 +1,5 @@
 #pragma once
-// Feature gradients summed at their nodes, and Adam at once. Part of kernels.cpp.
+// Feature gradients summed at their nodes, and Adam at once. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_short_vectors.h"
 #include "neural/cpu/kernels.h"

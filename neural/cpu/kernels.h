@@ -1,6 +1,6 @@
 #pragma once
 // What a kernel object offers: one table of functions for each instruction set, and the plain structs they
-// read. C-like, so that kernels.cpp can include it (see simd.h).
+// read. C-like, so that kernel_table.cpp can include it (see simd.h).
 //
 // Records are worked on in tiles of kTile: small enough that a tile's activations stay in the first two
 // levels of the cache, a multiple of every instruction set's block of rows.

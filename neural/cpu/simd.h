@@ -1,7 +1,8 @@
 #pragma once
-// The vectors of the kernels: one set of names over scalar code, AVX2 and AVX-512. Included by kernels.cpp
-// alone, which is compiled once for each instruction set with GATELIGHT_ISA_SCALAR, _AVX2 or _AVX512 defined.
-// Everything is internal to that object file: no symbol of one instruction set can be taken for another's.
+// The vectors of the kernels: one set of names over scalar code, AVX2 and AVX-512. Included by
+// kernel_table.cpp alone, which is compiled once for each instruction set with GATELIGHT_ISA_SCALAR, _AVX2 or
+// _AVX512 defined. Everything is internal to that object file: no symbol of one instruction set can be taken
+// for another's.
 
 #include <stdint.h>
 

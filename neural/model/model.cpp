@@ -1,4 +1,5 @@
 #include "neural/model/model.h"
+#include "neural/layout/build_gate_layout.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 // What backends share: the device, its messages, its compiled shaders.
 
+#include "neural/vulkan/devices.h"
 #include "neural/vulkan/instance.h"
 #include "neural/vulkan/pipelines.h"
-#include "neural/vulkan/vulkan_backend.h"
 
 namespace gatelight::neural::vulkan {
 

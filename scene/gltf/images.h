@@ -2,6 +2,7 @@
 // PNG and JPEG to 8-bit pixels, through OpenImageIO.
 
 #include "scene/gltf/document.h"
+#include "scene/scene.h"
 
 namespace gatelight::scene::gltf {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/gltf/document.h"
+#include "scene/scene.h"
 
 namespace gatelight::scene::gltf {
 

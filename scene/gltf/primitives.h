@@ -2,6 +2,7 @@
 // One glTF primitive to one Mesh.
 
 #include "scene/gltf/document.h"
+#include "scene/scene.h"
 
 namespace gatelight::scene::gltf {
 

@@ -1,6 +1,7 @@
 // Layouts: numbers of nodes, sizes of scenes and triangles, memory.
 
 #include "neural/base/errors.h"
+#include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"

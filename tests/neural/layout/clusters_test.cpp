@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/neural/layout/meshes.h"
 

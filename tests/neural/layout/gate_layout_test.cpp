@@ -1,4 +1,4 @@
-#include "neural/layout/gate_layout.h"
+#include "neural/layout/build_gate_layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "neural/base/errors.h"
+#include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/neural/layout/meshes.h"
 

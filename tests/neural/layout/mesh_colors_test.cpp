@@ -1,4 +1,5 @@
 #include "neural/layout/mesh_colors.h"
+#include "neural/layout/build_gate_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "neural/layout/gate_layout.h"
+#include "neural/layout/build_gate_layout.h"
 #include "tests/neural/layout/meshes.h"
 
 namespace gatelight::neural {

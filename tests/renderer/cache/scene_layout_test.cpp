@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "neural/layout/gate_layout.h"
+#include "neural/layout/build_gate_layout.h"
 #include "renderer/cache/surface_points.h"
 #include "tests/support/built_world.h"
 #include "tests/support/scene_builder.h"

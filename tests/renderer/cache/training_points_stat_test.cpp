@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "neural/layout/gate_layout.h"
+#include "neural/layout/build_gate_layout.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/training_points.h"
 #include "tests/support/built_world.h"

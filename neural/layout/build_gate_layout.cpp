@@ -1,4 +1,4 @@
-#include "neural/layout/gate_layout.h"
+#include "neural/layout/build_gate_layout.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
