@@ -51,7 +51,7 @@ inline void expect_sound(const Backend& backend, const Model& model, const Owned
   }
 }
 
-/// The tolerances of kernel_parity_test, which neural/README.md lists.
+/// The tolerances of kernel_parity_test, which neural/cpu/README.md lists.
 struct Tolerances {
   double answers = 3e-5, loss = 3e-5, gradients = 3e-5, squares = 6e-5, parameters = 3e-5;
 };
