@@ -1,5 +1,5 @@
 #pragma once
-// A row of tests/EXTREMES.md, told by the test that measured it. scripts/write-extremes collects them.
+// A row of tests/EXTREMES.md, told by the test that measured it. scripts/check/write-extremes collects them.
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing;
 
-/// A million, or what GATELIGHT_MANY_TRIANGLES says: scripts/write-extremes asks for ten.
+/// A million, or what GATELIGHT_MANY_TRIANGLES says: scripts/check/write-extremes asks for ten.
 std::size_t wanted() {
   const char* text = std::getenv("GATELIGHT_MANY_TRIANGLES");
   return text ? std::stoull(text) : 1'000'000;

@@ -1,5 +1,5 @@
 // gatelight-render-again SCENE N [small]: renders a scene again and again in one process, and tells its
-// memory. Exit code 1 if it grows. For scripts/leaks.
+// memory. Exit code 1 if it grows. For scripts/check/leaks.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-"""The cache of `train_step/nrc/gate` and `query/nrc/gate` in PyTorch, for scripts/compare-pytorch. Prints one line of JSON.
+"""The cache of `train_step/nrc/gate` and `query/nrc/gate` in PyTorch, for scripts/measure/compare-pytorch. Prints one line of JSON.
 
 The same mathematics on a surface of the same size: feature vectors of 8 on the nodes of two levels (R = 2 and 1), 16 direction
 inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. All that PyTorch is

@@ -1,4 +1,4 @@
-"""Figures of scripts/measure-paper: rows of data/results/NAME.csv, their means over the seeds, and which of two is lower."""
+"""Figures of scripts/measure/measure-paper: rows of data/results/NAME.csv, their means over the seeds, and which of two is lower."""
 
 import csv
 import json

@@ -2,7 +2,7 @@
 
 import os
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SKY = ["--environment", "0.65,0.8,1", "--environment-scale", "2"]
 SCENES = {
     "kitchen": ("country-kitchen/country-kitchen.glb", []),

@@ -1,4 +1,4 @@
-"""Of scripts/coverage: what gcov counted, by folder and by file."""
+"""Of scripts/check/coverage: what gcov counted, by folder and by file."""
 
 import collections
 import concurrent.futures
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDERS = {"neural": 0.95, "scene": 0.85, "renderer": 0.85, "apps": 0.85}
 
 

@@ -1,4 +1,4 @@
-"""Figures of scripts/measure-cache: seconds that path tracing needs for the same error, and the tables."""
+"""Figures of scripts/measure/measure-cache: seconds that path tracing needs for the same error, and the tables."""
 
 import csv
 import io

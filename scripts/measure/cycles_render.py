@@ -1,4 +1,4 @@
-"""Renders a glTF file with Blender's Cycles, as plainly as it can be told to: run by scripts/compare-cycles.
+"""Renders a glTF file with Blender's Cycles, as plainly as it can be told to: run by scripts/measure/compare-cycles.
 
 blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
 

@@ -68,7 +68,7 @@ def introduction(results):
     about = next(iter(results.values())).about
     commands = [result.about["command"] for result in results.values()]
     spp = word_after(about["command"], "--reference-spp", "1024")
-    return INTRODUCTION.format(command=f"scripts/measure-paper -o DIR --reference-spp {spp}", reference=spp,
+    return INTRODUCTION.format(command=f"scripts/measure/measure-paper -o DIR --reference-spp {spp}", reference=spp,
                                sizes=" and ".join(dict.fromkeys(word_after(command, "--size", "1920x1080") for command in commands)),
                                seeds=max(r.seeds() for r in results.values()), version=about["version"], **about["machine"])
 
