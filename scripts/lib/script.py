@@ -1,0 +1,70 @@
+"""What the scripts share: where things are, commands that are run, files that are written, refusals of one line."""
+
+import argparse
+import json
+import os
+import shlex
+import subprocess
+import sys
+
+NAME = os.path.basename(sys.argv[0])
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PROGRAMS = os.path.join(ROOT, "build", "release", "bin")
+
+
+class Failed(Exception):
+    """A command, or what it was to give: the text is for people."""
+
+
+def say(text):
+    print(f"{NAME}: {text}", file=sys.stderr, flush=True)
+
+
+def start(main):
+    """Ends with the exit code that `main` answers, or with what failed."""
+    try:
+        sys.exit(main())
+    except (Failed, OSError) as failure:
+        sys.exit(f"{NAME}: {failure}")
+
+
+def run(command, environment=None, **more):
+    """What it writes to stdout. `environment` comes on top of our own."""
+    done = subprocess.run(command, check=False, text=True, env={**os.environ, **(environment or {})},
+                          **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more})
+    if done.returncode != 0:
+        said = ((done.stdout or "") + (done.stderr or "")).strip()
+        raise Failed(f"'{shlex.join(command)}' ended with {done.returncode}{':' if said else ''}\n{said}".rstrip())
+    return done.stdout
+
+
+def need_program(path):
+    if not os.access(path, os.X_OK):
+        raise Failed(f"there is no program '{path}': build the preset release (scripts/quickstart does), or name another")
+
+
+def read_json(path):
+    with open(path, encoding="utf-8") as file:
+        try:
+            return json.load(file)
+        except ValueError as error:
+            raise Failed(f"'{path}' is not JSON: {error}") from error
+
+
+def write(path, text):
+    """All of it or nothing."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
+def parser(description):
+    return argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def add_program(to, flag="--gatelight"):
+    to.add_argument(flag, default=os.path.join(PROGRAMS, "gatelight"), metavar="FILE", help="gatelight (default: that of build/release)")
+
+
+def integers(text):
+    return [int(word) for word in text.split(",")]

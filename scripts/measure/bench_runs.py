@@ -1,0 +1,62 @@
+"""One run of gatelight-bench or of PyTorch doing the same, and how many cores other programs took meanwhile."""
+
+import json
+import os
+import resource
+import tempfile
+import time
+
+from script import run
+
+TO_SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+# Above so many cores of other programs, times are in doubt.
+DISTURBING = 0.05
+
+
+def gatelight_rows(program, pattern, *flags, repetitions=1, environment=None):
+    """What the benchmarks tell: of several repetitions median, spread and the like, of one the row itself."""
+    if repetitions > 1:
+        flags = (*flags, f"--benchmark_repetitions={repetitions}", "--benchmark_report_aggregates_only=true")
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        run([program, f"--benchmark_filter={pattern}", f"--benchmark_out={out.name}", "--benchmark_out_format=json", *flags], environment)
+        text = out.read()
+    return json.loads(text)["benchmarks"] if text.strip() else []
+
+
+def medians(rows):
+    return {row["run_name"]: row for row in rows if row.get("aggregate_name", "median") == "median"}
+
+
+def seconds_of(row):
+    return row["real_time"] * TO_SECONDS[row["time_unit"]]
+
+
+def pytorch_rows(python, environment=None, **flags):
+    """Milliseconds by the names of pytorch_cache.py."""
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pytorch_cache.py")
+    words = [word for name, value in flags.items() for word in (f"--{name}", str(value))]
+    return json.loads(run([python, program, *words], environment).splitlines()[-1])
+
+
+class OtherPrograms:
+    """What they use from now on."""
+
+    def __init__(self):
+        self.begin, self.busy = time.monotonic(), self.busy_seconds()
+
+    def cores(self):
+        """None where there is no /proc/stat."""
+        if self.busy is None:
+            return None
+        return max(0.0, (self.busy_seconds() - self.busy) / (time.monotonic() - self.begin))
+
+    @staticmethod
+    def busy_seconds():
+        """Of all cores together, less those of our finished children."""
+        try:
+            with open("/proc/stat", encoding="utf-8") as file:
+                user, nice, system, _idle, _wait, irq, soft, steal = map(int, file.readline().split()[1:9])
+        except (OSError, ValueError):
+            return None
+        children = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return (user + nice + system + irq + soft + steal) / os.sysconf("SC_CLK_TCK") - children.ru_utime - children.ru_stime
