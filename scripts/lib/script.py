@@ -67,4 +67,4 @@ def add_program(to, flag="--gatelight"):
 
 
 def integers(text):
-    return [int(word) for word in text.split(",")]
+    return [int(word) for word in text.split(",") if word]

@@ -1,20 +1,54 @@
-"""The scenes that measurements are made with: file (below GATELIGHT_SCENES, or of the project) and flags of 'gatelight render'."""
+"""The one table of the scenes that measurements are made with."""
 
 import os
+from typing import NamedTuple
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SKY = ["--environment", "0.65,0.8,1", "--environment-scale", "2"]
+SKY = (0.65, 0.8, 1.0)
+# So many times as bright are scenes in the open, by what was measured: keep them, or measure anew.
+BRIGHTNESS = {"cache": 2.0, "cycles": 1.0}
+
+
+class Scene(NamedTuple):
+    title: str
+    file: str  # in the folder of the large scenes; in the project if it begins with data/
+    camera: str | None = None  # None: the first
+    open_air: bool = False
+
+    def path(self, folder):
+        """folder: of the large scenes."""
+        return os.path.join(ROOT if self.file.startswith("data/") else folder or "", self.file)
+
+    def stem(self):
+        return os.path.splitext(os.path.basename(self.file))[0]
+
+    def sky(self, measured):
+        """Its radiance, or None."""
+        return [BRIGHTNESS[measured] * value for value in SKY] if self.open_air else None
+
+    def flags(self, measured):
+        """Of 'gatelight render'; measured: one of BRIGHTNESS."""
+        words = ["--camera", self.camera] if self.camera else []
+        if self.open_air:
+            words += ["--environment", ",".join(f"{value:g}" for value in SKY), "--environment-scale", f"{BRIGHTNESS[measured]:g}"]
+        return words
+
+
 SCENES = {
-    "kitchen": ("country-kitchen/country-kitchen.glb", []),
-    "bath": ("salle-de-bain/salle-de-bain.glb", []),
-    "sponza": ("sponza/sponza.glb", ["--camera", "hall", *SKY]),
-    "bistro": ("bistro-exterior/bistro-exterior.glb", SKY),
-    "teapot": (os.path.join(ROOT, "data/teapot-stadium.glb"), []),
-    "living-room": (os.path.join(ROOT, "data/living-room.glb"), []),
+    "kitchen": Scene("Country Kitchen", "country-kitchen/country-kitchen.glb"),
+    "bath": Scene("Salle de bain", "salle-de-bain/salle-de-bain.glb"),
+    "sponza": Scene("Sponza", "sponza/sponza.glb", camera="hall", open_air=True),
+    "bistro": Scene("Bistro", "bistro-exterior/bistro-exterior.glb", open_air=True),
+    "teapot": Scene("Stadium", "data/teapot-stadium.glb"),
+    "living-room": Scene("Living room", "data/living-room.glb"),
 }
 
 
-def scene_path(name, folder):
-    """Of its file; folder: of the large scenes."""
-    file = SCENES[name][0]
-    return file if os.path.isabs(file) else os.path.join(folder or "", file)
+def title_of(name):
+    """By the name that 'gatelight sweep' gives a scene."""
+    return next((scene.title for scene in SCENES.values() if scene.stem() == name), name)
+
+
+def add_scenes(parser):
+    parser.add_argument("--scenes", default=os.environ.get("GATELIGHT_SCENES"), metavar="DIR",
+                        help="folder of the large scenes (default: the environment variable GATELIGHT_SCENES)")

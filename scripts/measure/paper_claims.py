@@ -1,7 +1,8 @@
 """The paper's claims beside what was measured: the first table of RESULTS.md. Verdicts follow from the figures."""
 
 from paper_figures import ADAPTIVE_MB, TABLE1, TABLE2
-from results_data import NAMES, difference
+from measured_scenes import title_of
+from results_data import difference
 from results_tables import table
 
 # Times and sizes differ by more than this, or they count as the same.
@@ -20,7 +21,7 @@ def pairs(result, integrator, a, b, steps=128):
     for scene in result.scenes():
         groups = [result.get(scene, integrator, row, steps) for row in (a, b)]
         if all(group is not None and group.mean("flip") is not None for group in groups):
-            yield NAMES.get(scene, scene), *groups
+            yield title_of(scene), *groups
 
 
 def verdict(good, total):
@@ -110,7 +111,7 @@ def steps_claims(result):
         for scene in result.scenes():
             gains = [gain(result, scene, integrator, row, steps[0], steps[-1]) for row in ("gate", "hash grid")]
             if None not in gains:
-                found.append((NAMES.get(scene, scene), gains))
+                found.append((title_of(scene), gains))
         yield (f"From {steps[0]} to {steps[-1]} steps GATE keeps improving and the hash grid gains little ({word}): "
                "FLIP falls by, GATE and hash grid", "shown for Bistro, without figures",
                "; ".join(f"{name} {100 * a:.0f} % and {100 * b:.0f} %" for name, (a, b) in found),

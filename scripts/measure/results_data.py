@@ -6,8 +6,6 @@ import math
 import os
 import statistics
 
-NAMES = {"country-kitchen": "Country Kitchen", "salle-de-bain": "Salle de bain", "sponza": "Sponza",
-         "teapot-stadium": "Stadium", "bistro-exterior": "Bistro"}
 MIB = 2.0**20
 
 

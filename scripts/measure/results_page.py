@@ -4,7 +4,8 @@ import os
 
 import paper_claims
 import results_tables as tables
-from results_data import NAMES, Results
+from measured_scenes import title_of
+from results_data import Results
 
 TITLES = {
     "paper-table1": "Table 1: equal memory, 128 steps",
@@ -81,7 +82,7 @@ def reference_noise(results):
             for scene in result.about["scenes"]:
                 for reference in scene["references"]:
                     noise[scene["name"], reference["kind"]] = reference
-    rows = [[NAMES.get(scene, scene), f"`{kind}`", f"{reference['rel_mse_noise']:.4f}", f"{reference['flip_of_halves']:.3f}"]
+    rows = [[title_of(scene), f"`{kind}`", f"{reference['rel_mse_noise']:.4f}", f"{reference['flip_of_halves']:.3f}"]
             for (scene, kind), reference in noise.items()]
     return ("## Noise of the references\n\nFLIP between the two halves of a reference is what noise of twice its own deviation looks like.\n\n" +
             tables.table(["scene", "reference", "relative MSE", "FLIP of its halves"], rows))

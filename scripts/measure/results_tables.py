@@ -1,6 +1,6 @@
 """Markdown tables of the paper's experiments; each function takes Results of an experiment."""
 
-from results_data import NAMES
+from measured_scenes import title_of
 
 WORDS = {"nao": "Neural ambient occlusion (`nao`)", "nrc": "Neural radiance caching (`nrc`)"}
 
@@ -49,7 +49,7 @@ def without_empty_columns(header, rows):
 
 def configurations(results, integrator, steps=128):
     """A line for each scene and row of the preset."""
-    rows = [[NAMES.get(scene, scene), row, *figures(results.get(scene, integrator, row, steps))]
+    rows = [[title_of(scene), row, *figures(results.get(scene, integrator, row, steps))]
             for scene in results.scenes() for row in results.rows(integrator) if results.get(scene, integrator, row, steps)]
     return table(*without_empty_columns(["scene", "cache", *HEADER], rows))
 
@@ -57,7 +57,7 @@ def configurations(results, integrator, steps=128):
 def over_steps(results, integrator):
     """FLIP at each step count. Sparse updates of the hash grid differ by less than the digits: table 1 has them."""
     steps = results.steps()
-    rows = [[NAMES.get(scene, scene), row, *[with_deviation(results.get(scene, integrator, row, n), "flip") for n in steps]]
+    rows = [[title_of(scene), row, *[with_deviation(results.get(scene, integrator, row, n), "flip") for n in steps]]
             for scene in results.scenes() for row in results.rows(integrator)
             if "sparse" not in row and results.get(scene, integrator, row, steps[-1])]
     return table(["scene", "cache", *[f"{n} steps" for n in steps]], rows)
@@ -71,7 +71,7 @@ def seconds_and_errors(results):
             points = sorted((key[3], group) for key, group in results.groups.items() if (key[0], key[2]) == (scene, row))
             for point, group in points:
                 unit = "spp" if row == "path" else "steps"
-                rows.append([NAMES.get(scene, scene), f"{row}, {point} {unit}", significant(group.median("seconds")),
+                rows.append([title_of(scene), f"{row}, {point} {unit}", significant(group.median("seconds")),
                              significant(group.median("kernel_ms")), significant(group.mebibytes()), with_deviation(group, "flip"),
                              with_deviation(group, "rel_mse")])
     return table(["scene", "", "seconds", "step, ms", "MiB", "FLIP", "relative MSE"], rows)
