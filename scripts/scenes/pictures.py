@@ -51,6 +51,11 @@ def fractal(seed, width, height, cells_x, cells_y, octaves=4, gain=0.5):
     return [[v / weight for v in row] for row in total]
 
 
+def picture(width, height, pixel):
+    """Of what pixel(x, y) gives."""
+    return [[pixel(x, y) for x in range(width)] for y in range(height)]
+
+
 def mix(a, b, t):
     return tuple(x + (y - x) * t for x, y in zip(a, b))
 
@@ -63,17 +68,15 @@ def step(low, high, value):
 def normals(heights, strength):
     """Tangent-space normals (+y up) of a repeating height field; `strength` is in heights per pixel."""
     h, w = len(heights), len(heights[0])
-    rows = []
-    for y in range(h):
+
+    def pixel(x, y):
         row, above, below = heights[y], heights[y - 1], heights[(y + 1) % h]
-        line = []
-        for x in range(w):
-            dx = (row[x - 1] - row[(x + 1) % w]) * strength
-            dy = (below[x] - above[x]) * strength
-            scale = 0.5 / math.sqrt(dx * dx + dy * dy + 1)
-            line.append((0.5 + dx * scale, 0.5 + dy * scale, 0.5 + scale))
-        rows.append(line)
-    return rows
+        dx = (row[x - 1] - row[(x + 1) % w]) * strength
+        dy = (below[x] - above[x]) * strength
+        scale = 0.5 / math.sqrt(dx * dx + dy * dy + 1)
+        return (0.5 + dx * scale, 0.5 + dy * scale, 0.5 + scale)
+
+    return picture(w, h, pixel)
 
 
 def herringbone(size=512, length=4):
@@ -114,20 +117,18 @@ def marble(size=256):
     """White stone with grey and golden veins."""
     warp_x, warp_y = fractal(31, size, size, 3, 3, 4), fractal(41, size, size, 3, 3, 4)
     veins, fine = fractal(51, size, size, 2, 2, 5, 0.55), fractal(61, size, size, 5, 5, 3)
-    rows = []
-    for y in range(size):
-        line = []
-        for x in range(size):
-            u = int(x + 90 * (warp_x[y][x] - 0.5)) % size
-            v = int(y + 90 * (warp_y[y][x] - 0.5)) % size
-            vein = 1 - step(0.0, 0.055, abs(veins[v][u] - 0.5))
-            thin = 1 - step(0.0, 0.02, abs(fine[v][u] - 0.48))
-            cloud = fine[y][x]
-            colour = mix((0.93, 0.92, 0.90), (0.84, 0.83, 0.82), cloud)
-            colour = mix(colour, (0.50, 0.50, 0.53), 0.75 * vein * (0.4 + 0.6 * cloud))
-            line.append(mix(colour, (0.66, 0.56, 0.42), 0.45 * thin))
-        rows.append(line)
-    return rows
+
+    def pixel(x, y):
+        u = int(x + 90 * (warp_x[y][x] - 0.5)) % size
+        v = int(y + 90 * (warp_y[y][x] - 0.5)) % size
+        vein = 1 - step(0.0, 0.055, abs(veins[v][u] - 0.5))
+        thin = 1 - step(0.0, 0.02, abs(fine[v][u] - 0.48))
+        cloud = fine[y][x]
+        colour = mix((0.93, 0.92, 0.90), (0.84, 0.83, 0.82), cloud)
+        colour = mix(colour, (0.50, 0.50, 0.53), 0.75 * vein * (0.4 + 0.6 * cloud))
+        return mix(colour, (0.66, 0.56, 0.42), 0.45 * thin)
+
+    return picture(size, size, pixel)
 
 
 def plaster(size=192):
@@ -137,16 +138,12 @@ def plaster(size=192):
 
 def weave(size=64, threads=8):
     """Heights of a plain weave of threads."""
-    rows = []
-    for y in range(size):
-        line = []
-        for x in range(size):
-            u, v = x * threads / size, y * threads / size
-            over = (int(u) + int(v)) % 2
-            line.append(abs(math.sin(math.pi * v)) * (0.6 + 0.4 * abs(math.sin(math.pi * u)))
-                        if over else abs(math.sin(math.pi * u)) * (0.6 + 0.4 * abs(math.sin(math.pi * v))))
-        rows.append(line)
-    return rows
+    def pixel(x, y):
+        u, v = x * threads / size, y * threads / size
+        over, under = (v, u) if (int(u) + int(v)) % 2 else (u, v)
+        return abs(math.sin(math.pi * over)) * (0.6 + 0.4 * abs(math.sin(math.pi * under)))
+
+    return picture(size, size, pixel)
 
 
 def rug(width=384, height=256):
@@ -155,39 +152,37 @@ def rug(width=384, height=256):
                                      (0.22, 0.36, 0.44), (0.78, 0.58, 0.28))
     wear = fractal(81, width, height, 12, 8, 4, 0.6)
     yarn = noise(91, width, height, width // 2, height)
-    rows = []
-    for y in range(height):
-        line = []
-        for x in range(width):
-            # Stitches are three pixels: slanted edges become steps.
-            i, j = x // 3, y // 3
-            border = min(i, j, (width - 1) // 3 - i, (height - 1) // 3 - j)
-            if border < 2:
+
+    def pixel(x, y):
+        # Stitches are three pixels: slanted edges become steps.
+        i, j = x // 3, y // 3
+        border = min(i, j, (width - 1) // 3 - i, (height - 1) // 3 - j)
+        if border < 2:
+            colour = ink
+        elif border < 4:
+            colour = cream
+        elif border < 11:
+            tooth = abs((i + j * (width // height == 0)) % 10 - 5) if border in (4, 10) else abs((i + j) % 10 - 5)
+            colour = clay if tooth + abs(border - 7) > 4 else ochre
+            if tooth + abs(border - 7) < 2:
                 colour = ink
-            elif border < 4:
-                colour = cream
-            elif border < 11:
-                tooth = abs((i + j * (width // height == 0)) % 10 - 5) if border in (4, 10) else abs((i + j) % 10 - 5)
-                colour = clay if tooth + abs(border - 7) > 4 else ochre
-                if tooth + abs(border - 7) < 2:
-                    colour = ink
-            elif border < 13:
-                colour = cream if border == 11 else ink
-            else:
-                a, b = (i - width // 6) % 28 - 14, (j - height // 6) % 28 - 14
-                d = abs(a) + abs(b)
-                colour = cream
-                if d in (13, 14):
-                    colour = ink
-                elif 9 <= d <= 11:
-                    colour = clay if (i - width // 6 + 14) // 28 % 2 == (j - height // 6 + 14) // 28 % 2 else blue
-                elif d in (5, 6):
-                    colour = ochre
-                elif d <= 2:
-                    colour = ink
-            line.append(tuple(c * (0.78 + 0.22 * wear[y][x] + 0.14 * (yarn[y][x] - 0.5)) for c in colour))
-        rows.append(line)
-    return rows
+        elif border < 13:
+            colour = cream if border == 11 else ink
+        else:
+            a, b = (i - width // 6) % 28 - 14, (j - height // 6) % 28 - 14
+            d = abs(a) + abs(b)
+            colour = cream
+            if d in (13, 14):
+                colour = ink
+            elif 9 <= d <= 11:
+                colour = clay if (i - width // 6 + 14) // 28 % 2 == (j - height // 6 + 14) // 28 % 2 else blue
+            elif d in (5, 6):
+                colour = ochre
+            elif d <= 2:
+                colour = ink
+        return tuple(c * (0.78 + 0.22 * wear[y][x] + 0.14 * (yarn[y][x] - 0.5)) for c in colour)
+
+    return picture(width, height, pixel)
 
 
 def mountains(width=320, height=224):
@@ -200,83 +195,74 @@ def mountains(width=320, height=224):
         ridges.append([height * (0.42 + 0.095 * layer - 0.20 * (b - 0.35) - 0.07 * (r - 0.5))
                        for b, r in zip(base, rough)])
     far, near = (0.80, 0.66, 0.55), (0.07, 0.15, 0.19)
-    rows = []
-    for y in range(height):
-        line = []
-        for x in range(width):
-            sky = mix((0.93, 0.75, 0.52), (0.38, 0.50, 0.56), step(0.55, -0.05, y / height))
-            sun = math.hypot(x - 0.66 * width, y - 0.30 * height) / height
-            colour = mix((0.98, 0.88, 0.66), sky, step(0.0, 0.42, sun))
-            colour = mix(colour, (0.96, 0.52, 0.27), step(0.092, 0.080, sun))
-            for layer, ridge in enumerate(ridges):
-                depth = y - ridge[x]
-                if depth > 0:
-                    tone = mix(far, near, ((layer + 0.6) / 6) ** 0.8)
-                    colour = mix(tone, mix(tone, (0.88, 0.74, 0.60), 0.55 - 0.07 * layer), step(0, 50, depth))
-            line.append(tuple(c * (0.90 + 0.2 * grain[y][x]) for c in colour))
-        rows.append(line)
-    return rows
+
+    def pixel(x, y):
+        sky = mix((0.93, 0.75, 0.52), (0.38, 0.50, 0.56), step(0.55, -0.05, y / height))
+        sun = math.hypot(x - 0.66 * width, y - 0.30 * height) / height
+        colour = mix((0.98, 0.88, 0.66), sky, step(0.0, 0.42, sun))
+        colour = mix(colour, (0.96, 0.52, 0.27), step(0.092, 0.080, sun))
+        for layer, ridge in enumerate(ridges):
+            depth = y - ridge[x]
+            if depth > 0:
+                tone = mix(far, near, ((layer + 0.6) / 6) ** 0.8)
+                colour = mix(tone, mix(tone, (0.88, 0.74, 0.60), 0.55 - 0.07 * layer), step(0, 50, depth))
+        return tuple(c * (0.90 + 0.2 * grain[y][x]) for c in colour)
+
+    return picture(width, height, pixel)
 
 
 def leaf(width=128, height=160):
     """A monstera leaf, its stalk at the bottom: colour and coverage."""
     spots = fractal(131, width, height, 5, 6, 3)
-    rows = []
-    for y in range(height):
-        line = []
-        for x in range(width):
-            u, v = (x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height
-            side = abs(u)
-            # A heart: half its width at height v; the lobes reach below the stalk at v = 0.18.
-            outline = 0.97 * math.sin(math.pi * min(1.0, max(0.0, v)) ** 0.62) ** 0.75
-            inside = side < outline and not (v < 0.17 and side < 0.25 * (0.17 - v) / 0.17)
-            rib = v - 0.18 - 0.42 * side
-            phase = (rib * 6.5) % 1.0
-            slit = 0.33 < phase < 0.62 and side > outline * (0.42 + 0.10 * math.sin(20 * v)) and 0.05 < rib < 0.72
-            hole = math.hypot((phase - 0.48) / 2.4, side - 0.20) < 0.055 and 0.08 < rib < 0.6
-            vein = max(step(0.035, 0.012, side), 0.7 * step(0.10, 0.03, abs(phase - 0.98)) * (rib > -0.1))
-            green = mix((0.10, 0.27, 0.10), (0.20, 0.42, 0.15), spots[y][x])
-            cover = 1.0 if inside and not slit and not hole else 0.0
-            line.append((*mix(green, (0.52, 0.66, 0.36), 0.55 * vein), cover))
-        rows.append(line)
-    return rows
+
+    def pixel(x, y):
+        u, v = (x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height
+        side = abs(u)
+        # A heart: half its width at height v; the lobes reach below the stalk at v = 0.18.
+        outline = 0.97 * math.sin(math.pi * min(1.0, max(0.0, v)) ** 0.62) ** 0.75
+        inside = side < outline and not (v < 0.17 and side < 0.25 * (0.17 - v) / 0.17)
+        rib = v - 0.18 - 0.42 * side
+        phase = (rib * 6.5) % 1.0
+        slit = 0.33 < phase < 0.62 and side > outline * (0.42 + 0.10 * math.sin(20 * v)) and 0.05 < rib < 0.72
+        hole = math.hypot((phase - 0.48) / 2.4, side - 0.20) < 0.055 and 0.08 < rib < 0.6
+        vein = max(step(0.035, 0.012, side), 0.7 * step(0.10, 0.03, abs(phase - 0.98)) * (rib > -0.1))
+        green = mix((0.10, 0.27, 0.10), (0.20, 0.42, 0.15), spots[y][x])
+        cover = 1.0 if inside and not slit and not hole else 0.0
+        return (*mix(green, (0.52, 0.66, 0.36), 0.55 * vein), cover)
+
+    return picture(width, height, pixel)
 
 
 def lace(size=128):
     """A net with flowers: white, and where it is."""
-    rows = []
-    for y in range(size):
-        line = []
-        for x in range(size):
-            u, v = (x + 0.5) / size, (y + 0.5) / size
-            net = min(abs((u * 16 + v * 16) % 1 - 0.5), abs((u * 16 - v * 16) % 1 - 0.5)) < 0.17
-            flower = False
-            for cu, cv in ((0.5, 0.5), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
-                r, angle = math.hypot(u - cu, v - cv), math.atan2(v - cv, u - cu)
-                flower |= 0.03 < r < 0.13 + 0.07 * math.cos(6 * angle) and abs(math.cos(3 * angle)) > 0.22
-            line.append((0.96, 0.95, 0.92, 1.0 if net or flower else 0.0))
-        rows.append(line)
-    return rows
+    def pixel(x, y):
+        u, v = (x + 0.5) / size, (y + 0.5) / size
+        net = min(abs((u * 16 + v * 16) % 1 - 0.5), abs((u * 16 - v * 16) % 1 - 0.5)) < 0.17
+        flower = False
+        for cu, cv in ((0.5, 0.5), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
+            r, angle = math.hypot(u - cu, v - cv), math.atan2(v - cv, u - cu)
+            flower |= 0.03 < r < 0.13 + 0.07 * math.cos(6 * angle) and abs(math.cos(3 * angle)) > 0.22
+        return (0.96, 0.95, 0.92, 1.0 if net or flower else 0.0)
+
+    return picture(size, size, pixel)
 
 
 def sky(width=192, height=128):
     """An evening sky over misty trees, for the window."""
     clouds = fractal(141, width, height, 3, 7, 5, 0.55)
     crowns = [fractal(150 + k, width, 1, 5 + 4 * k, 1, 4, 0.6)[0] for k in range(3)]
-    rows = []
-    for y in range(height):
+
+    def pixel(x, y):
         v = y / height
-        line = []
-        for x in range(width):
-            colour = mix((0.30, 0.49, 0.82), (0.86, 0.82, 0.80), step(0.05, 0.72, v))
-            colour = mix(colour, (0.97, 0.95, 0.94), 0.65 * step(0.48, 0.72, clouds[y][x]))
-            for layer, crown in enumerate(crowns):
-                top = 0.60 + 0.10 * layer - 0.22 * (crown[x] - 0.4)
-                tone = mix((0.56, 0.64, 0.70), (0.17, 0.27, 0.26), layer / 2)
-                colour = mix(colour, tone, 0.9 * step(top - 0.012, top + 0.012, v))
-            line.append(colour)
-        rows.append(line)
-    return rows
+        colour = mix((0.30, 0.49, 0.82), (0.86, 0.82, 0.80), step(0.05, 0.72, v))
+        colour = mix(colour, (0.97, 0.95, 0.94), 0.65 * step(0.48, 0.72, clouds[y][x]))
+        for layer, crown in enumerate(crowns):
+            top = 0.60 + 0.10 * layer - 0.22 * (crown[x] - 0.4)
+            tone = mix((0.56, 0.64, 0.70), (0.17, 0.27, 0.26), layer / 2)
+            colour = mix(colour, tone, 0.9 * step(top - 0.012, top + 0.012, v))
+        return colour
+
+    return picture(width, height, pixel)
 
 
 def lantern(width=4, height=128, ribs=20):

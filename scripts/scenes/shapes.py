@@ -101,6 +101,13 @@ def polygon(*corners):
     return Mesh([tuple(c) for c in corners], [(0, k, k + 1) for k in range(1, len(corners) - 1)])
 
 
+def cells(columns, rows, first=0):
+    """Of a grid of vertices, row by row from `first` on: the four corners of each cell, counter-clockwise."""
+    for j in range(rows):
+        for a in range(first + j * (columns + 1), first + j * (columns + 1) + columns):
+            yield a, a + 1, a + columns + 2, a + columns + 1
+
+
 def surface(columns, rows, function, wrap=False):
     """Grid over u, v in [0, 1]: `function(u, v)` gives the position. u to the right and v up see the front.
     Smooth normals; uvs are (u, 1 - v). `wrap` says that u = 0 and u = 1 meet (the seam is bridged either way)."""
@@ -110,15 +117,12 @@ def surface(columns, rows, function, wrap=False):
             u, v = i / columns, j / rows
             mesh.positions.append(tuple(function(0.0 if wrap and i == columns else u, v)))
             mesh.uvs.append((u, 1.0 - v))
-    for j in range(rows):
-        for i in range(columns):
-            a = j * (columns + 1) + i
-            b, c, d = a + 1, a + columns + 2, a + columns + 1
-            for triangle in ((a, b, c), (a, c, d)):
-                corners = [mesh.positions[k] for k in triangle]
-                # The poles of a sphere and the axis of a lathe have triangles without area.
-                if sum(v * v for v in face_normal(*corners)) > 1e-24:
-                    mesh.triangles.append(triangle)
+    for a, b, c, d in cells(columns, rows):
+        for triangle in ((a, b, c), (a, c, d)):
+            corners = [mesh.positions[k] for k in triangle]
+            # The poles of a sphere and the axis of a lathe have triangles without area.
+            if sum(v * v for v in face_normal(*corners)) > 1e-24:
+                mesh.triangles.append(triangle)
     return mesh.smooth()
 
 
@@ -167,15 +171,13 @@ def lathe(profile, segments=48, crease_degrees=50.0):
             mesh.positions.append((r * s, y, r * c))
             mesh.normals.append((nr * s, ny, nr * c))
             mesh.uvs.append((i / segments, -along))
-    for j in range(len(rings) - 1):
-        if rings[j][:2] == rings[j + 1][:2]:
+    for j, (low, high) in enumerate(zip(rings, rings[1:])):
+        if low[:2] == high[:2]:
             continue
-        for i in range(segments):
-            a = j * (segments + 1) + i
-            b, c, d = a + 1, a + segments + 2, a + segments + 1
-            if rings[j][0] > 0:
+        for a, b, c, d in cells(segments, 1, j * (segments + 1)):
+            if low[0] > 0:
                 mesh.triangles.append((a, b, c))
-            if rings[j + 1][0] > 0:
+            if high[0] > 0:
                 mesh.triangles.append((a, c, d))
     return mesh
 
@@ -242,11 +244,8 @@ def rounded_box(size, radius, bevel=2, flat=1, shape=None):
                     n = unit([c - q for c, q in zip(p, core)])
                     mesh.positions.append(tuple(q + radius * c for q, c in zip(core, n)))
                     mesh.normals.append(tuple(n))
-            width = len(us)
-            for j in range(len(vs) - 1):
-                for i in range(width - 1):
-                    q = first + j * width + i
-                    mesh.triangles += [(q, q + 1, q + width + 1), (q, q + width + 1, q + width)]
+            for k, m, n, o in cells(len(us) - 1, len(vs) - 1, first):
+                mesh.triangles += [(k, m, n), (k, n, o)]
     if shape:
         mesh.positions = [tuple(shape(*p)) for p in mesh.positions]
         mesh.smooth()

@@ -3,7 +3,7 @@
 Rim, body, lid and bottom are turned: each quarter has the same profile, and its circle is the cubic whose middle points
 stand at 0.56 of the radius. Handle and spout are given by half and mirrored at y = 0."""
 
-from shapes import Mesh, merge
+from shapes import Mesh, cells, merge
 
 # Control points (radius, height) of the profiles, inside to outside seen from the axis.
 TURNED = (
@@ -59,11 +59,8 @@ def tessellate(pieces, height):
             for bu in weights:
                 x, y, z = (sum(bu[i] * row[i][k] for i in range(4)) for k in range(3))
                 mesh.positions.append((x, z, -y))
-        width = pieces + 1
-        for j in range(pieces):
-            for i in range(pieces):
-                a = j * width + i
-                mesh.triangles += [(a, a + width + 1, a + width), (a, a + 1, a + width + 1)]
+        for a, b, c, d in cells(pieces, pieces):
+            mesh.triangles += [(a, c, d), (a, b, c)]
         parts.append(mesh)
     whole = merge(*parts)
     # At the poles one side of a patch is a point, and a triangle there has no area.
