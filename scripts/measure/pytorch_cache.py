@@ -42,59 +42,14 @@ def corners_and_edges(triangle):
     return np.where(pick, upper_corners, lower_corners), np.where(pick, upper_edges, lower_edges)
 
 
-def nodes_and_weights(triangle, b1, b2):
-    """[n, 6] of both levels: mesh colours at R = 2 on vertices and edge middles, at R = 1 on vertices."""
-    corners, edges = corners_and_edges(triangle)
-    weights1 = np.stack([1 - b1 - b2, b1, b2], 1)
-    scaled = 2 * weights1
-    whole = np.minimum(np.floor(scaled), 1)
-    rest = scaled - whole
-    corner = np.argmax(whole, 1)  # of the corner triangles, whose whole parts sum to 1
-    inside = whole.sum(1) == 0  # the triangle of the three edge middles
-    at = np.arange(len(triangle))
-    middles = VERTICES + edges
-    nodes2 = middles.copy()
-    weights2 = 1 - rest
-    # Corner triangle of corner k: node k is the corner, node m is the middle of k and m, opposite to the third.
-    for k in range(3):
-        rows = at[~inside & (corner == k)]
-        m, n = (k + 1) % 3, (k + 2) % 3
-        nodes2[rows, k] = corners[rows, k]
-        nodes2[rows, m] = middles[rows, n]
-        nodes2[rows, n] = middles[rows, m]
-        weights2[rows] = rest[rows]
-    return np.concatenate([nodes2, VERTICES + EDGES + corners], 1), np.concatenate([weights2, weights1], 1)
-
-
-def one_blob(direction, bins=8):
-    """Theta / pi and phi / 2 pi, a quartic kernel over `bins` each."""
-    theta = np.arccos(np.clip(direction[:, 2], -1, 1)) / np.pi
-    phi = np.arctan2(direction[:, 1], direction[:, 0]) / (2 * np.pi) % 1
-
-    def integral(x):
-        x = np.clip(x, -1, 1)
-        return 0.5 + 15 / 16 * (x - 2 / 3 * x**3 + x**5 / 5)
-
-    edges = np.arange(bins + 1) / bins
-    out = []
-    for value, wraps in ((theta, False), (phi, True)):
-        steps = integral((edges[None, :] - value[:, None]) * bins)
-        blob = np.diff(steps, axis=1)
-        if wraps:
-            for shift in (-1, 1):
-                blob += np.diff(integral((edges[None, :] - value[:, None] + shift) * bins), axis=1)
-        out.append(blob)
-    return np.concatenate(out, 1)
-
-
 def topology():
     """Of each triangle the nodes of its corners and of its edges' middles at R = 2, and of its corners at R = 1."""
     corners, edges = corners_and_edges(np.arange(2 * COLUMNS * ROWS))
     return torch.from_numpy(np.concatenate([corners, VERTICES + edges, VERTICES + EDGES + corners], 1)).to(DEVICE)
 
 
-def nodes_and_weights_in_torch(table, triangle, barycentrics):
-    """As nodes_and_weights, in PyTorch."""
+def nodes_and_weights(table, triangle, barycentrics):
+    """[2n, 3], a point after the other: mesh colours at R = 2 on vertices and edge middles, and at R = 1 on vertices."""
     words = table.index_select(0, triangle)
     b1, b2 = barycentrics.unbind(1)
     weights1 = torch.stack([1 - b1 - b2, b1, b2], 1)
@@ -114,8 +69,8 @@ def nodes_and_weights_in_torch(table, triangle, barycentrics):
             torch.cat([weights2, weights1], 1).view(-1, 3))
 
 
-def one_blob_in_torch(direction, bins=8):
-    """As one_blob, in PyTorch."""
+def one_blob(direction, bins=8):
+    """Theta / pi and phi / 2 pi, a quartic kernel over `bins` each."""
     theta = torch.arccos(direction[:, 2].clamp(-1, 1)) / math.pi
     phi = (torch.atan2(direction[:, 1], direction[:, 0]) / (2 * math.pi)).remainder(1)
     centres = (torch.arange(bins, device=DEVICE) + 0.5) / bins
@@ -131,7 +86,7 @@ def one_blob_in_torch(direction, bins=8):
     return (integral(distance + 0.5) - integral(distance - 0.5)).view(-1, 2 * bins)
 
 
-def points(order, size, patch):
+def points(table, order, size, patch):
     """As bench/neural_fixture makes them: pixels, two a quad in each direction, or any place."""
     width, height = size
     count = width * height
@@ -150,15 +105,13 @@ def points(order, size, patch):
         b1, b2 = np.where(b1 + b2 > 1, 1 - b1, b1), np.where(b1 + b2 > 1, 1 - b2, b2)
         direction = random.normal(size=(count, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    nodes, weights = nodes_and_weights(triangle, b1, b2)
-    made = {"nodes": torch.from_numpy(nodes.reshape(-1, 3)),
-            "weights": torch.from_numpy(weights.reshape(-1, 3).astype(np.float32)),
-            "direction": torch.from_numpy(one_blob(direction).astype(np.float32)),
-            "triangle": torch.from_numpy(triangle),
+    made = {"triangle": torch.from_numpy(triangle),
             "barycentrics": torch.from_numpy(np.stack([b1, b2], 1).astype(np.float32)),
             "unit": torch.from_numpy(direction.astype(np.float32)),
             "targets": torch.from_numpy(random.random((count, OUTPUTS), dtype=np.float32))}
-    return {name: tensor.to(DEVICE) for name, tensor in made.items()}
+    made = {name: tensor.to(DEVICE) for name, tensor in made.items()}
+    nodes, weights = nodes_and_weights(table, made["triangle"], made["barycentrics"])
+    return {**made, "nodes": nodes, "weights": weights, "direction": one_blob(made["unit"])}
 
 
 class AdamByHand:
@@ -225,9 +178,8 @@ class Cache:
                 nodes, weights = batch["nodes"][2 * begin:2 * end], batch["weights"][2 * begin:2 * end]
                 direction = batch["direction"][begin:end]
             else:
-                nodes, weights = nodes_and_weights_in_torch(table, batch["triangle"][begin:end],
-                                                            batch["barycentrics"][begin:end])
-                direction = one_blob_in_torch(batch["unit"][begin:end])
+                nodes, weights = nodes_and_weights(table, batch["triangle"][begin:end], batch["barycentrics"][begin:end])
+                direction = one_blob(batch["unit"][begin:end])
             x = self.encode(nodes, weights, direction, features)
             out[begin:end] = network(x.to(dtype)).clamp_(min=0)
 
@@ -250,14 +202,15 @@ def median_ms(run, repetitions, warm_up):
     return statistics.median(times)
 
 
-def check():
+def check(table):
     """What is precomputed is a mesh-colour lookup: an affine field over a triangle comes back exactly."""
     triangle = np.repeat(np.arange(0, 2000, 7), 50)
     random = np.random.default_rng(1)
     b1, b2 = random.random((2, len(triangle)))
     b1, b2 = np.where(b1 + b2 > 1, 1 - b1, b1), np.where(b1 + b2 > 1, 1 - b2, b2)
     corners, edges = corners_and_edges(triangle)
-    nodes, weights = nodes_and_weights(triangle, b1, b2)
+    nodes, weights = (found.view(-1, 6).cpu().numpy() for found in nodes_and_weights(
+        table, torch.from_numpy(triangle).to(DEVICE), torch.from_numpy(np.stack([b1, b2], 1)).to(DEVICE)))
     field = np.full((len(triangle), 3), [1.0, 5.0, -2.0])
     middles = (field.sum(1, keepdims=True) - field) / 2
     value = np.zeros(len(triangle))
@@ -267,8 +220,8 @@ def check():
                 value += np.where(nodes[:, k] == number[:, m], weights[:, k] * at[:, m], 0)
     expected = (1 - b1 - b2) * 1.0 + b1 * 5.0 + b2 * -2.0
     assert np.allclose(value, expected) and np.allclose(weights.sum(1), 2), "the lookups are wrong"
-    blobs = one_blob(random.normal(size=(1000, 3)) / 9 + [0, 1, 0])
-    assert np.allclose(blobs[:, 8:].sum(1), 1), "the direction's encoding is wrong"
+    blobs = one_blob(torch.from_numpy(random.normal(size=(1000, 3)) / 9 + [0, 1, 0]).to(DEVICE))
+    assert np.allclose(blobs[:, 8:].sum(1).cpu(), 1), "the direction's encoding is wrong"
 
 
 def main():
@@ -281,12 +234,12 @@ def main():
     options = parser.parse_args()
     global DEVICE  # pylint: disable=global-statement
     DEVICE = options.device
-    check()
+    table = topology()
+    check(table)
     torch.set_num_threads(options.threads)
     result = {}
-    table = topology()
     for order in ("coherent", "random"):
-        batches = [points(order, BATCH, patch) for patch in range(BATCHES)]
+        batches = [points(table, order, BATCH, patch) for patch in range(BATCHES)]
         losses = []
         for name, feature_adam in (("train_by_hand", AdamByHand), ("train", torch.optim.SparseAdam)):
             cache = Cache(feature_adam)
@@ -295,7 +248,7 @@ def main():
             losses.append(cache.step(batches[0]).item())
             assert losses[-1] < first, f"PyTorch does not learn: loss {first} to {losses[-1]}"
         assert math.isclose(*losses, rel_tol=0.02), f"both ways to update are not the same: losses {losses}"
-        picture = points(order, PICTURE, 0)
+        picture = points(table, order, PICTURE, 0)
         out = torch.empty(PICTURE[0] * PICTURE[1], OUTPUTS, device=DEVICE)
         half = torch.nn.Sequential(*[
             torch.nn.LeakyReLU(0.01, inplace=True) if not hasattr(layer, "weight") else
