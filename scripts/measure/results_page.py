@@ -1,6 +1,8 @@
 """Writes data/results/RESULTS.md of the figures beside it. SUMMARY alone does not follow from them: whoever measures anew reads it again."""
 
 import os
+import re
+import textwrap
 
 import paper_claims
 import results_tables as tables
@@ -105,6 +107,14 @@ def section(name, result):
     return text
 
 
+def wrap(text):
+    """Paragraphs and list items in lines of at most 120 characters; all else as it is."""
+    blocks = re.split(r"(\n\n|\n(?=- )|```.*?```)", text, flags=re.DOTALL)
+    return "".join(block if block.startswith(("|", "#", "!", "```", "\n")) or max(map(len, block.split("\n"))) <= 120 else
+                   textwrap.fill(" ".join(block.split()), 120, subsequent_indent="  " if block.startswith("- ") else "", break_long_words=False,
+                                 break_on_hyphens=False) for block in blocks)
+
+
 def write(folder):
     results = {name: Results(folder, name) for name in TITLES if os.path.exists(os.path.join(folder, name + ".csv"))}
     if not results:
@@ -113,4 +123,4 @@ def write(folder):
     parts += [section(name, result) for name, result in results.items()]
     parts.append(reference_noise(results))
     with open(os.path.join(folder, "RESULTS.md"), "w", encoding="utf-8") as file:
-        file.write("\n".join(parts))
+        file.write(wrap("\n".join(parts)))
