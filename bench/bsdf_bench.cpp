@@ -76,7 +76,7 @@ void sample(benchmark::State& state, const SurfaceMaterial& material) {
   }
 }
 
-const bool registered = [] {
+const bool bsdf_registered = [] {
   const auto add = [](const std::string& name, const SurfaceMaterial& material) {
     benchmark::RegisterBenchmark(("bsdf/construct/" + name).c_str(), construct, material);
     benchmark::RegisterBenchmark(("bsdf/evaluate/" + name).c_str(), evaluate, material);

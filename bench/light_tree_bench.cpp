@@ -153,7 +153,7 @@ void direct_light(benchmark::State& state, const SceneCase& which, renderer::Dir
   state.counters["emitters"] = static_cast<double>(lights.emissive_triangles());
 }
 
-const int registered = [] {
+const int light_tree_registered = [] {
   for (const SceneCase* which : {&kBistroNight, &kKitchen}) {
     for (const auto& [technique_name, technique] :
          {std::pair{"nee", renderer::DirectLight::nee}, std::pair{"mis", renderer::DirectLight::mis}}) {

@@ -32,7 +32,7 @@ void gather(benchmark::State& state, bool huge_pages) {
   run_passes(state, "Mread/s", 1e6, [&] { return run_gather(buffer); });
 }
 
-const bool registered = [] {
+const bool limits_registered = [] {
   const auto add = [](const std::string& name, auto function, auto... arguments) {
     benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->Unit(benchmark::kMillisecond);
   };

@@ -41,7 +41,7 @@ void build(benchmark::State& state, const SceneCase& which) {
   state.counters["bvh_bytes/triangle"] = static_cast<double>(bytes) / static_cast<double>(triangles);
 }
 
-const int registered = [] {
+const int load_registered = [] {
   for (const SceneCase* which : {&kSponza, &kKitchen, &kBistro}) {
     const auto add = [&](const std::string& name, auto function) {
       benchmark::RegisterBenchmark((name + "/" + which->name).c_str(),

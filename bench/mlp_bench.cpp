@@ -79,7 +79,7 @@ void mlp_eigen(benchmark::State& state, EigenChunk chunk, Arithmetic arithmetic)
   });
 }
 
-const bool registered = [] {
+const bool mlp_registered = [] {
   benchmark::RegisterBenchmark("mlp/nrc", mlp, Cache::nrc)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("mlp/nao", mlp, Cache::nao)->Unit(benchmark::kMillisecond);
   const auto add_eigen = [](neural::cpu::Isa isa, EigenChunk chunk) {

@@ -42,7 +42,7 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
   });
 }
 
-const bool registered = [] {
+const bool query_registered = [] {
   for (const Cache cache : {Cache::nrc, Cache::nao}) {
     for (const Encoding encoding :
          {Encoding::gate, Encoding::hash_grid, Encoding::hash_grid_m, Encoding::hash_grid_s}) {

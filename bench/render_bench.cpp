@@ -144,7 +144,7 @@ void replay(benchmark::State& state, const SceneCase& which,
   set_rates(state, 0, traced);
 }
 
-const int registered = [] {
+const int render_registered = [] {
   using Log = renderer::RayLog;
   for (const SceneCase* which : {&kSponza, &kKitchen}) {
     const std::string scene = which->name;

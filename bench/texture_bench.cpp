@@ -171,7 +171,7 @@ void oiio(benchmark::State& state, bool random, int level) {
   report(state, sum, count);
 }
 
-const int registered = [] {
+const int texture_registered = [] {
   for (const bool random : {false, true}) {
     for (const int level : {0, 4}) {
       const std::string name =

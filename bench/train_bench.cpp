@@ -82,7 +82,7 @@ void train_step(benchmark::State& state, const TrainCase& which) {
   });
 }
 
-const bool registered = [] {
+const bool train_registered = [] {
   const auto add = [](TrainCase which, const char* suffix) {
     for (const Order order : {Order::coherent, Order::random, Order::sorted}) {
       if (order == Order::sorted && which.model.encoding != Encoding::gate) continue;

@@ -115,7 +115,7 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
   state.counters["fraction_of_bandwidth"] = bytes / (sum.encode + sum.network) / limits().bytes_per_second;
 }
 
-const bool registered = [] {
+const bool vulkan_registered = [] {
   if (std::getenv("GATELIGHT_BENCH_VULKAN") == nullptr) return false;
   benchmark::RegisterBenchmark("vulkan/limits", limit_rows)->Iterations(1);
   for (const Cache cache : {Cache::nrc, Cache::nao})

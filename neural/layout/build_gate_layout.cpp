@@ -18,7 +18,6 @@ namespace gatelight::neural {
 
 namespace {
 
-constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
 using Range = tbb::blocked_range<std::size_t>;
 
 /// Takes `size` numbers from 0 on, each once.

@@ -16,7 +16,7 @@ namespace gatelight::neural {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kClusterGrain = 4096;
 using Range = tbb::blocked_range<std::size_t>;
 
 /// Cell boundaries lie off the multiples of the cell: planes at round coordinates, and their rounding errors,
@@ -95,7 +95,7 @@ bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGr
   std::atomic<bool> over = false;
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     const ClusterKeys key(instances[i], grid);
-    tbb::parallel_for(Range(0, vertex_count(instances[i]), kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, vertex_count(instances[i]), kClusterGrain), [&](const Range& range) {
       if (over.load(std::memory_order_relaxed)) return;
       std::uint64_t fresh = 0;
       for (std::size_t v = range.begin(); v != range.end(); ++v) {
@@ -158,7 +158,7 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
     return ~first_vertices[slots[vertex]].load(std::memory_order_relaxed);
   };
   std::vector<std::uint32_t> numbers(slots.size());
-  const Range vertices(0, numbers.size(), kGrain);
+  const Range vertices(0, numbers.size(), kClusterGrain);
   tbb::parallel_for(vertices, [&](const Range& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
   });
@@ -166,7 +166,7 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
   std::vector<std::vector<std::uint32_t>> result(instances.size());
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     result[i].resize(offsets[i + 1] - offsets[i]);
-    tbb::parallel_for(Range(0, result[i].size(), kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, result[i].size(), kClusterGrain), [&](const Range& range) {
       for (std::size_t v = range.begin(); v != range.end(); ++v)
         result[i][v] = numbers[first_vertex(offsets[i] + v)] - 1;
     });

@@ -16,6 +16,8 @@ namespace gatelight::neural {
 
 inline constexpr std::uint32_t kMaxResolution = 64;
 inline constexpr std::uint32_t kMaxStack = 4;
+/// Nodes, vertices and words of topology are counted in 32 bits.
+inline constexpr std::uint64_t kMaxIndex = 0xffffffffu;
 
 enum class ResolutionRule : std::uint8_t {
   uniform,  ///< R = round(sqrt(A) / spacing), A the area-weighted mean area of the instance's triangles,

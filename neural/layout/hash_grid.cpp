@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "neural/base/errors.h"
+#include "neural/base/require.h"
 
 namespace gatelight::neural {
 
@@ -16,19 +17,17 @@ namespace {
 constexpr double kMaxHashResolution = 1 << 20;
 constexpr std::uint64_t kMaxEntries = std::numeric_limits<std::uint32_t>::max();
 
-void require(bool holds, const char* what, double value, const char* expected) {
-  if (!holds) throw BadConfiguration(fmt::format("hash grid {}: {}, expected {}", what, value, expected));
-}
-
 void check(const HashGridOptions& options) {
-  require(options.levels >= 1 && options.levels <= kMaxHashLevels, "levels", options.levels, "1 to 16");
-  require(options.features >= 1 && options.features <= 16, "features", options.features, "1 to 16");
-  require(options.base_resolution >= 1 && options.base_resolution <= kMaxHashResolution, "base resolution",
-          options.base_resolution, "1 to 2^20");
-  require(std::isfinite(options.growth) && options.growth >= 1.0f, "growth", options.growth, "1 or more");
+  require(options.levels >= 1 && options.levels <= kMaxHashLevels, "hash grid levels", options.levels,
+          "1 to 16");
+  require(options.features >= 1 && options.features <= 16, "hash grid features", options.features, "1 to 16");
+  require(options.base_resolution >= 1 && options.base_resolution <= kMaxHashResolution,
+          "hash grid base resolution", options.base_resolution, "1 to 2^20");
+  require(std::isfinite(options.growth) && options.growth >= 1.0f, "hash grid growth", options.growth,
+          "1 or more");
   require(options.memory_target != 0 || (options.log2_table_size >= 3 && options.log2_table_size <= 31),
-          "log2 of the table size", options.log2_table_size, "3 to 31");
-  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "bytes per feature",
+          "hash grid log2 of the table size", options.log2_table_size, "3 to 31");
+  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "hash grid bytes per feature",
           options.bytes_per_feature, "2 or 4");
 }
 
@@ -72,7 +71,7 @@ HashGridLayout build_position_mapping(const HashGridOptions& options) {
     longest = std::max(longest, high - low);
   }
   const float inverse = 1.0f / longest;
-  require(std::isfinite(inverse) && inverse > 0.0f, "bounds' longest side", longest, "more than 0");
+  require(std::isfinite(inverse) && inverse > 0.0f, "hash grid bounds' longest side", longest, "more than 0");
   HashGridLayout layout;
   layout.bounds_min = options.bounds_min;
   layout.inverse_extent = inverse;
@@ -85,7 +84,7 @@ HashGridLayout build_hash_grid_layout(const HashGridOptions& options) {
   layout.features = options.features;
   for (std::uint32_t l = 0; l < options.levels; ++l) {
     const double scale = options.base_resolution * std::pow(static_cast<double>(options.growth), l) - 1.0;
-    require(scale < kMaxHashResolution, "finest resolution", scale + 1.0, "at most 2^20");
+    require(scale < kMaxHashResolution, "hash grid finest resolution", scale + 1.0, "at most 2^20");
     HashGridLevel level;
     level.scale = static_cast<float>(scale);
     level.resolution = static_cast<std::uint32_t>(std::ceil(level.scale)) + 1;
@@ -94,7 +93,7 @@ HashGridLayout build_hash_grid_layout(const HashGridOptions& options) {
   const std::uint64_t table_size = options.memory_target != 0 ? fitting_table_size(layout, options)
                                                               : std::uint64_t{1} << options.log2_table_size;
   const std::uint64_t nodes = total_entries(layout, table_size);
-  require(nodes <= kMaxEntries, "entries", static_cast<double>(nodes), "less than 2^32");
+  require(nodes <= kMaxEntries, "hash grid entries", static_cast<double>(nodes), "less than 2^32");
   for (HashGridLevel& level : layout.levels) {
     const std::uint64_t side = level.resolution;
     level.entries = static_cast<std::uint32_t>(std::min(dense_entries(level), table_size));

@@ -12,29 +12,25 @@
 #include <vector>
 
 #include "neural/base/errors.h"
+#include "neural/base/require.h"
 
 namespace gatelight::neural {
 
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
-
-void require(bool holds, const char* what, std::uint64_t value, const char* expected) {
-  if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
-}
+constexpr std::size_t kNotFound = std::numeric_limits<std::size_t>::max();
 
 void require_positive(const char* what, float value) {
   if (!(value > 0.0f) || !std::isfinite(value))
     throw BadConfiguration(fmt::format("{}: {}, expected a positive number", what, value));
 }
 
-/// The first of 0 .. count-1 that is bad, else kNone.
+/// The first of 0 .. count-1 that is bad, else kNotFound.
 template <class Bad>
 std::size_t find_first(std::size_t count, const Bad& bad) {
   using Range = tbb::blocked_range<std::size_t>;
   return tbb::parallel_reduce(
-      Range(0, count, 16384), kNone,
+      Range(0, count, 16384), kNotFound,
       [&](const Range& range, std::size_t first) {
         for (std::size_t i = range.begin(); i != range.end() && i < first; ++i)
           if (bad(i)) return i;
@@ -51,14 +47,14 @@ void check_mesh(const SurfaceMesh& mesh, std::size_t number) {
     return std::ranges::any_of(mesh.triangles[t],
                                [&](std::uint32_t v) { return v >= mesh.positions.size(); });
   });
-  if (triangle != kNone)
+  if (triangle != kNotFound)
     throw BadConfiguration(fmt::format("mesh {}, triangle {}: index {}, expected less than its {} positions",
                                        number, triangle, std::ranges::max(mesh.triangles[triangle]),
                                        mesh.positions.size()));
   const std::size_t position = find_first(mesh.positions.size(), [&](std::size_t p) {
     return !std::ranges::all_of(mesh.positions[p], [](float x) { return std::isfinite(x); });
   });
-  if (position != kNone) {
+  if (position != kNotFound) {
     const Float3& p = mesh.positions[position];
     throw BadConfiguration(fmt::format("mesh {}, position {}: ({}, {}, {}), expected finite numbers", number,
                                        position, p[0], p[1], p[2]));

@@ -13,8 +13,6 @@ namespace gatelight::neural {
 
 namespace {
 
-constexpr std::size_t kGrain = 8192;
-constexpr std::size_t kLongList = 65536;
 constexpr std::size_t kSmallMesh = 1 << 20;  // triangles that one thread sums up sooner than it sorts them
 using Range = tbb::blocked_range<std::size_t>;
 

@@ -11,12 +11,7 @@
 
 namespace gatelight::neural {
 
-namespace {
-
-constexpr std::size_t kGrain = 8192;
-constexpr std::size_t kLongList = 65536;
-
-}  // namespace
+namespace {}  // namespace
 
 VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, std::uint32_t vertex_count) {
   VertexCorners result;

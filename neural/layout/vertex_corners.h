@@ -2,11 +2,17 @@
 // Which triangles meet at each vertex.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace gatelight::neural {
+
+/// Triangles or vertices that a task of the room takes at least.
+inline constexpr std::size_t kGrain = 8192;
+/// A list of corners or edges that is longer than this is sorted by several tasks.
+inline constexpr std::size_t kLongList = 65536;
 
 using TriangleCorners = std::array<std::uint32_t, 3>;
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "neural/base/errors.h"
+#include "neural/base/require.h"
 
 namespace gatelight::neural {
 
@@ -18,10 +19,6 @@ void check_size(const char* what, std::uint64_t size, std::uint64_t expected) {
 
 void check_span(const char* what, std::size_t size, std::size_t points, bool required) {
   if (required || size != 0) check_size(what, size, points);
-}
-
-void require(bool holds, const char* what, double value, const char* expected) {
-  if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
 }
 
 void check_numbers(const char* what, const std::vector<float>& values, float least, const char* expected) {

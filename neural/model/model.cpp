@@ -7,14 +7,11 @@
 #include <bit>
 
 #include "neural/base/errors.h"
+#include "neural/base/require.h"
 
 namespace gatelight::neural {
 
 namespace {
-
-void require(bool holds, const char* what, std::uint64_t value, const char* expected) {
-  if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
-}
 
 void check_mlp(const MlpOptions& mlp) {
   require(mlp.width == 16 || mlp.width == 32 || mlp.width == 64 || mlp.width == 128, "hidden width",

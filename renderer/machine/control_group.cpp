@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 namespace gatelight::renderer {
@@ -13,7 +12,7 @@ namespace fs = std::filesystem;
 /// From a group up to the root of its hierarchy. Inside a container the path may belong to the host; its
 /// missing folders have no limit, and the walk ends at the container's own group.
 double tightest(const fs::path& mount, const std::string& group, const ReadLimit& read) {
-  double limit = std::numeric_limits<double>::infinity();
+  double limit = kUnlimited;
   fs::path relative = fs::path(group).relative_path();
   while (true) {
     limit = std::min(limit, read(mount / relative));
@@ -35,7 +34,7 @@ bool lists(const std::string& controllers, const std::string& controller) {
 double tightest_limit(const fs::path& root, const std::string& controller, const ReadLimit& v2,
                       const ReadLimit& v1) {
   const fs::path mount = root / "sys/fs/cgroup";
-  double limit = std::numeric_limits<double>::infinity();
+  double limit = kUnlimited;
   std::ifstream groups(root / "proc/self/cgroup");
   // Each line: hierarchy:controllers:path
   for (std::string line; std::getline(groups, line);) {

@@ -13,13 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
 /// A file of one number; "max" is none.
 double read_limit(const fs::path& file) {
   std::ifstream stream(file);
   double bytes = 0.0;
-  return stream >> bytes && bytes > 0.0 ? bytes : kNone;
+  return stream >> bytes && bytes > 0.0 ? bytes : kUnlimited;
 }
 
 double read_total(const fs::path& root) {
@@ -31,7 +29,7 @@ double read_total(const fs::path& root) {
   while (file >> name >> value && std::getline(file, unit)) {
     if (name == "MemTotal:" || name == "SwapTotal:") kibibytes += value;
   }
-  return kibibytes > 0.0 ? kibibytes * 1024.0 : kNone;
+  return kibibytes > 0.0 ? kibibytes * 1024.0 : kUnlimited;
 }
 
 }  // namespace

@@ -24,13 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
 /// oneTBB's own choice for its workers on 64-bit machines.
 constexpr std::size_t kStackBytes = std::size_t{4} << 20;
 
 double quota_of(double quota, double period) {
-  return quota > 0.0 && period > 0.0 ? quota / period : kNone;
+  return quota > 0.0 && period > 0.0 ? quota / period : kUnlimited;
 }
 
 /// "max 100000" or "150000 100000".
@@ -39,7 +37,7 @@ double read_quota_v2(const fs::path& folder) {
   double quota = 0.0;
   double period = 0.0;
   // "max" is not a number: no limit.
-  return file >> quota >> period ? quota_of(quota, period) : kNone;
+  return file >> quota >> period ? quota_of(quota, period) : kUnlimited;
 }
 
 double read_quota_v1(const fs::path& folder) {
@@ -48,7 +46,7 @@ double read_quota_v1(const fs::path& folder) {
   double quota = 0.0;
   double period = 0.0;
   // -1: no limit.
-  return quota_file >> quota && period_file >> period ? quota_of(quota, period) : kNone;
+  return quota_file >> quota && period_file >> period ? quota_of(quota, period) : kUnlimited;
 }
 
 int affinity_count() {

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Index;
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
-using Plane = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using GreyPlane = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Weights = Eigen::Array<double, kSsimWindow, 1>;
 
 constexpr double kSigma = 1.5;
@@ -37,9 +37,9 @@ Weights window_weights() {
   return weights / weights.sum();
 }
 
-Plane read_grey(const NamedPicture& named, const SsimOptions& options) {
+GreyPlane read_grey(const NamedPicture& named, const SsimOptions& options) {
   const flip::RgbPlanes shown = flip::read_shown(named, "SSIM", options.exposure, options.tonemap);
-  Plane grey(shown.height(), shown.width());
+  GreyPlane grey(shown.height(), shown.width());
   tbb::parallel_for(Index{0}, grey.rows(), [&](Index y) {
     for (Index x = 0; x < grey.cols(); ++x) {
       grey(y, x) = 0.299 * static_cast<double>(linear_to_srgb(shown.r(y, x))) +
@@ -53,7 +53,7 @@ Plane read_grey(const NamedPicture& named, const SsimOptions& options) {
 /// Weighted means within the windows of some rows, first along x alone. The squares of the difference stand
 /// for the product of both, so that where both are equal all that counts is exactly 0.
 struct Moments {
-  Plane reference, test, reference_square, test_square, difference_square;
+  GreyPlane reference, test, reference_square, test_square, difference_square;
 
   Moments(Index rows, Index columns)
       : reference(rows, columns),
@@ -70,15 +70,15 @@ Row filter_x(const Row& row, const Weights& weights) {
   return sum;
 }
 
-Row filter_y(const Plane& plane, Index first, const Weights& weights) {
+Row filter_y(const GreyPlane& plane, Index first, const Weights& weights) {
   Row sum = Row::Zero(plane.cols());
   for (Index k = 0; k < kSsimWindow; ++k) sum += weights[k] * plane.row(first + k);
   return sum;
 }
 
 /// Rows `begin` to `end` of the windows' upper edges.
-void sum_band(const Plane& reference, const Plane& test, Index begin, Index end, const Weights& weights,
-              std::vector<double>& sums) {
+void sum_band(const GreyPlane& reference, const GreyPlane& test, Index begin, Index end,
+              const Weights& weights, std::vector<double>& sums) {
   const Index rows = end - begin + kSsimWindow - 1;
   Moments moments(rows, reference.cols() - kSsimWindow + 1);
   for (Index i = 0; i < rows; ++i) {
@@ -110,8 +110,8 @@ void sum_band(const Plane& reference, const Plane& test, Index begin, Index end,
 
 double ssim(const NamedPicture& reference, const NamedPicture& test, const SsimOptions& options) {
   require_comparable(reference, test);
-  const Plane r = read_grey(reference, options);
-  const Plane t = read_grey(test, options);
+  const GreyPlane r = read_grey(reference, options);
+  const GreyPlane t = read_grey(test, options);
   if (!has_ssim(reference.picture)) {
     throw CompareError(fmt::format("'{}' has {}x{} pixels; SSIM is defined from {}x{}", reference.name,
                                    reference.picture.width, reference.picture.height, kSsimWindow,
