@@ -10,7 +10,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// A copy with the spare capacity that Embree asks of positions.
+/// A copy whose positions have the spare capacity that Embree needs.
 Mesh copy_mesh(const Mesh& source) {
   Mesh copy;
   copy.name = source.name;
@@ -30,7 +30,8 @@ void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
   mesh.positions.reserve(mesh.positions.size() + 1);
   for (Vec3& p : mesh.positions) p = transform * p;
   const Eigen::Matrix3f linear = transform.linear();
-  // Scaled first: the entries of a cofactor matrix are squares, which tiny or huge scales would lose.
+  // The matrix is scaled first: a cofactor matrix holds products of two entries, which under- or overflow for
+  // tiny or huge scales.
   const float scale = linear.cwiseAbs().maxCoeff();
   Affine unit = Affine::Identity();
   unit.linear() = linear / scale;
@@ -49,7 +50,7 @@ void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
   }
 }
 
-/// Gives an instance a mesh of its own.
+/// Gives an instance its own copy of its mesh.
 void unshare(Scene& scene, Instance& instance, std::vector<std::size_t>& uses) {
   --uses[static_cast<std::size_t>(instance.mesh)];
   Mesh copy = copy_mesh(scene.mesh_of(instance));
@@ -70,7 +71,7 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
   std::vector<std::size_t> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++uses[static_cast<std::size_t>(instance.mesh)];
 
-  // The cheapest shared meshes first, as many as the budget pays for.
+  // The cheapest shared meshes are copied, as many as the budget allows.
   std::vector<std::size_t> order(scene.meshes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto cost = [&](std::size_t m) {

@@ -5,7 +5,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// Half a second of work.
+/// Transforming this many takes half a second.
 constexpr std::size_t kExactVertices = 100'000'000;
 
 }  // namespace

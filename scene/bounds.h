@@ -1,15 +1,15 @@
 #pragma once
-// Extent of a scene in the world.
+// The bounding box of a scene in world space.
 
 #include "scene/scene.h"
 
 namespace gatelight::scene {
 
-/// Box around all triangles' vertices; empty when there are none. Exact, unless very many instances share
-/// large meshes: then the transformed box of the mesh stands for its vertices.
+/// Box around all vertices; empty without any. It is exact up to 100 million transformed vertices; beyond
+/// that, shared meshes contribute the corners of their transformed box instead of their vertices.
 Box compute_bounds(const Scene& scene);
 
-/// Removes meshes that no instance uses, and renumbers the instances.
+/// Removes meshes that no instance uses, and updates the instances' mesh indices.
 void drop_unused_meshes(Scene& scene);
 
 }  // namespace gatelight::scene

@@ -1,5 +1,5 @@
 #pragma once
-// glTF 2.0 in. The loader trusts nothing: every index, range, stride, count and number is checked before use.
+// Loads glTF 2.0. The loader checks every index, range, stride, count and number before use.
 
 #include <filesystem>
 #include <string>
@@ -10,17 +10,17 @@
 namespace gatelight::scene {
 
 struct LoadOptions {
-  int scene = -1;       ///< index of the glTF scene; -1: the file's default, or its first
-  std::string variant;  ///< name of a KHR_materials_variants variant; empty: the default materials
+  int scene = -1;       ///< index of the glTF scene; -1 means the file's default, or its first
+  std::string variant;  ///< name of a KHR_materials_variants variant; empty means the default materials
   bool missing_is_error =
-      true;  ///< an unreadable texture stops the load; else it is replaced by white, with a warning
+      true;                     ///< an unreadable texture is an error; else white replaces it, with a warning
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
-  bool bake_transforms = true;  ///< see scene/bake.h; off keeps every instance an instance
+  bool bake_transforms = true;  ///< see scene/bake.h; if false, every instance stays an instance
 };
 
-/// A scene that lies further than this many times its radius from the file's origin is moved to its centre,
-/// in double precision (Scene::origin): rays start some units in the last place of the coordinates off a
-/// surface, and at this distance that is a 30 000th of the radius.
+/// A scene farther from the file's origin than this many times its radius is moved to its centre, in double
+/// precision (Scene::origin). Rays start a few units in the last place of the coordinates off a surface; at
+/// this distance that is a 30 000th of the radius.
 inline constexpr double kFarFromOrigin = 16.0;
 
 /// Loads a .gltf or .glb file. Throws SceneError when the file cannot be read, breaks the specification in a

@@ -1,8 +1,9 @@
 #pragma once
-// The vector types of the whole program. Right-handed, y up, metres; matrices are column-major.
+// The vector types of the whole program. The world is right-handed, y is up, the unit is the metre; matrices
+// are column-major.
 //
-// Eigen's expressions hold references to their operands: write the type on the left, never `auto`, when an
-// expression of vectors is stored.
+// Eigen's expressions hold references to their operands. Declare a stored result with its type, never with
+// `auto`.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@ using Vec2 = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3f;
 using Vec4 = Eigen::Vector4f;
 
-/// Linear Rec. 709 RGB. An array: products are component-wise, so that it cannot be mixed up with a
+/// Linear Rec. 709 RGB. It is an array, so products are component-wise and it cannot be confused with a
 /// direction.
 using Color = Eigen::Array3f;
 
@@ -41,9 +42,9 @@ inline Vec3 any_perpendicular(const Vec3& n) {
   return (axis - n * n.dot(axis)).normalized();
 }
 
-/// Normal matrix of an affine transform: the inverse transpose times |determinant|, so that it exists for
-/// singular transforms too. The result of the product is not normalised. A mirroring transform keeps the side
-/// of a normal: outside stays outside.
+/// Normal matrix of an affine transform: the inverse transpose times |determinant|, which exists for singular
+/// transforms too. The transformed normal is not normalised. A mirroring transform keeps the side of a
+/// normal: outside stays outside.
 inline Eigen::Matrix3f normal_matrix(const Affine& transform) {
   const Eigen::Matrix3f m = transform.linear();
   Eigen::Matrix3f cofactor;

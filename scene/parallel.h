@@ -1,5 +1,5 @@
 #pragma once
-// The loader's only use of threads: independent items of uneven cost (images, meshes).
+// A parallel loop over independent items of uneven cost (images, meshes); the loader uses no other threads.
 
 #include <algorithm>
 #include <atomic>
@@ -11,9 +11,9 @@
 
 namespace gatelight::scene {
 
-/// Calls body(i) for every i below count, on all cores. Of several exceptions the one with the lowest index
-/// is thrown, so that a message does not depend on the schedule: items are handed out in order, so every item
-/// before a failing one has been started.
+/// Calls body(i) for every i below count, on all cores. If several calls throw, the exception of the lowest
+/// index is rethrown, so that the message does not depend on the schedule. Items start in order, so every
+/// item before a failing one has been started.
 template <typename Body>
 void parallel_for(std::size_t count, const Body& body) {
   std::atomic<std::size_t> next{0};

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kSignature = 8;
 
-/// CRC-32 of the PNG specification (annex D), polynomial 0xedb88320, eight bytes at a time: table k holds the
-/// remainders of a byte that k more bytes follow.
+/// CRC-32 of the PNG specification (annex D), polynomial 0xedb88320, eight bytes at a time. Table k holds the
+/// remainder of a byte that is followed by k more bytes.
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 
 constexpr CrcTables crc_tables() {

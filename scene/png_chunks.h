@@ -1,5 +1,5 @@
 #pragma once
-// A look at a PNG file's chunks before a decoder sees them.
+// Checks and filters a PNG file's chunks before a decoder sees them.
 
 #include <cstdint>
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace gatelight::scene {
 
-/// Keeps the chunks that make the picture (IHDR, PLTE, tRNS, IDAT, IEND) and drops the rest; glTF asks to
-/// ignore colour profiles and gamma. libpng prints to stderr what it dislikes, and a common profile is enough
-/// for that; so checksums are compared here, too. Returns an empty list, and says why in `problem`, when the
-/// file is damaged.
+/// Keeps the chunks that define the pixels (IHDR, PLTE, tRNS, IDAT, IEND) and drops the rest: glTF ignores
+/// colour profiles and gamma. Checksums are verified here because libpng prints its complaints to stderr; a
+/// common colour profile is enough to trigger one. For a damaged file the result is empty and `problem` gives
+/// the reason.
 std::vector<std::uint8_t> essential_png(std::span<const std::uint8_t> file, std::string& problem);
 
 }  // namespace gatelight::scene

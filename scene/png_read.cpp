@@ -14,8 +14,7 @@
 
 namespace gatelight::scene {
 
-// libpng leaves a call that failed by longjmp: what calls it has no objects of its own that need a
-// destructor.
+// libpng leaves a failed call by longjmp, so the functions that call it hold no objects with a destructor.
 struct PngReader::Decoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -50,15 +49,15 @@ struct PngReader::Decoder {
   bool read_header() {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_read_fn(png, this, on_read);
-    // What is too large is for the caller to say.
+    // The caller decides which sizes are too large.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_read_info(png, info);
-    // Palettes to RGB, transparent colours to alpha, at least 8 bits.
+    // Expands palettes to RGB, transparent colours to alpha, and fewer bits to 8.
     png_set_expand(png);
     return true;
   }
 
-  /// `bits`: 8 or 16.
+  /// `bits` is 8 or 16.
   bool read_rows(std::uint8_t* pixels, std::size_t row_bytes, int height, int bits) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     if (bits == 8) png_set_scale_16(png);

@@ -1,5 +1,5 @@
 #pragma once
-// Decodes PNG files by libpng, which is kept from printing what it dislikes.
+// Decodes PNG files with libpng, without its messages on stderr.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,13 +10,12 @@
 
 namespace gatelight::scene {
 
-/// Grey, grey and alpha, RGB or RGBA; palettes, fewer bits than 8 and transparent colours are resolved.
-/// Values are those of the file: neither gamma nor profile is applied, nor is a colour multiplied by its
-/// alpha.
+/// Reads grey, grey-alpha, RGB and RGBA. Palettes, fewer than 8 bits and transparent colours are expanded.
+/// The values are those of the file: no gamma, no colour profile, no multiplication by alpha.
 class PngReader {
  public:
-  /// Checks all chunks and reads the header. Throws std::runtime_error with one line for damaged data; `file`
-  /// is copied as far as it is needed.
+  /// Checks all chunks and reads the header. Copies the parts of `file` that it needs. Throws
+  /// std::runtime_error with a one-line message for damaged data.
   explicit PngReader(std::span<const std::uint8_t> file);
   ~PngReader();
   PngReader(const PngReader&) = delete;
@@ -26,10 +25,10 @@ class PngReader {
   int height() const { return height_; }
   int channels() const { return channels_; }  ///< 1 to 4
 
-  /// Rows from the top, width * height * channels values; each may be called once, and only one of them.
-  /// Files of 16 bits are rounded to 8. Throws std::runtime_error.
+  /// Returns width * height * channels values, rows from the top; 16 bits are rounded to 8. Call either
+  /// read_8() or read_16(), once. Throws std::runtime_error.
   std::vector<std::uint8_t> read_8();
-  /// Files of 8 bits are scaled: 255 becomes 65535.
+  /// The same with 16 bits; 8 bits are scaled, so that 255 becomes 65535.
   std::vector<std::uint16_t> read_16();
 
  private:
@@ -45,7 +44,7 @@ class PngReader {
   int channels_ = 0;
 };
 
-/// Of a file. Throws std::runtime_error where it cannot be read, too.
+/// Opens a PNG file. Throws std::runtime_error, also when the file cannot be read.
 PngReader open_png(const std::filesystem::path& path);
 
 }  // namespace gatelight::scene

@@ -5,7 +5,8 @@
 namespace gatelight::scene {
 namespace {
 
-/// Any lobe but Lambert's. An index of 1 reflects nothing at a dielectric's surface.
+/// Whether the material has a lobe other than Lambert's. A dielectric with an index of refraction of 1 does
+/// not reflect.
 bool is_view_dependent(const Material& m) {
   if (m.unlit) return false;
   const bool reflects = m.specular > 0.0f && m.ior != 1.0f;

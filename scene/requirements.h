@@ -1,6 +1,6 @@
 #pragma once
-// What a scene needs of the renderer and of the cache. Computed once after loading; later stages read it and
-// build nothing else.
+// The features that a scene needs from the renderer and the cache. They are computed once after loading;
+// later stages build only what is listed here.
 
 #include <cstddef>
 
@@ -10,12 +10,12 @@ namespace gatelight::scene {
 
 struct SceneRequirements {
   bool triangles = false;
-  bool two_sided = false;       ///< some opaque surface shows its back: doubleSided
-  bool view_dependent = false;  ///< reflected light depends on the direction of view (any lobe but Lambert's)
+  bool two_sided = false;       ///< some material without transmission is doubleSided
+  bool view_dependent = false;  ///< some material has a lobe other than Lambert's
   bool alpha_mask = false;
   bool alpha_blend = false;
   bool transmission = false;
-  bool volumes = false;  ///< transmission into an interior, with absorption
+  bool volumes = false;  ///< transmission into an interior with absorption
   bool clearcoat = false;
   bool sheen = false;
   bool unlit = false;
@@ -24,14 +24,14 @@ struct SceneRequirements {
   bool base_color_textures = false;
   bool metallic_roughness_textures = false;
   bool emission_textures = false;
-  bool other_textures = false;  ///< of the extensions
-  bool instances = false;       ///< some mesh is drawn through an Embree instance
+  bool other_textures = false;  ///< textures of material extensions
+  bool instances = false;       ///< some mesh is an Embree instance
   bool delta_lights = false;    ///< punctual lights of any kind
   bool directional_lights = false;
-  std::size_t emissive_triangles = 0;  ///< each instance counted
+  std::size_t emissive_triangles = 0;  ///< counted once per instance
   std::size_t emissive_materials = 0;
 
-  /// Whether rays need an alpha test at all.
+  /// Whether rays need an alpha test.
   bool alpha() const { return alpha_mask || alpha_blend; }
 };
 

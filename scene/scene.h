@@ -1,6 +1,6 @@
 #pragma once
-// What there is: plain data, filled by a loader (scene/gltf.h), read by everyone else.
-// Indices instead of pointers; an index of -1 means "none".
+// The scene as plain data. A loader fills it (scene/gltf.h); all other code only reads it. Objects refer to
+// each other by index; -1 means "none".
 
 #include <array>
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace gatelight::scene {
 
-/// A decoded picture: 8 bits a channel, 1 to 4 channels (grey, grey-alpha, RGB, RGBA), rows from the top.
-/// Whether the bytes are sRGB or linear is decided by the slot of the material that reads them.
+/// A decoded picture: 8 bits a channel, 1 to 4 channels (grey, grey-alpha, RGB, RGBA), rows from the top. The
+/// material slot that reads the bytes decides whether they are sRGB or linear.
 struct Image {
   std::string name;  ///< file name, or the name inside the glTF file, for messages
   int width = 0;
@@ -34,7 +34,7 @@ struct Texture {
 /// A material's use of a texture.
 struct TextureSlot {
   int texture = -1;
-  int texcoord = 0;  ///< 0 or 1: which of the mesh's UV sets
+  int texcoord = 0;  ///< 0 or 1: index of the mesh's UV set
   /// KHR_texture_transform, applied to a column (u, v, 1): rotation, scale, offset in one matrix.
   Eigen::Matrix<float, 2, 3> transform = Eigen::Matrix<float, 2, 3>::Identity();
 
@@ -43,7 +43,8 @@ struct TextureSlot {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// glTF 2.0 metallic-roughness with the extensions named beside the members. A texture multiplies its factor.
+/// The metallic-roughness material of glTF 2.0, with the extensions that the members' comments name. Each
+/// factor is multiplied by its texture.
 struct Material {
   std::string name;
 
@@ -85,7 +86,7 @@ struct Material {
 
   bool emits() const { return (emission > 0.0f).any(); }
   bool transmits() const { return transmission > 0.0f; }
-  /// Light passes through to an interior (with absorption), not through an infinitely thin sheet.
+  /// Whether light enters an absorbing interior rather than passing an infinitely thin sheet.
   bool has_volume() const { return transmits() && thickness > 0.0f; }
 };
 
@@ -105,14 +106,14 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A mesh in the world. Instances that share a mesh are drawn by Embree as instances; a mesh that is used
-/// once holds world-space vertices and its instance is the identity (scene/bake.h).
+/// A mesh in the world. Instances that share a mesh become Embree instances. A mesh with one instance holds
+/// world-space vertices, and that instance has the identity transform (scene/bake.h).
 struct Instance {
   std::string name;
   int mesh = -1;
   Affine transform = Affine::Identity();  ///< mesh to world
-  bool baked = false;                     ///< the mesh is in world space and used by nobody else
-  bool mirrors = false;                   ///< determinant < 0: the world's front is clockwise in the mesh
+  bool baked = false;                     ///< the mesh is in world space and no other instance uses it
+  bool mirrors = false;                   ///< determinant < 0: front faces are clockwise in the mesh
 };
 
 enum class LightType : std::uint8_t { directional, point, spot };
@@ -124,25 +125,25 @@ struct PunctualLight {
   Color intensity{1.0f, 1.0f,
                   1.0f};  ///< colour times intensity: W/sr (point, spot) or W/m2 facing it (directional)
   Vec3 position = Vec3::Zero();       ///< world; not for directional
-  Vec3 direction{0.0f, 0.0f, -1.0f};  ///< world, unit: the way the light travels; not for point
-  float range = kInfinity;        ///< metres; beyond it the light is zero, by the extension's window function
-  float cos_inner = 1.0f;         ///< spot: cosine of the inner cone angle
-  float cos_outer = 0.70710678f;  ///< spot: cosine of the outer cone angle
+  Vec3 direction{0.0f, 0.0f, -1.0f};  ///< world, unit: the direction in which light travels; not for point
+  float range = kInfinity;            ///< metres; the extension's window function is 0 beyond it
+  float cos_inner = 1.0f;             ///< spot: cosine of the inner cone angle
+  float cos_outer = 0.70710678f;      ///< spot: cosine of the outer cone angle
 };
 
-/// Looks along -z of its transform, y up.
+/// A camera that looks along -z of its transform, with y up.
 struct Camera {
   std::string name;
   Affine transform = Affine::Identity();  ///< camera to world, without scale
   bool orthographic = false;
   float vertical_fov = 0.8f;  ///< radians; perspective
-  float aspect = 0.0f;        ///< width over height; 0 means that of the picture
+  float aspect = 0.0f;        ///< width over height; 0 means the picture's aspect
   float half_height = 1.0f;   ///< metres (ymag); orthographic
   float half_width = 0.0f;    ///< metres (xmag); orthographic; 0 means half_height times the picture's aspect
 };
 
 struct Scene {
-  std::string path;  ///< the file it was loaded from
+  std::string path;  ///< the loaded file
   std::vector<Image> images;
   std::vector<Texture> textures;
   std::vector<Material> materials;
@@ -151,10 +152,11 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
-  std::vector<std::string> warnings;  ///< one line each, said once
+  std::vector<std::string> warnings;  ///< one line each, without duplicates
   Box bounds;                         ///< world; empty when there is no triangle
-  /// Where the world's zero lies in the file's coordinates: not zero where the file's scene is far from its
-  /// origin, beside its size, so that single precision would hold little of it (scene/gltf.h).
+  /// Position of the world's origin in the file's coordinates. It is not zero for a scene that lies far from
+  /// the file's origin, compared with its size: single precision would lose too many digits there
+  /// (kFarFromOrigin in scene/gltf.h).
   Vec3 origin = Vec3::Zero();
 
   const Mesh& mesh_of(const Instance& instance) const {
@@ -165,20 +167,20 @@ struct Scene {
   }
 };
 
-/// The corners of a triangle in the world, in the order of the file.
+/// The corners of a triangle in world space, in the mesh's order.
 std::array<Vec3, 3> world_triangle(const Scene& scene, const Instance& instance, std::uint32_t primitive);
 
-/// Unit normal of a triangle in the world, counter-clockwise, for mirrored instances too; zero where the
-/// corners lie on a line.
+/// Unit normal of a triangle's front face in world space, also for mirrored instances; zero if the corners
+/// lie on a line.
 Vec3 world_normal(const Scene& scene, const Instance& instance, std::uint32_t primitive);
 
-/// Square metres of a triangle in the world.
+/// Area of a triangle in world space, square metres.
 double world_area(const Scene& scene, const Instance& instance, std::uint32_t primitive);
 
-/// Number of triangles, each instance counted.
+/// Number of triangles, counted once per instance.
 std::size_t count_triangles(const Scene& scene);
 
-/// Bytes held by vertices and indices, and by decoded images.
+/// Bytes of all vertices and indices, and of all decoded images.
 std::size_t geometry_bytes(const Scene& scene);
 std::size_t image_bytes(const Scene& scene);
 

@@ -4,8 +4,8 @@
 
 namespace gatelight::scene {
 
-/// A file that cannot be used. The message names the file, the offending value and what was expected, in one
-/// line.
+/// Thrown for a file that cannot be used. The one-line message names the file, the wrong value and what was
+/// expected.
 struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

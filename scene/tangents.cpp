@@ -7,7 +7,7 @@ namespace gatelight::scene {
 namespace {
 
 struct Frame {
-  Vec3 tangent = Vec3::Zero();  ///< direction of growing u; zero where u and v do not span the triangle
+  Vec3 tangent = Vec3::Zero();  ///< direction of increasing u; zero if u and v do not span the triangle
   bool mirrored = false;        ///< u and v turn clockwise on the front
 };
 
@@ -61,8 +61,8 @@ Frame triangle_frame(const Mesh& mesh, const std::vector<Vec2>& uv, const Textur
   const Vec3 e2 = mesh.positions[t[2]] - mesh.positions[t[0]];
   const float determinant = d1.x() * d2.y() - d1.y() * d2.x();
   Frame frame;
-  // glTF's v points down in the picture and the map's green channel up: an unmirrored picture has a negative
-  // determinant on a counter-clockwise triangle.
+  // In the picture, glTF's v points down and the map's green channel points up. An unmirrored picture
+  // therefore has a negative determinant on a counter-clockwise triangle.
   frame.mirrored = determinant > 0.0f;
   if (determinant != 0.0f) {
     const Vec3 along = e1 * d2.y() - e2 * d1.y();
@@ -80,7 +80,7 @@ float corner_angle(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, std:
   return std::isfinite(angle) ? angle : 0.0f;
 }
 
-/// After this no vertex has triangles of both orientations. `side` tells for each vertex which it has.
+/// Splits vertices until none has triangles of both orientations. Returns the orientation for each vertex.
 std::vector<char> split_mirrored(Mesh& mesh, const std::vector<Frame>& frames) {
   constexpr char kPlain = 1;
   constexpr char kMirrored = 2;

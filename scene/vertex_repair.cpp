@@ -5,7 +5,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// False when there is no direction in it.
+/// Returns false if the vector has no direction.
 bool normalize(Vec3& v) {
   if (!v.allFinite()) return false;
   const float squared = v.squaredNorm();

@@ -11,7 +11,7 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-/// An accessor without data claims zeros for nothing; a bound keeps a line of JSON from filling the memory.
+/// An accessor without data stands for zeros. This bound keeps one line of JSON from filling the memory.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 20;
 
 std::size_t component_size(int type) {
@@ -152,7 +152,8 @@ void AccessorReader::read_floats(Selection selection, int width, float* out, boo
   const std::size_t rows = selection.empty() ? count() : selection.size();
   const bool has_view = document_.is_view(accessor_.bufferView);
   if (accessor_.sparse.isSparse) {
-    // Rare and small: the whole accessor is put together, then picked from.
+    // Sparse accessors are rare and small: the whole accessor is assembled, then the selection is read from
+    // it.
     std::vector<float> all(count() * static_cast<std::size_t>(components_), 0.0f);
     if (has_view) {
       convert(accessor_.componentType,

@@ -1,5 +1,5 @@
 #pragma once
-// Typed, checked reading of accessors: strided, interleaved, normalised, sparse, or without any data (zeros).
+// Typed, checked reading of accessors: strided, interleaved, normalised, sparse, or without data (zeros).
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@ namespace gatelight::scene::gltf {
 /// Which elements to read; empty means all of them, in order.
 using Selection = std::span<const std::uint32_t>;
 
-/// One accessor. Making one checks its layout against its buffer views; reading cannot leave them.
+/// One accessor. The constructor checks its layout against its buffer views, so reads stay inside them.
 class AccessorReader {
  public:
   AccessorReader(const Document& document, int accessor);
@@ -22,15 +22,16 @@ class AccessorReader {
   int component_type() const { return accessor_.componentType; }
   const std::string& where() const { return where_; }
 
-  /// Refuses an accessor of another type or component type. Unsigned 32-bit integers are for indices alone.
+  /// Throws SceneError for another number of components, for matrices, and for unsigned 32-bit integers,
+  /// which only indices may have.
   void expect_attribute(std::string_view semantic, std::initializer_list<int> components) const;
 
-  /// Writes selection.size() (or count()) rows of `width` floats. Integers are mapped by the accessor's
-  /// `normalized`, or always to [0, 1] or [-1, 1] if `force_normalized`. Components beyond the accessor's own
-  /// are left as they are.
+  /// Writes selection.size() (or count()) rows of `width` floats. Integers are mapped to [0, 1] or [-1, 1] if
+  /// the accessor is `normalized` or `force_normalized` is set. Components that the accessor does not have
+  /// are left unchanged.
   void read_floats(Selection selection, int width, float* out, bool force_normalized = false) const;
 
-  /// Writes count() indices. Refuses other types than scalars of unsigned integers.
+  /// Writes count() indices. Throws SceneError unless the accessor holds scalar unsigned integers.
   void read_indices(std::uint32_t* out) const;
 
  private:
@@ -46,7 +47,7 @@ class AccessorReader {
   std::size_t stride_ = 0;
 };
 
-/// Every accessor of the file, used or not.
+/// Checks every accessor of the file, used or not. Throws SceneError.
 void check_accessors(const Document& document);
 
 }  // namespace gatelight::scene::gltf

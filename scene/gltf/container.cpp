@@ -67,7 +67,7 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
       container.has_binary = true;
       container.binary = content;
     }
-    // Other chunks belong to extensions: the specification asks to skip them.
+    // Other chunks belong to extensions; the specification requires readers to skip them.
     offset += size;
   }
   if (!has_json) throw make_error(file, "", "no chunk, expected a JSON chunk");

@@ -1,5 +1,5 @@
 #pragma once
-// A file's bytes, and the two parts of a .glb.
+// Reads a file's bytes and splits a .glb into its JSON and binary parts.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace gatelight::scene::gltf {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Bytes with one owner, not zeroed before they are filled.
+/// Bytes with one owner, not initialised.
 struct OwnedBytes {
   std::unique_ptr<std::uint8_t[]> data;
   std::size_t size = 0;
@@ -24,7 +24,8 @@ struct OwnedBytes {
   Bytes bytes() const { return {data.get(), size}; }
 };
 
-/// Throws SceneError in the name of `file` (the scene, with `where` the place that asked for it).
+/// Reads a whole file. A SceneError names `file` (the scene) and `where` (the place in the scene that refers
+/// to `path`).
 OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, std::string_view where);
 
 struct Container {
@@ -34,7 +35,7 @@ struct Container {
   bool has_binary = false;
 };
 
-/// Tells .glb from .gltf by the first bytes, not by the name.
+/// Opens a .glb or .gltf; the first bytes decide which it is, not the name. Throws SceneError.
 Container open_container(const std::filesystem::path& path, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

@@ -14,11 +14,12 @@ namespace {
 
 using nlohmann::json;
 
-/// JSON libraries recurse; nothing in glTF is nested this deep.
+/// JSON libraries recurse. No valid glTF is nested this deep.
 constexpr int kMaxDepth = 100;
 
-/// A byte of a buffer becomes at most 76 of a mesh (an index of 8 bits per 25 bytes of a vertex), unless
-/// primitives share it. What takes less than this may share as it likes.
+/// One byte of a buffer becomes at most 76 bytes of a mesh, unless primitives share accessors: an 8-bit index
+/// becomes an index of 4 bytes and at most one vertex of 72. Scenes below kSmallScene bytes may share without
+/// limit.
 constexpr std::size_t kMostPerByte = 256;
 constexpr std::size_t kSmallScene = std::size_t{1} << 30;
 
@@ -43,7 +44,7 @@ void check_depth(std::string_view text, std::string_view file) {
 }
 
 json parse_json(std::string_view text, std::string_view file) {
-  // A padded chunk may end in zero bytes; some exporters write them although spaces are asked for.
+  // The specification asks for spaces as padding, but some exporters write zero bytes.
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   check_depth(text, file);
   try {
@@ -57,7 +58,7 @@ json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-/// "2." and digits: minor versions stay readable, by the specification.
+/// Accepts "2." and digits: the specification keeps minor versions compatible.
 bool is_version_2(std::string_view version) {
   return version.size() > 2 && version.starts_with("2.") &&
          version.find_first_not_of("0123456789", 2) == std::string_view::npos;
@@ -88,7 +89,7 @@ std::vector<ImageSource> read_images(const json& root) {
   return images;
 }
 
-/// What tinygltf need not see, or would choke on.
+/// Removes what tinygltf need not see or cannot handle.
 void strip(json& root) {
   for (const char* key : {"buffers", "images", "animations", "extras"}) root.erase(key);
   if (!root.contains("accessors")) return;
@@ -161,7 +162,8 @@ void Document::load_buffers(const Json& document) {
       buffer.bytes = container_.binary;
       buffer.present = true;
     }
-    // A buffer without a source is a placeholder for what an extension decompresses; reading it is refused.
+    // A buffer without a source is a placeholder for data that an extension decompresses; range() refuses to
+    // read it.
     if (buffer.present) {
       if (buffer.bytes.size() < buffer.length) {
         fail(where, fmt::format("{} bytes, expected {} (byteLength)", buffer.bytes.size(), buffer.length));

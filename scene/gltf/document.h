@@ -1,8 +1,8 @@
 #pragma once
 // An opened glTF file: the checked JSON as tinygltf's model, and the bytes behind its buffers.
 //
-// tinygltf reads the JSON only. It would copy a .glb's binary chunk, open any file a URI names and read image
-// bytes without a range check, so buffers and images are taken out of what it sees and are read here.
+// tinygltf reads the JSON only. It would copy a .glb's binary chunk, open any file that a URI names, and read
+// image bytes without a range check. Buffers and images are therefore removed from its input and read here.
 
 #include <filesystem>
 #include <mutex>
@@ -23,8 +23,8 @@ struct ImageSource {
 
 class Document {
  public:
-  /// Opens and checks everything that can be checked without decoding: schema, extensions, buffers, and that
-  /// every buffer view lies in its buffer.
+  /// Opens the file and checks what needs no decoding: schema, extensions, buffers, and that every buffer
+  /// view lies in its buffer. Throws SceneError.
   Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings);
 
   const tinygltf::Model& model() const { return model_; }
@@ -34,17 +34,18 @@ class Document {
   OwnedBytes read(std::string_view uri, std::string_view where) const {
     return read_uri(uri, uris_, file_, where);
   }
-  /// To be asked, by one thread, before that many bytes are made out of what the file says. Throws SceneError
-  /// where all of them together are more than a file of this size can mean: counts are cheap to write.
+  /// Call this, from one thread, before allocating `bytes` because of a count in the file. Throws SceneError
+  /// if the sum of all calls is implausible for a file of this size: a huge count needs only a few
+  /// characters.
   void claim(std::size_t bytes, std::string_view where) const;
 
-  /// tinygltf refuses index accessors without a buffer view; in its model a view past the file's own stands
-  /// for "none".
+  /// Whether an accessor's view exists. tinygltf refuses index accessors without a buffer view, so in its
+  /// model an index behind the file's last view means "none".
   bool is_view(int index) const { return index >= 0 && static_cast<std::size_t>(index) < view_count_; }
 
-  /// Bytes of a buffer view, decompressed if need be. May be called by several threads. Throws SceneError.
+  /// Bytes of a buffer view, decompressed if necessary. Thread-safe. Throws SceneError.
   Bytes view(int index, std::string_view where) const;
-  /// Length of the same, without touching the bytes.
+  /// Length of view(index), without decompressing it.
   std::size_t view_size(int index) const {
     return model_.bufferViews[static_cast<std::size_t>(index)].byteLength;
   }
@@ -58,8 +59,8 @@ class Document {
 
  private:
   struct Buffer {
-    OwnedBytes storage;  ///< empty when the bytes are the .glb's own
-    Bytes bytes;         ///< exactly byteLength of them when present
+    OwnedBytes storage;  ///< empty if the bytes belong to the .glb
+    Bytes bytes;         ///< exactly byteLength bytes if present
     std::size_t length = 0;
     bool present = false;
   };
@@ -75,11 +76,11 @@ class Document {
   std::vector<Buffer> buffers_;
   std::vector<ImageSource> images_;
   std::size_t view_count_ = 0;
-  std::size_t read_bytes_ = 0;       ///< of the file and its buffers
-  mutable std::size_t claimed_ = 0;  ///< bytes
+  std::size_t read_bytes_ = 0;       ///< size of the file and its buffers
+  mutable std::size_t claimed_ = 0;  ///< sum of all claims, bytes
   tinygltf::Model model_;
   mutable std::mutex mutex_;                 ///< guards decoded_
-  mutable std::vector<OwnedBytes> decoded_;  ///< of compressed views, by view; kept as long as the document
+  mutable std::vector<OwnedBytes> decoded_;  ///< contents of compressed views, by view index
 };
 
 }  // namespace gatelight::scene::gltf

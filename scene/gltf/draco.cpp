@@ -78,7 +78,7 @@ DracoPrimitive::DracoPrimitive(const Document& document, const tinygltf::Value& 
       error = result.status().error_msg_string();
     }
   } catch (const std::exception& e) {
-    // Counts in broken data become allocations that fail.
+    // Wrong counts in damaged data lead to failed allocations.
     error = e.what();
   }
   if (!decoded_->mesh)

@@ -1,5 +1,5 @@
 #pragma once
-// KHR_draco_mesh_compression: one primitive's triangles and attributes out of libdraco.
+// KHR_draco_mesh_compression: libdraco decodes one primitive's triangles and attributes.
 
 #include <array>
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace gatelight::scene::gltf {
 
 class DracoPrimitive {
  public:
-  /// Decodes at once. Throws SceneError.
+  /// Decodes the primitive. Throws SceneError.
   DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where);
   ~DracoPrimitive();
 
   std::size_t vertex_count() const;
   bool has(const std::string& semantic) const;
-  /// Rows of `width` floats, as AccessorReader's. How integers are meant (`normalized`) is for the caller to
-  /// say: the accessor of the attribute has it, the compressed data need not.
+  /// Writes rows of `width` floats, as AccessorReader::read_floats does. The caller passes `normalized` from
+  /// the attribute's accessor, because the compressed data need not contain it.
   void read_floats(const std::string& semantic, Selection selection, int width, bool normalized,
                    float* out) const;
   void read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const;

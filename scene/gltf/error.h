@@ -1,5 +1,5 @@
 #pragma once
-// How the loader speaks: every refusal is one line, `<file>: <where>: <found>, expected <what>`.
+// The loader's messages. Every error is one line: `<file>: <where>: <found>, expected <what>`.
 
 #include <string>
 #include <string_view>
@@ -9,14 +9,14 @@
 
 namespace gatelight::scene::gltf {
 
-/// Text from a file made safe to print: control characters become spaces, what is too long is cut.
+/// Makes text from a file safe to print: control characters become spaces, and long text is cut.
 std::string one_line(std::string_view text);
 
-/// `where` may be empty.
+/// Puts the message together; `where` may be empty.
 SceneError make_error(std::string_view file, std::string_view where, std::string_view what);
 
-/// Collects warnings; the same sentence is kept once. Not for several threads: each task has its own, merged
-/// in order, so that the list does not depend on the schedule.
+/// Collects warnings without duplicates. Not thread-safe: each task has its own list, and the lists are
+/// merged in order, so the result does not depend on the schedule.
 class Warnings {
  public:
   void add(std::string_view text);

@@ -1,5 +1,5 @@
 #pragma once
-// Which extensions are known, and reading the ones that tinygltf hands over as generic values.
+// The supported extensions, and access to those that tinygltf returns as generic values.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace gatelight::scene::gltf {
 
-/// Throws SceneError for an unknown required extension; warns once for each unknown used one.
+/// Throws SceneError for an unsupported required extension; adds a warning for each unsupported used one.
 void check_extensions(const tinygltf::Model& model, std::string_view file, Warnings& warnings);
 
-/// The extension's object, or null. The schema has made sure that it is one.
+/// The extension's object, or null. The schema check guarantees that it is an object.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
-/// Members of an extension; the schema has checked their types.
+/// A member of an extension, or `fallback` if it is missing. The schema check guarantees the type.
 double number_or(const tinygltf::Value& object, const std::string& name, double fallback);
 int integer_or(const tinygltf::Value& object, const std::string& name, int fallback);
 std::string text_or(const tinygltf::Value& object, const std::string& name, const std::string& fallback);

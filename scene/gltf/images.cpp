@@ -14,13 +14,14 @@ namespace gatelight::scene::gltf {
 namespace {
 
 constexpr int kMaxSide = 32768;
-/// Neither deflate (1032:1) nor a JPEG of one colour shrinks further; a header that claims more is wrong.
+/// Neither deflate (1032:1) nor a JPEG of one colour compresses more than this; a header that claims more is
+/// wrong.
 constexpr std::size_t kMaxRatio = 2048;
 constexpr std::size_t kSmall = std::size_t{1} << 20;
 
 enum class Format { png, jpeg, other };
 
-/// glTF knows two formats; the bytes tell which, since MIME types and file names are often wrong.
+/// glTF allows two formats. The bytes decide, since MIME types and file names are often wrong.
 Format format_of(Bytes bytes) {
   constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   constexpr std::uint8_t kJpeg[] = {0xff, 0xd8, 0xff};
@@ -33,7 +34,7 @@ SceneError image_error(const Document& document, std::string_view where, std::st
   return make_error(document.file(), where, fmt::format("{}, expected a PNG or JPEG picture", what));
 }
 
-/// How many values a picture has; throws for sizes that are no picture's.
+/// Number of values of a picture. Throws SceneError for an implausible size.
 std::size_t checked_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
                          int channels) {
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
@@ -70,11 +71,11 @@ Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where,
   if (!input->open("image.jpeg", spec, {})) {
     throw image_error(document, where, fmt::format("cannot be decoded ({})", input->geterror()));
   }
-  // JPEG has no alpha: the second of two components is none.
+  // JPEG has no alpha, so the second of two components is dropped.
   Image image{"", spec.width, spec.height, spec.nchannels >= 3 ? 3 : 1, {}};
   image.pixels.resize(checked_size(document, bytes, where, image.width, image.height, image.channels));
   const bool read = input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data());
-  // libjpeg makes up what is missing or damaged, and says so once, in its first words.
+  // libjpeg fills in missing or damaged data and reports only the first problem.
   const std::string said = input->geterror();
   const bool harmless = said.empty() || said.find("extraneous bytes") != std::string::npos;
   if (!read || !harmless) throw image_error(document, where, fmt::format("cannot be decoded ({})", said));

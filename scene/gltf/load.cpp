@@ -23,13 +23,13 @@ namespace gatelight::scene {
 namespace gltf {
 namespace {
 
-/// Coordinates beyond this are refused: the square of a triangle's area would leave single precision.
+/// Larger coordinates are refused: the square of a triangle's area would overflow single precision.
 constexpr float kLargestCoordinate = 1e9f;
 
-/// Positions, normals, tangents, two texture coordinates, colours.
+/// Size of a position, normal, tangent, two texture coordinates and a colour.
 constexpr std::size_t kVertexBytes = (3 + 3 + 4 + 2 + 2 + 4) * sizeof(float);
 
-/// Gives numbers to the things that are used, in the order of their first use.
+/// Renumbers the objects that are used, in the order of their first use.
 class Numbering {
  public:
   int number_of(int original) {
@@ -74,7 +74,7 @@ class Loader {
   struct Part {
     int mesh;
     int primitive;
-    int material;  ///< number in scene_.materials
+    int material;  ///< index into scene_.materials
   };
 
   void read_variants() {
@@ -113,14 +113,14 @@ class Loader {
     return primitive.material;
   }
 
-  /// The first image of the file with the same bytes behind it: they are decoded once.
+  /// The file's first image with the same URI and buffer view, so that equal images are decoded once.
   int first_alike(int image) {
     const ImageSource& source = document_.images()[static_cast<std::size_t>(image)];
     if (source.uri.empty() && source.buffer_view < 0) return image;
     return alike_.try_emplace({source.uri, source.buffer_view}, image).first->second;
   }
 
-  /// Materials, textures and image numbers of what is placed in the scene, and nothing else.
+  /// Loads the materials and textures, and numbers the images, of the placed meshes only.
   void load_materials(const std::vector<Placement>& placements) {
     Numbering materials;
     Numbering textures;
@@ -149,7 +149,8 @@ class Loader {
     }
   }
 
-  /// Of a primitive whose accessors tell: of Draco's data only the data does.
+  /// Memory of a primitive according to its accessors; 0 for Draco, where only the compressed data tells the
+  /// size.
   std::size_t mesh_bytes(const Part& part) const {
     const tinygltf::Primitive& primitive = primitive_of(part);
     const auto& accessors = document_.model().accessors;
@@ -209,7 +210,7 @@ class Loader {
     for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
-  /// The scene's centre where that is far away; then everything is placed relative to it.
+  /// Sets Scene::origin to the scene's centre if that is far away, and moves cameras and lights.
   void choose_origin(const Graph& graph) {
     std::vector<Box> boxes(parts_.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -229,7 +230,7 @@ class Loader {
     if (bounds.isEmpty()) return;
     const double radius = 0.5 * bounds.diagonal().norm();
     if (!(bounds.center().norm() > kFarFromOrigin * radius) || !(radius > 0.0)) return;
-    // With so few digits that single precision has them all.
+    // The centre is rounded so that single precision holds it exactly.
     const Eigen::Vector3d center = bounds.center();
     const double step = std::exp2(std::ceil(std::log2(center.cwiseAbs().maxCoeff())) - 23.0);
     const Eigen::Vector3d origin = (center / step).array().round() * step;
@@ -261,7 +262,7 @@ class Loader {
         instance.mesh = static_cast<int>(i);
         instance.transform = placement.transform;
         instance.transform.translation() = from_origin(placement.translation);
-        // In double: the product of three small scales leaves single precision.
+        // Computed in double: the product of three small scales would underflow in single precision.
         instance.mirrors = placement.transform.linear().cast<double>().determinant() < 0.0;
         scene_.instances.push_back(std::move(instance));
       });
@@ -285,7 +286,7 @@ class Loader {
   Scene scene_;
   int variant_ = -1;
   std::vector<Part> parts_;
-  std::vector<int> first_part_;  ///< by the file's mesh; its parts follow each other
+  std::vector<int> first_part_;  ///< by the file's mesh; its parts are consecutive
   Numbering images_;
   std::map<std::pair<std::string, int>, int> alike_;  ///< by URI and buffer view
 };

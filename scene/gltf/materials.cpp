@@ -64,7 +64,7 @@ class Converter {
     if (const Value* e = find_extension(extensions, "KHR_materials_specular")) {
       m.specular = unit(number_or(*e, "specularFactor", 1.0), "specularFactor");
       m.specular_texture = slot(*e, "specularTexture");
-      // Above one is allowed: the renderer limits the reflectance at normal incidence, not the factor.
+      // Values above 1 are allowed: the renderer limits the reflectance at normal incidence, not the factor.
       m.specular_color = color(*e, "specularColorFactor", 1.0f).max(0.0f);
       m.specular_color_texture = slot(*e, "specularColorTexture");
     }
@@ -73,7 +73,7 @@ class Converter {
       m.transmission_texture = slot(*e, "transmissionTexture");
     }
     if (const Value* e = find_extension(extensions, "KHR_materials_volume")) {
-      // The thickness itself is for rasterisers: rays find it. Its texture is not read.
+      // Only rasterisers need the value of the thickness; rays measure it. Its texture is not read.
       m.thickness = static_cast<float>(number_or(*e, "thicknessFactor", 0.0));
       m.attenuation_distance = static_cast<float>(number_or(*e, "attenuationDistance", kInfinity));
       m.attenuation_color = unit_color(*e, "attenuationColor", 1.0f);
@@ -98,7 +98,7 @@ class Converter {
     }
   }
 
-  /// A texture whose factor is zero changes nothing: it is not decoded, and need not exist.
+  /// A texture whose factor is zero has no effect: it is not decoded and need not exist.
   static void drop_unread_textures(Material& m) {
     const auto keep = [](bool condition, std::initializer_list<TextureSlot*> slots) {
       for (TextureSlot* slot : slots) {
@@ -172,8 +172,8 @@ class Converter {
     return result;
   }
 
-  /// Translation * rotation * scale. The rotation turns UVs counter-clockwise as one sees them with v
-  /// pointing down: the (u, v) of glTF has its origin in the upper left corner.
+  /// Translation * rotation * scale. The rotation is counter-clockwise as seen in the picture, where v points
+  /// down from the upper left corner.
   static Eigen::Matrix<float, 2, 3> texture_transform(const Value& t) {
     const auto pair = [&](const std::string& name, double fallback) {
       if (!t.Has(name)) return Eigen::Vector2d(fallback, fallback);

@@ -1,5 +1,5 @@
 #pragma once
-// glTF materials, textures and samplers to ours.
+// Converts glTF materials, textures and samplers.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace gatelight::scene::gltf {
 
-/// Material number `index` of the file, or glTF's default material for -1. Texture indices are the file's.
-/// Factors outside their range are clamped, with a warning.
+/// Material `index` of the file, or glTF's default material for -1. Texture indices are the file's. Factors
+/// outside their range are clamped, with a warning.
 Material convert_material(const Document& document, int index, Warnings& warnings);
 
-/// Texture number `index`; the image index is the file's, -1 when the texture has none.
+/// Texture `index` of the file; the image index is the file's, or -1 if the texture has none.
 Texture convert_texture(const Document& document, int index);
 
 /// Calls visit(TextureSlot&) for every slot of a material.

@@ -25,7 +25,7 @@ OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::s
           fmt::format("{} elements of {} bytes, expected {} bytes (byteLength of the view)", count, stride,
                       length));
   // The codecs spend at least 2 bits on 16 bytes of a vertex, and a byte on a triangle or an index. Data that
-  // claims more is wrong, and must not cost the memory it claims.
+  // claims more is wrong and is refused before memory is allocated.
   require(count * stride / 64 <= source.size(), fmt::format("count {}, expected data for it", count));
   require(filter == "NONE" || vertices, fmt::format("filter {}, expected NONE with mode {}", filter, mode));
   require(filter != "OCTAHEDRAL" || stride == 4 || stride == 8,

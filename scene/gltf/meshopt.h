@@ -1,12 +1,12 @@
 #pragma once
-// EXT_meshopt_compression: a buffer view whose bytes libmeshoptimizer decodes.
+// EXT_meshopt_compression: libmeshoptimizer decodes a buffer view.
 
 #include "scene/gltf/container.h"
 #include "scene/gltf/tinygltf.h"
 
 namespace gatelight::scene::gltf {
 
-/// `length` is the buffer view's own byteLength: what the decoded data must fill. Throws SceneError.
+/// `length` is the buffer view's byteLength, which the decoded data must have. Throws SceneError.
 OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
                           std::string_view file, std::string_view where);
 

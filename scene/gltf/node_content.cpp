@@ -10,8 +10,8 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-/// The rigid part of a camera's transform: it keeps the direction of view and the vertical plane of "up";
-/// scale, shear and mirroring have no meaning for a camera.
+/// The rigid part of a camera's transform. It keeps the direction of view and the plane of "up". Scale, shear
+/// and mirroring have no meaning for a camera.
 Affine rigid(const Document& document, int node, const Eigen::Affine3d& world) {
   const Eigen::Vector3d z = world.linear().col(2).stableNormalized();
   const Eigen::Vector3d x = world.linear().col(1).cross(z).stableNormalized();
@@ -86,7 +86,7 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
 std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
                                             const std::string& where) {
   const tinygltf::Value& attributes = extension.Get("attributes");
-  // Attributes of an application's own count, too.
+  // Custom attributes must have the same count, too.
   std::size_t count = 0;
   for (const std::string& semantic : attributes.Keys()) {
     const AccessorReader reader(document, attributes.Get(semantic).GetNumberAsInt());

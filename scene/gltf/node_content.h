@@ -1,5 +1,5 @@
 #pragma once
-// What hangs on a node: cameras, lights, instances.
+// Converts what a node refers to: cameras, lights, instances.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ PunctualLight make_light(const Document& document, int node, int light, const Ei
 std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
                                             const std::string& where);
 
-/// Of a skin's inverse bind matrices.
+/// The first of a skin's inverse bind matrices.
 Eigen::Affine3d read_first_matrix(const Document& document, int accessor);
 
 }  // namespace gatelight::scene::gltf

@@ -38,7 +38,7 @@ Transform local_transform(const Document& document, int index) {
   return t;
 }
 
-/// A strict forest: at most one parent each, and no cycle.
+/// The parent of each node, or -1. Checks that each node has at most one parent and that there is no cycle.
 std::vector<int> find_parents(const Document& document) {
   const auto& nodes = document.model().nodes;
   std::vector<int> parents(nodes.size(), -1);
@@ -53,7 +53,7 @@ std::vector<int> find_parents(const Document& document) {
       parent = static_cast<int>(i);
     }
   }
-  // Every walk towards a root marks its way; meeting the mark of the same walk means a cycle.
+  // Every walk towards a root marks its nodes. Meeting a mark of the same walk means a cycle.
   std::vector<std::size_t> seen(nodes.size(), 0);
   for (std::size_t start = 0; start < nodes.size(); ++start) {
     for (int i = static_cast<int>(start); i >= 0; i = parents[static_cast<std::size_t>(i)]) {
@@ -148,7 +148,7 @@ class Walker {
     }
   }
 
-  /// Before there are any: a count is cheap to write.
+  /// Called before the instances are allocated: a huge count needs only a few characters.
   void claim_instances(const tinygltf::Value& extension, const tinygltf::Mesh& mesh,
                        const std::string& where) {
     const tinygltf::Value& attributes = extension.Get("attributes");
@@ -160,8 +160,8 @@ class Walker {
     document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
   }
 
-  /// The glTF specification places a skinned mesh by its joints alone. In the bind pose all of them agree, so
-  /// the first one tells the way from the mesh to the world.
+  /// In glTF only the joints place a skinned mesh. In the bind pose all joints agree, so the first one gives
+  /// the transform from the mesh to the world.
   Transform bind_pose(int index) const {
     const tinygltf::Skin& skin = document_.model().skins[static_cast<std::size_t>(index)];
     Transform joint = Transform::Identity();
@@ -176,8 +176,8 @@ class Walker {
   void add(int mesh, const std::string& name, const Transform& t) {
     Placement placement{mesh, name, Affine::Identity(), t.translation()};
     placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
-    // Scaled to a line or a point, as one hides things: nothing to see, and nothing a ray could be carried
-    // into.
+    // Some files hide meshes by scaling them to a line or a point. Such a mesh is invisible, and no ray can
+    // be transformed into its space.
     const Eigen::Matrix3f linear = placement.transform.linear();
     if (normal_matrix(placement.transform).isZero(0.0f) || linear.isZero(0.0f)) {
       warnings_.add("meshes that are scaled to nothing are left out");

@@ -1,5 +1,5 @@
 #pragma once
-// The node hierarchy, flattened: what stands where in the world.
+// Flattens the node hierarchy into meshes, lights and cameras in world space.
 
 #include <string>
 #include <vector>
@@ -11,21 +11,21 @@ namespace gatelight::scene::gltf {
 
 /// A glTF mesh (all its primitives) in the world.
 struct Placement {
-  int mesh = -1;  ///< of the file
+  int mesh = -1;  ///< index in the file
   std::string name;
   Affine transform = Affine::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< the transform's, with all its digits
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
 };
 
 struct Graph {
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
-  std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< of each, with all their digits
+  std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< world, in double
 };
 
-/// Walks scene `scene` (-1: the file's default, or its first). Checks the whole hierarchy: cycles, several
-/// parents, numbers that are not finite. Throws SceneError.
+/// Walks scene `scene` (-1 means the file's default, or its first). Throws SceneError for cycles, several
+/// parents and transforms that are not finite.
 Graph flatten_nodes(const Document& document, int scene, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

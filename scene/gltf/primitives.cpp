@@ -49,7 +49,7 @@ class Vertices {
     return primitive_.attributes.contains(semantic) || (draco_ && draco_->has(semantic));
   }
 
-  /// As many rows as the selection has, or count(). `out` has room for them.
+  /// Writes one row for each element of the selection, or count() rows if it is empty.
   void read(const std::string& semantic, std::initializer_list<int> components, Selection selection,
             int width, float* out, bool force_normalized = false) const {
     const auto entry = primitive_.attributes.find(semantic);
@@ -107,12 +107,12 @@ std::vector<Vec4> read_colors(const Vertices& vertices, Selection selection) {
   return rows;
 }
 
-/// Vertices that some triangle uses, in order, with the triangles renumbered; empty when all are used.
+/// Returns the vertices that triangles use, in order, and renumbers the triangles; empty if all are used.
 std::vector<std::uint32_t> compact(std::vector<std::array<std::uint32_t, 3>>& triangles,
                                    std::size_t vertex_count) {
   std::vector<std::uint32_t> used;
   if (triangles.size() * 3 < vertex_count) {
-    // Many primitives may share one large accessor: stay proportional to this one.
+    // Many primitives may share one large accessor, so the cost must stay proportional to this primitive.
     used.reserve(triangles.size() * 3);
     for (const auto& t : triangles) used.insert(used.end(), t.begin(), t.end());
     std::sort(used.begin(), used.end());
@@ -189,7 +189,7 @@ Mesh load_primitive(const Document& document, int mesh_index, int primitive_inde
     warnings.add("a textured mesh has no texture coordinates");
   }
   if (needs.tangents) {
-    // The specification has flat-shaded meshes ignore the tangents they bring.
+    // The specification says that tangents of flat-shaded meshes are ignored.
     if (!mesh.normals.empty()) mesh.tangents = read_rows<4>(vertices, "TANGENT", selection);
     if (mesh.tangents.empty()) {
       generate_tangents(mesh, *needs.tangents);

@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-/// The way from the root to the value under inspection, as a list on the call stack: it is spelled out only
-/// when something is wrong.
+/// The path from the root to the checked value, as a linked list on the call stack. The text is built only
+/// for an error.
 struct Path {
   const Path* parent = nullptr;
   std::string_view name;
@@ -167,7 +167,7 @@ class Checker {
                        rule.low == 0.0 ? "that is not negative" : "above zero");
   }
 
-  /// Length of one of the lists that indices point into.
+  /// Length of a list that indices refer to.
   std::size_t size_of(std::string_view list) const {
     const json* owner = &root_;
     std::string_view member = list;

@@ -1,7 +1,7 @@
 #pragma once
-// What the JSON of a glTF file must look like before anything reads it. tinygltf ignores or misreads values
-// of the wrong type; here every property that the loader uses is checked against a table: type, range,
-// length, and that indices point to something.
+// Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores or misreads values of the
+// wrong type. A table gives type, range and length of every property that the loader uses, and the list that
+// an index refers to.
 
 #include <nlohmann/json.hpp>
 
@@ -20,21 +20,21 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
   std::string_view owner;
   std::string_view name;
   Kind kind = Kind::object;
-  /// Kind::index: the root's list that is pointed into. Kind::object: the owner name of the object's own
-  /// rules. Kind::string and Kind::integer: the allowed values, separated by '|'; empty allows all.
+  /// Kind::index: the list that the index refers to. Kind::object: the owner name of the object's rules.
+  /// Kind::string and Kind::integer: the allowed values, separated by '|'; empty allows all.
   std::string_view target{};
   Shape shape = Shape::single;
   bool required = false;
-  int length = 0;  ///< of a list; 0 allows any
+  int length = 0;  ///< number of elements of a list; 0 allows any
   double low = -std::numeric_limits<float>::max();
   double high = std::numeric_limits<float>::max();
 };
 
-/// The whole table (gltf_schema_rules.cpp).
+/// The whole table (schema_rules.cpp).
 std::span<const Rule> schema_rules();
 
-/// Checks the document and brings its numbers into one form: what the specification calls an integer is
-/// stored as one (1.0 becomes 1), all else as a double, so that no later reader truncates. Throws SceneError.
+/// Checks the document and unifies its numbers: integer properties are stored as integers (1.0 becomes 1),
+/// all others as double, so that no later reader truncates. Throws SceneError.
 void check_schema(nlohmann::json& root, std::string_view file);
 
 }  // namespace gatelight::scene::gltf

@@ -55,7 +55,8 @@ constexpr Rule not_negative(Rule rule) {
   return rule;
 }
 
-// An object's name below is the path of its type; "x.extensions" are the extensions that object may carry.
+// The first column is the type of the object that owns the property; "x.extensions" holds the extensions of
+// x.
 constexpr Rule kRules[] = {
     required(object("root", "asset", "asset")),
     required(text("asset", "version")),

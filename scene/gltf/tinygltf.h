@@ -1,9 +1,9 @@
 #pragma once
-// tinygltf, compiled here under a name of its own.
+// Includes tinygltf under a namespace name of our own.
 //
-// Debian's libdraco exports a second, older tinygltf. In a program that uses both libraries the loader takes
-// half of the functions from the one and half from the other, whose structs differ: it crashes, depending on
-// the link order. Without file access and without image decoders, too: this program does both itself.
+// Debian's libdraco exports an older tinygltf with different structs. A program that links both takes some
+// functions from each and crashes, depending on the link order. File access and image decoders are disabled
+// because the loader does both itself.
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE

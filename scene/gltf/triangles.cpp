@@ -10,7 +10,7 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-/// Of an index list of a strip or a fan. Winding as in the specification, section 3.7.2.1.
+/// Triangles of a strip or a fan. The winding follows the specification, section 3.7.2.1.
 Triangles assemble(const std::vector<std::uint32_t>& v, bool strip) {
   Triangles triangles;
   if (v.size() < 3) return triangles;

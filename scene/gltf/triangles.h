@@ -1,5 +1,5 @@
 #pragma once
-// Index buffers and topologies to triangles.
+// Converts index buffers and topologies to triangles.
 
 #include <array>
 #include <vector>

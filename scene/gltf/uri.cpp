@@ -17,7 +17,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-/// Leaves a % that no two hexadecimal digits follow: files with such names exist.
+/// A % without two hexadecimal digits behind it is kept: files with such names exist.
 std::string decode_percent(std::string_view text) {
   std::string out;
   out.reserve(text.size());
@@ -45,7 +45,7 @@ constexpr std::array<std::int8_t, 256> base64_table() {
   return table;
 }
 
-/// nullopt when a character or the length is wrong. Padding may be left out.
+/// Returns nullopt if a character or the length is wrong. Padding is optional.
 std::optional<OwnedBytes> decode_base64(std::string_view text) {
   static constexpr std::array<std::int8_t, 256> kTable = base64_table();
   for (int pad = 0; pad < 2 && !text.empty() && text.back() == '='; ++pad) text.remove_suffix(1);
@@ -78,7 +78,7 @@ std::size_t scheme_length(std::string_view uri) {
   return 0;
 }
 
-/// Of small letters and capitals alike; `lower` has no capitals.
+/// Compares without regard to case; `lower` must be lower case.
 bool equal_letters(std::string_view text, std::string_view lower) {
   return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
@@ -94,7 +94,7 @@ bool is_file(std::string_view uri) {
   return has_scheme(uri, "file:");
 }
 
-/// Whether the path, with all its links followed, is outside the folder. What is not there is not.
+/// Whether the path lies outside the folder after resolving symbolic links. A missing file counts as inside.
 bool leaves(const std::filesystem::path& folder, const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::canonical(path, error);
@@ -139,7 +139,7 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
   if (const std::size_t scheme = scheme_length(uri); scheme > 0) {
     if (!options.allow_external || !is_file(uri)) throw refuse("has a scheme");
     rest.remove_prefix(scheme);
-    // "file:///path", "file://localhost/path" or "file:path"; another host is another machine.
+    // Accepts "file:///path", "file://localhost/path" and "file:path"; another host is another machine.
     for (const std::string_view host : {"//localhost/", "///"}) {
       if (rest.starts_with(host)) rest.remove_prefix(host.size() - 1);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Where buffers and images outside the file come from: data URIs, and files in the scene's own folder.
+// Reads buffers and images outside the file: data URIs, and files in the scene's folder.
 
 #include <filesystem>
 #include <string_view>
@@ -9,13 +9,13 @@
 namespace gatelight::scene::gltf {
 
 struct UriOptions {
-  std::filesystem::path folder;  ///< of the scene
+  std::filesystem::path folder;  ///< the scene's folder
   bool allow_external = false;
 };
 
-/// The bytes behind a URI. Relative paths (percent-encoded or not) stay inside the folder; absolute paths,
-/// other schemes than data:, and paths that climb out of the folder, by a symbolic link too, are refused
-/// unless `allow_external` is set. Then file: is a scheme, too. Throws SceneError.
+/// The bytes behind a URI. Without `allow_external` it must be a data URI or a relative path (percent-encoded
+/// or not) that stays inside the folder, also through symbolic links. With it, absolute paths, paths out of
+/// the folder and file: URIs are allowed. Throws SceneError.
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where);
 
