@@ -22,7 +22,7 @@ float power_of_two(int exponent) {
   return std::ldexp(1.0f, std::clamp(exponent, -126, 127));
 }
 
-/// No coordinate of a vertex in world space is greater.
+/// Upper bound of the absolute coordinates of all vertices in world space.
 double coordinate_bound(const PlanScene& scene) {
   const SurfaceLayout& surfaces = scene.surfaces;
   std::vector<Double3> mesh_bounds(surfaces.meshes.size());
@@ -43,7 +43,7 @@ double coordinate_bound(const PlanScene& scene) {
   return greatest;
 }
 
-/// The least and the greatest scale of the node spacing.
+/// Smallest and largest spacing_scale of the stored instances.
 std::pair<float, float> scale_bounds(const PlanScene& scene) {
   if (scene.stored.empty()) return {1.0f, 1.0f};
   const auto scale = [&](std::uint32_t i) { return scene.surfaces.instances[i].spacing_scale; };
@@ -51,11 +51,13 @@ std::pair<float, float> scale_bounds(const PlanScene& scene) {
   return {scale(*least), scale(*greatest)};
 }
 
-/// Where vertices are clustered each trial takes time: then to 1.6 %. In units in the last place.
+/// Tolerance of the search in units in the last place (1.6 %), used with clusters because each trial takes
+/// time then.
 constexpr std::uint32_t kClusterTolerance = 1u << 17;
 
-/// Between a value that gives a layout that fits and one that does not: one that fits beside one that does
-/// not, `step` units in the last place apart. Works on the bits of positive floats, which are in their order.
+/// Bisects between a value that fits and one that does not until they are at most `step` units in the last
+/// place apart; returns the one that fits. It works on the bits of positive floats, which have the same order
+/// as the floats.
 template <class Fits>
 float bisect(float good_value, float bad_value, std::uint32_t step, const Fits& fits) {
   auto good = std::bit_cast<std::uint32_t>(good_value);
@@ -67,9 +69,9 @@ float bisect(float good_value, float bad_value, std::uint32_t step, const Fits& 
   return std::bit_cast<float>(good);
 }
 
-/// From a value that does not fit to greater ones, in steps of a quarter of an octave and more and more, as
-/// trials that do not fit end early. The last that does not fit and the first that does; nothing where even
-/// `last` does not.
+/// Increases a value that does not fit, in doubling steps that start at a quarter of an octave; trials that
+/// do not fit end early. Returns the last value that does not fit and the first that does, or nullopt if even
+/// `last` does not fit.
 template <class Fits>
 std::optional<std::pair<float, float>> bracket(float bad, float last, const Fits& fits) {
   for (std::uint64_t step = 1u << 21; bad < last; step *= 2) {
@@ -93,7 +95,7 @@ class Search {
     plan_ = std::move(plan);
     return true;
   }
-  /// Of the last density that fitted.
+  /// The plan of the last density that fitted.
   LayoutPlan plan() {
     if (!plan_) plan_ = make_plan(scene_, fitting_, limit_);
     return std::move(*plan_);
@@ -106,7 +108,7 @@ class Search {
   std::optional<LayoutPlan> plan_;
 };
 
-/// These leave the coarsest density tried in `density` where nothing fits.
+/// solve_scale and solve_spacing return false if nothing fits; `density` is then the coarsest one tried.
 bool solve_scale(const GateOptions& options, Search& search, Density& density) {
   const auto fits = [&](float scale) {
     density.resolution_scale = scale;
@@ -121,8 +123,8 @@ bool solve_scale(const GateOptions& options, Search& search, Density& density) {
 }
 
 bool solve_spacing(const PlanScene& scene, Search& search, Density& density) {
-  // At the coarsest spacing all lies in the cell at the origin, and all resolutions are 1. Powers of two: the
-  // search is the same for a scene scaled by one.
+  // At the coarsest spacing all vertices lie in the cell at the origin and all resolutions are 1. The bounds
+  // are powers of two, so that the search is the same for a scene scaled by a power of two.
   const GateOptions& options = scene.options;
   const double bound = coordinate_bound(scene);
   const auto [least_scale, greatest_scale] = scale_bounds(scene);

@@ -4,7 +4,7 @@
 
 namespace gatelight::neural {
 
-/// The plan of the options as they are, or, with a memory budget, the finest one that fits. Throws
+/// Returns the plan of the given options or, with a memory budget, the finest plan that fits. Throws
 /// BadConfiguration for more than 2^32-1 nodes and for a budget that cannot be met.
 LayoutPlan solve_plan(PlanScene& scene);
 

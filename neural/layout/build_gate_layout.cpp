@@ -20,7 +20,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 
-/// Takes `size` numbers from 0 on, each once.
+/// Hands out consecutive blocks of indices, starting at 0.
 class Allocator {
  public:
   explicit Allocator(const char* what) : what_(what) {}
@@ -48,19 +48,19 @@ bool has_clusters(const InstancePlan& plan) {
   return std::ranges::any_of(plan, &LevelPlan::clustered);
 }
 
-/// A table of the topology: of an instance with a clustered level, or else of a mesh, which its instances
-/// share. Its rows are threes of words.
+/// A topology table. An instance with a clustered level has its own; all others share the table of their
+/// mesh. A row consists of groups of three words.
 struct TopologyTable {
   std::uint32_t offset = 0;
   std::uint32_t mesh = 0;
   bool vertices = false;
   bool edges = false;
-  std::size_t stored = kNone;          ///< the instance whose clusters are in it
-  std::vector<std::size_t> clustered;  ///< levels whose clusters are in it, in their order in the row
+  std::size_t stored = kNone;          ///< the instance whose clusters the table holds
+  std::vector<std::size_t> clustered;  ///< levels whose clusters the table holds, in row order
 
   std::uint32_t first_clusters() const { return (vertices ? 3u : 0u) + (edges ? 3u : 0u); }
   std::uint32_t stride() const { return first_clusters() + 3 * static_cast<std::uint32_t>(clustered.size()); }
-  /// The word where the corners of a level begin.
+  /// The first word of a level's corners in the row.
   std::uint32_t corners(const LevelPlan& level) const {
     if (!level.clustered) return 0;
     const auto place = std::ranges::find(clustered, level.first_alike) - clustered.begin();
@@ -70,7 +70,7 @@ struct TopologyTable {
 
 struct TopologyTables {
   std::vector<TopologyTable> tables;
-  std::vector<std::size_t> of_stored;  ///< each stored instance's table
+  std::vector<std::size_t> of_stored;  ///< table index of each stored instance
   std::uint32_t words = 0;
 };
 
@@ -102,7 +102,7 @@ TopologyTables place_tables(const PlanScene& scene, const LayoutPlan& plan) {
   return result;
 }
 
-/// Three words of a row: a triangle's vertices or edges, or what `numbers` has for them.
+/// Three words of a row: a triangle's vertices or edges, mapped through `numbers` unless that is empty.
 struct RowPart {
   std::uint32_t first = 0;
   const TriangleCorners* corners = nullptr;
@@ -124,7 +124,7 @@ void write_rows(const TopologyTable& table, std::size_t triangles, std::span<con
   });
 }
 
-/// With clusters over the scene: for each level the numbers of each stored instance's vertices.
+/// With clusters over the whole scene: the cluster of each vertex, by level and stored instance.
 using SceneNumbers = std::array<std::vector<std::vector<std::uint32_t>>, kMaxStack>;
 
 SceneNumbers number_scene(const PlanScene& scene, const LayoutPlan& plan) {
@@ -147,7 +147,7 @@ SceneNumbers number_scene(const PlanScene& scene, const LayoutPlan& plan) {
   return numbers;
 }
 
-/// The numbers of an instance's clusters; `parts` end with those of its clustered levels.
+/// Fills in the cluster numbers of an instance; the last elements of `parts` belong to its clustered levels.
 void number_instance(const PlanScene& scene, const LayoutPlan& plan, const TopologyTable& table,
                      std::span<RowPart> parts) {
   parts = parts.last(table.clustered.size());
@@ -160,7 +160,7 @@ void number_instance(const PlanScene& scene, const LayoutPlan& plan, const Topol
   const auto divisor = [&](std::size_t l) { return adaptive_divisor(scene.options.stack[l]); };
   const std::size_t finest =
       static_cast<std::size_t>(std::ranges::find(table.clustered, 1u, divisor) - table.clustered.begin());
-  std::vector<std::uint32_t> first_vertices;  // of the finest clusters: coarser ones are made of these
+  std::vector<std::uint32_t> first_vertices;  // of the finest clusters, from which coarser ones are made
   if (finest < parts.size()) {
     parts[finest].numbers = number(finest);
     for (std::uint32_t v = 0; v < parts[finest].numbers.size(); ++v)
@@ -202,7 +202,7 @@ void write_topology(const PlanScene& scene, const LayoutPlan& plan, const Topolo
   });
 }
 
-/// The nodes of one level of one side.
+/// Allocates the nodes of one level of one side.
 GateSurfaceLevel place_nodes(const PlanScene& scene, std::size_t stored, const LevelPlan& plan,
                              Allocator& nodes, GateLayoutReport& report) {
   const std::uint32_t mesh = scene.surfaces.instances[scene.stored[stored]].mesh;
@@ -227,7 +227,7 @@ GateSurfaceLevel place_nodes(const PlanScene& scene, std::size_t stored, const L
   return level;
 }
 
-/// For each side and level the block of nodes that all instances with the level clustered share.
+/// For each side and level, the nodes that all instances with this level clustered share.
 using SceneBlocks = std::array<std::array<GateSurfaceLevel, kMaxStack>, 2>;
 
 SceneBlocks place_scene_clusters(const LayoutPlan& plan, Allocator& nodes, GateLayoutReport& report) {

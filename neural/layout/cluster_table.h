@@ -1,6 +1,6 @@
 #pragma once
-// A set of 64-bit keys that many threads fill: what it holds in the end does not depend on the order of
-// insertion, where it holds it does.
+// A set of 64-bit keys that several threads fill. Its content does not depend on the order of insertion; the
+// slot of a key does.
 
 #include <atomic>
 #include <bit>
@@ -17,10 +17,10 @@ class ClusterTable {
     Inserted inserted = Inserted::full;
   };
 
-  /// Room for `keys` keys and as many again, so that searches stay short.
+  /// Allocates at least twice as many slots as `keys`, so that probing stays short.
   explicit ClusterTable(std::uint64_t keys) : slots_(std::bit_ceil(2 * keys + 2)) {}
 
-  /// Keys are not 0.
+  /// Inserts a key, which must not be 0.
   Place insert(std::uint64_t key) {
     const std::uint64_t mask = slots_.size() - 1;
     for (std::uint64_t probe = 0; probe < slots_.size(); ++probe) {
@@ -36,7 +36,7 @@ class ClusterTable {
   std::uint64_t size() const { return slots_.size(); }
 
  private:
-  std::vector<std::atomic<std::uint64_t>> slots_;  ///< 0: free
+  std::vector<std::atomic<std::uint64_t>> slots_;  ///< 0 means free
 };
 
 }  // namespace gatelight::neural

@@ -19,15 +19,15 @@ namespace {
 constexpr std::size_t kClusterGrain = 4096;
 using Range = tbb::blocked_range<std::size_t>;
 
-/// Cell boundaries lie off the multiples of the cell: planes at round coordinates, and their rounding errors,
-/// do not fall on one.
+/// Shifts cell boundaries away from multiples of the cell size, so that rounding does not split planes at
+/// round coordinates.
 constexpr double kGridShift = 0.3819660112501051;
 
-/// An axis is dominant over the ones before it only by this factor: normals between two axes, up to rounding,
-/// fall to one of them.
+/// An axis must exceed the earlier ones by this factor to be dominant, so that rounding does not split
+/// normals halfway between two axes.
 constexpr double kAxisMargin = 1.0 + 1.0 / 64;
 
-/// 0 .. 5: axis and sign.
+/// Dominant axis and sign, 0 to 5.
 std::uint64_t facing(const Double3& normal) {
   std::size_t axis = 0;
   for (std::size_t c = 1; c < 3; ++c)
@@ -43,8 +43,8 @@ std::size_t vertex_number(const ClusterInstance& instance, std::size_t place) {
   return instance.among.empty() ? place : instance.among[place];
 }
 
-/// Cells are numbers in double precision, whatever their magnitude, and stay so until they are hashed. That
-/// two keys of n have the same hash, which merges their clusters, has a probability of n^2 / 2^65.
+/// Hashes cells, which are doubles, so that no coordinate overflows. The probability that two of n keys
+/// collide, which merges their clusters, is n^2 / 2^65.
 class ClusterKeys {
  public:
   ClusterKeys(const ClusterInstance& instance, const ClusterGrid& grid)
@@ -56,7 +56,7 @@ class ClusterKeys {
         scale_key_(mix_bits(std::bit_cast<std::uint64_t>(instance.cell_scale))),
         normals_to_world_(cofactors(instance.object_to_world)) {}
 
-  /// Of the vertex with this number among those to cluster.
+  /// The key of vertex `place` among those to cluster.
   std::uint64_t operator()(std::size_t place) const {
     const MeshTopology& topology = *instance_.topology;
     const std::size_t vertex = vertex_number(instance_, place);
@@ -80,15 +80,15 @@ class ClusterKeys {
   Transform normals_to_world_;
 };
 
-/// The index of each instance's first vertex among all.
+/// The index of each instance's first vertex among all vertices.
 std::vector<std::uint64_t> vertex_offsets(std::span<const ClusterInstance> instances) {
   std::vector<std::uint64_t> offsets(instances.size() + 1, 0);
   for (std::size_t i = 0; i < instances.size(); ++i) offsets[i + 1] = offsets[i] + vertex_count(instances[i]);
   return offsets;
 }
 
-/// on_key(instance, vertex, place in the table), vertices counted among those of the instance to cluster.
-/// False, early, where there are more than `limit` keys.
+/// Calls on_key(instance, vertex, place in the table); the vertex counts among those to cluster. Returns
+/// false, early, for more than `limit` keys.
 template <class OnKey>
 bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGrid& grid, std::uint64_t limit,
                      ClusterTable& table, std::atomic<std::uint64_t>& count, const OnKey& on_key) {
@@ -118,7 +118,8 @@ std::optional<std::uint64_t> count_clusters(std::span<const ClusterInstance> ins
                                             std::vector<std::uint32_t>* members) {
   const std::uint64_t vertices = vertex_offsets(instances).back();
   limit = std::min(limit, vertices);
-  // Clusters are few where they matter, and a small table is near.
+  // Start with a small table, which stays in the processor's caches: clustering is useful if clusters are
+  // few.
   for (std::uint64_t most = std::min(limit, vertices / 8 + 64);; most = std::min(limit, 4 * most)) {
     ClusterTable table(most);
     std::atomic<std::uint64_t> count = 0;
@@ -141,7 +142,7 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
                                                         const ClusterGrid& grid, std::uint64_t count) {
   const std::vector<std::uint64_t> offsets = vertex_offsets(instances);
   ClusterTable table(count);
-  std::vector<std::atomic<std::uint64_t>> first_vertices(table.size());  // ones' complement, 0: none
+  std::vector<std::atomic<std::uint64_t>> first_vertices(table.size());  // ones' complement; 0 means none
   std::vector<std::uint64_t> slots(offsets.back());
   std::atomic<std::uint64_t> found = 0;
   insert_vertices(
@@ -162,7 +163,7 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
   tbb::parallel_for(vertices, [&](const Range& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
   });
-  inclusive_prefix_sum(numbers);  // at a cluster's first vertex: its number plus one
+  inclusive_prefix_sum(numbers);  // at a cluster's first vertex: the cluster's number plus one
   std::vector<std::vector<std::uint32_t>> result(instances.size());
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     result[i].resize(offsets[i + 1] - offsets[i]);

@@ -1,6 +1,6 @@
 #pragma once
-// Clusters: vertices that share one node because they lie in one cell of a world-space grid and, where
-// normals count, face the same way.
+// Clusters of vertices. The vertices of a cluster share one node: they lie in the same cell of a world-space
+// grid and, with `normals`, face the same way.
 
 #include <cstdint>
 #include <optional>
@@ -12,32 +12,32 @@
 
 namespace gatelight::neural {
 
-/// The cells of a grid with a divisor are made of divisor^3 cells of the one without: what is in one cell of
-/// the finer grid is in one of the coarser.
+/// A cell of a grid with a divisor consists of divisor^3 cells of the grid with divisor 1, so that vertices
+/// in the same fine cell also share the coarse cell.
 struct ClusterGrid {
-  double cell = 0.0;  ///< of divisor 1, in world units, where an instance's scale is 1
+  double cell = 0.0;  ///< world units, for divisor 1 and cell_scale 1
   std::uint32_t divisor = 1;
-  bool normals = true;  ///< keep apart by dominant axis and sign of the vertex's world-space normal
+  bool normals = true;  ///< separate vertices by dominant axis and sign of their world-space normal
 };
 
-/// An instance whose vertices are clustered. With `normals` the topology must have them.
+/// An instance whose vertices are clustered. With ClusterGrid::normals the topology must have normals.
 struct ClusterInstance {
   const SurfaceMesh* mesh = nullptr;
   const MeshTopology* topology = nullptr;
   Transform object_to_world;
-  double cell_scale = 1.0;  ///< cells of instances with different scales have no vertices in common
-  std::span<const std::uint32_t> among = {};  ///< the vertices to cluster; empty: all of the topology
+  double cell_scale = 1.0;                    ///< instances with different scales share no clusters
+  std::span<const std::uint32_t> among = {};  ///< the vertices to cluster; empty means all
 };
 
-/// The clusters of the instances' vertices, vertices of different instances merged too. Nothing where they
-/// are more than `limit` (found early). `members` gets the number of one vertex of each cluster, any one, in
-/// any order.
+/// Counts the clusters of all vertices; vertices of different instances may share a cluster. Returns nullopt,
+/// early, for more than `limit` clusters. `members` receives an arbitrary vertex of each cluster, in any
+/// order.
 std::optional<std::uint64_t> count_clusters(std::span<const ClusterInstance> instances,
                                             const ClusterGrid& grid, std::uint64_t limit,
                                             std::vector<std::uint32_t>* members = nullptr);
 
-/// For each vertex of each instance the number of its cluster; clusters are numbered in the order of their
-/// first vertex. `count` is what count_clusters gave.
+/// Returns the cluster of each vertex of each instance. Clusters are numbered in the order of their first
+/// vertex. `count` is the result of count_clusters.
 std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterInstance> instances,
                                                         const ClusterGrid& grid, std::uint64_t count);
 

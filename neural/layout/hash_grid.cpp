@@ -13,7 +13,7 @@ namespace gatelight::neural {
 
 namespace {
 
-// Beyond it a float position in [0,1] has no bits left for the place within a cell.
+// At higher resolutions a float position in [0,1] has no bits left for the position within a cell.
 constexpr double kMaxHashResolution = 1 << 20;
 constexpr std::uint64_t kMaxEntries = std::numeric_limits<std::uint32_t>::max();
 
@@ -31,7 +31,7 @@ void check(const HashGridOptions& options) {
           options.bytes_per_feature, "2 or 4");
 }
 
-/// roundup8(res^3): what a dense level takes. Fits 64 bits as the resolution is at most 2^20.
+/// Entries of a dense level, roundup8(res^3). This fits 64 bits as the resolution is at most 2^20.
 std::uint64_t dense_entries(const HashGridLevel& level) {
   const std::uint64_t side = level.resolution;
   return (side * side * side + 7) / 8 * 8;
@@ -43,7 +43,7 @@ std::uint64_t total_entries(const HashGridLayout& layout, std::uint64_t table_si
   return sum;
 }
 
-/// The greatest multiple of 8 with which all levels fit the target.
+/// The largest table size, a multiple of 8, for which all levels fit the target.
 std::uint64_t fitting_table_size(const HashGridLayout& layout, const HashGridOptions& options) {
   const std::uint64_t entry_bytes = std::uint64_t{options.features} * options.bytes_per_feature;
   const std::uint64_t limit = std::min<std::uint64_t>(options.memory_target / entry_bytes, kMaxEntries);

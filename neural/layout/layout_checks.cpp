@@ -25,7 +25,7 @@ void require_positive(const char* what, float value) {
     throw BadConfiguration(fmt::format("{}: {}, expected a positive number", what, value));
 }
 
-/// The first of 0 .. count-1 that is bad, else kNotFound.
+/// The first bad index below count, or kNotFound.
 template <class Bad>
 std::size_t find_first(std::size_t count, const Bad& bad) {
   using Range = tbb::blocked_range<std::size_t>;
@@ -99,7 +99,7 @@ void check_surfaces(const SurfaceLayout& surfaces) {
         throw BadConfiguration(
             fmt::format("instance {}: {} in its transform, expected finite numbers", i, x));
   }
-  // The first mesh that is wrong is named, whichever thread is the quickest.
+  // The first wrong mesh is reported, independent of the schedule.
   std::vector<std::string> messages(surfaces.meshes.size());
   tbb::parallel_for(std::size_t{0}, surfaces.meshes.size(), [&](std::size_t m) {
     try {

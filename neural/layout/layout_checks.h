@@ -4,9 +4,10 @@
 
 namespace gatelight::neural {
 
-/// Throw BadConfiguration, naming what is wrong and what was expected.
+/// These throw BadConfiguration, which names the wrong value and what was expected.
 void check_gate_options(const GateOptions& options);
-/// Every position of every mesh, and the transforms of instances with storage, must be finite.
+/// Checks indices and options of instances. All positions, and the transforms of instances with storage, must
+/// be finite.
 void check_surfaces(const SurfaceLayout& surfaces);
 
 }  // namespace gatelight::neural

@@ -1,6 +1,6 @@
 #pragma once
-// Mesh colours (Yuksel, Keyser, House 2010): which three nodes a point on a triangle lies between, with which
-// weights, and where a node lies in the layout. Pure functions, for float and double.
+// Mesh colours (Yuksel, Keyser, House 2010): the three nodes around a point on a triangle, their weights, and
+// the index of a node in the layout. These are pure functions, for float and double.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace gatelight::neural {
 
-/// (i,j,k) >= 0 with the sum R: the node at the barycentrics (i,j,k)/R.
+/// The node at the barycentrics (i,j,k)/R; i, j, k >= 0 have the sum R.
 using NodeBarycentrics = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t nodes_per_edge(std::uint32_t resolution) {
@@ -25,14 +25,14 @@ constexpr std::uint32_t nodes_per_triangle(std::uint32_t resolution) {
   return resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2;
 }
 
-/// Weights of a point a little outside become those of a point on the triangle: negative ones and NaN count
-/// as zero, the sum becomes one. Without a positive weight: the first corner.
+/// Maps weights to a point on the triangle: negative weights and NaN become zero, and the sum becomes one.
+/// Without a positive weight the result is the first corner.
 template <typename T>
 std::array<T, 3> sanitize_barycentrics(std::array<T, 3> b) {
   using Limits = std::numeric_limits<T>;
   for (T& weight : b) weight = weight > T(0) ? std::fmin(weight, Limits::max() / 4) : T(0);
   T sum = b[0] + b[1] + b[2];
-  if (sum < Limits::min()) {  // denormal, perhaps flushed to zero when it is divided
+  if (sum < Limits::min()) {  // denormal, which the division may flush to zero
     for (T& weight : b) weight *= T(0x1p60);
     sum = b[0] + b[1] + b[2];
     if (!(sum > T(0))) return {T(1), T(0), T(0)};
@@ -40,17 +40,17 @@ std::array<T, 3> sanitize_barycentrics(std::array<T, 3> b) {
   return {b[0] / sum, b[1] / sum, b[2] / sum};
 }
 
-/// A point inside one small triangle between nodes: weights >= 0 with the sum one. A point on a node has that
-/// node three times, with the weights (1, 0, 0).
+/// The small triangle of nodes around a point; weights are >= 0 and have the sum one. A point on a node has
+/// that node three times, with the weights (1, 0, 0).
 template <typename T>
 struct MeshColorSample {
   std::array<NodeBarycentrics, 3> nodes;
   std::array<T, 3> weights;
 };
 
-/// With B = R b, its floor and fractions w: the fractions' sum is an integer up to rounding, which is found
-/// exactly as R minus the sum of floors. 1 is a small triangle like the big one, 2 one upside down, 0 and 3
-/// (fractions just below one) are nodes.
+/// Splits R b into floors and fractions w. The sum of the fractions is an integer up to rounding; it is
+/// computed exactly as R minus the sum of the floors. 1 means a small triangle with the big one's
+/// orientation, 2 an inverted one; 0 and 3 (all fractions just below one) mean a node.
 template <typename T>
 MeshColorSample<T> mesh_color_lookup(const std::array<T, 3>& barycentrics, std::uint32_t resolution) {
   const std::array<T, 3> b = sanitize_barycentrics(barycentrics);
@@ -82,7 +82,8 @@ MeshColorSample<T> mesh_color_lookup(const std::array<T, 3>& barycentrics, std::
   return {{low, low, low}, {T(1), T(0), T(0)}};
 }
 
-/// Index of a triangle's node among all nodes, by the formulas of GateSurfaceLevel. The level has storage.
+/// Index of a triangle's node among all nodes, by the formulas of GateSurfaceLevel. The level must have
+/// storage.
 inline std::uint32_t node_index(const GateLayout& layout, std::uint32_t surface, std::uint32_t level,
                                 std::uint32_t triangle, const NodeBarycentrics& node) {
   const GateSurface& s = layout.surfaces[surface];
@@ -111,8 +112,8 @@ struct GateSample {
   std::array<T, 3> weights;
 };
 
-/// The nodes and weights of one level at a point of a triangle, given by the weights of its three corners.
-/// Nothing where the layout has no storage: an unstored surface, or one or a triangle that is not there.
+/// The nodes and weights of one level at a point given by barycentrics. Returns nullopt for a surface without
+/// storage and for a surface or triangle out of range.
 template <typename T>
 std::optional<GateSample<T>> gate_lookup(const GateLayout& layout, std::uint32_t surface, std::uint32_t level,
                                          std::uint32_t triangle, const std::array<T, 3>& barycentrics) {

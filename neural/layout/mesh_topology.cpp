@@ -13,7 +13,7 @@ namespace gatelight::neural {
 
 namespace {
 
-constexpr std::size_t kSmallMesh = 1 << 20;  // triangles that one thread sums up sooner than it sorts them
+constexpr std::size_t kSmallMesh = 1 << 20;  // triangles; one thread is faster below
 using Range = tbb::blocked_range<std::size_t>;
 
 void add_corners(MeshTopology& topology) {
@@ -22,7 +22,7 @@ void add_corners(MeshTopology& topology) {
         build_vertex_corners(topology.triangles, static_cast<std::uint32_t>(topology.vertices.size()));
 }
 
-/// A triangle's edge at the lower of its two vertices.
+/// A triangle's edge, listed at the lower of its two vertices.
 struct HalfEdge {
   std::uint32_t high = 0;
   std::uint32_t slot = 0;  ///< 3 * triangle + opposite corner
@@ -40,7 +40,7 @@ void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<
     const std::uint32_t previous = (corner + 2 - first_slot) % 3;
     const TriangleCorners& triangle = topology.triangles[corner / 3];
     if (triangle[next] >= vertex) edges.push_back({triangle[next], first_slot + previous});
-    // An edge from a vertex to itself is found as the next one alone.
+    // An edge from a vertex to itself is listed once, by the condition above.
     if (triangle[previous] > vertex) edges.push_back({triangle[previous], first_slot + next});
   }
   if (edges.size() > kLongList)
@@ -60,7 +60,7 @@ MeshTopology number_vertices(const SurfaceMesh& mesh) {
       for (const std::uint32_t v : mesh.triangles[t])
         std::atomic_ref(numbers[v]).store(1, std::memory_order_relaxed);
   });
-  inclusive_prefix_sum(numbers);  // the vertex's number plus one
+  inclusive_prefix_sum(numbers);  // for a used position: the vertex's number plus one
   topology.vertices.resize(numbers.empty() ? 0 : numbers.back());
   tbb::parallel_for(Range(0, numbers.size(), kGrain), [&](const Range& range) {
     for (std::size_t p = range.begin(); p != range.end(); ++p)
@@ -79,7 +79,7 @@ void add_edges(MeshTopology& topology) {
   if (topology.triangle_edges.size() == topology.triangles.size()) return;
   add_corners(topology);
   const std::size_t vertex_count = topology.vertices.size();
-  std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // one more than the number of edges before and at v
+  std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // after the sum: the number of edges before vertex v
   const Range vertices(0, vertex_count, kGrain);
   tbb::parallel_for(vertices, [&](const Range& range) {
     std::vector<HalfEdge> edges;
@@ -111,7 +111,7 @@ void add_normals(MeshTopology& topology, const SurfaceMesh& mesh) {
   if (topology.normals.size() == topology.vertices.size()) return;
   topology.normals.resize(topology.vertices.size());
   if (!topology.corners && topology.triangles.size() < kSmallMesh) {
-    // The same sums in the same order as below.
+    // This computes the same sums in the same order as below.
     for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
       const Double3 area = area_vector(mesh, mesh.triangles[t]);
       for (const std::uint32_t v : topology.triangles[t]) topology.normals[v] = topology.normals[v] + area;

@@ -37,7 +37,7 @@ bool has_edges(const PlanScene& scene, const InstancePlan& plan) {
   return std::ranges::any_of(levels(scene, plan), [](const LevelPlan& l) { return l.resolution > 1; });
 }
 
-/// Of all sides, without edges that are not known yet.
+/// Nodes of all sides. Edges that are not built yet count as none.
 std::uint64_t count_nodes(const PlanScene& scene, std::size_t stored, const LevelPlan& level) {
   const std::uint32_t mesh = mesh_of(scene, stored);
   const std::uint64_t triangles = scene.surfaces.meshes[mesh].triangles.size();
@@ -50,7 +50,7 @@ std::uint64_t count_nodes(const PlanScene& scene, std::size_t stored, const Leve
   return nodes * side_count(instance_of(scene, stored).sides);
 }
 
-/// Levels of a stored instance that may be clustered, all with the same clusters.
+/// Levels of a stored instance that may be clustered and have the same clusters.
 struct Clusterable {
   std::size_t stored = 0;
   std::uint32_t levels = 0;  ///< mask
@@ -68,7 +68,7 @@ void set_clusters(const Clusterable& levels, std::uint64_t clusters, LayoutPlan&
   }
 }
 
-/// Applies `add` to the mesh of each listed instance, once a mesh.
+/// Applies `add` once to each mesh of the listed instances.
 template <class Add>
 void add_to_meshes(PlanScene& scene, std::span<const std::size_t> stored, const Add& add) {
   std::vector<std::uint32_t> numbers;
@@ -79,7 +79,7 @@ void add_to_meshes(PlanScene& scene, std::span<const std::size_t> stored, const 
                     [&](std::size_t i) { add(scene.meshes[numbers[i]], scene.surfaces.meshes[numbers[i]]); });
 }
 
-/// All of one instance.
+/// All groups of levels of one instance.
 struct ClusterableInstance {
   std::size_t stored = 0;
   std::span<const Clusterable> groups;
@@ -95,7 +95,7 @@ std::vector<ClusterableInstance> by_instance(std::span<const Clusterable> cluste
   return result;
 }
 
-/// Each instance by itself. False when there are more than `limit` nodes with those counted so far.
+/// Clusters each instance separately. Returns false if the plan has more than `limit` nodes.
 bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clusterable, std::uint64_t limit,
                        LayoutPlan& plan) {
   const std::uint64_t counted = plan.node_count;
@@ -107,11 +107,11 @@ bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clus
     const std::uint64_t sides = side_count(instance_of(scene, stored).sides);
     const std::uint64_t vertices = scene.meshes[mesh_of(scene, stored)].vertices.size();
     ClusterInstance instance = cluster_instance(scene, stored);
-    std::vector<std::uint32_t> members;  // of the finest clusters: coarser ones are made of these
+    std::vector<std::uint32_t> members;  // of the finest clusters, from which coarser ones are made
     for (const Clusterable& levels : groups) {
       if (over) return;
       const std::uint64_t per_cluster = sides * static_cast<std::uint64_t>(std::popcount(levels.levels));
-      // As many clusters as vertices bring nothing.
+      // As many clusters as vertices are of no use.
       const std::uint64_t most = std::min(vertices - 1, (limit - counted) / per_cluster);
       const ClusterGrid grid = cluster_grid(scene, plan.density, levels.first());
       const bool finest = grid.divisor == 1;
@@ -163,8 +163,8 @@ bool cluster(PlanScene& scene, std::span<const Clusterable> clusterable, std::ui
                                       : cluster_instances(scene, clusterable, limit, plan);
 }
 
-/// Whether two levels' clusters would be the same, in an instance where both have R = 1: their cells are, and
-/// where instances are merged the vertices are too.
+/// Whether two levels with R = 1 have the same clusters: the cells are equal and, if instances are merged,
+/// the same instances have R = 1.
 bool clusters_alike(const PlanScene& scene, const LayoutPlan& plan, std::size_t a, std::size_t b) {
   const std::vector<std::uint32_t>& stack = scene.options.stack;
   if (adaptive_divisor(stack[a]) != adaptive_divisor(stack[b])) return false;
@@ -173,8 +173,7 @@ bool clusters_alike(const PlanScene& scene, const LayoutPlan& plan, std::size_t 
   });
 }
 
-/// For each stored instance its levels with R = 1, those that are clustered alike together, small cells
-/// first.
+/// The levels with R = 1 of each stored instance, grouped by equal clusters, small cells first.
 std::vector<Clusterable> find_clusterable(const PlanScene& scene, const LayoutPlan& plan) {
   const std::size_t stack = scene.options.stack.size();
   std::array<std::uint32_t, kMaxStack> alike = {};
@@ -200,7 +199,7 @@ std::vector<Clusterable> find_clusterable(const PlanScene& scene, const LayoutPl
   return result;
 }
 
-/// A plan that counts the nodes of all levels but the clusterable ones.
+/// A plan whose node count excludes the clusterable levels.
 struct UnclusteredPlan {
   LayoutPlan plan;
   std::vector<Clusterable> clusterable;
@@ -234,7 +233,7 @@ std::optional<UnclusteredPlan> plan_unclustered(PlanScene& scene, const Density&
         if (!may_cluster || level.resolution != 1) plan.node_count += count_nodes(scene, s, level);
     return plan.node_count <= limit;
   };
-  if (!fits()) return std::nullopt;  // before the edges are looked for
+  if (!fits()) return std::nullopt;  // before the edges are built
   if (shared) {
     add_to_meshes(scene, edged, [](MeshTopology& topology, const SurfaceMesh&) { add_edges(topology); });
     if (!fits()) return std::nullopt;

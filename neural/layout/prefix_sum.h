@@ -5,7 +5,7 @@
 
 namespace gatelight::neural {
 
-/// Each value becomes the sum of itself and all before it. In parallel.
+/// Replaces each value by the sum of itself and all values before it, in parallel.
 void inclusive_prefix_sum(std::vector<std::uint32_t>& values);
 
 }  // namespace gatelight::neural

@@ -7,8 +7,8 @@ namespace gatelight::neural {
 
 namespace {
 
-/// An instance of triangles large and small has no more than eight nodes in a square of the spacing: small
-/// triangles would have as many as the large ones need.
+/// Limits an instance with large and small triangles to eight nodes in a square of the spacing: small
+/// triangles get the R that the large ones need.
 constexpr double kGreatestWaste = 16.0;
 
 }  // namespace

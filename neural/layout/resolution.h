@@ -1,5 +1,5 @@
 #pragma once
-// From the areas of triangles to the resolution of an instance.
+// Computes the resolution of an instance from the areas of its triangles.
 
 #include <cstdint>
 #include <span>
@@ -10,16 +10,16 @@
 
 namespace gatelight::neural {
 
-/// What the rule makes of each instance's areas before it is divided by the spacing (`uniform`: a length in
-/// world units) or multiplied with the scale (`paper`: a number). 0 without area, and with `fixed`. Instances
-/// without storage do not count: they are not among `areas`.
+/// The size of each instance by the rule: a length in world units that is divided by the spacing (`uniform`),
+/// or a number that is multiplied by the scale (`paper`). 0 without area and with `fixed`. `areas` has only
+/// instances with storage.
 std::vector<double> resolution_sizes(ResolutionRule rule, std::span<const SurfaceAreas> areas);
 
-/// The R of an adaptive level: rounded to nearest, 1 to max_resolution.
+/// The rule's R of an instance, rounded to nearest, 1 to max_resolution.
 std::uint32_t adaptive_resolution(const GateOptions& options, double size, double node_spacing,
                                   float resolution_scale);
 
-/// R of a level of the stack where the rule's is `adaptive`.
+/// The R of a level of the stack; `adaptive` is the rule's R.
 std::uint32_t level_resolution(std::uint32_t level, std::uint32_t adaptive);
 
 }  // namespace gatelight::neural

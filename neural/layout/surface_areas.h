@@ -6,14 +6,14 @@
 
 namespace gatelight::neural {
 
-/// Over the triangles of an instance that have an area, in world space.
+/// World-space areas of an instance's triangles; triangles without area do not count.
 struct SurfaceAreas {
   std::uint64_t count = 0;
   double sum = 0.0;
   double sum_of_squares = 0.0;
 
   double mean() const { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
-  /// The area of the triangle that a uniformly chosen point lies on, on average.
+  /// The expected area of the triangle that contains a uniformly chosen point.
   double weighted_mean() const { return sum_of_squares > 0.0 ? sum_of_squares / sum : 0.0; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// All that the cache knows of geometry.
+// The geometry that the cache knows.
 
 #include <array>
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace gatelight::neural {
 
-/// A triangle mesh whose vertices are welded: one index for one position, whatever its normals and texture
-/// coordinates (weld_vertices makes such indices). Two triangles share nodes where they share indices.
+/// A triangle mesh with welded vertices: equal positions have one index, whatever their normals and texture
+/// coordinates (see weld_vertices). Triangles that share indices share nodes.
 struct SurfaceMesh {
   std::span<const Float3> positions;                        ///< object space
   std::span<const std::array<std::uint32_t, 3>> triangles;  ///< indices into positions
 };
 
-/// Which sides of an instance get storage of their own. The side that has none answers with the other one's;
-/// an instance with neither has no storage: its points encode to zero and its records are not learned.
+/// The sides of an instance that have their own storage. A side without storage uses the other side's. With
+/// `none` the instance has no storage: its points encode to zero and its records are not learned.
 enum class Sides : std::uint8_t { none = 0, front = 1, back = 2, both = 3 };
 
 struct SurfaceInstance {
   std::uint32_t mesh = 0;
   std::array<float, 12> object_to_world = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};  ///< 3x4, column-major
   Sides sides = Sides::front;
-  /// Multiplies the node spacing (rule `uniform`) and the clusters' cells: 2 for a surface that may be half
-  /// as fine. Positive and finite.
+  /// Multiplies the node spacing (rule `uniform`) and the clusters' cells; 2 makes the surface half as fine.
+  /// Positive and finite.
   float spacing_scale = 1.0f;
 };
 
@@ -35,12 +35,13 @@ struct SurfaceLayout {
   std::vector<SurfaceInstance> instances;
 };
 
-/// Side 0 is the one that the geometric normal (right-hand rule over the corners, in world space) points to.
+/// The geometric normal (right-hand rule over the corners, world space) points to side 0.
 constexpr std::uint32_t surface_index(std::uint32_t instance, std::uint32_t side) {
   return 2 * instance + side;
 }
 
-/// For each position the index of the first position with the same three floats (-0 equals 0).
+/// Returns, for each position, the index of the first position with the same three floats (-0 equals 0).
+/// Throws BadConfiguration for 2^31 positions or more.
 std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions);
 
 }  // namespace gatelight::neural

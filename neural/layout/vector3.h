@@ -46,7 +46,7 @@ inline Double3 transform_point(const Transform& m, const Double3& p) {
   return transform_vector(m, p) + m.columns[3];
 }
 
-/// What area vectors are transformed by: (M a) x (M b) = cofactors(M) (a x b), for any M.
+/// The matrix that transforms area vectors: (M a) x (M b) = cofactors(M) (a x b), for any M.
 inline Transform cofactors(const Transform& m) {
   return {{cross(m.columns[1], m.columns[2]), cross(m.columns[2], m.columns[0]),
            cross(m.columns[0], m.columns[1]), Double3{0, 0, 0}}};
@@ -56,7 +56,7 @@ inline Double3 to_double(const Float3& p) {
   return {p[0], p[1], p[2]};
 }
 
-/// Twice the triangle's area along its normal (right-hand rule over the corners), object space.
+/// A vector of twice the triangle's area along its normal (right-hand rule over the corners), object space.
 inline Double3 area_vector(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Double3 origin = to_double(mesh.positions[triangle[0]]);
   return cross(to_double(mesh.positions[triangle[1]]) - origin,

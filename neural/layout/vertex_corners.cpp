@@ -19,7 +19,7 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
   result.corners.resize(3 * triangles.size());
   std::vector<std::uint32_t>& offsets = result.offsets;
   using Range = tbb::blocked_range<std::size_t>;
-  // The sums are the lists' ends; the scatter counts each down to its beginning.
+  // The sums are the ends of the lists; the scatter counts each down to its beginning.
   tbb::parallel_for(Range(0, triangles.size(), kGrain), [&](const Range& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
       for (const std::uint32_t v : triangles[t])
@@ -34,7 +34,7 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
         result.corners[slot] = static_cast<std::uint32_t>(3 * t + c);
       }
   });
-  // The scatter's order depends on the threads, the sorted one does not.
+  // The order of the scatter depends on the threads, so the lists are sorted.
   tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       const auto first = result.corners.begin() + offsets[v];

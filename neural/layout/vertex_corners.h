@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles meet at each vertex.
+// The triangles that meet at each vertex.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@ inline constexpr std::size_t kLongList = 65536;
 
 using TriangleCorners = std::array<std::uint32_t, 3>;
 
-/// The corners 3 * triangle + corner at vertex v are corners[offsets[v]] .. corners[offsets[v + 1]-1], in
-/// ascending order.
+/// Vertex v has the corners corners[offsets[v]] .. corners[offsets[v + 1] - 1], ascending; each is 3 *
+/// triangle + corner.
 struct VertexCorners {
   std::vector<std::uint32_t> offsets;
   std::vector<std::uint32_t> corners;

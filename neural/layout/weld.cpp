@@ -39,8 +39,8 @@ std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
   constexpr std::size_t kMost = std::size_t{1} << 31;
   if (positions.size() >= kMost)
     throw BadConfiguration(fmt::format("positions: {}, expected fewer than 2^31", positions.size()));
-  // A slot: the hash's upper half, and the least index of the position plus one. A position keeps its slot
-  // whoever comes first, and the least index wins: the order of the threads does not matter.
+  // A slot holds the upper half of the hash and the smallest index of the position plus one. A position keeps
+  // its slot and the smallest index wins, so the order of the threads does not matter.
   std::vector<std::atomic<std::uint64_t>> slots(std::bit_ceil(positions.size() + positions.size() / 2 + 1));
   const std::uint64_t mask = slots.size() - 1;
   std::vector<std::uint32_t> first(positions.size());
