@@ -1,5 +1,5 @@
 #pragma once
-// A model, its options and the backend that learns: what an application holds.
+// The interface for applications: a model, its options and its backend.
 
 #include <filesystem>
 #include <memory>
@@ -21,12 +21,12 @@ class Trainer {
     backend_->query(batch, options, out);
   }
 
-  /// A .safetensors file of the whole state, configuration and `fingerprint` of what it was trained on (any
-  /// text, for example a hash of the scene). Written under a temporary name and renamed. Throws
-  /// CacheFileError.
+  /// Writes the whole state and configuration to a .safetensors file, under a temporary name that is then
+  /// renamed. `fingerprint` identifies what was learned; it is any text, for example a hash of the scene.
+  /// Throws CacheFileError.
   void save(const std::filesystem::path& path, const std::string& fingerprint) const;
-  /// Throws CacheFileError, naming the difference, when the file is broken or of another configuration,
-  /// layout, version or fingerprint; the trainer is then unchanged.
+  /// Throws CacheFileError, which names the difference, for a damaged file or another configuration, layout,
+  /// version or fingerprint. The trainer is unchanged then.
   void load(const std::filesystem::path& path, const std::string& fingerprint);
 
   const Model& model() const { return *model_; }

@@ -45,7 +45,7 @@ void expect_digest(SafetensorsReader& file) {
   const auto found = file.metadata().find(kDigestKey);
   if (found == file.metadata().end()) file.fail("metadata 'digest' is missing");
   ContentDigest digest;
-  for (const std::string& name : file.names()) {  // in the order of names
+  for (const std::string& name : file.names()) {  // sorted by name
     digest.add_tensor(name);
     file.read_in_pieces(name, [&](std::span<const std::byte> piece) { digest.add_bytes(piece); });
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a file is as it was written: a digest over all that it holds, in its metadata.
+// A digest of a file's content, stored in its metadata, which detects damage.
 
 #include <string>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace gatelight::neural {
 
-/// Of the metadata.
+/// The digest's key in the metadata.
 inline constexpr const char* kDigestKey = "digest";
 
-/// 32 hexadecimal digits over the names and bytes of all tensors and over the metadata, but for the digest
-/// itself. Against damage, not against forgery.
+/// A digest of all tensors' names and bytes and of the metadata except the digest, 32 hexadecimal digits. It
+/// detects damage, not forgery.
 std::string content_digest(std::vector<TensorView> tensors, const Metadata& metadata);
 
-/// Throws CacheFileError unless the file holds the digest of its content.
+/// Throws CacheFileError unless the stored digest matches the file's content.
 void expect_digest(SafetensorsReader& file);
 
 }  // namespace gatelight::neural

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-// In the one source that uses it, so that nothing is to be linked.
+// Compiles xxHash into this source, the only one that uses it, so that no library is linked.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

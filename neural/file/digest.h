@@ -1,6 +1,5 @@
 #pragma once
-// Short names for much data: 128 bits of XXH3, equal where the bytes are equal. Against mistakes, not against
-// forgery.
+// 128-bit digests of data by XXH3. They detect mistakes, not forgery.
 
 #include <compare>
 #include <cstddef>
@@ -23,7 +22,7 @@ Digest digest_of(std::span<const std::byte> bytes);
 /// 32 hexadecimal digits.
 std::string hexadecimal(const Digest& digest);
 
-/// Values one after the other. Arrays enter with their length, so that no two sequences run into each other.
+/// Collects values for a digest. Texts are added with their length, so that different sequences differ.
 class DigestRecord {
  public:
   template <class T>

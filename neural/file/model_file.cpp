@@ -27,7 +27,7 @@ using nlohmann::ordered_json;
 constexpr const char* kFormat = "gatelight-cache";
 constexpr int kVersion = 2;
 
-/// One tensor's part of the flat parameters.
+/// The part of the flat parameters that one tensor holds.
 struct Part {
   std::string name;
   std::uint64_t offset = 0;
@@ -52,7 +52,8 @@ std::vector<Part> parts(const ParameterLayout& layout) {
   return parts;
 }
 
-/// The arrays over all parameters, and what may stand in them: a file that was damaged must not teach NaN.
+/// The arrays over all parameters. Their kind determines the valid values, so that a damaged file cannot
+/// introduce NaN.
 enum class ArrayKind : std::uint8_t { parameters, averages, first_moments, second_moments };
 
 struct Array {
@@ -70,12 +71,12 @@ std::string tensor_name(const Array& array, const Part& part) {
   return fmt::format("{}{}", array.prefix, part.name);
 }
 
-/// As check_state_numbers(), which refuses what no training makes.
+/// The same conditions as in check_state_numbers().
 bool is_sound(ArrayKind kind, float value) {
   return std::isfinite(value) && (kind != ArrayKind::second_moments || value >= 0.0f);
 }
 
-/// Averages that are not kept equal the parameters.
+/// Averages are left out if they are not kept: they equal the parameters then.
 bool is_stored(const Array& array, const Part& part, const TrainingOptions& options) {
   if (array.kind != ArrayKind::averages) return true;
   return part.features ? options.average.features : options.average.network;
@@ -102,7 +103,7 @@ std::vector<std::uint16_t> to_halves(std::span<const float> values) {
   return halves;
 }
 
-/// An object in one of the metadata's texts.
+/// Parses a metadata text as a JSON object.
 ordered_json description(const SafetensorsReader& file, const std::string& key) {
   const auto found = file.metadata().find(key);
   if (found == file.metadata().end()) file.fail(fmt::format("metadata '{}' is missing", key));
@@ -219,7 +220,7 @@ ModelContent make_model_content(const Model& model, const TrainingOptions& optio
 
 ModelState read_model_content(SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
   expect_model(file, model, options);
-  // Of the right size everywhere, and averages that are not kept are set below.
+  // This gives all arrays the right size; averages that are not stored are set below.
   ModelState state = initial_state(model, options);
   for (const Array& array : kArrays) {
     for (const Part& part : parts(model.parameters)) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which records are learned from: one definition for all backends.
+// The definition of the records that are learned from, for all backends.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class RecordStatus : std::uint8_t {
   unstored,  ///< the surface has no storage, or surface or triangle is out of the layout's range
 };
 
-/// No input of the point that the model reads is NaN or infinite.
+/// Whether all inputs of the point that the model reads are finite.
 bool is_finite(const Model& model, const QueryBatch& points, std::size_t point);
 
 RecordStatus record_status(const Model& model, const TrainingBatch& batch, std::size_t record);

@@ -1,5 +1,5 @@
 #pragma once
-// Where the network's answers start.
+// The initial output of the network.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace gatelight::neural {
 
-/// For each output the mean target of the records that are learned from, clamped to max_target; none counts
-/// for more than a hundred times the median magnitude of those that are not 0: Adam would take as many steps
-/// to forget one bright record as the mean is too great. Empty without such records.
+/// For each output, the mean target of the accepted records. Targets are clamped to max_target and to a
+/// hundred times the median magnitude of the non-zero targets: one bright record would raise the mean, and
+/// Adam would need many steps to undo it. Empty if no record is accepted.
 std::vector<double> start_mean(const Model& model, const TrainingBatch& batch, double max_target);
 
 }  // namespace gatelight::neural

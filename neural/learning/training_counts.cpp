@@ -19,7 +19,7 @@ float training_weight(std::uint32_t count) {
   return 1.0f / static_cast<float>(std::clamp(count, 1u, kGreatestCount));
 }
 
-// In double the sums of equal weights are exact: all counts equal is the uniform choice floor(u * size).
+// Sums of equal weights are exact in double, so equal counts give the uniform choice floor(u * size).
 std::size_t choose_candidate(std::span<const std::uint32_t> candidates, std::span<const std::uint32_t> counts,
                              float u) {
   assert(!candidates.empty());

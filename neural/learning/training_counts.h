@@ -1,5 +1,5 @@
 #pragma once
-// Which triangle to train next (paper, section 3.2.1): candidates are chosen by how seldom they were trained.
+// The choice of the next triangle to train (paper, section 3.2.1): rarely trained candidates are preferred.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,13 +8,13 @@
 namespace gatelight::neural {
 
 /// The weight of a triangle that was trained `count` times: 1 / clamp(count, 1, 512). (The paper's 1/min(512,
-/// t) has no value for an untrained triangle.)
+/// t) is undefined for an untrained triangle.)
 float training_weight(std::uint32_t count);
 
-/// The index into `candidates` that a uniform number u in [0,1) picks, with probability weight / sum of
-/// weights. `candidates` are triangle numbers (GateSurface::first_triangle + triangle) into `counts`, a
-/// snapshot that nobody changes while a batch is made: so the choice depends on no order. A candidate outside
-/// `counts` has weight 1.
+/// Returns the index into `candidates` that the uniform number u in [0,1) selects, with probability weight /
+/// sum of weights. Candidates are triangle numbers (GateSurface::first_triangle + triangle), which index
+/// `counts`. `counts` must not change while a batch is made, so that the choice does not depend on the order.
+/// A candidate outside `counts` has weight 1.
 std::size_t choose_candidate(std::span<const std::uint32_t> candidates, std::span<const std::uint32_t> counts,
                              float u);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The seam between what is learned and the machine that learns it. Members of equal rank: CPU, Vulkan, and
-// the reference in double precision.
+// The interface of the backends that train and query a model: CPU, Vulkan, and the reference in double
+// precision.
 
 #include <cstdint>
 #include <deque>
@@ -13,56 +13,56 @@
 namespace gatelight::neural {
 
 struct StepStatistics {
-  double loss = 0.0;           ///< mean over accepted records and outputs, before the step; 0 for none
+  double loss = 0.0;  ///< mean over accepted records and outputs, before the step; 0 if none is accepted
   std::uint64_t records = 0;   ///< accepted
-  std::uint64_t rejected = 0;  ///< NaN or infinity in an input that the model reads, or in the target
+  std::uint64_t rejected = 0;  ///< NaN or infinity in the target or in an input that the model reads
   std::uint64_t unstored = 0;  ///< finite, but on a surface without storage or out of the layout's range
-  std::uint64_t clipped = 0;   ///< accepted with a target clamped to max_target
-  /// Nodes that an accepted record reads with a weight other than 0. A node whose weights are all 0 (at a
-  /// corner, along an edge) is not touched: no step, no decay of its moments with sparse updates.
+  std::uint64_t clipped = 0;   ///< accepted, with a target clamped to max_target
+  /// Nodes that an accepted record reads with a weight other than 0. With sparse updates a node whose weights
+  /// are all 0 (at a corner, along an edge) takes no step, and its moments do not decay.
   std::uint64_t touched_nodes = 0;
-  std::uint64_t skipped_updates =
-      0;  ///< parameters (weights) or nodes left alone for a gradient that is not finite
-  double seconds_network = 0.0;  ///< encode, forward, loss, backward
-  double seconds_sort = 0.0;     ///< gradients to their nodes
-  double seconds_update = 0.0;   ///< reduction and Adam
-  double seconds = 0.0;          ///< the whole call
+  std::uint64_t skipped_updates = 0;  ///< parameters of the network or nodes whose gradient is not finite
+  double seconds_network = 0.0;       ///< encode, forward, loss, backward
+  double seconds_sort = 0.0;          ///< sort of the gradients by node
+  double seconds_update = 0.0;        ///< reduction and Adam
+  double seconds = 0.0;               ///< the whole call
 };
 
 enum class QueryPrecision : std::uint8_t { fp32, bf16 };
 
-/// What a query does to the network's linear output. A value that is not finite becomes 0 unless raw.
+/// The range that a query clamps the network's linear output to. Values that are not finite become 0, except
+/// with `raw`.
 enum class OutputRange : std::uint8_t { raw, non_negative, unit };
 
 struct QueryOptions {
-  QueryPrecision precision = QueryPrecision::fp32;  ///< bf16: weights and activations rounded, sums in fp32
+  QueryPrecision precision = QueryPrecision::fp32;  ///< bf16 rounds weights and activations and sums in fp32
   OutputRange range = OutputRange::non_negative;
-  bool averaged = true;  ///< the averages, else the raw parameters
+  bool averaged = true;  ///< use the averages; else the raw parameters
 };
 
-/// One thread calls at a time. A batch with spans of the wrong length throws BadConfiguration and changes
-/// nothing. The same bits for any number of threads.
+/// Trains and queries one model. Only one thread may call at a time. Results have the same bits for any
+/// number of threads. A batch with spans of the wrong length throws BadConfiguration and changes nothing.
 class Backend {
  public:
   virtual ~Backend() = default;
-  /// One step over the whole batch, while none is started and unfinished. A batch without an accepted record
-  /// changes nothing.
+  /// Makes one step over the whole batch. All started steps must be finished before. A batch without an
+  /// accepted record changes nothing.
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
-  /// Starts such a step; the batch may be changed at once. What is asked, exported or started afterwards
-  /// comes after it.
+  /// Starts a step. The caller may change the batch as soon as this returns. Later queries, exports and steps
+  /// see its result.
   virtual void start(const TrainingBatch& batch);
-  /// Of the oldest step that was started and not finished yet; waits for it. Throws BadConfiguration where
-  /// there is none.
+  /// Waits for the oldest unfinished step and returns its statistics. Throws BadConfiguration if there is
+  /// none.
   virtual StepStatistics finish();
-  /// Whether start returns while the step is still being made.
+  /// Whether start returns before the step is complete.
   virtual bool runs_alongside() const { return false; }
-  /// out: batch.size x outputs, row-major. Points without storage encode to zero features. A point with an
-  /// input that is not finite (and that the model reads) answers NaN, and so 0 unless raw.
+  /// Writes batch.size x outputs floats, row-major. Points without storage have zero features. A point with a
+  /// non-finite input that the model reads gives NaN with `raw`, else 0.
   virtual void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const = 0;
   virtual ModelState export_state() const = 0;
-  /// Throws BadConfiguration when the sizes are not the model's.
+  /// Throws BadConfiguration if the sizes do not match the model.
   virtual void import_state(const ModelState& state) = 0;
-  /// "cpu avx512", "reference", "vulkan NAME": for records.
+  /// "cpu avx512", "reference" or "vulkan NAME", for reports.
   virtual std::string name() const = 0;
   virtual std::uint64_t parameter_bytes() const = 0;
   virtual std::uint64_t optimizer_bytes() const = 0;  ///< moments, masters, averages, counters

@@ -65,7 +65,7 @@ void check_options(const Model& model, const TrainingOptions& options) {
           "0 or more");
   require(adam.beta1 >= 0 && adam.beta1 < 1, "beta1", adam.beta1, "0 to less than 1");
   require(adam.beta2 >= 0 && adam.beta2 < 1, "beta2", adam.beta2, "0 to less than 1");
-  // Below, the factor of a step could be 0 in single precision, and 0 / 0 a step.
+  // With a smaller epsilon the factor of a step could be 0 in single precision, and a step 0 / 0.
   require(std::isfinite(adam.epsilon) && adam.epsilon >= 1e-30f, "epsilon", adam.epsilon, "1e-30 or more");
   require(std::isfinite(adam.l2_network) && adam.l2_network >= 0, "l2 of the network", adam.l2_network,
           "0 or more");

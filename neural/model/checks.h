@@ -1,28 +1,28 @@
 #pragma once
-// What every backend checks at its door, so that all refuse the same things in the same words.
+// Checks of the arguments of all backends, so that all throw the same errors.
 
 #include "neural/model/backend.h"
 #include "neural/model/state.h"
 
 namespace gatelight::neural {
 
-/// Throws BadConfiguration when a span that the model reads has not one entry a point, or another one has
-/// neither that nor none.
+/// Throws BadConfiguration unless each span has one entry per point; spans that the model does not read may
+/// be empty.
 void check_batch(const Model& model, const QueryBatch& batch);
-/// And when there are not size x outputs targets.
+/// Also checks that there are size x outputs targets.
 void check_batch(const Model& model, const TrainingBatch& batch);
-/// And when `out` has not size x outputs floats.
+/// Also checks that `out` has size x outputs floats.
 void check_batch(const Model& model, const QueryBatch& batch, std::span<const float> out);
 
-/// Throws BadConfiguration for options out of range, or a counter per triangle without triangles.
+/// Throws BadConfiguration for options out of range, and for counts per triangle without the encoding `gate`.
 void check_options(const Model& model, const TrainingOptions& options);
 
-/// Throws BadConfiguration when an array has not the size that the model and options ask for, or the steps
-/// are so many that counting them would end.
+/// Throws BadConfiguration unless all arrays have the sizes that the model and options require and there are
+/// fewer than 2^63 steps.
 void check_state(const Model& model, const TrainingOptions& options, const ModelState& state);
 
-/// Throws BadConfiguration for numbers that no training makes: NaN, infinities, negative second moments.
-/// Kernels read node 0 in place of nodes that are not there, with weight 0.
+/// Throws BadConfiguration for NaN, infinities and negative second moments, which training never makes.
+/// Kernels read node 0 with weight 0 in place of missing nodes, so it must be finite.
 void check_state_numbers(const ModelState& state);
 
 }  // namespace gatelight::neural

@@ -1,6 +1,5 @@
 #pragma once
-// What is learned: the configuration of encoding and network, and the one place that says where each
-// parameter lies.
+// The model: the configuration of encoding and network, and the offset of each parameter.
 
 #include <cstdint>
 #include <memory>
@@ -16,12 +15,12 @@ enum class FeatureEncoding : std::uint8_t { none, gate, hash_grid };
 enum class InputSource : std::uint8_t { position, direction, normal, albedo, roughness };
 
 /// How a source becomes network inputs. `size` is the number of bins or of frequencies for each coordinate.
-///   identity   the coordinates as they are (position: 3 in [0,1]; direction and normal: 3; albedo: 3;
-///   roughness: 1) one_blob   `size` bins a coordinate, quartic kernel. Directions and normals in spherical
-///   coordinates (theta/pi, then
-///              phi/2pi, which wraps; theta does not); position and albedo: 3 coordinates in [0,1];
-///              roughness: 1
-///   frequency  sin and cos of 2^i pi x, i = 0 .. size-1: for each coordinate sin and cos in turn
+/// - identity: the coordinates themselves. A position has 3 in [0,1], direction, normal and albedo have 3,
+///   roughness has 1.
+/// - one_blob: `size` bins per coordinate, with a quartic kernel. Directions and normals use the spherical
+///   coordinates theta/pi and phi/2pi; only the second wraps. Positions and albedo have 3 coordinates in
+///   [0,1], roughness has 1.
+/// - frequency: sin and cos of 2^i pi x for i = 0 .. size-1, alternating, for each coordinate.
 enum class InputEncoding : std::uint8_t { identity, one_blob, frequency };
 
 struct AuxiliaryInput {
@@ -30,26 +29,26 @@ struct AuxiliaryInput {
   std::uint32_t size = 4;  ///< one_blob: 2 to 64 bins, a power of two; frequency: 1 to 16; identity: unused
 };
 
-/// Coordinates that the source has under this encoding, and the network inputs they become.
+/// Number of coordinates of the source with this encoding, and number of network inputs that they become.
 std::uint32_t coordinate_count(const AuxiliaryInput& input);
 std::uint32_t input_count(const AuxiliaryInput& input);
 
-/// What a scene's light depends on, beside the point on the surface.
+/// The inputs that a scene's radiance needs besides the point on the surface.
 struct RequiredInputs {
-  bool direction = true;  ///< something in the scene is view-dependent
-  bool normal = false;    ///< the paper: with the hash grid only
-  bool albedo = false;    ///< the paper: with the hash grid only
+  bool direction = true;  ///< some material of the scene is view-dependent
+  bool normal = false;    ///< the paper uses it with the hash grid only
+  bool albedo = false;    ///< the paper uses it with the hash grid only
   bool roughness = false;
 };
-/// Directions and normals one-blob with `bins` bins an axis, albedo and roughness as they are; only what is
-/// required.
+/// The auxiliary inputs for `required`: directions and normals as one-blob with `bins` bins per coordinate,
+/// albedo and roughness as identity.
 std::vector<AuxiliaryInput> composite_inputs(const RequiredInputs& required, std::uint32_t bins = 4);
 
 struct MlpOptions {
   std::uint32_t width = 32;         ///< 16, 32, 64 or 128
   std::uint32_t hidden_layers = 2;  ///< 1 to 5
   std::uint32_t outputs = 3;        ///< 1 to 16
-  float leaky_slope = 0.01f;        ///< of the hidden layers' leaky ReLU; the output is linear
+  float leaky_slope = 0.01f;        ///< slope of the hidden layers' leaky ReLU; the output is linear
   bool biases = true;
 };
 
@@ -61,7 +60,7 @@ struct ModelConfig {
   FeatureEncoding encoding = FeatureEncoding::gate;
   GateOptions gate;
   HashGridOptions hash_grid;
-  std::vector<AuxiliaryInput> auxiliary;  ///< follow the features, in this order; kMaxAuxiliaryInputs at most
+  std::vector<AuxiliaryInput> auxiliary;  ///< inputs after the features; at most kMaxAuxiliaryInputs
   MlpOptions mlp;
 };
 
@@ -73,7 +72,7 @@ struct LayerLayout {
   std::uint32_t inputs = 0;
   std::uint32_t outputs = 0;
   std::uint64_t weights = 0;
-  std::uint64_t biases = 0;  ///< meaningless without biases
+  std::uint64_t biases = 0;  ///< unused without biases
 };
 
 /// The flat parameters: features [node][L], then each layer's weights and biases. CPU, Vulkan, Adam's
@@ -84,26 +83,26 @@ struct ParameterLayout {
   std::uint32_t feature_inputs = 0;  ///< network inputs from features: levels x L
   std::uint32_t inputs = 0;          ///< all network inputs
   std::uint64_t network = 0;         ///< offset of the first weight = node_count x L
-  std::uint64_t count = 0;           ///< of all parameters
+  std::uint64_t count = 0;           ///< number of all parameters
   bool biases = true;
   std::vector<LayerLayout> layers;
 
   std::uint64_t network_count() const { return count - network; }
 };
 
-/// A configuration with its resolved layouts. Immutable; shared by trainer, backends and files.
+/// A configuration with its layouts. It is immutable; trainer, backends and files share it.
 struct Model {
   ModelConfig config;
   GateLayout gate;           ///< empty unless encoding is gate
-  HashGridLayout hash_grid;  ///< without levels unless encoding is hash_grid; maps position inputs too
+  HashGridLayout hash_grid;  ///< without levels unless encoding is hash_grid; also maps position inputs
   ParameterLayout parameters;
-  /// Nodes that a point's encoding reads (3 a GATE level, 8 a hash level), their features' levels in a row.
+  /// Number of nodes that a point's encoding reads: 3 per GATE level, 8 per hash-grid level.
   std::uint32_t nodes_per_point() const;
   std::uint32_t nodes_per_level() const;
   std::uint32_t levels() const;
 };
 
-/// `surfaces` is read only for gate. Throws BadConfiguration.
+/// Makes a model; only `gate` reads `surfaces`. Throws BadConfiguration.
 std::shared_ptr<const Model> make_model(const ModelConfig& config, const SurfaceLayout& surfaces = {});
 
 }  // namespace gatelight::neural

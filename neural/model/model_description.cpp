@@ -18,7 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The shortest decimal number that is this float; JSON has no word for the ones that are not finite.
+/// The shortest decimal number that rounds to this float; a text if it is not finite, since JSON has no such
+/// numbers.
 ordered_json number(float value) {
   const std::string text = fmt::format("{}", value);
   return std::isfinite(value) ? ordered_json::parse(text) : ordered_json(text);

@@ -1,5 +1,5 @@
 #pragma once
-// What a cache file says of the model that it belongs to.
+// The description of a model in the metadata of a cache file.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,23 +10,24 @@
 
 namespace gatelight::neural {
 
-/// "adaptive", "adaptive/4" or "1": a level of GateOptions::stack.
+/// The name of a level of GateOptions::stack: "adaptive", "adaptive/4" or "1".
 std::string level_text(std::uint32_t level);
 
-/// Everything but the layout that decides what parameters mean: encoding, inputs, network.
+/// Encoding, inputs and network: together with the layout they define the meaning of the parameters.
 nlohmann::ordered_json describe_network(const Model& model);
-/// The options and the size of the layout; its tables are in layout_digest.
+/// The options and the size of the layout. layout_digest covers its tables.
 nlohmann::ordered_json describe_layout(const Model& model);
-/// The options that decide which arrays the state holds.
+/// The options that determine the arrays of the state.
 nlohmann::ordered_json describe_arrays(const TrainingOptions& options);
-/// The other options, for the record.
+/// The other options, for information only.
 nlohmann::ordered_json describe_training(const TrainingOptions& options);
 
-/// 16 hexadecimal digits over every table of the layout: equal where equal points read equal nodes.
+/// A digest of all tables of the layout, 16 hexadecimal digits. Layouts with equal digests map points to the
+/// same nodes.
 std::string layout_digest(const Model& model);
 
-/// "hidden width: file 64, model 32; outputs: file 1, model 3": the entries of two objects that are not
-/// equal. Empty where all are.
+/// Lists the entries of two objects that differ: "hidden width: file 64, model 32; outputs: file 1, model 3".
+/// Empty if all are equal.
 std::string list_differences(const nlohmann::ordered_json& file, const nlohmann::ordered_json& model);
 
 }  // namespace gatelight::neural

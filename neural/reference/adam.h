@@ -12,7 +12,7 @@ struct Moments {
   double second = 0;  ///< v
 };
 
-/// m and v take the gradient in; returns the parameter after step t >= 1.
+/// Updates the moments with the gradient and returns the parameter after step t >= 1.
 double adam(const AdamOptions& options, std::uint64_t t, double parameter, double gradient, Moments& moments);
 
 }  // namespace gatelight::neural::reference

@@ -30,7 +30,7 @@ std::vector<double> coordinates(const AuxiliaryInput& input, const Point& point)
 }  // namespace
 
 std::array<double, 2> spherical(const std::array<double, 3>& direction) {
-  // -0 is 0: (-0, -0, 1), which negating a direction makes, is the pole like any other.
+  // Adding 0 turns -0 into 0: negating a direction can give (-0, -0, 1), which must be the pole.
   const double theta = std::atan2(std::hypot(direction[0], direction[1]), direction[2] + 0.0);
   const double phi = std::atan2(direction[1] + 0.0, direction[0] + 0.0);
   return {theta / std::numbers::pi, phi / (2.0 * std::numbers::pi)};

@@ -1,5 +1,5 @@
 #pragma once
-// The inputs beside the feature vectors.
+// The network inputs besides the feature vectors.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace gatelight::neural::reference {
 
-/// (theta/pi, phi/2pi) with theta = atan2(|(x,y)|, z), well conditioned at the poles, and phi = atan2(y, x);
-/// the second in [-1/2, 1/2].
+/// Returns (theta/pi, phi/2pi) with theta = atan2(|(x,y)|, z), which is well conditioned at the poles, and
+/// phi = atan2(y, x). The second value is in [-1/2, 1/2].
 std::array<double, 2> spherical(const std::array<double, 3>& direction);
 
 /// Appends input_count(input) values.

@@ -1,6 +1,6 @@
 #pragma once
-// From a point to the network's inputs: the interpolated features of all levels in a row, then the auxiliary
-// inputs in the order of the configuration.
+// Encodes a point as network inputs: the interpolated features of all levels, then the auxiliary inputs in
+// the order of the configuration.
 
 #include <span>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace gatelight::neural::reference {
 
-/// The nodes that the point reads, nodes_per_level() for each level in turn. Empty where nothing is stored.
+/// The nodes that the point reads, nodes_per_level() for each level. Empty without storage.
 std::vector<NodeWeight> encoding_nodes(const Model& model, const Point& point);
 
-/// z = sum w_t z_t for each level (paper, section 3.1), then the auxiliary inputs. `parameters` are the
-/// model's, of which the features are read.
+/// z = sum w_t z_t for each level (paper, section 3.1), then the auxiliary inputs. `parameters` are all
+/// parameters of the model.
 std::vector<double> encode(const Model& model, std::span<const double> parameters, const Point& point);
 
-/// dE/dz_t += w_t dE/dz. `gradients` are laid out like the parameters.
+/// Adds w_t dE/dz to dE/dz_t. `gradients` has the layout of the parameters.
 void encode_backward(const Model& model, const Point& point, std::span<const double> input_gradients,
                      std::span<double> gradients);
 

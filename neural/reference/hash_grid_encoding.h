@@ -10,10 +10,11 @@
 
 namespace gatelight::neural::reference {
 
-/// The entry, within its level, of a lattice point.
+/// The index of a lattice point's entry within its level.
 std::uint32_t hash_grid_entry(const HashGridLevel& level, std::uint32_t x, std::uint32_t y, std::uint32_t z);
 
-/// The eight corners of the position's cell at each level, x fastest. Position in the unit cube.
+/// The eight corners of the position's cell at each level, with x varying fastest. The position is in the
+/// unit cube.
 std::vector<NodeWeight> hash_grid_nodes(const HashGridLayout& layout, const std::array<double, 3>& position);
 
 }  // namespace gatelight::neural::reference

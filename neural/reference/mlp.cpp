@@ -40,7 +40,8 @@ std::vector<double> backward(const Model& model, std::span<const double> paramet
         dx[i] += dy[o] * parameters[weight];
       }
     }
-    // Back through the activation that made x; the sign survives it (with slope 0 as x = 0).
+    // Back through the activation that produced x. It keeps the sign; with slope 0 a negative value becomes x
+    // = 0.
     if (n > 0)
       for (std::size_t i = 0; i < layer.inputs; ++i) dx[i] *= x[i] > 0.0 ? 1.0 : slope;
     dy = std::move(dx);

@@ -1,5 +1,5 @@
 #pragma once
-// A feature vector that a point's encoding reads, and its share in the interpolation.
+// A node that a point's encoding reads, and its weight in the interpolation.
 
 #include <cstdint>
 

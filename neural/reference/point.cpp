@@ -10,7 +10,7 @@ std::array<double, 3> widen(const Float3& v) {
   return {v[0], v[1], v[2]};
 }
 
-// NaN becomes 0, as a comparison with it is false.
+// NaN becomes 0, because comparisons with NaN are false.
 double clamp_unit(double x) {
   return x > 0.0 ? std::min(x, 1.0) : 0.0;
 }

@@ -9,11 +9,11 @@
 
 namespace gatelight::neural::reference {
 
-/// What the model does not read stays at its default.
+/// Inputs that the model does not read keep their defaults.
 struct Point {
   std::uint32_t surface = 0;
   std::uint32_t triangle = 0;
-  std::array<double, 3> barycentrics = {1, 0, 0};  ///< of all three corners
+  std::array<double, 3> barycentrics = {1, 0, 0};  ///< weights of all three corners
   std::array<double, 3> position = {0, 0, 0};      ///< in the unit cube
   std::array<double, 3> direction = {0, 0, 1};
   std::array<double, 3> normal = {0, 0, 1};

@@ -1,5 +1,5 @@
 #pragma once
-// Forward and backward through everything, for one record.
+// Forward and backward pass for one record.
 
 #include <span>
 #include <vector>
@@ -12,8 +12,8 @@ namespace gatelight::neural::reference {
 /// The network's linear outputs.
 std::vector<double> evaluate(const Model& model, std::span<const double> parameters, const Point& point);
 
-/// Adds scale times the derivative of the record's error to `gradients`, laid out like the parameters, and
-/// returns the error: the sum over the outputs.
+/// Adds scale times the derivative of the record's error to `gradients`, which has the layout of the
+/// parameters. Returns the error, summed over the outputs.
 double add_record_gradient(const Model& model, Loss loss, std::span<const double> parameters,
                            const Point& point, std::span<const double> targets, double scale,
                            std::span<double> gradients);

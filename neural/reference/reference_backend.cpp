@@ -36,7 +36,7 @@ void count_up(std::uint32_t& counter) {
   if (counter != std::numeric_limits<std::uint32_t>::max()) ++counter;
 }
 
-/// The records to learn from; the others are counted.
+/// Returns the records to learn from and counts the others.
 std::vector<Record> accept_records(const Model& model, const TrainingBatch& batch, double max_target,
                                    StepStatistics& statistics) {
   std::vector<Record> records;
@@ -102,7 +102,7 @@ class ReferenceBackend final : public Backend {
 
   std::shared_ptr<const Model> model_;
   TrainingOptions options_;
-  std::vector<double> parameters_;  ///< with fp16_masters the masters
+  std::vector<double> parameters_;  ///< the masters with fp16_masters
   std::vector<double> averages_;
   std::vector<Moments> moments_;
   std::vector<std::uint32_t> node_steps_;
@@ -136,7 +136,7 @@ StepStatistics ReferenceBackend::train(const TrainingBatch& batch) {
   return statistics;
 }
 
-/// What forward and queries read: features as fp16 holds them, if so configured.
+/// The parameters that forward and queries read: features are rounded to fp16 if so configured.
 std::vector<double> ReferenceBackend::readable(std::vector<double> parameters) const {
   if (options_.precision != FeaturePrecision::fp32)
     for (std::size_t p = 0; !is_network(p); ++p) parameters[p] = round_to_half(parameters[p]);
@@ -158,7 +158,7 @@ void ReferenceBackend::count_triangles(std::span<const Record> records) {
     if (touched[t]) count_up(triangle_steps_[t]);
 }
 
-/// Adam at the step t, then the average.
+/// Applies Adam with step count t, then updates the average.
 void ReferenceBackend::update(std::size_t parameter, std::uint64_t t, double gradient) {
   const bool network = is_network(parameter);
   const bool half = !network && options_.precision != FeaturePrecision::fp32;
@@ -192,7 +192,8 @@ void ReferenceBackend::update_network(std::span<const double> gradients, StepSta
 
 void ReferenceBackend::update_features(std::span<const Record> records, std::span<const double> gradients,
                                        StepStatistics& statistics) {
-  // The greatest count of the triangles that touch a node; 1 where they are not counted, 0 for untouched.
+  // The largest count of the triangles that touch a node; 1 if triangles are not counted, 0 for untouched
+  // nodes.
   std::vector<std::uint32_t> touched(model_->parameters.node_count, 0);
   for (const Record& record : records) {
     const std::uint32_t count = triangle_steps_.empty() ? 1 : triangle_steps_[triangle_number(record.point)];

@@ -1,6 +1,6 @@
 #pragma once
-// The same mathematics in double precision, one record after the other, written to be read beside the paper.
-// The oracle for every kernel.
+// The backend in double precision. It processes one record after the other, follows the equations of the
+// paper, and is the reference for all kernels.
 
 #include <memory>
 
@@ -8,7 +8,7 @@
 
 namespace gatelight::neural::reference {
 
-/// State is kept in double and exported as float. bf16 queries are answered in double. Not fast, not
+/// Keeps the state in double and exports it as float. Answers bf16 queries in double. It is slow and not
 /// parallel.
 std::unique_ptr<Backend> make_reference_backend(std::shared_ptr<const Model> model,
                                                 const TrainingOptions& options);
