@@ -1,5 +1,5 @@
 #pragma once
-// Adam's factors for each step count, so that kernels look them up.
+// A table of Adam's factors by step count, for the kernels.
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +11,7 @@ namespace gatelight::neural::cpu {
 
 KernelAdamStep adam_step(const TrainingOptions& options, std::uint64_t t);
 
-/// Entries for t = 0 (unused) to kAdamTableSteps; kernels ask adam_step for greater ones.
+/// The table has entries for t = 0 (unused) to kAdamTableSteps; kernels call adam_step for larger t.
 inline constexpr std::uint32_t kAdamTableSteps = 65536;
 std::vector<KernelAdamStep> adam_table(const TrainingOptions& options);
 

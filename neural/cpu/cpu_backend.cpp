@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// What a thread needs for one bucket of nodes.
+// A thread's memory for one bucket of nodes.
 struct BucketScratch {
   HugeBuffer<float> sums;
   HugeBuffer<std::uint64_t> touched;
@@ -103,7 +103,7 @@ class CpuBackend final : public Backend {
   std::vector<std::uint32_t> triangle_steps_;
   std::vector<std::uint64_t> triangle_stamps_;
 
-  // Of a step.
+  // Memory of a step.
   Buckets buckets_;
   NodeReferences references_;
   HugeBuffer<float> feature_gradients_;
@@ -121,7 +121,7 @@ float* CpuBackend::scratch(std::uint64_t floats) const {
   return mine.data();
 }
 
-// So that the network starts with the right brightness.
+// Sets the output biases, so that the network starts with the right brightness.
 void CpuBackend::start_output_at_mean(const TrainingBatch& batch) {
   const std::vector<double> means = start_mean(*model_, batch, options_.max_target);
   if (means.empty()) return;
@@ -186,7 +186,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   if (statistics.records > 0)
     statistics.loss = loss / (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
 
-  // In the order of the chunks.
+  // Gradients are summed in the order of the chunks.
   packed_gradient_.assign(gradient_size, 0.0f);
   for (std::uint32_t chunk = 0; chunk < chunks.count(); ++chunk) {
     const float* g = chunk_gradients_.data() + chunk * gradient_size;
@@ -224,8 +224,8 @@ void CpuBackend::update_network(double scale, StepStatistics& statistics) {
   averaged_packed_ = false;
 }
 
-// Once a step for each triangle that an accepted record lies on. Returns for each record its triangle's
-// count.
+// Increments the count of each triangle with an accepted record, once per step. Returns the count of each
+// record's triangle.
 std::vector<std::uint32_t> CpuBackend::count_triangles(const TrainingBatch& batch) {
   std::vector<std::uint32_t> record_steps(batch.points.size, 0);
   if (triangle_steps_.empty()) return record_steps;
@@ -297,7 +297,7 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
 StepStatistics CpuBackend::train(const TrainingBatch& batch) {
   check_batch(*model_, batch);
   const FlushDenormals flush;
-  // References and places of gradients are numbered with 32 bits.
+  // References and offsets of gradients have 32 bits.
   const std::uint64_t most =
       std::numeric_limits<std::uint32_t>::max() / std::max(4 * layout_.inputs, model_->nodes_per_point());
   if (batch.points.size > most)
@@ -385,7 +385,7 @@ void CpuBackend::import_state(const ModelState& state) {
   const auto take = [&](const std::vector<float>& from) {
     return std::vector<float>(from.begin() + static_cast<std::ptrdiff_t>(layout_.network), from.end());
   };
-  // What needs memory comes first: nothing is changed where there is none.
+  // Allocate first, so that nothing is changed if memory runs out.
   std::vector<float> network = take(state.parameters), average = take(state.averages),
                      m = take(state.first_moments), v = take(state.second_moments);
   std::vector<std::uint32_t> triangle_steps = state.triangle_steps;

@@ -1,5 +1,5 @@
 #pragma once
-// The CPU member of the backends: fused SIMD kernels on oneTBB threads.
+// The CPU backend: fused SIMD kernels on oneTBB threads.
 
 #include <memory>
 #include <optional>
@@ -9,18 +9,19 @@
 
 namespace gatelight::neural::cpu {
 
-/// Uses the task arena of the calling thread. Throws Unavailable for an ISA that is not there.
+/// Makes a backend that uses the task arena of the calling thread. Throws Unavailable if the ISA is not
+/// available.
 std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, const TrainingOptions& options,
                                           std::optional<Isa> isa = std::nullopt);
 
-/// The network's arithmetic alone: forward, loss, backward and weight gradients over rows of encoded inputs,
-/// without lookups and without an update. For measuring what encoding and optimiser add.
+/// Result of network_pass.
 struct NetworkPass {
   double loss = 0.0;
   double seconds = 0.0;
 };
-/// `inputs`: rows of the smallest power of two from 16 on that holds the model's inputs. `backend` is one of
-/// make_cpu_backend's.
+/// Runs the network alone, for benchmarks: forward, loss, backward and weight gradients, without lookups and
+/// update. A row of `inputs` has the model's inputs, padded to a power of two of at least 16. `backend` must
+/// come from make_cpu_backend.
 NetworkPass network_pass(Backend& backend, std::span<const float> inputs, std::span<const float> targets);
 
 }  // namespace gatelight::neural::cpu

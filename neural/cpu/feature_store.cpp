@@ -75,7 +75,7 @@ void FeatureStore::set(std::uint64_t at, float feature, float average) {
   if (average_halves_ != nullptr) average_halves_[at] = float_to_finite_half(average);
 }
 
-// One node stands in where there are none, so that lookups may read node 0.
+// Without nodes one is allocated, because lookups may read node 0.
 std::uint64_t FeatureStore::floats_of(std::uint64_t per_node) const {
   return std::max(nodes_, 1u) * std::max<std::uint64_t>(per_node, 1);
 }

@@ -24,7 +24,7 @@ void* map_huge(std::size_t bytes) {
     if (p == MAP_FAILED) throw std::bad_alloc();
     return p;
   }
-  // Mapped too large, then trimmed to an aligned start.
+  // Map too much, then trim to an aligned start.
   void* p = mmap(nullptr, bytes + kHugePage, protection, flags, -1, 0);
   if (p == MAP_FAILED) throw std::bad_alloc();
   const std::size_t beyond = reinterpret_cast<std::uintptr_t>(p) % kHugePage;
@@ -34,7 +34,7 @@ void* map_huge(std::size_t bytes) {
   std::byte* const aligned = static_cast<std::byte*>(p) + before;
   if (before > 0) munmap(p, before);
   if (after > used) munmap(aligned + used, after - used);
-  madvise(aligned, bytes, MADV_HUGEPAGE);  // advice: a refusal costs time, not results
+  madvise(aligned, bytes, MADV_HUGEPAGE);  // only advice: ignoring errors costs time, not results
   return aligned;
 }
 

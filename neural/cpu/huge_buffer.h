@@ -1,5 +1,5 @@
 #pragma once
-// Large arrays on huge pages, where the system gives them: random reads then miss the TLB less (measured in
+// Large arrays on huge pages, if the system grants them. Random reads then have fewer TLB misses (measured in
 // the README).
 
 #include <cstddef>
@@ -13,11 +13,12 @@ struct Unmap {
   std::size_t bytes = 0;
   void operator()(void* p) const;
 };
-/// Zeroed, aligned to 2 MiB from that size on and to 64 bytes below. Throws std::bad_alloc.
+/// Returns zeroed memory, aligned to 2 MiB if it is at least that large, else to 64 bytes. Throws
+/// std::bad_alloc.
 void* map_huge(std::size_t bytes);
 }  // namespace detail
 
-/// A fixed-size array of a trivial type, zero at first, with 64 bytes of slack behind its end.
+/// A fixed-size array of a trivial type, initially zero, with 64 bytes of padding behind its end.
 template <class T>
 class HugeBuffer {
  public:
@@ -37,7 +38,7 @@ class HugeBuffer {
   std::size_t size_ = 0;
 };
 
-/// Grows to at least `size`, contents lost.
+/// Makes the buffer at least `size` long; growing loses its contents.
 template <class T>
 void reserve(HugeBuffer<T>& buffer, std::size_t size) {
   if (buffer.size() < size) {

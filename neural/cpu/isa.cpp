@@ -16,12 +16,12 @@ namespace {
 constexpr const char* kVariable = "GATELIGHT_ISA";
 constexpr std::array<Isa, 3> kIsas = {Isa::scalar, Isa::avx2, Isa::avx512};
 
-// __builtin_cpu_supports asks the operating system too: registers that it does not save count as missing.
+// __builtin_cpu_supports also checks that the operating system saves the registers.
 bool has_avx2() {
 #if defined(__x86_64__)
   const bool vectors = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #if defined(__clang__)
-  return vectors;  // clang has no word for F16C; every processor with AVX2 has it
+  return vectors;  // clang does not know the name f16c; every processor with AVX2 has it
 #else
   return vectors && __builtin_cpu_supports("f16c");
 #endif

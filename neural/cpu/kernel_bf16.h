@@ -1,6 +1,6 @@
 #pragma once
-// Forward in bf16: products of pairs summed in fp32 (vdpbf16ps). Where the instruction is missing, the same
-// rounding of weights and activations with fp32 arithmetic. Part of kernel_table.cpp.
+// Forward pass in bf16: products of pairs are summed in fp32 (vdpbf16ps). Without this instruction, weights
+// and activations are rounded in the same way and multiplied in fp32. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_network.h"
 
@@ -65,7 +65,7 @@ GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x,
         between);
 }
 
-// The rows of activations are bf16 in the buffers of the fp32 ones.
+// Rows of activations are stored as bf16 in the buffers of the fp32 activations.
 GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
                                    const Between& between) {
   auto* x = reinterpret_cast<uint16_t*>(b.spare);

@@ -1,6 +1,6 @@
 #pragma once
-// The inputs beside the features: one-blob, frequency and identity of positions, directions, normals, albedos
-// and roughness. Part of kernel_table.cpp.
+// The inputs besides the features: one-blob, frequency and identity encodings of positions, directions,
+// normals, albedos and roughness. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"
@@ -9,14 +9,15 @@ namespace {
 
 using namespace gatelight::neural::cpu;
 
-// Up to four coordinates of each of a tile's points.
+// The coordinates of a tile's points: as in the batch, by coordinate, and by point.
 struct TileCoordinates {
   alignas(64) float raw[3 * kTile + 1];
   alignas(64) float lanes[3][kTile];
   alignas(64) float rows[kTile][4];
 };
 
-// atan(a), a in [0,1]: a polynomial in a^2 fitted at Chebyshev nodes; error 1.1e-7 in single precision.
+// atan(a) for a in [0,1]: a polynomial in a^2 fitted at Chebyshev nodes; the error is 1.1e-7 in single
+// precision.
 GATELIGHT_INLINE Float arctangent_unit(Float a) {
   const float coefficients[9] = {0.999999984f,   -0.333330668f, 0.199924836f,   -0.142025705f, 0.106367541f,
                                  -0.0749544544f, 0.0425876075f, -0.0160050305f, 0.0028340643f};
@@ -37,7 +38,7 @@ GATELIGHT_INLINE Float arctangent(Float y, Float x) {
   return select(less(y, zero()), sub(zero(), angle), angle);
 }
 
-// sin(pi x): the argument is reduced exactly, then a polynomial on [-1/2, 1/2]; error 2e-7.
+// sin(pi x): an exact reduction of the argument, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
 GATELIGHT_INLINE Float sine_pi(Float x) {
   const float coefficients[5] = {3.14159264f, -5.16771008f, 2.55007752f, -0.598291286f, 0.0776576603f};
   const Float turns = round(mul(x, broadcast(0.5f)));
@@ -52,7 +53,7 @@ GATELIGHT_INLINE Float sine_pi(Float x) {
   return mul(p, r);
 }
 
-// Unit coordinates of a direction: theta / pi from the z axis and phi / 2 pi in [0, 1).
+// Replaces directions by theta / pi, measured from the z axis, and phi / 2 pi in [0, 1).
 GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
@@ -80,7 +81,7 @@ GATELIGHT_INLINE const float* span_of(const KernelPoints& points, KernelSource s
   return nullptr;
 }
 
-// Primitive of the quartic kernel 15/16 (1 - u^2)^2 on [-1, 1], from 0 to 1.
+// Integral of the quartic kernel 15/16 (1 - u^2)^2 from -1 to u; between 0 and 1.
 GATELIGHT_INLINE Float quartic_primitive(Float u) {
   u = clamp(u, -1.0f, 1.0f);
   const Float z = mul(u, u);
@@ -88,14 +89,14 @@ GATELIGHT_INLINE Float quartic_primitive(Float u) {
   return fma(mul(u, broadcast(15.0f / 16.0f)), p, broadcast(0.5f));
 }
 
-// The part of a kernel of radius 1/size that falls into a bin whose centre is that far from its own.
+// The part of a kernel of radius 1/size inside a bin whose centre has this distance from the kernel's.
 GATELIGHT_INLINE Float bin_share(Float distance, float size) {
   return sub(quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f))),
              quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f))));
 }
 
-// One-blob (Mueller et al. 2019, 2021): the share of a quartic kernel of radius 1/size around the coordinate
-// that falls into each bin. A lane is a bin; the azimuth (the second of spherical coordinates) wraps.
+// One-blob (Mueller et al. 2019, 2021): each bin holds the part of a quartic kernel of radius 1/size around
+// the coordinate. A lane is a bin. The azimuth (the second spherical coordinate) wraps.
 GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
                                      uint32_t stride) {
   const bool wraps = a.transform == KernelTransform::spherical_one_blob;
@@ -116,7 +117,7 @@ GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordin
       Float distance = sub(center, pick4(tile.rows[s], picked));
       distance = sub(distance, mul(wrap, round(distance)));
       Float share = bin_share(distance, size);
-      // Two bins around a circle are so wide that the kernel reaches one of them from both sides.
+      // With two bins on a circle the kernel reaches a bin from both sides.
       if (wraps && a.size == 2)
         share =
             fma(wrap, add(bin_share(add(distance, wrap), size), bin_share(sub(distance, wrap), size)), share);
@@ -138,7 +139,7 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
       for (uint32_t s = 0; s < kTile; s += kLanes) {
         const Float x = mul(load(tile.lanes[c] + s), broadcast(scale));
         store(sines, sine_pi(x));
-        // The quarter turn is added after the reduction to [-1, 1], where it is exact enough.
+        // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
         const Float reduced = fma(round(mul(x, broadcast(0.5f))), broadcast(-2.0f), x);
         store(cosines, sine_pi(add(reduced, broadcast(0.5f))));
         float* column = inputs + s * stride + a.first_input + 2 * (c * a.size + i);
@@ -151,8 +152,8 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
   }
 }
 
-// Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points are as zeros. `last`:
-// no points of the batch need follow, so that nothing behind them may be read.
+// Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points count as zeros. `last`
+// means that memory behind these points must not be read.
 GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
                                       uint32_t count, bool last, const float* valid, float* inputs,
                                       uint32_t stride) {

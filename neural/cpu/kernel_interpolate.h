@@ -1,6 +1,6 @@
 #pragma once
-// z = sum of w_t z_t (paper, eq. 1) for a tile, level by level into the first columns of the inputs. Part of
-// kernel_table.cpp.
+// Computes z = sum of w_t z_t (paper, eq. 1) for a tile and writes the levels to the first columns of the
+// inputs. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_short_vectors.h"
 #include "neural/cpu/kernels.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Points to nodes: mesh colours and hash grid, one point a lane. Part of kernel_table.cpp.
+// Maps points to nodes of mesh colours or the hash grid, one point per lane. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"
@@ -9,9 +9,9 @@ namespace {
 using namespace gatelight::neural;
 using namespace gatelight::neural::cpu;
 
-// A tile's points: kTile of each array, in the batch itself or, where points are missing or not finite,
-// copies with zeros in their places. 1 or 0: `finite` tells which are there and finite, `valid` which of them
-// have storage too.
+// A tile's points. The pointers refer to the batch or, if points are missing or not finite, to copies with
+// zeros in their place. `finite` is 1 for existing finite points, else 0; `valid` is 1 for those that also
+// have storage.
 struct TilePoints {
   const uint32_t* surfaces;
   const uint32_t* triangles;
@@ -25,9 +25,8 @@ struct TilePoints {
   alignas(64) float position_copies[3 * kTile];
 };
 
-// The integer barycentrics of a virtual triangle's three nodes and their weights (Yuksel et al. 2010). With
-// B = R b, i = floor(B), w = B - i, the fractions sum to 0, 1 or 2, known exactly from the integers: R -
-// sum(i).
+// The integer barycentrics and weights of a virtual triangle's three nodes (Yuksel et al. 2010). With B = R
+// b, i = floor(B), w = B - i, the sum of the fractions w is R - sum(i), an exact integer.
 struct VirtualTriangle {
   Int node[3][3];  // [node][corner]
   Float weight[3];
@@ -45,7 +44,7 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
   }
   const Int one = broadcast_int(1);
   Int rest = sub_int(resolution, add_int(i[0], add_int(i[1], i[2])));
-  // Rounding can leave all three fractions just below one: the node is the one above.
+  // Rounding can leave all three fractions just below one. The point is then on the next node.
   const Mask three = equal_int(rest, broadcast_int(3));
   for (int c = 0; c < 3; ++c) i[c] = add_int(i[c], select_int(three, one, broadcast_int(0)));
   rest = select_int(three, broadcast_int(0), rest);
@@ -53,7 +52,8 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
   const Mask inverted = equal_int(rest, broadcast_int(2));
   const Mask inside = either(upright, inverted);
 
-  // Upright: node c is i + e_c with weight w_c. Inverted: i + 1 - e_c with 1 - w_c. Else i itself.
+  // In an upright triangle node c is i + e_c with weight w_c, in an inverted one i + 1 - e_c with 1 - w_c.
+  // Else the point is on node i.
   for (int c = 0; c < 3; ++c) w[c] = select(inverted, sub(broadcast(1.0f), w[c]), w[c]);
   const Float inverse = div(broadcast(1.0f), max(add(w[0], add(w[1], w[2])), broadcast(1e-30f)));
   VirtualTriangle t;
@@ -70,7 +70,7 @@ struct LaneLevel {
   Int resolution, vertex_base, corners;
 };
 
-// Of levels with R > 1 alone.
+// Used for levels with R > 1 only.
 struct LaneBases {
   Int edge, interior;
 };
@@ -85,7 +85,7 @@ GATELIGHT_INLINE LaneBases lane_bases(const GateSurfaceLevel& level) {
   return {broadcast_int(level.edge_base), broadcast_int(level.interior_base)};
 }
 
-// `at`: of the level's first word.
+// `at` is the offset of the level's first word.
 GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int at) {
   return {gather_int(&levels->resolution, at), gather_int(&levels->vertex_base, at),
           gather_int(&levels->corners, at)};
@@ -95,7 +95,7 @@ GATELIGHT_INLINE LaneBases gather_bases(const GateSurfaceLevel* levels, Int at) 
   return {gather_int(&levels->edge_base, at), gather_int(&levels->interior_base, at)};
 }
 
-// Address of the node with integer barycentrics a (gate_tables.h). `edges` are read for nodes on edges only.
+// Index of the node with integer barycentrics a (gate_tables.h). Only nodes on edges use `edges`.
 GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const LaneBases& bases,
                                  const Int (&corners)[3], const Int (&edges)[3], Int triangle) {
   const Int none = broadcast_int(0);
@@ -112,7 +112,7 @@ GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, cons
                      select_int(at_corner[0], corners[0], select_int(at_corner[1], corners[1], corners[2])));
   if (all(vertex)) return node;
 
-  // Along the edge opposite to the corner whose coordinate is zero, from its lower corner: the steps are the
+  // The edge is opposite to the corner whose coordinate is zero. Steps from its lower corner equal the
   // coordinate of its higher corner.
   const Mask swap0 = less_unsigned(corners[1], corners[2]);
   const Mask swap1 = less_unsigned(corners[2], corners[0]);
@@ -140,8 +140,8 @@ GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, In
   return add_int(level.vertex_base, add_int(mul_int(triangle, count), add_int(before, a[1])));
 }
 
-// Writes nodes and weights [slot][kTile]; weight 0 for points without storage, whose `valid` becomes 0.
-// Returns how many valid points had none.
+// Writes nodes and weights [slot][kTile]. Points without storage get weight 0, and their `valid` becomes 0.
+// Returns the number of valid points without storage.
 GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
                                      float* weights) {
   uint32_t unstored = 0;
@@ -172,13 +172,13 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
     Float b[3];
     load_pairs(points.barycentrics + 2 * s, b[1], b[2]);
     b[0] = sub(sub(broadcast(1.0f), b[1]), b[2]);
-    // Points far outside stay finite, so that every node that comes out exists.
+    // Points far outside the triangle stay finite, so that every resulting node exists.
     for (Float& x : b) x = min(max(x, zero()), broadcast(1e30f));
     const Float inverse = div(broadcast(1.0f), add(b[0], add(b[1], b[2])));
     for (Float& x : b) x = mul(x, inverse);
 
     Int corners[3], edges[3];
-    Int corners_read = broadcast_int(0);  // word of the row that `corners` begin with
+    Int corners_read = broadcast_int(0);  // the row's word that `corners` was read from
     Int row = broadcast_int(0);
     bool edges_read = false;
     alignas(64) uint32_t places[kLanes];
@@ -203,7 +203,7 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
         read_row(level.corners, corners);
         corners_read = level.corners;
       }
-      // Where all have R = 1 the nodes are the corners.
+      // If all lanes have R = 1, the nodes are the corners.
       if (e.per_triangle == 0 && all(equal_int(level.resolution, broadcast_int(1)))) {
         for (uint32_t n = 0; n < 3; ++n) {
           const Int node = add_int(level.vertex_base, corners[n]);
@@ -219,7 +219,8 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
       const LaneBases bases = same ? lane_bases(one) : gather_bases(e.surface_levels, at);
       VirtualTriangle t = virtual_triangle(b, level.resolution);
       if (e.per_triangle == 0) {
-        // As where all have R = 1: a point's bits do not depend on its neighbours.
+        // Lanes with R = 1 get the same values as above, so that a point's bits do not depend on its
+        // neighbours.
         const Mask plain = equal_int(level.resolution, broadcast_int(1));
         for (uint32_t n = 0; n < 3; ++n) {
           t.weight[n] = select(plain, b[n], t.weight[n]);
@@ -244,9 +245,9 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
   return unstored;
 }
 
-// number mod entries. Entries are a multiple of 8, so that a quotient of 29-bit numbers suffices: it is the
-// upper half of a product with 2^(32+shift) / (entries / 8), rounded up, which is exact for them (Granlund,
-// Montgomery 1994).
+// number mod entries. Entries are a multiple of 8, so a quotient of 29-bit numbers suffices. It is the upper
+// half of the product with 2^(32+shift) / (entries / 8), rounded up, which is exact (Granlund, Montgomery
+// 1994).
 GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
   if ((level.entries & (level.entries - 1)) == 0) return and_int(number, broadcast_int(level.entries - 1));
   const Int quotient =
@@ -254,7 +255,7 @@ GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
   return sub_int(number, mul_int(quotient, broadcast_int(level.entries)));
 }
 
-// Instant-ngp's grid: points at x scale + 0.5, eight corners with trilinear weights.
+// The grid of instant-ngp: points lie at x scale + 0.5 and have eight corners with trilinear weights.
 GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
                                       float* weights) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
@@ -268,7 +269,7 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
     }
     for (uint32_t l = 0; l < e.levels; ++l) {
       const KernelHashLevel& level = e.hash_levels[l];
-      Int low[3][2];  // the term of each axis for the lower and the upper corner
+      Int low[3][2];  // each axis's term of the index, for the lower and the upper corner
       Float w[3][2];
       for (uint32_t c = 0; c < 3; ++c) {
         const Float scaled = fma(x[c], broadcast(level.scale), broadcast(0.5f));
@@ -300,7 +301,7 @@ GATELIGHT_INLINE void prefetch_rows(const float* p, uint32_t width, uint64_t beg
   for (uint64_t i = begin * width; i < end * width; i += 16) prefetch(p + i);
 }
 
-// What the lookups of points [begin, end) will read first, so that it is near when they come.
+// Prefetches what the lookups of points [begin, end) read first.
 GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
                                      uint64_t end) {
   prefetch_rows(points.barycentrics, 2, begin, end);

@@ -8,8 +8,7 @@ namespace {
 
 using namespace gatelight::neural::cpu;
 
-// Luminance of the relative loss: NTSC weights for three outputs (as tiny networks for radiance use them),
-// else the mean.
+// Luminance of the relative loss: NTSC weights for three outputs, else the mean.
 GATELIGHT_INLINE float output_luminance(const float* y, uint32_t outputs) {
   if (outputs == 3) return 0.299f * y[0] + 0.587f * y[1] + 0.114f * y[2];
   float total = 0.0f;
@@ -17,9 +16,9 @@ GATELIGHT_INLINE float output_luminance(const float* y, uint32_t outputs) {
   return total / static_cast<float>(outputs);
 }
 
-// Turns outputs y into derivatives, in place. Per row the sum over outputs of (y-t)^2 / denominator and its
-// derivatives 2 (y-t) / denominator; the mean over records and outputs is taken where gradients are used.
-// Rows that are not valid, and those up to `rows`, get zeros. Returns the sum of the losses.
+// Replaces the outputs y by derivatives. A row's loss is the sum over outputs of (y-t)^2 / denominator, with
+// derivatives 2 (y-t) / denominator; the update divides by records and outputs. Invalid rows and rows from
+// `count` to `rows` become zeros. Returns the sum of the losses.
 template <uint32_t kOutputs>
 GATELIGHT_INLINE double loss_rows(uint32_t outputs, bool relative, float max_target, const float* targets,
                                   const float* valid, uint32_t count, uint32_t rows, float* y,
@@ -63,8 +62,9 @@ GATELIGHT_INLINE float sum4(Row4 v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
-// The same for up to four outputs where all rows are valid and no target is beyond max_target: a row is a
-// vector whose unused lanes are zeros. Reads four floats a row of targets, and so not the tile's last row.
+// The same for up to four outputs if all rows are valid and no target exceeds max_target. A row is a vector
+// whose unused lanes are zeros. It reads four floats per row of targets, so it cannot process the tile's last
+// rows.
 template <uint32_t kOutputs>
 GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uint32_t count, float* y) {
   const Index4 used = {-1, kOutputs > 1 ? -1 : 0, kOutputs > 2 ? -1 : 0, kOutputs > 3 ? -1 : 0};
@@ -92,7 +92,7 @@ GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uin
   return sum4(total);
 }
 
-// Whether all rows of a tile are valid and their targets no greater than max_target.
+// Whether all rows of a tile are valid and no target exceeds max_target.
 GATELIGHT_INLINE bool plain(const float* targets, uint32_t outputs, float max_target, const float* valid,
                             uint32_t count) {
   Float least = broadcast(1.0f);

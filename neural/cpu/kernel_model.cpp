@@ -30,7 +30,8 @@ KernelTransform transform_of(const AuxiliaryInput& input) {
   return spherical ? KernelTransform::spherical_one_blob : KernelTransform::one_blob;
 }
 
-// Lookups on surfaces without storage read the first triangle's words.
+// Lookups on surfaces without storage read the first triangle's words, so these arrays stand in for empty
+// tables.
 constexpr std::uint32_t kNoTopology[6 + kTopologyPadding] = {};
 constexpr GateSurface kNoSurface[1] = {};
 constexpr GateSurfaceLevel kNoLevels[kMaxStack] = {};

@@ -1,5 +1,5 @@
 #pragma once
-// From the model's structs to the kernels'.
+// Converts the model's structs to those of the kernels.
 
 #include "neural/base/batch.h"
 #include "neural/cpu/isa.h"
@@ -8,13 +8,13 @@
 
 namespace gatelight::neural::cpu {
 
-/// All but the feature pointers. The model must outlive it.
+/// Sets all members except the feature pointers. The model must outlive the result.
 KernelEncoder kernel_encoder(const Model& model);
 
-/// Spans that the model does not read are left out.
+/// Spans that the model does not read become null.
 KernelPoints kernel_points(const Model& model, const QueryBatch& batch);
 
-/// The table of an instruction set; for AVX-512 the one with BF16 instructions where the processor has them.
+/// The functions of an instruction set; for AVX-512, those with BF16 instructions if the processor has them.
 const KernelTable& kernel_table(Isa isa);
 
 }  // namespace gatelight::neural::cpu

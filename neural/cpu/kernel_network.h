@@ -1,5 +1,5 @@
 #pragma once
-// Forward and backward through the network for one tile. Part of kernel_table.cpp.
+// Forward and backward pass of the network for one tile. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_products.h"
@@ -9,7 +9,8 @@ namespace {
 
 using namespace gatelight::neural::cpu;
 
-// Row strides are compile-time constants, so that the rows of a block are displacements from one pointer.
+// Calls f with the row stride as a compile-time constant, so that the rows of a block are offsets from one
+// pointer.
 template <class F>
 GATELIGHT_INLINE void with_stride(uint32_t stride, F&& f) {
   switch (stride) {
@@ -26,8 +27,8 @@ GATELIGHT_INLINE void with_stride(uint32_t stride, F&& f) {
   }
 }
 
-// Where the activations of a tile lie. On the way back gradients take the places of what they belong to: with
-// a second set of buffers a tile of the common networks would not fit into the first level of the cache.
+// The activations of a tile. The backward pass overwrites them with their gradients: with a second set of
+// buffers, a tile of common networks would not fit into the L1 cache.
 struct TileBuffers {
   const float* inputs;              // [kTile][input_stride]
   float* hidden[kMaxKernelLayers];  // [kTile][width]
@@ -59,8 +60,8 @@ GATELIGHT_INLINE void forward_hidden(const KernelLayer& layer, const float* x, u
 
 #if !defined(GATELIGHT_ISA_SCALAR)
 
-// Up to four outputs would leave most lanes of a vector idle. So lanes are inputs: a group of four lanes
-// holds four outputs' sums over every fourth input, and a row's groups are added at the end.
+// With up to four outputs most lanes of a vector would be idle. Here lanes are inputs: each lane of a group
+// of four sums one output over every fourth input, and the groups are added at the end.
 template <bool kRounded, uint32_t kVectors>
 GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* x, uint32_t x_stride,
                                          float* y, uint32_t rows) {
@@ -141,8 +142,8 @@ GATELIGHT_INLINE void forward(const KernelNetwork& n, const TileBuffers& b, uint
 
 #if !defined(GATELIGHT_ISA_SCALAR)
 
-// The last layer's way back where it has up to four outputs, in one pass over the activations below: their
-// gradients take their places, and the weights' gradients stay in registers.
+// Backward pass of a last layer with up to four outputs, in one pass over the activations below. Their
+// gradients overwrite them, and weight gradients stay in registers.
 template <uint32_t kVectors>
 GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float* d, float* h, uint32_t width,
                                           uint32_t rows, float slope, float* gradients,
@@ -189,9 +190,9 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
 
 #endif
 
-// From the gradients in `outputs` to the gradients of weights and biases (added to `gradients`) and of the
-// feature inputs, which finish_features(row, column, value) takes. rows is a multiple of kBlockRows and so
-// even.
+// Propagates the gradients in `outputs`. Gradients of weights and biases are added to `gradients`;
+// finish_features(row, column, value) receives those of the feature inputs. `rows` is a multiple of
+// kBlockRows, hence even.
 template <class FinishFeatures>
 GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uint32_t rows, float* gradients,
                                FinishFeatures&& finish_features, const Between& between) {
@@ -200,8 +201,8 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   const uint32_t width = n.width;
   const Float one = broadcast(1.0f), slope = broadcast(n.slope);
 
-  // Through a layer's weights and the activation of the layer below, whose values give way to their
-  // gradients.
+  // Propagates through a layer's weights and the activation of the layer below, whose values it overwrites
+  // with gradients.
   const auto descend = [&](const KernelLayer& layer, const float* d, auto stride, float* h)
       __attribute__((always_inline)) {
     multiply<decltype(stride)::value>(
@@ -228,7 +229,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   } else
 #endif
   {
-    float unused[kMaxWidth] = {};  // sums of activations
+    float unused[kMaxWidth] = {};  // receives the sums of activations
     add_outer(output_gradients, output.padded_inputs, b.outputs, kOutputStride, output.outputs,
               b.hidden[last - 1], width, width, rows, unused, between);
     for (uint32_t r = 0; r < rows; ++r)

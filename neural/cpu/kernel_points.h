@@ -1,6 +1,6 @@
 #pragma once
-// A tile's points taken from the batch: which are usable, and copies that the lookups may read in whole
-// vectors. Part of kernel_table.cpp.
+// Reads a tile's points from the batch: checks which are finite, and copies them if lookups cannot read whole
+// vectors in place. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_lookup.h"
 
@@ -26,7 +26,7 @@ struct FiniteSpan {
   uint32_t width;
 };
 
-// Copies `count` rows of `width` words and fills up to kTile with zeros, also where `finite` is 0.
+// Copies `count` rows of `width` words. Rows up to kTile and rows with `finite` 0 become zeros.
 template <class Word>
 GATELIGHT_INLINE void copy_rows(Word* to, const Word* from, uint32_t width, uint32_t count,
                                 const float* finite) {
@@ -35,8 +35,8 @@ GATELIGHT_INLINE void copy_rows(Word* to, const Word* from, uint32_t width, uint
       to[s * width + c] = s < count && finite[s] != 0.0f ? from[s * width + c] : 0;
 }
 
-// Takes points [begin, begin + count) and sets valid and finite: 1 where every input, and the target if there
-// is one, is finite. Returns how many are not.
+// Sets up points [begin, begin + count). `valid` and `finite` become 1 if all inputs, and the target if there
+// is one, are finite. Returns the number of points that are not.
 GATELIGHT_ALONE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points, const float* targets,
                                      uint32_t outputs, uint64_t begin, uint32_t count, TilePoints& tile) {
   const FiniteSpan spans[7] = {{points.barycentrics, 2}, {points.positions, 3}, {points.directions, 3},
@@ -79,7 +79,7 @@ GATELIGHT_ALONE uint32_t take_points(const KernelEncoder& e, const KernelPoints&
   return rejected;
 }
 
-// Nodes and weights of a tile; returns how many of its finite points have no storage.
+// Finds the nodes and weights of a tile. Returns the number of finite points without storage.
 GATELIGHT_INLINE uint32_t lookup(const KernelEncoder& e, TilePoints& tile, uint32_t* nodes, float* weights) {
   if (e.encoding == KernelEncoding::gate) return lookup_gate(e, tile, nodes, weights);
   if (e.encoding == KernelEncoding::hash_grid) lookup_hash_grid(e, tile, nodes, weights);

@@ -1,5 +1,5 @@
 #pragma once
-// Memory asked for ahead of its use, at the pace of the arithmetic. Part of kernel_table.cpp.
+// Prefetches memory at the pace of the arithmetic. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
 #include "neural/cpu/simd.h"
@@ -8,8 +8,8 @@ namespace {
 
 using namespace gatelight::neural::cpu;
 
-// Asks for the feature vectors of a tile a few at a time between blocks of arithmetic, so that the misses
-// overlap it.
+// Prefetches the feature vectors of a tile, a few at a time between blocks of arithmetic, so that cache
+// misses overlap with it.
 struct Prefetcher {
   const uint32_t* nodes = nullptr;
   uint32_t count = 0;
@@ -38,7 +38,7 @@ GATELIGHT_INLINE Prefetcher make_prefetcher(const KernelEncoder& e, const uint32
   return p;
 }
 
-// What products call after each block.
+// The products call this after each block.
 struct Between {
   Prefetcher* prefetcher;
   __attribute__((always_inline)) void operator()() const { prefetcher->some(); }

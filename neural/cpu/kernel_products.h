@@ -1,8 +1,8 @@
 #pragma once
-// The three matrix products of a layer, all as one pattern: blocks of kBlockRows x kBlockVectors
-// accumulators, a broadcast from the left matrix times vectors of the right one. The left matrix is a tile's
-// activations (records in rows) or, for weight gradients, their transpose; nothing is ever transposed in
-// memory. Part of kernel_table.cpp.
+// The three matrix products of a layer, all in one pattern: kBlockRows x kBlockVectors accumulators add a
+// broadcast from the left matrix times vectors of the right one. The left matrix is a tile's activations
+// (records in rows) or, for weight gradients, their transpose. Nothing is transposed in memory. Part of
+// kernel_table.cpp.
 
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/simd.h"
@@ -13,8 +13,8 @@ struct NoSums {
   __attribute__((always_inline)) void operator()(uint32_t, Float) const {}
 };
 
-// acc[r][v] += sum over d of x[r * kRowStride + d * depth_stride] * w[d * w_stride + v * kLanes]. Shows each
-// vector of w.
+// acc[r][v] += sum over d of x[r * kRowStride + d * depth_stride] * w[d * w_stride + v * kLanes]. Calls
+// see(v, vector) for each vector of w.
 template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride, class See = NoSums>
 GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, uint32_t depth_stride,
                                  const float* w, uint32_t w_stride, uint32_t depth, See&& see = {}) {
@@ -35,8 +35,8 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, 
   }
 }
 
-// y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. finish(row, column, value) stores a vector;
-// between_blocks() is called after each block.
+// Computes y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. Calls finish(row, column, value) to
+// store a vector and between_blocks() after each block.
 template <uint32_t kRowStride, uint32_t kVectors, class Finish>
 GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
                                             uint32_t w_stride, const float* bias, uint32_t columns,
@@ -61,7 +61,7 @@ GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint3
   }
 }
 
-// `columns` is a multiple of 16. One vector a row where two do not fit.
+// `columns` is a multiple of 16. The last columns use one vector per row if two do not fit.
 template <uint32_t kRowStride, class Finish>
 GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, const float* w,
                                uint32_t w_stride, const float* bias, uint32_t columns, Finish&& finish,
@@ -76,8 +76,8 @@ GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, co
         between_blocks);
 }
 
-// g[i][c] += sum over s of x[s][i] d[s][c], i in [0, kRows). And sums[c] += sum over s of d[s][c] where
-// asked: additions that cost nothing beside the multiply-adds.
+// g[i][c] += sum over s of x[s][i] d[s][c] for i in [0, kRows). With kSums also sums[c] += sum over s of
+// d[s][c]; these additions cost nothing beside the multiply-adds.
 template <uint32_t kRows, uint32_t kVectors, bool kSums>
 GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
                                      const float* d, uint32_t d_stride, uint32_t samples, float* sums) {
@@ -105,8 +105,8 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
     for (uint32_t v = 0; v < kVectors; ++v) store(g + r * g_stride + v * kLanes, acc[r][v]);
 }
 
-// Weight gradients: g[i][c] += sum over the samples of x[s][i] d[s][c] for i < rows, c < columns (a multiple
-// of 16); and bias gradients: sums[c] += sum of d[s][c].
+// Adds weight gradients, g[i][c] += sum over samples s of x[s][i] d[s][c] for i < rows and c < columns (a
+// multiple of 16), and bias gradients, sums[c] += sum over s of d[s][c].
 GATELIGHT_ALONE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
                                const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
                                float* sums, const Between& between_blocks) {

@@ -1,6 +1,6 @@
 #pragma once
-// Vectors as long as a feature vector or a part of it: 8, 4, 2 or 1 floats, read from floats or halves. The
-// compiler lowers them to what the instruction set has. Part of kernel_table.cpp.
+// Vectors of 8, 4, 2 or 1 floats for feature vectors and their parts, loaded from floats or halves. The
+// compiler maps them to the instruction set. Part of kernel_table.cpp.
 
 #include "neural/cpu/simd.h"
 
@@ -9,7 +9,7 @@ namespace {
 typedef float Float8 __attribute__((vector_size(32)));
 typedef float Float4 __attribute__((vector_size(16)));
 
-// Two floats in the lower half of four: gcc 12 takes vectors of eight bytes through memory.
+// Two floats in the lower half of four, because gcc 12 moves vectors of eight bytes through memory.
 struct Float2 {
   Float4 v;
 };
@@ -86,7 +86,7 @@ GATELIGHT_INLINE void store_short(float* p, V v) {
     __builtin_memcpy(p, &v, sizeof v);
   }
 }
-/// Lane i.
+/// Lane i of v.
 template <class V>
 GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
   if constexpr (__is_same(V, Float2))
@@ -102,8 +102,8 @@ GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
 GATELIGHT_INLINE float float_of_half(uint16_t half) {
   const uint32_t sign = static_cast<uint32_t>(half & 0x8000u) << 16;
   const uint32_t magnitude = half & 0x7fffu;
-  // Halves here are finite. Subnormals are normalised by the difference of two floats that are normal, so
-  // that it does not matter whether denormal floats are flushed.
+  // Halves here are finite. Subnormal halves are converted with the difference of two normal floats, so
+  // flushing of denormals has no effect.
   const uint32_t shifted = (magnitude << 13) + (magnitude < 0x400u ? 113u << 23 : 112u << 23);
   float value;
   __builtin_memcpy(&value, &shifted, 4);
@@ -189,8 +189,8 @@ GATELIGHT_INLINE V sqrt_short(V v) {
 
 #endif
 
-/// Calls part(Constant<size>, offset) for the parts of `count` floats: as many eights as fit, then four, two,
-/// one.
+/// Calls part(Constant<size>, offset) for the parts of `count` floats: as many eights as fit, then four, two
+/// and one.
 template <class F>
 GATELIGHT_INLINE void for_parts(uint32_t count, F&& part) {
   uint32_t at = 0;

@@ -1,5 +1,6 @@
-// Compiled once for each instruction set (see simd.h): encode, forward, loss and backward of a tile of
-// records without a store of its activations beyond the caches; queries; Adam at the nodes.
+// The kernels for training, queries and node updates. This file is compiled once for each instruction set
+// (see simd.h). Encode, forward, loss and backward are fused per tile, so that activations stay in the
+// caches.
 
 #include "neural/cpu/kernels.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 static_assert(kTile % kLanes == 0 && kTile % kBlockRows == 0);
 
-// The first of them are the rows of inputs.
+// The buffers begin with the rows of inputs.
 GATELIGHT_INLINE TileBuffers tile_buffers(const KernelNetwork& n, float* scratch) {
   TileBuffers b;
   const uint64_t hidden = uint64_t{kTile} * n.width;
@@ -41,7 +42,7 @@ GATELIGHT_INLINE uint32_t tile_count(uint64_t begin, uint64_t end, uint64_t tile
   return static_cast<uint32_t>(end - first < kTile ? end - first : kTile);
 }
 
-// Calls of between_blocks in a tile, for the pace of prefetching.
+// Number of between_blocks calls in a tile's forward pass, for the pace of prefetching.
 GATELIGHT_INLINE uint32_t forward_blocks(const KernelNetwork& n) {
   const uint32_t wide = (n.width + kBlockVectors * kLanes - 1) / (kBlockVectors * kLanes);
   return kTile / kBlockRows * (wide * (n.layer_count - 1) + 1);
@@ -127,7 +128,7 @@ void train(const KernelTraining& t) {
   *t.statistics = statistics;
 }
 
-// What is not finite becomes 0; then the range.
+// Replaces values that are not finite by 0, then clamps to the range.
 GATELIGHT_INLINE Float4 in_range(Float4 y, uint32_t range) {
   typedef int32_t Int4 __attribute__((vector_size(16)));
   if (range == 0) return y;
@@ -144,7 +145,7 @@ GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t c
     for (uint32_t s = 0; s < count; ++s) {
       const Float4 answers = in_range(load_short<Float4>(y + s * kOutputStride + c), range);
       float* to = out + s * outputs + c;
-      // A whole group of four where the next row overwrites what is too much of it.
+      // Store four values even if fewer are used, if the next row overwrites the rest.
       if (used == 4 || (outputs < 4 && s * outputs + 4 <= count * outputs)) {
         store_short(to, answers);
       } else {
@@ -154,7 +155,7 @@ GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t c
   }
 }
 
-// For points with an input that is not finite, which were encoded as zeros.
+// Writes NaN for points with an input that is not finite; they were encoded as zeros.
 GATELIGHT_INLINE void answer_nan(const TilePoints& points, uint32_t count, uint32_t outputs, float* y) {
   for (uint32_t s = 0; s < count; ++s)
     for (uint32_t c = 0; c < outputs && points.finite[s] == 0.0f; ++c)

@@ -1,5 +1,5 @@
 #pragma once
-// Feature gradients summed at their nodes, and Adam at once. Part of kernel_table.cpp.
+// Sums feature gradients at their nodes and applies Adam. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernel_short_vectors.h"
 #include "neural/cpu/kernels.h"
@@ -28,7 +28,8 @@ GATELIGHT_INLINE V clamp_to_half(V v) {
   return load_short<V>(lanes);
 }
 
-// One node. Returns false, and changes nothing but the sums, where the gradient is not finite.
+// Updates one node and clears its sums. If the gradient is not finite, nothing else changes and the result is
+// false.
 GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, uint32_t length, float* sums,
                                   const KernelAdamStep& step) {
   bool usable = true;
@@ -89,11 +90,11 @@ GATELIGHT_INLINE void prefetch_node(const KernelFeatureUpdate& u, uint64_t node)
 
 template <uint32_t kLength>
 void update_features_of(const KernelFeatureUpdate& given) {
-  const KernelFeatureUpdate u = given;  // a copy that stores through its pointers cannot change
+  const KernelFeatureUpdate u = given;  // a copy, which stores through its pointers cannot change
   const uint32_t length = kLength != 0 ? kLength : u.features;
   constexpr uint32_t kAhead = 32;
 
-  // In the order of the records, so that sums do not depend on threads.
+  // Sum in the order of the records, so that sums do not depend on threads.
   for (uint32_t i = 0; i < u.reference_count; ++i) {
     if (i + kAhead < u.reference_count) prefetch(u.feature_gradients + u.references[i + kAhead].source);
     const KernelReference& r = u.references[i];

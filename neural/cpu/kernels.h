@@ -1,9 +1,9 @@
 #pragma once
-// What a kernel object offers: one table of functions for each instruction set, and the plain structs they
-// read. C-like, so that kernel_table.cpp can include it (see simd.h).
+// The interface of the kernels: a table of functions for each instruction set, and the plain structs that
+// they read. It is C-like, so that kernel_table.cpp can include it (see simd.h).
 //
-// Records are worked on in tiles of kTile: small enough that a tile's activations stay in the first two
-// levels of the cache, a multiple of every instruction set's block of rows.
+// Kernels process records in tiles of kTile. A tile's activations stay in the L1 and L2 caches, and kTile is
+// a multiple of kBlockRows of every instruction set.
 
 #include <stdint.h>
 
@@ -16,9 +16,9 @@ constexpr uint32_t kMaxKernelLayers = 6;
 constexpr uint32_t kMaxWidth = 128;
 constexpr uint32_t kMaxKernelLevels = 16;
 constexpr uint32_t kMaxAuxiliary = 16;
-constexpr uint32_t kOutputStride = 16;  // floats a row of outputs and of their gradients
+constexpr uint32_t kOutputStride = 16;  // floats per row of outputs and of their gradients
 
-// Spans of QueryBatch. Null where not used.
+// The spans of QueryBatch; null if not used.
 struct KernelPoints {
   const uint32_t* surfaces;
   const uint32_t* triangles;
@@ -33,7 +33,7 @@ struct KernelPoints {
 struct KernelHashLevel {
   float scale;
   uint32_t resolution, entries, first_node, dense;
-  uint32_t multiplier, shift;  // of the division by entries / 8
+  uint32_t multiplier, shift;  // for the division by entries / 8
 };
 
 enum class KernelEncoding : uint32_t { none, gate, hash_grid };
@@ -46,10 +46,10 @@ struct KernelAuxiliary {
   uint32_t coordinates, size, first_input, inputs;
 };
 
-// How points become nodes, and nodes and points become inputs.
+// Maps points to nodes, and points and nodes to network inputs.
 struct KernelEncoder {
   KernelEncoding encoding;
-  uint32_t levels, nodes_per_level, features;  // features: L
+  uint32_t levels, nodes_per_level, features;  // `features` is L
   // GATE
   const GateSurface* surfaces;
   const GateSurfaceLevel* surface_levels;
@@ -62,25 +62,25 @@ struct KernelEncoder {
   float inverse_extent;
   KernelAuxiliary auxiliary[kMaxAuxiliary];
   uint32_t auxiliary_count;
-  // Feature vectors: floats, or halves where `half_features` is given; node n's begin at n * feature_stride.
+  // Feature vectors: halves if `half_features` is set, else floats. Node n starts at n * feature_stride.
   uint32_t feature_stride;
   const float* float_features;
   const uint16_t* half_features;
 };
 
-// Matrices are padded to 16 columns: `forward` is [inputs][padded outputs], `backward` [outputs][padded
+// Matrices are padded to 16 columns: `forward` is [inputs][padded outputs], `backward` is [outputs][padded
 // inputs].
 struct KernelLayer {
   uint32_t inputs, outputs;
   uint32_t padded_inputs, padded_outputs;
   const float* forward;
-  const float* backward;  // layer 0: feature inputs only
+  const float* backward;  // in layer 0 for feature inputs only
   const float* biases;    // padded; zeros without biases
   const uint16_t*
       forward_bf16;  // [inputs / 2][padded outputs][2], inputs padded with zeros to an even number
-  const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without it
-  // Last layer with up to four outputs: for groups of four lanes (16 inputs a time), [input / 16][input %
-  // 4][16], lane 4 g + o being the weight of input 4 g + (input % 4) for output o. Null otherwise.
+  const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without bf16
+  // For a last layer with up to four outputs, else null: [input / 16][input % 4][16]. Lane 4 g + o has the
+  // weight of output o for input 4 g + (input % 4) of 16.
   const float* forward_groups;
   const float* forward_groups_rounded;
   uint64_t gradient;  // offset in a chunk's gradient: [inputs][padded outputs]; last layer [outputs][padded
@@ -96,7 +96,7 @@ struct KernelNetwork {
   float slope;
 };
 
-// One reference of an accepted record to a node: gradient of the node += weight * feature_gradients[source
+// A reference of an accepted record to a node: gradient of the node += weight * feature_gradients[source
 // ...].
 struct KernelReference {
   uint32_t node;
@@ -109,7 +109,7 @@ struct KernelChunkStatistics {
   uint32_t accepted, rejected, unstored, clipped;
 };
 
-// Encode, forward, loss and backward for records [begin, end); begin is a multiple of kTile.
+// Arguments of encode, forward, loss and backward for records [begin, end); begin is a multiple of kTile.
 struct KernelTraining {
   const KernelEncoder* encoder;
   const KernelNetwork* network;
@@ -118,17 +118,17 @@ struct KernelTraining {
   uint32_t begin, end;
   uint32_t relative_loss;
   float max_target;
-  float* scratch;  // KernelTable::scratch_floats, aligned to 64 bytes
-  // If given, rows of input_stride floats that stand in for the encoding, counted from `begin` (benchmarks).
+  float* scratch;  // KernelTable::scratch_floats floats, aligned to 64 bytes
+  // For benchmarks, else null: rows of input_stride floats that replace the encoding, starting at `begin`.
   const float* inputs;
-  uint32_t* nodes;           // [tile][node slot][kTile]; weight 0: no reference
-  float* weights;            // likewise
-  float* feature_gradients;  // [record][feature_inputs], of the sum of the records' losses
+  uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
+  float* weights;            // as `nodes`
+  float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses
   uint32_t*
       bucket_counts;  // references of this chunk to each bucket of nodes (node >> bucket_shift); to be zeroed
   uint32_t bucket_shift;
   uint8_t* accepted;  // [record], or null
-  float* gradients;   // of the network; to be zeroed
+  float* gradients;   // of the network; the caller zeroes them
   KernelChunkStatistics* statistics;
 };
 
@@ -143,7 +143,7 @@ struct KernelQuery {
   float* out;
 };
 
-// Adam's factors for a step count: p -= step m / (sqrt(v) + epsilon); average += rate (p - average).
+// Adam's factors for a step count: p -= step m / (sqrt(v) + epsilon); average += average_rate (p - average).
 struct KernelAdamStep {
   float step, epsilon, average_rate, unused;
 };
@@ -153,28 +153,28 @@ struct KernelAdam {
   float gradient_scale;
 };
 
-// Sums the references of one bucket of nodes in their order and updates the nodes.
+// Arguments for summing the references of one bucket of nodes, in their order, and updating the nodes.
 struct KernelFeatureUpdate {
   const KernelReference* references;  // ordered by record
   uint32_t reference_count;
-  uint32_t first_node, node_count;  // of the bucket
+  uint32_t first_node, node_count;  // the bucket's nodes
   uint32_t features;
   uint32_t feature_inputs;
   const float* feature_gradients;
-  const uint32_t* record_steps;  // per record: the triangle's step count (per_triangle), or null
+  const uint32_t* record_steps;  // per record, the triangle's step count (per_triangle); or null
   uint32_t dense;
   KernelAdam adam;
-  const KernelAdamStep* steps;  // for t = 1 .. step_count at [t]
+  const KernelAdamStep* steps;  // index t = 1 .. step_count
   uint32_t step_count;
-  KernelAdamStep (*late_step)(const void* context, uint64_t t);  // for t beyond the table
+  KernelAdamStep (*late_step)(const void* context, uint64_t t);  // for larger t
   const void* late_context;
   KernelAdamStep dense_step;
-  // State. Node n's features and averages begin at n * feature_stride, its moments (m of L, v of L) at n *
-  // moment_stride, and its step count is at n * step_stride.
+  // State. Node n's features and averages start at n * feature_stride, its moments (L floats m, L floats v)
+  // at n * moment_stride, and its step count is at n * step_stride.
   uint32_t feature_stride, moment_stride, step_stride;
   float* features_fp32;     // parameters or masters; null in fp16 without masters
   uint16_t* features_fp16;  // null in fp32
-  float* averages;          // null without
+  float* averages;          // null without averages
   uint16_t* averages_fp16;  // null unless averages are read in fp16
   float* moments;
   uint32_t* node_steps;  // null in dense mode
@@ -183,14 +183,14 @@ struct KernelFeatureUpdate {
   float* sums;
   uint64_t* touched;
   uint32_t* touched_list;  // node_count
-  uint32_t* step_scratch;  // node_count, all zero before and after; read with record_steps only
+  uint32_t* step_scratch;  // node_count, all zero before and after; used with record_steps only
   // Results
   uint64_t* touched_count;
   uint64_t* skipped_count;
 };
 
 struct KernelTable {
-  /// Floats of scratch that train and query need.
+  /// Floats of scratch memory that train and query need.
   uint64_t (*scratch_floats)(const KernelEncoder&, const KernelNetwork&);
   void (*train)(const KernelTraining&);
   void (*query)(const KernelQuery&);

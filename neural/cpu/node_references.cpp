@@ -33,7 +33,7 @@ void NodeReferences::start(const Chunks& chunks, const Buckets& buckets, std::ui
 void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
                           std::uint32_t feature_inputs) {
   if (buckets_.count == 0) return;
-  // Counts become the places where each chunk writes into each bucket.
+  // Turn counts into the offsets at which each chunk writes into each bucket.
   std::uint32_t total = 0;
   for (std::uint32_t b = 0; b < buckets_.count; ++b) {
     starts_[b] = total;
@@ -47,7 +47,7 @@ void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
   starts_[buckets_.count] = total;
 
   tbb::parallel_for(0u, chunks_.count(), [&](std::uint32_t chunk) {
-    // As where they were counted: a denormal weight is none.
+    // As in the count, a denormal weight counts as zero.
     const FlushDenormals flush;
     std::uint32_t* const next = counts(chunk);
     KernelReference* const references = references_.data();

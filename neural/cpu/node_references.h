@@ -1,7 +1,7 @@
 #pragma once
-// References from records to nodes, grouped by buckets of neighbouring nodes and, within a bucket, in the
-// order of the records: a stable counting sort by one digit. Sums over a bucket then have one order, whatever
-// the number of threads.
+// References from records to nodes, sorted by buckets of neighbouring nodes with a stable counting sort.
+// Within a bucket they have the order of the records, so sums over a bucket do not depend on the number of
+// threads.
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace gatelight::neural::cpu {
 
-/// A batch cut into chunks of whole tiles. The cut depends on its size alone.
+/// A batch is cut into chunks of whole tiles, depending only on its size.
 struct Chunks {
   static constexpr std::uint32_t kRecords = 16 * kTile;
 
@@ -24,8 +24,8 @@ struct Chunks {
   }
 };
 
-/// Buckets hold 2^shift nodes; there are about a thousand, so that threads share them evenly and a bucket's
-/// sums stay in the second level of the cache.
+/// A bucket holds 2^shift nodes. There are about a thousand buckets, so that threads share them evenly and a
+/// bucket's sums stay in the L2 cache.
 struct Buckets {
   std::uint32_t shift = 0;
   std::uint32_t count = 0;
@@ -40,15 +40,16 @@ Buckets make_buckets(std::uint32_t nodes);
 
 class NodeReferences {
  public:
-  /// Prepares for a batch; counts of all chunks are zero.
+  /// Prepares for a batch and sets the counts of all chunks to zero.
   void start(const Chunks& chunks, const Buckets& buckets, std::uint32_t slots);
 
-  // Filled by the kernels.
+  // The kernels fill these arrays.
   std::uint32_t* nodes() const { return nodes_.data(); }
   float* weights() const { return weights_.data(); }
   std::uint32_t* counts(std::uint32_t chunk) { return counts_.data() + std::size_t{chunk} * buckets_.count; }
 
-  /// Groups what the kernels left. source = record * feature_inputs + level * features.
+  /// Sorts the references that the kernels wrote. KernelReference::source is record * feature_inputs + level
+  /// * features.
   void sort(std::uint32_t nodes_per_level, std::uint32_t features, std::uint32_t feature_inputs);
 
   const KernelReference* begin(std::uint32_t bucket) const { return references_.data() + starts_[bucket]; }

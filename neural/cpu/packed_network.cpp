@@ -12,7 +12,7 @@ std::uint32_t padded(std::uint32_t n) {
   return (n + 15) / 16 * 16;
 }
 
-// Round to nearest even; what is not finite stays so.
+// Rounds to nearest even; values that are not finite stay so.
 std::uint16_t to_bf16(float value) {
   const std::uint32_t word = std::bit_cast<std::uint32_t>(value);
   if (!std::isfinite(value)) return static_cast<std::uint16_t>(word >> 16 | (std::isnan(value) ? 0x40u : 0u));

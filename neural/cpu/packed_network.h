@@ -1,5 +1,5 @@
 #pragma once
-// The network's parameters as the kernels read them: padded, both ways round, and in bf16.
+// The network's parameters in the layouts of the kernels: padded, also transposed, and in bf16.
 
 #include <cstdint>
 #include <memory>
@@ -16,17 +16,17 @@ class PackedNetwork {
  public:
   explicit PackedNetwork(const Model& model);
 
-  /// `network`: the network's part of the flat parameters.
+  /// Packs `network`, the network's part of the flat parameters.
   void pack(std::span<const float> network);
 
   const KernelNetwork& kernel() const { return kernel_; }
-  /// Floats of a chunk's gradients.
+  /// Number of floats of a chunk's gradients.
   std::uint64_t gradient_size() const { return gradient_size_; }
-  /// From a chunk's gradients to the layout of the flat parameters.
+  /// Copies a chunk's gradients to the layout of the flat parameters.
   void unpack_gradients(const float* packed, std::span<float> network) const;
 
  private:
-  // The same places as in kernel_, writable.
+  // Writable pointers to the arrays of kernel_.
   struct Targets {
     float* forward = nullptr;
     float* rounded = nullptr;

@@ -1,8 +1,8 @@
 #pragma once
-// The vectors of the kernels: one set of names over scalar code, AVX2 and AVX-512. Included by
-// kernel_table.cpp alone, which is compiled once for each instruction set with GATELIGHT_ISA_SCALAR, _AVX2 or
-// _AVX512 defined. Everything is internal to that object file: no symbol of one instruction set can be taken
-// for another's.
+// The vectors of the kernels: the same names for scalar code, AVX2 and AVX-512. Only kernel_table.cpp
+// includes this file; it is compiled once for each instruction set with GATELIGHT_ISA_SCALAR, _AVX2 or
+// _AVX512 defined. Everything is internal to that object file, so the linker cannot mix the symbols of
+// instruction sets.
 
 #include <stdint.h>
 
@@ -11,8 +11,8 @@
 #endif
 
 #define GATELIGHT_INLINE static inline __attribute__((always_inline))
-// For the loops that must have all registers to themselves: inlined into something larger, gcc keeps its
-// constants in registers across them and spills an operand in each step (a third slower).
+// For loops that need all registers. If they are inlined, gcc keeps the caller's constants in registers
+// across them and spills an operand in each step (a third slower).
 #define GATELIGHT_ALONE static __attribute__((noinline))
 
 namespace {
@@ -20,7 +20,8 @@ namespace {
 #if defined(GATELIGHT_ISA_AVX512)
 
 constexpr uint32_t kLanes = 16;
-// A block of kBlockRows x kBlockVectors accumulators leaves registers for the operands: 24 of 32.
+// A block of kBlockRows x kBlockVectors accumulators takes 24 of 32 registers and leaves the others for
+// operands.
 constexpr uint32_t kBlockRows = 12;
 constexpr uint32_t kBlockVectors = 2;
 using Float = __m512;
@@ -106,7 +107,7 @@ GATELIGHT_INLINE Float pick4(const float* p, Int i) {
 GATELIGHT_INLINE float sum(Float a) {
   return _mm512_reduce_add_ps(a);
 }
-/// Within each group of four lanes, lane kLane of the group in all four.
+/// Copies lane kLane of each group of four lanes to the whole group.
 template <int kLane>
 GATELIGHT_INLINE Float repeat4(Float a) {
   return _mm512_permute_ps(a, kLane * 0x55);
@@ -187,7 +188,7 @@ GATELIGHT_INLINE Float to_float(Int a) {
   return _mm512_cvtepi32_ps(a);
 }
 
-/// Four words each from kLanes places, as four vectors: column c, lane l is address(l)[c].
+/// Loads four words from each of kLanes addresses: lane l of column c is address(l)[c].
 template <class Address>
 GATELIGHT_INLINE void load_columns4(Address address, Int (&columns)[4]) {
   __m512i rows[4];
@@ -210,7 +211,7 @@ GATELIGHT_INLINE void load_columns4(Address address, Int (&columns)[4]) {
   columns[2] = _mm512_unpacklo_epi64(high01, high23);
   columns[3] = _mm512_unpackhi_epi64(high01, high23);
 }
-/// Pairs in a row: first[l] = p[2 l], second[l] = p[2 l + 1].
+/// Separates consecutive pairs: first[l] = p[2 l], second[l] = p[2 l + 1].
 GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
   const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
   const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16);
@@ -455,7 +456,7 @@ GATELIGHT_INLINE Float div(Float a, Float b) {
 GATELIGHT_INLINE Float fma(Float a, Float b, Float c) {
   return a * b + c;
 }
-// As the instructions do: the second operand where one is NaN.
+// If an operand is NaN, the result is the second one, as with the instructions.
 GATELIGHT_INLINE Float min(Float a, Float b) {
   return a < b ? a : b;
 }
@@ -578,7 +579,7 @@ GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
 
 #endif
 
-/// A number as a type, for lambdas that need it at compile time.
+/// A number as a type, for lambdas that need a compile-time constant.
 template <uint32_t kValue>
 struct Constant {
   static constexpr uint32_t value = kValue;
@@ -602,18 +603,18 @@ GATELIGHT_INLINE Mask finite(Float a) {
   return equal(sub(a, a), zero());
 }
 
-/// The nearest value with the eight significant bits of bf16; ties to even. For finite values.
+/// Rounds a finite value to the eight significant bits of bf16, ties to even.
 GATELIGHT_INLINE Float round_to_bf16(Float a) {
   const Int word = bits_of(a);
   const Int odd = and_int(shift_right(word, 16), broadcast_int(1));
   return float_of(and_int(add_int(word, add_int(odd, broadcast_int(0x7fffu))), broadcast_int(0xffff0000u)));
 }
 
-/// Into the first level of the cache: what is read soon.
+/// Prefetches into the L1 cache, for data that is read soon.
 GATELIGHT_INLINE void prefetch(const void* p) {
   __builtin_prefetch(p, 0, 3);
 }
-/// Into the second level: what a tile's arithmetic comes before.
+/// Prefetches into the L2 cache, for data that is read after a tile's arithmetic.
 GATELIGHT_INLINE void prefetch_far(const void* p) {
   __builtin_prefetch(p, 0, 2);
 }
