@@ -1,12 +1,12 @@
 #pragma once
-// What commands wait for. One global barrier for everything that the backend does: on a queue with compute
-// and copies alone a finer one orders the same work.
+// Barriers and fences. One global barrier serves the whole backend: on a queue with only compute and copies,
+// a finer barrier would order the same work.
 
 #include "neural/vulkan/device.h"
 
 namespace gatelight::neural::vulkan {
 
-/// What comes after sees all that shaders and copies before it wrote; so does the host after a fence.
+/// Later commands, and the host after a fence, see everything that earlier shaders and copies wrote.
 void full_barrier(const vk::raii::CommandBuffer& commands);
 
 /// Waits for the fence and resets it.

@@ -1,6 +1,6 @@
 #pragma once
-// What shaders know of a model and of a batch, in the layout std430: the other half of shaders/blocks.glsl,
-// field by field. Addresses are 0 where there is nothing.
+// The data of a model and of a batch that shaders read, in std430 layout. Each field must match
+// shaders/blocks.glsl. Address 0 means that the array does not exist.
 
 #include <cstddef>
 #include <cstdint>
@@ -66,7 +66,7 @@ static_assert(offsetof(ModelBlock, bounds_min) == 292 && offsetof(ModelBlock, ha
 static_assert(offsetof(ModelBlock, auxiliary) == 624 && offsetof(ModelBlock, adam) == 1008);
 static_assert(offsetof(BatchBlock, size) == 248 && sizeof(BatchBlock) == 272);
 
-/// Words of BatchBlock::statistics.
+/// Indices of the words of BatchBlock::statistics.
 enum StatisticsWord : std::uint32_t {
   kAccepted,
   kRejected,
@@ -82,7 +82,7 @@ inline constexpr std::uint32_t kStatisticsWords = 8;
 /// Bits of pack_network's argument.
 enum PackBits : std::uint32_t { kPackBackward = 1, kPackAveraged = 2, kPackRounded = 4 };
 
-/// Of Push::sources, beside a bit for each InputSource.
+/// The bit of ModelBlock::sources for barycentrics; lower bits are those of InputSource.
 inline constexpr std::uint32_t kBarycentricsSource = 5;
 
 }  // namespace gatelight::neural::vulkan

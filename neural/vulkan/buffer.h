@@ -1,5 +1,5 @@
 #pragma once
-// A buffer with memory of its own, reached by address.
+// A buffer with its own memory; shaders access it by address.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,21 +9,21 @@
 namespace gatelight::neural::vulkan {
 
 enum class BufferUse : std::uint8_t {
-  device,    ///< shaders read and write it
-  upload,    ///< written by the host, copied from
-  readback,  ///< copied to, read by the host
+  device,    ///< read and written by shaders
+  upload,    ///< written by the host, source of copies
+  readback,  ///< target of copies, read by the host
 };
 
 class Buffer {
  public:
   Buffer() = default;
-  /// At least one word. Throws OutOfDeviceMemory.
+  /// Allocates at least one word. Throws OutOfDeviceMemory.
   Buffer(const Device& device, std::uint64_t bytes, BufferUse use);
 
   vk::Buffer handle() const { return *buffer_; }
   std::uint64_t bytes() const { return bytes_; }
   std::uint64_t address() const { return address_; }
-  std::byte* mapped() const { return mapped_; }  ///< null on the device
+  std::byte* mapped() const { return mapped_; }  ///< null for BufferUse::device
 
  private:
   std::uint64_t bytes_ = 0;
@@ -33,7 +33,7 @@ class Buffer {
   vk::raii::Buffer buffer_ = nullptr;
 };
 
-/// Makes it longer where it is shorter; what is in it is lost then.
+/// Replaces the buffer by a longer one if it is shorter than `bytes`; its content is lost then.
 void reserve(const Device& device, Buffer& buffer, std::uint64_t bytes, BufferUse use);
 
 }  // namespace gatelight::neural::vulkan

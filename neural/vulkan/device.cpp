@@ -11,7 +11,7 @@ namespace gatelight::neural::vulkan {
 
 namespace {
 
-// Shaders count entries with signed 32-bit indices of words.
+// Shaders index words with signed 32-bit numbers.
 constexpr std::uint64_t kLongestBuffer = std::uint64_t{1} << 31;
 
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {

@@ -1,5 +1,5 @@
 #pragma once
-// A logical device with one compute queue, and what it can hold.
+// A logical device with one compute queue, and its limits.
 
 #include <cstdint>
 #include <string>
@@ -11,10 +11,10 @@ namespace gatelight::neural::vulkan {
 struct DeviceLimits {
   std::uint32_t shared_bytes = 0;
   std::uint64_t longest_buffer = 0;   ///< bytes
-  std::uint32_t groups = 0;           ///< workgroups in a dispatch's first dimension
-  std::uint64_t device_bytes = 0;     ///< of the greatest heap on the device
-  double nanoseconds_per_tick = 0.0;  ///< of timestamps; 0: there are none
-  std::uint64_t tick_mask = 0;        ///< the bits that timestamps count with
+  std::uint32_t groups = 0;           ///< maximum workgroups in a dispatch's first dimension
+  std::uint64_t device_bytes = 0;     ///< size of the largest device-local heap
+  double nanoseconds_per_tick = 0.0;  ///< of timestamps; 0 means no timestamps
+  std::uint64_t tick_mask = 0;        ///< valid bits of timestamps
   vk::PhysicalDeviceMemoryProperties memory;
 };
 
@@ -30,8 +30,8 @@ class Device {
   const DeviceLimits& limits() const { return limits_; }
   const std::string& name() const { return name_; }
 
-  /// The first memory type among `allowed` with all `needed` properties, and with `wanted` too if there is
-  /// one.
+  /// The first memory type of the mask `allowed` with all `needed` properties; one that also has the `wanted`
+  /// properties is preferred. Throws Unavailable if there is none.
   std::uint32_t memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags needed,
                             vk::MemoryPropertyFlags wanted) const;
 

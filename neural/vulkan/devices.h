@@ -1,6 +1,6 @@
 #pragma once
-// The devices that Vulkan offers. Free of Vulkan's own headers, and there in builds without Vulkan too, where
-// everything but is_built_in throws Unavailable.
+// The available Vulkan devices. This header includes no Vulkan header. It also exists in builds without
+// Vulkan, where all functions except is_built_in throw Unavailable.
 
 #include <cstdint>
 #include <memory>
@@ -14,37 +14,38 @@ bool is_built_in();
 struct DeviceListing {
   std::string name;
   std::string kind;     ///< discrete, integrated, virtual, software or other
-  std::string version;  ///< of Vulkan, "1.3"
+  std::string version;  ///< Vulkan version, for example "1.3"
   std::uint64_t memory_bytes = 0;
-  std::string refusal;  ///< why it cannot be used; empty where it can
+  std::string refusal;  ///< the reason why it cannot be used; empty if it can
 };
 
-/// In the order of their indices. Empty where there is a loader and no device. Throws Unavailable without a
-/// loader.
+/// Lists the devices in the order of their indices. Empty if there is a loader but no device. Throws
+/// Unavailable without a loader.
 std::vector<DeviceListing> list_devices();
 
-/// The name of the device that open_machine would use (MachineOptions::device). Throws as it does.
+/// The name of the device that open_machine would use for MachineOptions::device. Throws Unavailable as it
+/// does.
 std::string device_name(const std::string& wanted);
 
 struct MachineOptions {
-  /// Index, or part of a name in any case; empty: the first usable one of the best kind.
+  /// Index, or part of a name, ignoring case. Empty means the first usable device of the best kind.
   std::string device;
-  /// Every command is checked by the Khronos layer, and a message of it is an error (ValidationFailed).
-  /// Always so where the environment variable GATELIGHT_VULKAN_VALIDATION is set and not 0.
+  /// The Khronos layer checks every command, and each of its messages is an error (ValidationFailed). The
+  /// environment variable GATELIGHT_VULKAN_VALIDATION also enables this if it is set and not 0.
   bool validate = false;
-  /// The layer's messages, also those that come while things are destroyed.
+  /// Receives the layer's messages, including those during destruction; may be null.
   std::shared_ptr<std::vector<std::string>> messages = nullptr;
-  /// For tests: as if the device were lost when so much work has been handed to it; 0: never. Otherwise as
-  /// the environment variable GATELIGHT_VULKAN_LOSE_AFTER says.
+  /// For tests: simulates a lost device after this many submissions. 0 means the value of the environment
+  /// variable GATELIGHT_VULKAN_LOSE_AFTER, or never if it is unset.
   std::uint64_t lose_after = 0;
-  /// Arrays by node are cut into parts of at most so many bytes; 0: what the device can have in one piece.
+  /// Maximum bytes of a part of the arrays by node; 0 means the device's maximum.
   std::uint64_t longest_part = 0;
 };
 
-/// A device and its compiled shaders. Backends may share one; then one thread uses them all.
+/// A device and its compiled shaders. Backends may share a machine if only one thread uses them all.
 class Machine;
 
-/// Throws Unavailable: no loader, no such device, or one that lacks what is needed.
+/// Throws Unavailable if there is no loader, no such device, or the device lacks a needed feature.
 std::shared_ptr<Machine> open_machine(const MachineOptions& options);
 
 std::string machine_name(const Machine& machine);

@@ -1,5 +1,5 @@
 #pragma once
-// Vulkan's failures as the library's.
+// Converts Vulkan's errors to those of the library.
 
 #include <string>
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace gatelight::neural::vulkan {
 
-/// Throws what the error means: DeviceLost, OutOfDeviceMemory or Unavailable, naming device and deed.
+/// Throws DeviceLost, OutOfDeviceMemory or Unavailable; the message names the device and the action.
 [[noreturn]] void rethrow(const vk::SystemError& error, const std::string& device, const char* deed);
 
 template <class F>

@@ -17,7 +17,7 @@ std::span<std::uint32_t> as_words(std::span<float> values) {
   return {reinterpret_cast<std::uint32_t*>(values.data()), values.size()};
 }
 
-// Two to a word; a node begins with a word of its own.
+// A word has two halves; each node starts with a new word.
 std::uint32_t half_stride(std::uint64_t features) {
   return static_cast<std::uint32_t>((features + 1) / 2);
 }

@@ -1,12 +1,12 @@
 #pragma once
-// The feature vectors, what Adam keeps of them, and counters, on the device.
+// The feature vectors, their optimiser state and counters on the device.
 
 #include "neural/model/state.h"
 #include "neural/vulkan/table.h"
 
 namespace gatelight::neural::vulkan {
 
-/// Of a FeatureStore, without its topology.
+/// Bytes of a FeatureStore.
 std::uint64_t feature_bytes(const Model& model, const TrainingOptions& options);
 
 class FeatureStore {
@@ -15,14 +15,14 @@ class FeatureStore {
                std::uint64_t longest_part);
 
   void describe(ModelBlock& block) const;
-  /// What forward reads: of the averages or of the parameters.
+  /// The table that a forward pass reads: averages or parameters.
   TableBlock readable(bool averaged) const;
   bool halves() const { return !halves_.empty(); }
   bool floats() const { return !features_.empty(); }
   bool averages() const { return !averages_.empty() || !average_halves_.empty(); }
   bool counts_triangles() const { return !triangle_steps_.empty(); }
 
-  /// The features' part of the arrays, which have their sizes already.
+  /// Writes the features' part of the arrays, which must have their sizes.
   void export_to(Transfer& transfer, ModelState& state) const;
   void import_from(Transfer& transfer, const ModelState& state);
 

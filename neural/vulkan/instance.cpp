@@ -46,7 +46,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
   vk::InstanceCreateInfo info({}, &application);
   const vk::DebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages);
   const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-  // Objects whose memory or order of use is wrong are found by the layer's synchronization checks.
+  // The layer's synchronization checks find hazards of memory and ordering.
   const vk::ValidationFeatureEnableEXT synchronization =
       vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
   vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
@@ -99,7 +99,7 @@ std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
       found.push_back(std::move(device));
     return found;
   } catch (const vk::InitializationFailedError&) {
-    return {};  // the loader found no driver that works
+    return {};  // the loader found no working driver
   }
 }
 

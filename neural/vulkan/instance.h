@@ -1,5 +1,5 @@
 #pragma once
-// The loader, an instance, and what the validation layer says.
+// The loader, an instance, and the messages of the validation layer.
 
 #include <memory>
 #include <string>
@@ -13,13 +13,13 @@ namespace gatelight::neural::vulkan {
 
 class Instance {
  public:
-  /// Throws Unavailable where there is no loader, or validation is asked for and the layer is missing.
-  /// `messages` may be null.
+  /// Throws Unavailable if there is no loader, or if `validate` is set and the layer is missing. `messages`
+  /// may be null.
   Instance(bool validate, std::shared_ptr<std::vector<std::string>> messages);
 
   std::vector<vk::raii::PhysicalDevice> devices() const;
   bool validates() const { return validate_; }
-  /// Throws ValidationFailed with the first message since the last check, if there is one.
+  /// Throws ValidationFailed with the first message since the last check, if any.
   void check_messages();
 
  private:
@@ -33,8 +33,8 @@ class Instance {
 
 DeviceFacts facts_of(const vk::raii::PhysicalDevice& device);
 
-/// The first family with compute and, if there is one, without graphics: there work does not wait for a
-/// desktop's.
+/// The first queue family with compute, preferably without graphics, so that work does not wait for the
+/// desktop.
 std::uint32_t compute_family(const vk::raii::PhysicalDevice& device);
 
 }  // namespace gatelight::neural::vulkan

@@ -1,5 +1,5 @@
 #pragma once
-// What backends share: the device, its messages, its compiled shaders.
+// The objects that backends share: the device, its messages, its compiled shaders.
 
 #include "neural/vulkan/devices.h"
 #include "neural/vulkan/instance.h"
@@ -14,10 +14,9 @@ class Machine {
   const Device& device() const { return device_; }
   Pipelines& pipelines() { return pipelines_; }
   std::uint64_t longest_part() const { return longest_part_; }
-  /// Called for all work that is handed to the device. Throws vk::DeviceLostError
-  /// (MachineOptions::lose_after).
+  /// Must be called for each submission. Throws vk::DeviceLostError as MachineOptions::lose_after demands.
   void count_submission();
-  /// Throws ValidationFailed where the validation layer said something.
+  /// Throws ValidationFailed if the validation layer reported a message.
   void check() { instance_.check_messages(); }
 
  private:

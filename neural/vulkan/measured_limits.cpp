@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kGroups = 8192;
 constexpr std::uint64_t kOperationsARound = 64;
-constexpr double kLongEnough = 0.02;  // seconds, so that launching does not count
+constexpr double kLongEnough = 0.02;  // seconds, so that launch overhead is negligible
 constexpr std::uint32_t kMostRounds = 1u << 20;
 
 class Bench {
@@ -34,7 +34,7 @@ class Bench {
     transfer_.fill(vectors_, 0);
   }
 
-  /// Of the device.
+  /// The device's time.
   double seconds(Shader shader, std::uint32_t argument, std::uint32_t repetitions) {
     Commands commands(submission_.commands.front(), machine_, 0, block_.address());
     commands.reset(submission_.stamps, kStamps);

@@ -24,7 +24,7 @@ Buffer upload(const Device& device, Transfer& transfer, const std::vector<T>& va
   return buffer;
 }
 
-// The order of the words in shaders/inputs.glsl.
+// The numbers of the transforms in shaders/inputs.glsl.
 std::uint32_t transform_of(const AuxiliaryInput& input) {
   const bool spherical = input.source == InputSource::direction || input.source == InputSource::normal;
   switch (input.encoding) {
@@ -38,7 +38,7 @@ std::uint32_t transform_of(const AuxiliaryInput& input) {
   return 3;
 }
 
-// Finite, so that a product with a step count is no NaN.
+// The result is finite, so that its product with a step count is not NaN.
 float logarithm(float beta) {
   return static_cast<float>(std::max(std::log(static_cast<double>(beta)), -1e30));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What never changes of a model, on the device.
+// The constant data of a model on the device.
 
 #include "neural/model/training_options.h"
 #include "neural/vulkan/table.h"
@@ -8,11 +8,11 @@ namespace gatelight::neural::vulkan {
 
 class ModelTables {
  public:
-  /// Throws BadConfiguration for more surfaces than a buffer holds.
+  /// Throws BadConfiguration for more surfaces than a buffer can hold.
   ModelTables(const Device& device, Transfer& transfer, const Model& model, const TrainingOptions& options,
               std::uint64_t longest_part);
 
-  /// All but what changes in training.
+  /// Sets all members that training does not change.
   void describe(ModelBlock& block) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The network's parameters, what Adam keeps of them, and the count of steps, on the device.
+// The network's parameters, their optimiser state and the step count on the device.
 
 #include <vector>
 
@@ -9,10 +9,10 @@
 
 namespace gatelight::neural::vulkan {
 
-/// The first specialization constants of every shader that knows the network (shaders/network.glsl).
+/// The first specialization constants of shaders that include shaders/network.glsl.
 std::vector<std::uint32_t> network_constants(const Model& model);
 
-/// Floats of the packed forms of shaders/network.glsl.
+/// Number of floats of the packed layouts in shaders/network.glsl.
 std::uint64_t forward_floats(const Model& model);
 std::uint64_t backward_floats(const Model& model);
 
@@ -25,7 +25,7 @@ class NetworkStore {
   Address query_forward() const { return query_forward_.address(); }
   bool averages() const { return averaging_; }
 
-  /// The network's part of the arrays, which have their sizes already, and the steps.
+  /// Writes the network's part of the arrays, which must have their sizes, and the step count.
   void export_to(Transfer& transfer, ModelState& state) const;
   void import_from(Transfer& transfer, const ModelState& state);
 

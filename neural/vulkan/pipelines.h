@@ -1,5 +1,5 @@
 #pragma once
-// Compiled shaders, made when they are first asked for.
+// Pipelines of the shaders, compiled on first use.
 
 #include <cstdint>
 #include <map>
@@ -17,7 +17,7 @@ class Pipelines {
   explicit Pipelines(const Device& device);
 
   vk::PipelineLayout layout() const { return *layout_; }
-  /// `constants`: the words of the shader's specialization constants from number 0 on.
+  /// `constants` are the shader's specialization constants, starting with number 0.
   vk::Pipeline get(Shader shader, std::span<const std::uint32_t> constants);
 
  private:

@@ -18,7 +18,7 @@ struct Span {
   Address BatchBlock::*address = nullptr;
 };
 
-// What the model reads, in the order in which it lies there.
+// The spans that the model reads, in upload order.
 std::vector<Span> spans_of(const Model& model, const QueryBatch& points, std::span<const float> targets,
                            bool with_targets) {
   const ModelConfig& config = model.config;

@@ -1,5 +1,5 @@
 #pragma once
-// The SPIR-V that the build makes of shaders/*.comp.
+// The SPIR-V that the build compiles from shaders/*.comp.
 
 #include <cstdint>
 #include <span>

@@ -7,7 +7,7 @@ namespace gatelight::neural::vulkan {
 namespace {
 
 constexpr std::uint32_t kDigitBits = 4;
-constexpr std::uint32_t kNowhere = ~0u;  // where scan leaves totals that nobody reads
+constexpr std::uint32_t kNowhere = ~0u;  // makes scan discard the totals
 
 }  // namespace
 

@@ -1,15 +1,15 @@
 #pragma once
-// References to nodes, sorted and cut into the runs and pieces that gradients are summed by.
+// Records the sort of references by node, and the division into runs and pieces for sums of gradients.
 
 #include "neural/vulkan/commands.h"
 
 namespace gatelight::neural::vulkan {
 
-/// Sorts Batch::keys[0] (nodes, or node_count for none) and numbers the references in Batch::values, stably.
-/// Returns which of the two pairs of arrays holds the result.
+/// Sorts BatchBlock::keys[0] (nodes, or node_count for no reference) stably and writes the numbers of the
+/// references to BatchBlock::values. Returns which of the two pairs of arrays holds the result.
 std::uint32_t record_sort(std::uint32_t node_count, std::uint32_t blocks, Commands& commands);
 
-/// Runs of equal nodes and their pieces, of the arrays that record_sort named; how many there are goes to the
+/// Finds runs of equal nodes and their pieces in pair `sorted` of the arrays, and writes their numbers to the
 /// statistics.
 void record_runs(std::uint32_t sorted, std::uint32_t blocks, Commands& commands);
 

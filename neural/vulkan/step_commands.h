@@ -1,5 +1,5 @@
 #pragma once
-// The dispatches of a training step, in their order.
+// Records the dispatches of a training step.
 
 #include "neural/model/training_options.h"
 #include "neural/vulkan/commands.h"
@@ -15,14 +15,14 @@ struct StepPlan {
   const FeatureStore& features;
   StepCut cut;
   std::uint32_t tile = 1;
-  bool may_be_first = false;  ///< no step is known to have been made: the output bias may have to be set
+  bool may_be_first = false;  ///< this may be the first step, which sets the output bias
 };
 
-/// From the copy of the batch to that of the statistics.
+/// Records a step, from the copy of the batch to the copy of the statistics.
 void record_step(const StepPlan& plan, const Submission& step, std::uint64_t upload_bytes,
                  Commands& commands);
 
-/// The packed weights that training reads, from the parameters.
+/// Records the packing of the parameters into the weights that training reads.
 void record_training_pack(const Model& model, Commands& commands);
 
 }  // namespace gatelight::neural::vulkan

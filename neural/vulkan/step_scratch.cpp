@@ -10,12 +10,13 @@ namespace {
 constexpr std::uint64_t kMostTile = 64;
 constexpr std::uint64_t kOutputRows = 16;
 constexpr std::uint64_t kDigits = 16;
-// Workgroups' sums of weight gradients take about so many bytes, within so many workgroups.
+// The sums of weight gradients of all workgroups take about kPartialBytes, with kFewestGroups to kMostGroups
+// workgroups.
 constexpr std::uint64_t kPartialBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kFewestGroups = 16;
 constexpr std::uint64_t kMostGroups = 1024;
 
-// Rows have one float more than records, and a float of each record lies behind them.
+// A row has one float more than the tile has records, and one float per record lies behind the rows.
 std::uint32_t fitting_tile(std::uint64_t rows, std::uint32_t shared_bytes) {
   const std::uint64_t floats = shared_bytes / 4;
   const std::uint64_t most = (floats - rows) / (rows + 1);
@@ -66,7 +67,7 @@ void StepScratch::reserve(const Device& device, const Model& model, std::uint64_
   const auto words = [&](Buffer& buffer, std::uint64_t count) {
     vulkan::reserve(device, buffer, 4 * count, BufferUse::device);
   };
-  capacity_ = 0;  // where memory runs out on the way
+  capacity_ = 0;  // in case an allocation below throws
   words(inputs_, records * layout.inputs);
   words(status_, records);
   words(record_triangles_, records);

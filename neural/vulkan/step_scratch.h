@@ -1,31 +1,32 @@
 #pragma once
-// How a step's work is cut, and the arrays that it needs beside the batch and the state.
+// The division of a step's work, and its arrays besides the batch and the state.
 
 #include "neural/vulkan/blocks.h"
 #include "neural/vulkan/buffer.h"
 
 namespace gatelight::neural::vulkan {
 
-/// Threads of sort.glsl and runs.glsl times what each of them takes.
+/// References per workgroup in sort.glsl and runs.glsl.
 inline constexpr std::uint32_t kSortBlock = 2048;
 
-/// Records that a workgroup of train_network (or forward) holds in shared memory at a time: a power of two,
-/// as many as fit.
+/// Records that a workgroup of train_network, or of forward, holds in shared memory: the largest power of two
+/// that fits, at most 64.
 std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes);
 std::uint32_t query_tile(const Model& model, std::uint32_t shared_bytes);
 
-/// Depends on the batch's size, the model and the tile alone, so that sums have one order.
+/// The division of a step. It depends only on the batch's size, the model and the tile, so that sums have one
+/// order.
 struct StepCut {
   std::uint32_t size = 0, references = 0, tiles = 0, groups = 0, blocks = 0;
 };
 StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile);
 
-/// The most records of a batch whose arrays each fit `longest_buffer` bytes.
+/// The maximum number of records for which each array fits `longest_buffer` bytes.
 std::uint64_t most_records(const Model& model, std::uint64_t longest_buffer);
 
 class StepScratch {
  public:
-  /// For batches of so many records; what is in it is lost where it grows.
+  /// Allocates for batches of this many records; growing loses the contents.
   void reserve(const Device& device, const Model& model, std::uint64_t records, std::uint32_t tile);
   std::uint64_t capacity() const { return capacity_; }
   void describe(BatchBlock& block) const;

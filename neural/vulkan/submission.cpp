@@ -22,7 +22,7 @@ double seconds_between(const Device& device, const Submission& submission, std::
                                   vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
         .second;
   };
-  // Counters of fewer bits wrap.
+  // Counters with fewer bits wrap.
   const std::uint64_t passed = (ticks(to) - ticks(from)) & device.limits().tick_mask;
   return static_cast<double>(passed) * device.limits().nanoseconds_per_tick * 1e-9;
 }

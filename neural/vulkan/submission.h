@@ -1,5 +1,5 @@
 #pragma once
-// A place in a ring of work under way: a batch on its way to the device, its commands, and what comes back.
+// An entry in the ring of work in progress: a batch to upload, its commands, and its results.
 
 #include <cstdint>
 
@@ -7,8 +7,8 @@
 
 namespace gatelight::neural::vulkan {
 
-/// Timestamps. Of a step: before it, after the network, after the sort, at its end. Of a chunk of a query:
-/// before it, after the copy in, after the encoding, after the network, after the copy out.
+/// Timestamps. A step has four: start, after the network, after the sort, end. A chunk of a query has five:
+/// start, after the upload, after the encoding, after the network, after the readback.
 inline constexpr std::uint32_t kStamps = 5;
 
 struct Submission {
@@ -17,13 +17,13 @@ struct Submission {
   vk::raii::CommandPool pool;
   vk::raii::CommandBuffers commands;
   vk::raii::Fence fence;
-  vk::raii::QueryPool stamps = nullptr;  ///< where the device has timestamps
-  Buffer staging, batch;                 ///< the batch's block and spans, on the host and on the device
+  vk::raii::QueryPool stamps = nullptr;  ///< null if the device has no timestamps
+  Buffer staging, batch;                 ///< the batch's block and spans on the host and on the device
   Buffer result, readback;               ///< statistics or answers
   bool under_way = false;
 };
 
-/// Of the device, between two stamps that have been made; 0 where it has none.
+/// The device's time between two written stamps; 0 without timestamps.
 double seconds_between(const Device& device, const Submission& submission, std::uint32_t from,
                        std::uint32_t to);
 

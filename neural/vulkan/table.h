@@ -1,5 +1,5 @@
 #pragma once
-// An array of entries of some words each, cut into parts that a device can hold in one buffer.
+// An array of entries of `stride` words, divided into parts that fit one buffer of the device.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,8 @@ namespace gatelight::neural::vulkan {
 class Table {
  public:
   Table() = default;
-  /// At least one entry, so that there is an address. Parts have 2^k entries, at most `longest_part` bytes.
+  /// Allocates at least one entry, so that there is an address. Parts have 2^k entries and at most
+  /// `longest_part` bytes.
   Table(const Device& device, Transfer& transfer, std::uint64_t entries, std::uint32_t stride,
         std::uint64_t longest_part);
 
@@ -23,13 +24,13 @@ class Table {
   std::uint64_t bytes() const { return 4 * entries_ * stride_; }
   TableBlock block() const { return {addresses_.address(), shift_, stride_}; }
 
-  /// All entries' words.
+  /// `words` are those of all entries.
   void write(Transfer& transfer, std::span<const std::uint32_t> words);
   void read(Transfer& transfer, std::span<std::uint32_t> words) const;
   void fill(Transfer& transfer, std::uint32_t word);
 
  private:
-  /// Calls body(part, its words among all).
+  /// Calls body(part, the part's range of words).
   template <class Body>
   void for_parts(std::uint64_t words, Body&& body) const;
 

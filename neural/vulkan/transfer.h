@@ -1,5 +1,5 @@
 #pragma once
-// Between host and device, waiting: for states, not for steps.
+// Blocking copies between host and device, for states but not for steps.
 
 #include <cstddef>
 #include <span>
@@ -12,7 +12,7 @@ class Transfer {
  public:
   explicit Transfer(const Device& device);
 
-  /// After everything submitted before.
+  /// The copies run after everything submitted before.
   void write(const Buffer& to, std::span<const std::byte> bytes);
   void read(const Buffer& from, std::span<std::byte> bytes);
   void fill(const Buffer& to, std::uint32_t word);

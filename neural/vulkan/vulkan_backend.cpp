@@ -24,13 +24,13 @@ namespace gatelight::neural::vulkan {
 
 namespace {
 
-/// Steps under way at a time: one computes, one waits for it, one is being filled.
+/// Maximum steps in progress: one computes, one waits, one is being filled.
 constexpr std::size_t kSteps = 3;
-/// Chunks of a query under way, and points of one.
+/// Chunks of a query in progress, and points of a chunk.
 constexpr std::size_t kChunks = 2;
 constexpr std::size_t kChunkPoints = std::size_t{1} << 18;
 
-/// Which packed weights query_forward holds.
+/// The kind of packed weights in query_forward.
 struct PackedFor {
   bool averaged = false, rounded = false;
   friend bool operator==(const PackedFor&, const PackedFor&) = default;
@@ -119,7 +119,7 @@ VulkanBackend::~VulkanBackend() {
   try {
     machine_->device().handle().waitIdle();
   } catch (const vk::SystemError&) {
-    // What is lost is not under way.
+    // A lost device has no work in progress.
   }
 }
 
@@ -166,7 +166,7 @@ void VulkanBackend::submit_step(Submission& step, const TrainingBatch& batch) {
   const Device& device = machine_->device();
   const std::uint64_t records = batch.points.size;
   if (records > scratch_.capacity()) {
-    while (started_ > collected_) collect_oldest();  // they use the arrays that are about to grow
+    while (started_ > collected_) collect_oldest();  // these steps use the arrays that are about to grow
     scratch_.reserve(device, *model_, records, tile_);
   }
   const std::uint64_t bytes = upload_bytes(*model_, records, true);
@@ -237,7 +237,7 @@ void VulkanBackend::query(const QueryBatch& batch, const QueryOptions& options, 
   });
 }
 
-// Those of a query that an exception ended.
+// Waits for the chunks of a query that an exception ended.
 void VulkanBackend::abandon_chunks() const {
   for (Submission& chunk : chunks_) {
     if (!chunk.under_way) continue;
@@ -264,7 +264,7 @@ void VulkanBackend::ask(Submission& chunk, const QueryBatch& batch, const QueryO
   reserve(device, chunk.batch, bytes, BufferUse::device);
   reserve(device, chunk.result, 4 * size * outputs, BufferUse::device);
   reserve(device, chunk.readback, 4 * size * outputs, BufferUse::readback);
-  if (query_status_.bytes() < 4 * size) device.handle().waitIdle();  // the other chunk may use them
+  if (query_status_.bytes() < 4 * size) device.handle().waitIdle();  // the other chunk may use these buffers
   reserve(device, query_inputs_, 4 * size * model_->parameters.inputs, BufferUse::device);
   reserve(device, query_status_, 4 * size, BufferUse::device);
 
@@ -352,7 +352,7 @@ void VulkanBackend::import_state(const ModelState& state) {
   may_be_first_ = state.steps == 0;
 }
 
-// Before anything is allocated: some drivers promise more than they have.
+// Checked before any allocation, because some drivers promise more memory than they have.
 void check_memory(const Device& device, const Model& model, const TrainingOptions& options) {
   const std::uint64_t needed = feature_bytes(model, options) + model.gate.report.topology_bytes;
   if (needed > device.limits().device_bytes)

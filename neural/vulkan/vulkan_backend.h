@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan member of the backends: compute shaders on any device of Vulkan 1.2.
+// The Vulkan backend: compute shaders for any device with Vulkan 1.2.
 
 #include <memory>
 
@@ -8,12 +8,12 @@
 
 namespace gatelight::neural::vulkan {
 
-/// Throws BadConfiguration, OutOfDeviceMemory, DeviceLost.
+/// Throws BadConfiguration, OutOfDeviceMemory or DeviceLost.
 std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine> machine,
                                              std::shared_ptr<const Model> model,
                                              const TrainingOptions& options);
 
-/// The device's time for the last query of one of make_vulkan_backend's; zeros where it has no timestamps.
+/// The device's time for the last query of a Vulkan backend; zeros without timestamps.
 struct QuerySeconds {
   double encode = 0.0, network = 0.0, copies = 0.0;
 };

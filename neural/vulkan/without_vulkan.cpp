@@ -1,4 +1,4 @@
-// Stands in for the folder in builds without Vulkan.
+// Replaces this folder's sources in builds without Vulkan.
 
 #include "neural/base/errors.h"
 #include "neural/vulkan/measured_limits.h"

@@ -12,7 +12,7 @@ float exp_less_one(float x) {
   return x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0))))));
 }
 
-// Beyond the table: as adam.h, in single precision.
+// For t beyond the table: as in adam.h, in single precision.
 AdamStep late_adam_step(float t) {
   const float first = -exp_less_one(t * model.adam.log_beta1);
   const float second = sqrt(-exp_less_one(t * model.adam.log_beta2));
@@ -29,7 +29,7 @@ AdamStep adam_step(uint t) {
   return AdamStep(entry.x, entry.y, entry.z);
 }
 
-// The network's t for the step under way.
+// The factors for the network's t in the current step.
 AdamStep adam_step_of_network() {
   const uint low = model.progress.at[0] + 1u;
   const uint high = model.progress.at[1] + (low == 0u ? 1u : 0u);
@@ -37,7 +37,7 @@ AdamStep adam_step_of_network() {
   return late_adam_step(float(high) * 4294967296.0 + float(low));
 }
 
-// Of the mean over accepted records and outputs.
+// Converts gradients of sums to gradients of the mean over accepted records and outputs.
 float gradient_scale() {
   return 1.0 / (float(batch.statistics.at[kAccepted]) * float(model.outputs));
 }

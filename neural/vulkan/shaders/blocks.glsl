@@ -1,19 +1,19 @@
-// What shaders know of a model and of a batch: the other half of blocks.h, field by field.
+// The data of a model and of a batch. Each field must match blocks.h.
 #ifndef GATELIGHT_BLOCKS
 #define GATELIGHT_BLOCKS
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_control_flow_attributes : require
 
-// The least that Vulkan 1.2 promises.
+// The workgroup size that every Vulkan 1.2 device supports.
 const uint kThreads = 128;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Vectors { vec4 at[]; };
-// As long as there are parts; an array without a length would ask for a feature of descriptors.
+// Only existing parts are accessed; an array without a length would need a descriptor feature.
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Parts { Words part[65536]; };
 
-// An array of entries of `stride` words, cut into parts of 2^shift entries.
+// An array of entries of `stride` words, divided into parts of 2^shift entries.
 struct Table {
   Parts parts;
   uint shift;
@@ -71,7 +71,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Model {
   Floats forward;
   Floats backward;
   Vectors adam_table;
-  Words progress;  // steps, the lower word first
+  Words progress;  // number of steps, lower word first
   uint surface_count;
   uint level_count;
   uint nodes_per_level;
@@ -85,7 +85,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Model {
   uint hidden_layers;
   uint biases;
   uint network_count;
-  uint sources;  // bit s: source s of the batch is read; bit 5: barycentrics
+  uint sources;  // bit s is set if source s of the batch is read; bit 5 is for barycentrics
   uint auxiliary_count;
   float inverse_extent;
   float max_target;
@@ -96,7 +96,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Model {
 };
 
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Batch {
-  Table read;  // features that this batch reads
+  Table read;  // the features that this batch reads
   Words surfaces;
   Words triangles;
   Floats barycentrics;
@@ -109,8 +109,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Batch {
   Floats inputs;  // [input][capacity]
   Words status;
   Words record_triangles;
-  Words keys[2];    // nodes, [record][slot]; sorted from one to the other and back
-  Words values[2];  // numbers of references
+  Words keys[2];    // nodes, [record][slot]; the sort alternates between the two arrays
+  Words values[2];  // numbers of the references
   Floats weights;   // [record][slot]
   Floats feature_gradients;  // [record][feature input]
   Floats losses;             // [tile]
@@ -129,7 +129,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Batch {
   uint references;
   uint tiles;
   uint groups;
-  uint blocks;  // of references
+  uint blocks;  // number of blocks of references
 };
 
 layout(push_constant) uniform Push {
@@ -139,7 +139,7 @@ layout(push_constant) uniform Push {
   uint other;
 };
 
-// Words of Batch::statistics.
+// Indices of the words of Batch::statistics.
 const uint kAccepted = 0;
 const uint kRejected = 1;
 const uint kUnstored = 2;
@@ -163,7 +163,7 @@ uint flat_thread() {
   return flat_group() * kThreads + gl_LocalInvocationIndex;
 }
 
-// By bits: compilers may take it for granted that nothing is NaN.
+// Tests bits, because compilers may assume that nothing is NaN.
 bool finite(float x) {
   return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
 }

@@ -1,5 +1,6 @@
 #version 460
-// Once a step for each triangle that an accepted record lies on: whoever stamps it first counts.
+// Increments the count of each triangle with an accepted record, once per step: the thread that stamps it
+// first does.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

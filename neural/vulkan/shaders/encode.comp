@@ -1,6 +1,6 @@
 #version 460
-// From points to network inputs, one a thread: which records are learned from, the nodes and weights that
-// each reads, the interpolated features and the other inputs.
+// Encodes points as network inputs, one point per thread: the status of the record, its nodes and weights,
+// the interpolated features and the other inputs.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -19,7 +19,7 @@ const uint kGate = 1;
 const uint kHashGrid = 2;
 const uint kPosition = 0, kDirection = 1, kNormal = 2, kAlbedo = 3, kRoughness = 4, kBarycentrics = 5;
 
-// A workgroup's records by status: one addition in memory for all of them.
+// Counts a workgroup's records by status, so that each workgroup needs only one global addition per status.
 shared uint status_counts[3];
 
 uint record;
@@ -62,7 +62,7 @@ void put(uint row, float value) {
   batch.inputs.at[row * batch.capacity + record] = value;
 }
 
-// Features first .. first + 3 of a node, zeros beyond the last.
+// Features first .. first + 3 of a node, zeros behind the last.
 vec4 four_features(uint node, uint first) {
   Words part = part_of(batch.read, node);
   const uint at = place_in_part(batch.read, node);
@@ -136,7 +136,7 @@ void encode_frequency(Auxiliary a, vec3 x) {
       const float turns = x[c] * float(1u << i);
       const uint at = a.first_input + 2u * (c * a.size + i);
       put(at, sine_pi(turns));
-      // The quarter turn is added after the reduction to [-1, 1], where it is exact enough.
+      // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
       put(at + 1u, sine_pi(fma(roundEven(turns * 0.5), -2.0, turns) + 0.5));
     }
 }

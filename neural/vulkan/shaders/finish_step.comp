@@ -1,5 +1,5 @@
 #version 460
-// The loss of all tiles in one order, and the count of steps. One workgroup.
+// Sums the losses of all tiles in one order and counts the step. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

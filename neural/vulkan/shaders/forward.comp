@@ -1,5 +1,5 @@
 #version 460
-// Answers: forward over tiles of points, layers in turn between two sets of rows.
+// Answers queries: a forward pass over tiles of points. Layers alternate between two sets of rows.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -16,7 +16,7 @@ shared float rows[(kSecondRows + kWidth) * (kTile + 1u)];
 
 #include "tile.glsl"
 
-// Of Push::argument.
+// Values of Push::argument.
 const uint kRaw = 0;
 const uint kUnit = 2;
 

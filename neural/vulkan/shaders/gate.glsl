@@ -1,4 +1,5 @@
-// Mesh colours (Yuksel, Keyser, House 2010) on the tables of gate_tables.h: a point's three nodes in a level.
+// Mesh colours (Yuksel, Keyser, House 2010) with the tables of gate_tables.h: a point's three nodes in a
+// level.
 
 const uint kTopologyEdges = 3;
 const uint kSurfaceWords = 4;
@@ -31,16 +32,16 @@ GateLevel gate_level(uint surface, uint level) {
   return GateLevel(words.at[at], words.at[at + 1u], words.at[at + 2u], words.at[at + 3u], words.at[at + 4u]);
 }
 
-// Of all three corners. Points far outside stay finite, so that every node that comes out exists.
+// Weights of all three corners. Points far outside stay finite, so that every resulting node exists.
 vec3 corner_weights(vec2 second_and_third) {
   const float first = (1.0 - second_and_third.x) - second_and_third.y;
   const vec3 b = clamp(vec3(first, second_and_third), vec3(0.0), vec3(1e30));
   return b * (1.0 / (b.x + (b.y + b.z)));
 }
 
-// The small triangle between nodes: integer barycentrics of its nodes, and weights. With B = R b the sum of
-// the floors tells exactly where the point lies: R less it is 1 in a small triangle like the big one, 2 in
-// one upside down, 0 or 3 on a node.
+// The small triangle around a point: integer barycentrics of its nodes, and weights. R minus the sum of the
+// floors of R b is 1 in a small triangle with the big one's orientation, 2 in an inverted one, 0 or 3 on a
+// node.
 void small_triangle(vec3 b, uint resolution, out uvec3 nodes[3], out vec3 weights) {
   const vec3 scaled = b * float(resolution);
   const vec3 whole = floor(scaled);
@@ -76,7 +77,7 @@ uint shared_node(uvec3 node, GateLevel level, uint row, uint triangle) {
   if (node.x == r) return level.vertex_base + corners.x;
   if (node.y == r) return level.vertex_base + corners.y;
   if (node.z == r) return level.vertex_base + corners.z;
-  // Along the edge opposite to the corner whose coordinate is 0, from its lower vertex to its higher one.
+  // The edge is opposite to the corner whose coordinate is 0; steps count from its lower vertex.
   uint edge = 2u, steps = corners.x < corners.y ? node.y : node.x;
   if (node.x == 0u) {
     edge = 0u;

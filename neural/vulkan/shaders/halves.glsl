@@ -1,4 +1,4 @@
-// fp16 by integers, the same on every driver: two in a word, to nearest even.
+// fp16 by integer arithmetic, equal on every driver: two halves per word, rounded to nearest even.
 
 float half_to_float(uint half_bits) {
   const uint sign = (half_bits & 0x8000u) << 16;
@@ -11,13 +11,13 @@ float half_to_float(uint half_bits) {
   return uintBitsToFloat(sign | exponent + 112u << 23 | mantissa << 13);
 }
 
-// |value| is at most the greatest half.
+// |value| must be at most the largest half.
 uint float_to_half(float value) {
   const uint bits = floatBitsToUint(value);
   const uint sign = bits >> 16 & 0x8000u;
   const uint magnitude = bits & 0x7fffffffu;
   if (magnitude < 0x38800000u) {
-    // Subnormal: the sum with 0.5 leaves the rounded mantissa in its lowest bits.
+    // Subnormal: the sum with 0.5 has the rounded mantissa in its lowest bits.
     precise const float shifted = uintBitsToFloat(magnitude) + 0.5;
     return sign | floatBitsToUint(shifted) - 0x3f000000u;
   }

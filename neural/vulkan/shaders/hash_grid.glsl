@@ -1,4 +1,4 @@
-// Instant-ngp's grid: a cell's eight corners with trilinear weights.
+// The grid of instant-ngp: a cell's eight corners with trilinear weights.
 
 uint hash_entry(HashLevel level, uvec3 cell) {
   const uint number = level.dense != 0u
@@ -7,7 +7,7 @@ uint hash_entry(HashLevel level, uvec3 cell) {
   return level.first_node + number % level.entries;
 }
 
-// In the unit cube, in the two roundings that every backend has.
+// The position in the unit cube, with the same two roundings as in every backend.
 vec3 unit_position(vec3 position) {
   const vec3 low = vec3(model.bounds_min[0], model.bounds_min[1], model.bounds_min[2]);
   precise const vec3 offset = position - low;

@@ -1,12 +1,12 @@
-// Inputs beside the features. Sines and arcs are the CPU's polynomials: Vulkan promises built-in ones to 2^-11
-// only.
+// Inputs besides the features. Sines and arctangents are the CPU's polynomials, because Vulkan guarantees the
+// built-in ones only to 2^-11.
 
 const uint kIdentity = 0;
 const uint kOneBlob = 1;
 const uint kSphericalOneBlob = 2;
 const uint kFrequency = 3;
 
-// atan(a), a in [0,1]; error 1.1e-7.
+// atan(a) for a in [0,1]; the error is 1.1e-7.
 float arctangent_unit(float a) {
   const float z = a * a;
   float p = 0.0028340643;
@@ -30,7 +30,7 @@ float arctangent(float y, float x) {
   return y < 0.0 ? -angle : angle;
 }
 
-// sin(pi x): exact reduction, then a polynomial on [-1/2, 1/2]; error 2e-7.
+// sin(pi x): an exact reduction, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
 float sine_pi(float x) {
   float r = fma(roundEven(x * 0.5), -2.0, x);
   const float magnitude = abs(r);
@@ -52,7 +52,7 @@ vec2 spherical(vec3 d) {
   return vec2(theta * 0.318309886184, phi < 0.0 ? phi + 1.0 : phi);
 }
 
-// Primitive of the quartic kernel 15/16 (1 - u^2)^2 on [-1, 1], from 0 to 1.
+// Integral of the quartic kernel 15/16 (1 - u^2)^2 from -1 to u; between 0 and 1.
 float quartic_primitive(float u) {
   u = clamp(u, -1.0, 1.0);
   const float z = u * u;
@@ -60,7 +60,7 @@ float quartic_primitive(float u) {
   return fma(u * (15.0 / 16.0), p, 0.5);
 }
 
-// The part of a kernel of radius 1/size that falls into a bin whose centre is that far from its own.
+// The part of a kernel of radius 1/size inside a bin whose centre has this distance from the kernel's.
 float bin_share(float distance, float size) {
   return quartic_primitive(fma(distance, size, 0.5)) - quartic_primitive(fma(distance, size, -0.5));
 }
@@ -71,7 +71,7 @@ float one_blob(float x, uint bin, uint bins, bool wraps) {
   if (!wraps) return bin_share(distance, size);
   distance -= roundEven(distance);
   float share = bin_share(distance, size);
-  // Two bins around a circle are so wide that the kernel reaches one of them from both sides.
+  // With two bins on a circle the kernel reaches a bin from both sides.
   if (bins == 2u) share += bin_share(distance + 1.0, size) + bin_share(distance - 1.0, size);
   return share;
 }

@@ -1,5 +1,5 @@
 #version 460
-// As many multiplications and additions as can be: Push::argument rounds of 64 operations for each thread.
+// Measures arithmetic: each thread makes Push::argument rounds of 64 operations.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Reads Push::argument vectors of Batch::forward in a row, all threads together.
+// Measures sequential reads: all threads together read Push::argument vectors of Batch::forward.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

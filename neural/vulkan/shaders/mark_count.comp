@@ -1,5 +1,5 @@
 #version 460
-// How many pieces and runs begin in each block, [kind][block].
+// Counts the pieces and runs that begin in each block, [kind][block].
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

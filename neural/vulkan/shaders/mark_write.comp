@@ -1,6 +1,6 @@
 #version 460
-// Where pieces begin, and which node and first piece each run has; each list ends with where the next would
-// begin.
+// Writes the start of each piece, and the node and first piece of each run. Each list ends with the start of
+// the next, non-existing entry.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

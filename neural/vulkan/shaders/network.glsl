@@ -1,8 +1,8 @@
-// The network's shape, and where its parameters lie: flat as in ParameterLayout (from the first weight on), and
-// packed for products. Layers 0 .. kHidden - 1 are hidden, layer kHidden gives the outputs.
+// The network's shape and the offsets of its parameters: flat as in ParameterLayout (from the first weight
+// on), and packed for products. Layers 0 .. kHidden - 1 are hidden; layer kHidden computes the outputs.
 
-// Constants of the pipeline, or, where GATELIGHT_SHAPE_OF_MODEL is defined, the model's words: for shaders that need no
-// arrays of these sizes, and so one pipeline for all models.
+// The shape is in specialization constants or, if GATELIGHT_SHAPE_OF_MODEL is defined, in the model's words.
+// Shaders without arrays of these sizes use the latter, so that one pipeline serves all models.
 #ifdef GATELIGHT_SHAPE_OF_MODEL
 #define kInputs model.inputs
 #define kFeatureInputs model.feature_inputs
@@ -50,7 +50,7 @@ uint forward_row(uint layer) {
   return to_eights(layer_outputs(layer));
 }
 
-// Packed backward, in floats: [output][inputs to eights]; of layer 0 the feature inputs only.
+// Packed backward, in floats: [output][inputs to eights]; layer 0 has the feature inputs only.
 uint backward_weights(uint layer) {
   return layer == 0u ? 0u : kWidth * to_eights(kFeatureInputs) + (layer - 1u) * kWidth * kWidth;
 }

@@ -1,6 +1,6 @@
 #version 460
-// The network's parameters as products read them, a parameter a thread. Padding stays zero from the start.
-// Push::argument: bit 0, backward too; bit 1, of the average; bit 2, rounded to bf16.
+// Packs the network's parameters for products, one parameter per thread. Padding stays zero. Bits of
+// Push::argument: 0 packs backward weights too, 1 packs the averages, 2 rounds to bf16.
 #extension GL_GOOGLE_include_directive : require
 
 #define GATELIGHT_SHAPE_OF_MODEL

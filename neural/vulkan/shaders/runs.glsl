@@ -1,5 +1,6 @@
-// Sorted references, cut where the node changes (runs) and at multiples of kPiece too (pieces), so that a run
-// that many records share is summed by many threads. Push::argument: which array the sort left them in.
+// Sorted references are divided where the node changes (runs), and also at multiples of kPiece (pieces), so
+// that many threads sum a run that many records share. Push::argument is the array that holds the sort's
+// result.
 
 const uint kEach = 16;
 const uint kBlock = kThreads * kEach;
@@ -17,7 +18,7 @@ bool begins_run(uint i) {
   return i == 0u || key_at(i - 1u) != key_at(i);
 }
 
-// Pieces in the lower half of a word, runs in the upper one.
+// Number of pieces (lower half of the word) and runs (upper half) that begin at reference i.
 uint beginnings(uint i) {
   if (!is_reference(i)) return 0u;
   if (begins_run(i)) return 0x10001u;

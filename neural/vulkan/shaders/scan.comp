@@ -1,6 +1,6 @@
 #version 460
-// Exclusive prefix sums of Push::argument words of Batch::counts, a workgroup for each such array; its total
-// goes to word Push::other + array of the statistics.
+// Exclusive prefix sums of arrays in Batch::counts, one workgroup per array of Push::argument words. Its
+// total goes to word Push::other + array of the statistics.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

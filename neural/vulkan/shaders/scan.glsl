@@ -1,8 +1,8 @@
-// Sums over a workgroup, by steps of twice the distance.
+// A prefix sum over a workgroup, in steps of doubled distance.
 
 shared uint scan_words[kThreads];
 
-// The sum over the threads before this one; `total` is that over all. Every thread calls it.
+// Returns the sum over the threads before this one; `total` is the sum over all. Every thread must call it.
 uint sum_before(uint value, out uint total) {
   const uint t = gl_LocalInvocationIndex;
   scan_words[t] = value;

@@ -1,5 +1,5 @@
-// A stable sort of references by node, four bits of it at a time. A block of references belongs to a workgroup,
-// sixteen in a row to a thread. Push::argument: the lowest of the four bits.
+// A stable radix sort of references by node, four bits per pass. A workgroup has a block of references, a
+// thread has sixteen consecutive ones. Push::argument is the lowest of the four bits.
 
 const uint kEach = 16;
 const uint kBlock = kThreads * kEach;
@@ -9,7 +9,7 @@ uint digit_of(uint key) {
   return key >> argument & (kDigits - 1u);
 }
 
-// Which of the two arrays is read in this pass.
+// The array that this pass reads.
 uint from_array() {
   return argument / 4u % 2u;
 }

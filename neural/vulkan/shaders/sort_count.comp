@@ -1,5 +1,5 @@
 #version 460
-// How many references of each block have each digit, [digit][block].
+// Counts the references of each block by digit, [digit][block].
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"

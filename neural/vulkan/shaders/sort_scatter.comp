@@ -1,5 +1,6 @@
 #version 460
-// Each reference to its place: where its digit's references of this block begin, plus those before it here.
+// Moves each reference to its place: the start of its digit in this block, plus the number of such references
+// before it in the block.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -11,7 +12,8 @@ layout(local_size_x = kThreads) in;
 const uint kPairs = kDigits / 2u;
 const uint kEntries = kPairs * kThreads;
 
-// Counts by [digit][thread]: digits below eight in the lower halves of words, the others in the upper ones.
+// Counts by [digit][thread]: digits below eight are in the lower halves of words, the others in the upper
+// halves.
 shared uint counts[kEntries];
 shared uint starts[kPairs];
 
@@ -31,7 +33,7 @@ void count_own(uint first, Words keys) {
   }
 }
 
-// From counts to sums of all entries before; upper halves come after all lower ones.
+// Replaces counts by sums of all earlier entries; upper halves follow all lower halves.
 void scan_counts() {
   const uint own = gl_LocalInvocationIndex * kPairs;
   uint sum = 0u;

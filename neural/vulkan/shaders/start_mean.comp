@@ -1,6 +1,7 @@
 #version 460
-// Before the first step: the mean target of the accepted records (neural/learning/start_mean.h) becomes the output's bias, so
-// that the network starts with the right brightness. One workgroup; Push::argument: the first output bias.
+// Before the first step, sets the output biases to the mean target of the accepted records
+// (neural/learning/start_mean.h), so that the network starts with the right brightness. One workgroup.
+// Push::argument is the index of the first output bias.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -14,7 +15,7 @@ bool is_accepted(uint record) {
   return batch.status.at[record] == kStatusAccepted;
 }
 
-// How many of the accepted targets other than 0 have a magnitude of at most the float of these bits.
+// The number of accepted non-zero targets whose magnitude is at most the float with these bits.
 uint count_up_to(uint o, uint bits) {
   uint count = 0u;
   for (uint record = gl_LocalInvocationIndex; record < batch.size; record += kThreads) {
@@ -34,8 +35,8 @@ uint count_up_to(uint o, uint bits) {
   return all;
 }
 
-// What a target counts for at most: a hundred times the median magnitude (neural/learning/start_mean.h). The bits of
-// positive floats are in their order.
+// The clamp of a target: a hundred times the median magnitude (neural/learning/start_mean.h). The search uses
+// that the bits of positive floats have the same order as the floats.
 float most_of(uint o) {
   uint low = 0u, high = 0x7f7fffffu;
   const uint all = count_up_to(o, high);
@@ -50,7 +51,7 @@ float most_of(uint o) {
   return min(model.max_target, 100.0 * uintBitsToFloat(low));
 }
 
-// Sum over every kThreads-th record; the part of each addition that is rounded away is kept for the next.
+// Sum over every kThreads-th record, with compensated summation (Kahan).
 float own_sum(uint o, float most) {
   precise float sum = 0.0, lost = 0.0;
   for (uint record = gl_LocalInvocationIndex; record < batch.size; record += kThreads) {

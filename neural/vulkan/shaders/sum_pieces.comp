@@ -1,5 +1,5 @@
 #version 460
-// For each piece the sum of weight times gradient over its references, in their order: a feature a thread.
+// Sums weight times gradient over the references of each piece, in their order, one feature per thread.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -8,7 +8,7 @@ layout(local_size_x = kThreads) in;
 layout(constant_id = 0) const uint kFeatures = 1;
 layout(constant_id = 1) const bool kPerTriangle = false;
 
-// The greatest step count of the triangles that the piece's records lie on.
+// The largest step count of the triangles of the piece's records.
 uint greatest_triangle_step(uint begin, uint end, uint slots) {
   uint greatest = 0u;
   for (uint i = begin; i < end; ++i) {

@@ -1,5 +1,5 @@
-// A tile of records in shared memory, [row][record]: rows are inputs and neurons. The odd stride keeps rows and
-// columns free of bank conflicts. Includers declare `rows` and kTile.
+// A tile of records in shared memory, [row][record]; rows are inputs and neurons. The odd stride avoids bank
+// conflicts for rows and columns. The including shader declares `rows` and kTile.
 
 const uint kStride = kTile + 1u;
 
@@ -7,7 +7,7 @@ uint row_place(uint row, uint r) {
   return row * kStride + r;
 }
 
-// Rounded to bf16, to nearest even; what is not finite stays so.
+// Rounds to bf16, to nearest even; values that are not finite stay so.
 float to_bf16(float x) {
   const uint bits = floatBitsToUint(x);
   return finite(x) ? uintBitsToFloat(bits + 0x7fffu + (bits >> 16 & 1u) & 0xffff0000u) : x;
@@ -21,8 +21,8 @@ void load_inputs(uint first, uint row, bool rounded) {
   }
 }
 
-// Rows y = W x + b and the activation: a thread computes eight outputs of a record, so that a row's number is
-// read once for eight products and weights are the same for neighbouring threads.
+// Computes rows y = W x + b and the activation. A thread computes eight outputs of a record, so that it reads
+// each input once for eight products and neighbouring threads read the same weights.
 void forward_layer(Vectors packed_weights, uint layer, uint x, uint y, float slope, bool rounded) {
   const uint inputs = layer_inputs(layer), outputs = layer_outputs(layer);
   const uint columns = forward_row(layer) / 4u;

@@ -1,6 +1,6 @@
 #version 460
-// Forward, loss and backward over tiles of records in shared memory. On the way back gradients take the places
-// of what they belong to. A workgroup adds its weight gradients tile by tile into sums of its own.
+// Forward, loss and backward over tiles of records in shared memory. In the backward pass gradients overwrite
+// their values. A workgroup adds the weight gradients of its tiles to its own sums.
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -37,7 +37,8 @@ float luminance(uint r) {
   return sum / float(kOutputs);
 }
 
-// Outputs become derivatives of the sum of (y - t)^2 / denominator; the mean is taken where gradients are used.
+// Replaces outputs by derivatives of the sum of (y - t)^2 / denominator. The updates divide by records and
+// outputs.
 void take_loss(uint first) {
   const uint r = gl_LocalInvocationIndex;
   if (r >= kTile) return;
@@ -75,8 +76,8 @@ void sum_losses(uint tile) {
   batch.losses.at[tile] = sum;
 }
 
-// Sums of d x over the tile's records, sixteen to a thread. A thread's rows lie a quarter of all rows apart, so
-// that neighbouring threads read neighbouring rows.
+// Sums d x over the tile's records, sixteen sums per thread. A thread's rows are a quarter of all rows apart,
+// so that neighbouring threads read neighbouring rows.
 void add_weight_gradients(uint layer, uint sums, bool first_tile) {
   const uint inputs = layer_inputs(layer), outputs = layer_outputs(layer);
   const uint x = input_row(layer), d = output_row(layer);
@@ -109,7 +110,7 @@ void add_weight_gradients(uint layer, uint sums, bool first_tile) {
   }
 }
 
-// Through a layer's weights: eight inputs of a record to a thread.
+// Propagates gradients through a layer's weights, eight inputs of a record per thread.
 void descend(uint layer, uint first) {
   const uint outputs = layer_outputs(layer), d = output_row(layer);
   const uint inputs = layer == 0u ? kFeatureInputs : kWidth;

@@ -1,6 +1,6 @@
 #version 460
-// Weight gradients of all workgroups summed in one order, then Adam: 8 parameters a workgroup, sixteen threads
-// for each, of which each takes every sixteenth sum.
+// Sums the weight gradients of all workgroups in one order, then applies Adam. A workgroup has 8 parameters
+// with sixteen threads each; a thread adds every sixteenth sum.
 #extension GL_GOOGLE_include_directive : require
 
 #define GATELIGHT_SHAPE_OF_MODEL

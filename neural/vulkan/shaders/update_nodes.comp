@@ -1,6 +1,6 @@
 #version 460
-// Adam and averages of feature vectors, a node a thread: of touched nodes with counters of their own, or of
-// every node with the step's number (dense).
+// Applies Adam to feature vectors and updates their averages, one node per thread: to touched nodes with
+// their own counters, or to every node with the global step count (dense).
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
@@ -12,7 +12,7 @@ layout(constant_id = 0) const uint kFeatures = 1;
 layout(constant_id = 1) const bool kPerTriangle = false;
 layout(constant_id = 2) const bool kDense = false;
 layout(constant_id = 3) const bool kFloats = true;   // parameters or masters
-layout(constant_id = 4) const bool kHalves = false;  // what forward reads
+layout(constant_id = 4) const bool kHalves = false;  // read by the forward pass
 layout(constant_id = 5) const bool kAverages = true;
 
 const float kMaxHalf = 65504.0;
@@ -102,7 +102,7 @@ void move(uint node, AdamStep adam) {
   }
 }
 
-// With fp16 alone an average follows what fp16 holds of the feature.
+// With fp16 alone an average follows the rounded feature.
 void follow(uint node, AdamStep adam) {
   for (uint f = 0u; f < kFeatures; ++f) {
     const float target = kFloats ? changed[f] : half_to_float(float_to_half(changed[f]));
