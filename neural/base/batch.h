@@ -1,6 +1,6 @@
 #pragma once
-// What the cache is asked and taught: structures of arrays over points on surfaces. All spans but the empty
-// ones have one entry a point; an input that the model's configuration does not use may be left empty.
+// Batches of queries and training records: structures of arrays over points on surfaces. Each span has one
+// entry per point. Spans that the model does not read may be empty.
 
 #include <array>
 #include <cstddef>

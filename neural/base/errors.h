@@ -1,21 +1,21 @@
 #pragma once
-// The ways in which the library refuses.
+// The exceptions of the library.
 
 #include <stdexcept>
 
 namespace gatelight::neural {
 
-/// A configuration or a batch that cannot be: the message names the value and what was expected.
+/// A configuration or a batch is invalid. The message names the value and what was expected.
 struct BadConfiguration : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The instruction set or the device asked for is not there. The message lists what is.
+/// The requested instruction set or device is not available. The message lists what is.
 struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The device stopped working on the way.
+/// The device stopped working during use.
 struct DeviceLost : Unavailable {
   using Unavailable::Unavailable;
 };
@@ -30,12 +30,12 @@ struct ValidationFailed : std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// A cache file that cannot be read or belongs to another model. The message names file and difference.
+/// A cache file cannot be read or belongs to another model. The message names file and difference.
 struct CacheFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A cache file that cannot be written.
+/// A cache file cannot be written.
 struct CacheWriteError : CacheFileError {
   using CacheFileError::CacheFileError;
 };

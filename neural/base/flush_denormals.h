@@ -1,6 +1,6 @@
 #pragma once
-// Numbers below 1.2e-38 as zeros. They mean nothing here, and arithmetic with them takes a hundred times as
-// long on some processors.
+// Treats floats below 1.2e-38 as zeros. They have no meaning here, and arithmetic with them takes a hundred
+// times as long on some processors.
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -8,9 +8,9 @@
 
 namespace gatelight::neural {
 
-/// While it lives the thread takes denormal floats for zeros and makes none (FTZ and DAZ); then its control
-/// word is what it was. Threads of oneTBB have that of the thread that made their arena: whoever hands work
-/// to them holds one of these inside of it.
+/// During its lifetime the thread treats denormal floats as zeros and makes none (FTZ and DAZ); the
+/// destructor restores the control word. Threads of oneTBB have the control word of the thread that made
+/// their arena, so each task needs its own object.
 class FlushDenormals {
  public:
 #if defined(__SSE__)

@@ -1,5 +1,5 @@
 #pragma once
-// IEEE binary16 by integer arithmetic, for code outside the kernels: rounds to nearest even, as the F16C
+// IEEE binary16 by integer arithmetic, for code outside the kernels. It rounds to nearest even, as the F16C
 // instructions do.
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr std::uint16_t float_to_half(float value) {
   if (magnitude > 0x7f800000u) return static_cast<std::uint16_t>(sign | 0x7e00u | (magnitude >> 13 & 0x3ffu));
   if (magnitude >= 0x477ff000u) return static_cast<std::uint16_t>(sign | 0x7c00u);  // rounds beyond 65504
   if (magnitude < 0x38800000u) {
-    // Subnormal: the sum with 0.5 leaves the rounded mantissa in its lowest bits (halves' step is 2^-24).
+    // Subnormal: the sum with 0.5 has the rounded mantissa in its lowest bits (the step of halves is 2^-24).
     const float shifted = std::bit_cast<float>(magnitude) + 0.5f;
     return static_cast<std::uint16_t>(sign | (std::bit_cast<std::uint32_t>(shifted) - 0x3f000000u));
   }
@@ -25,7 +25,7 @@ constexpr std::uint16_t float_to_half(float value) {
 
 inline constexpr float kMaxHalf = 65504.0f;
 
-/// The nearest half that is finite. For features, whose infinities would spoil everything.
+/// The nearest finite half, for features, which must not become infinite.
 constexpr std::uint16_t float_to_finite_half(float value) {
   return float_to_half(std::clamp(value, -kMaxHalf, kMaxHalf));
 }

@@ -1,11 +1,11 @@
 #pragma once
-// Random numbers that are a function of a key and a counter: the same for any order and any machine.
+// Counter-based random numbers: a function of a key and a counter, equal for any order and on any machine.
 
 #include <cstdint>
 
 namespace gatelight::neural {
 
-/// A bijective mixer of 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood 2014).
+/// A bijective mix of 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood 2014).
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -13,7 +13,7 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// In [0,1), with 24 random bits.
+/// A uniform number in [0,1) with 24 random bits.
 constexpr float uniform_float(std::uint64_t key, std::uint64_t counter) {
   return static_cast<float>(mix_bits(mix_bits(key) ^ counter) >> 40) * 0x1p-24f;
 }

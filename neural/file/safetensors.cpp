@@ -28,9 +28,10 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 
 constexpr const char* kMetadataKey = "__metadata__";
 constexpr std::uint64_t kLengthBytes = 8;
-/// Ours take some kilobytes. As JSON values a header takes up to a hundred times its bytes of memory.
+/// Our headers have a few kilobytes. As JSON values a header takes up to a hundred times its size in memory.
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 20;
-/// The header, a tensor's entry, its shape. What is nested deeper would end the stack of whoever prints it.
+/// The levels are the header, a tensor's entry and its shape. Deeper nesting could overflow the stack of code
+/// that prints it.
 constexpr int kMaxHeaderDepth = 3;
 constexpr std::array<std::pair<TensorType, std::string_view>, 5> kTypeNames = {{{TensorType::f16, "F16"},
                                                                                 {TensorType::f32, "F32"},
@@ -43,7 +44,7 @@ std::string_view type_name(TensorType type) {
       ->second;
 }
 
-/// The product with the size of an element; false where it does not fit 64 bits.
+/// Computes the bytes of a tensor. Returns false if the number does not fit 64 bits.
 bool tensor_bytes(TensorType type, std::span<const std::uint64_t> shape, std::uint64_t& bytes) {
   bytes = element_bytes(type);
   bool fits = true;
@@ -213,7 +214,7 @@ SafetensorsReader::SafetensorsReader(const fs::path& path) : path_(path) {
 
 void SafetensorsReader::parse_header(const std::string& header, std::uint64_t data_bytes) {
   if (header.front() != '{') fail("the header does not begin with '{'");
-  // The parser takes a NUL for the end of the text.
+  // The parser treats a NUL as the end of the text.
   if (header.find('\0') != std::string::npos) fail("the header holds a NUL byte");
   std::vector<std::set<std::string>> keys;
   std::string duplicate;
