@@ -23,8 +23,8 @@ struct LoadOptions {
 /// this distance that is a 30 000th of the radius.
 inline constexpr double kFarFromOrigin = 16.0;
 
-/// Loads a .gltf or .glb file. Throws SceneError when the file cannot be read, breaks the specification in a
-/// way that matters for a picture, or requires an extension that is not supported.
+/// Loads a .gltf or .glb file. Throws SceneError if the file cannot be read, violates the specification in a
+/// way that affects pictures, or requires an unsupported extension.
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace gatelight::scene

@@ -90,9 +90,9 @@ struct Material {
   bool has_volume() const { return transmits() && thickness > 0.0f; }
 };
 
-/// One triangle list with one material: a glTF primitive. Optional arrays are empty when the file has none or
-/// no material of the scene reads them; otherwise they have one entry per position.
-/// Counter-clockwise is the front, in the space of the mesh.
+/// A triangle list with one material, from one glTF primitive. Optional arrays are empty if the file has none
+/// or the material does not read them; else they have one entry per position. Front faces are
+/// counter-clockwise in the space of the mesh.
 struct Mesh {
   std::string name;
   int material = -1;            ///< index into Scene::materials, always valid after loading

@@ -217,7 +217,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   float* const output_biases = gradients + output.bias_gradient;
 #if !defined(GATELIGHT_ISA_SCALAR)
   constexpr uint32_t kFewVectors =
-      kLanes == 16 ? 2 : 1;  // eight vectors of weights and eight of gradients, or four
+      kLanes == 16 ? 2 : 1;  // 8 vectors each of weights and gradients with AVX-512, 4 with AVX2
   if (output.outputs <= 4) {
     if (width % (kFewVectors * kLanes) == 0)
       backward_few_outputs<kFewVectors>(output, b.outputs, b.hidden[last - 1], width, rows, n.slope,

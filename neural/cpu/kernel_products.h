@@ -105,8 +105,8 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
     for (uint32_t v = 0; v < kVectors; ++v) store(g + r * g_stride + v * kLanes, acc[r][v]);
 }
 
-// Adds weight gradients, g[i][c] += sum over samples s of x[s][i] d[s][c] for i < rows and c < columns (a
-// multiple of 16), and bias gradients, sums[c] += sum over s of d[s][c].
+// Adds weight gradients: g[i][c] += sum over samples s of x[s][i] d[s][c] for i < rows and c < columns (a
+// multiple of 16). Adds bias gradients: sums[c] += sum over s of d[s][c].
 GATELIGHT_ALONE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
                                const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
                                float* sums, const Between& between_blocks) {

@@ -57,7 +57,7 @@ struct Short<1> {
   using Type = float;
 };
 
-/// Floats in a V.
+/// Number of floats in a V.
 template <class V>
 constexpr uint32_t kShort = sizeof(V) / 4;
 template <>

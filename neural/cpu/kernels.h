@@ -74,10 +74,9 @@ struct KernelLayer {
   uint32_t inputs, outputs;
   uint32_t padded_inputs, padded_outputs;
   const float* forward;
-  const float* backward;  // in layer 0 for feature inputs only
-  const float* biases;    // padded; zeros without biases
-  const uint16_t*
-      forward_bf16;  // [inputs / 2][padded outputs][2], inputs padded with zeros to an even number
+  const float* backward;         // in layer 0 for feature inputs only
+  const float* biases;           // padded; zeros without biases
+  const uint16_t* forward_bf16;  // [inputs / 2][padded outputs][2], with inputs padded to an even number
   const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without bf16
   // For a last layer with up to four outputs, else null: [input / 16][input % 4][16]. Lane 4 g + o has the
   // weight of output o for input 4 g + (input % 4) of 16.
@@ -124,8 +123,8 @@ struct KernelTraining {
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
   float* weights;            // as `nodes`
   float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses
-  uint32_t*
-      bucket_counts;  // references of this chunk to each bucket of nodes (node >> bucket_shift); to be zeroed
+  uint32_t* bucket_counts;   // references of this chunk to each bucket (node >> bucket_shift); the caller
+                             // zeroes them
   uint32_t bucket_shift;
   uint8_t* accepted;  // [record], or null
   float* gradients;   // of the network; the caller zeroes them

@@ -38,8 +38,8 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 void write_safetensors(const ByteSink& sink, const std::filesystem::path& path,
                        std::span<const TensorView> tensors, const Metadata& metadata);
 
-/// The same into a file. Written under a temporary name in the same folder and renamed: an old file stays
-/// whole until the new one is. Follows a symbolic link.
+/// Writes a file under a temporary name in the same folder, then renames it, so that an old file stays intact
+/// until the new one is complete. Follows symbolic links.
 void write_safetensors(const std::filesystem::path& path, std::span<const TensorView> tensors,
                        const Metadata& metadata);
 

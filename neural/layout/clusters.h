@@ -12,8 +12,8 @@
 
 namespace gatelight::neural {
 
-/// A cell of a grid with a divisor consists of divisor^3 cells of the grid with divisor 1, so that vertices
-/// in the same fine cell also share the coarse cell.
+/// A cell of a grid with a divisor consists of divisor^3 cells of the grid with divisor 1. Vertices in the
+/// same fine cell therefore share the coarse cell, too.
 struct ClusterGrid {
   double cell = 0.0;  ///< world units, for divisor 1 and cell_scale 1
   std::uint32_t divisor = 1;

@@ -9,7 +9,7 @@
 
 namespace gatelight::scene::gltf {
 
-/// Which elements to read; empty means all of them, in order.
+/// Indices of the elements to read; empty means all, in order.
 using Selection = std::span<const std::uint32_t>;
 
 /// One accessor. The constructor checks its layout against its buffer views, so reads stay inside them.

@@ -31,7 +31,7 @@ Needs needs_of(const Material& material) {
   return needs;
 }
 
-/// Where a primitive's vertices come from: accessors, or Draco's data described by accessors.
+/// The source of a primitive's vertices: accessors, or Draco's data described by accessors.
 class Vertices {
  public:
   Vertices(const Document& document, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,

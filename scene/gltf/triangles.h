@@ -10,8 +10,8 @@ namespace gatelight::scene::gltf {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Triangles of a primitive of mode triangles, strip or fan, with or without indices; all indices are below
-/// vertex_count. Throws SceneError.
+/// The triangles of a primitive of mode triangles, strip or fan, with or without indices. Throws SceneError,
+/// also if an index is not below vertex_count.
 Triangles read_triangles(const Document& document, const tinygltf::Primitive& primitive,
                          std::size_t vertex_count, const std::string& where, Warnings& warnings);
 

@@ -19,7 +19,7 @@ struct UriOptions {
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where);
 
-/// The URI as a message should show it: a data URI is cut after its type.
+/// The URI for messages; a data URI is cut after its type.
 std::string uri_name(std::string_view uri);
 
 }  // namespace gatelight::scene::gltf

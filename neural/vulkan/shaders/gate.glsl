@@ -40,8 +40,8 @@ vec3 corner_weights(vec2 second_and_third) {
 }
 
 // The small triangle around a point: integer barycentrics of its nodes, and weights. R minus the sum of the
-// floors of R b is 1 in a small triangle with the big one's orientation, 2 in an inverted one, 0 or 3 on a
-// node.
+// floors of R b tells the case: 1 is a small triangle with the big one's orientation, 2 an inverted one, 0
+// and 3 a node.
 void small_triangle(vec3 b, uint resolution, out uvec3 nodes[3], out vec3 weights) {
   const vec3 scaled = b * float(resolution);
   const vec3 whole = floor(scaled);

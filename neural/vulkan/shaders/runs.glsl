@@ -1,6 +1,6 @@
-// Sorted references are divided where the node changes (runs), and also at multiples of kPiece (pieces), so
-// that many threads sum a run that many records share. Push::argument is the array that holds the sort's
-// result.
+// Sorted references are divided into runs, where the node changes, and into pieces, also at multiples of
+// kPiece. Many threads can then sum a run that many records share. Push::argument is the array that holds the
+// sort's result.
 
 const uint kEach = 16;
 const uint kBlock = kThreads * kEach;
