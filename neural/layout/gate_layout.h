@@ -16,7 +16,7 @@ namespace gatelight::neural {
 
 inline constexpr std::uint32_t kMaxResolution = 64;
 inline constexpr std::uint32_t kMaxStack = 4;
-/// Nodes, vertices and words of topology are counted in 32 bits.
+/// Nodes, vertices and words of topology have 32-bit indices.
 inline constexpr std::uint64_t kMaxIndex = 0xffffffffu;
 
 enum class ResolutionRule : std::uint8_t {

@@ -9,9 +9,9 @@
 
 namespace gatelight::neural {
 
-/// Triangles or vertices that a task of the room takes at least.
+/// Triangles or vertices per task, at least.
 inline constexpr std::size_t kGrain = 8192;
-/// A list of corners or edges that is longer than this is sorted by several tasks.
+/// Longer lists of corners or edges are sorted in parallel.
 inline constexpr std::size_t kLongList = 65536;
 
 using TriangleCorners = std::array<std::uint32_t, 3>;
