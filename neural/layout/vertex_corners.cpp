@@ -11,8 +11,6 @@
 
 namespace gatelight::neural {
 
-namespace {}  // namespace
-
 VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, std::uint32_t vertex_count) {
   VertexCorners result;
   result.offsets.assign(vertex_count + std::size_t{1}, 0);
