@@ -10,24 +10,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// A copy whose positions have the spare capacity that Embree needs.
-Mesh copy_mesh(const Mesh& source) {
-  Mesh copy;
-  copy.name = source.name;
-  copy.material = source.material;
-  copy.positions.reserve(source.positions.size() + 1);
-  copy.positions.assign(source.positions.begin(), source.positions.end());
-  copy.normals = source.normals;
-  copy.tangents = source.tangents;
-  copy.uv0 = source.uv0;
-  copy.uv1 = source.uv1;
-  copy.colors = source.colors;
-  copy.triangles = source.triangles;
-  return copy;
-}
-
 void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
-  mesh.positions.reserve(mesh.positions.size() + 1);
   for (Vec3& p : mesh.positions) p = transform * p;
   const Eigen::Matrix3f linear = transform.linear();
   // The matrix is scaled first: a cofactor matrix holds products of two entries, which under- or overflow for
@@ -53,7 +36,7 @@ void transform_mesh(Mesh& mesh, const Affine& transform, bool mirrors) {
 /// Gives an instance its own copy of its mesh.
 void unshare(Scene& scene, Instance& instance, std::vector<std::size_t>& uses) {
   --uses[static_cast<std::size_t>(instance.mesh)];
-  Mesh copy = copy_mesh(scene.mesh_of(instance));
+  Mesh copy = scene.mesh_of(instance);
   instance.mesh = static_cast<int>(scene.meshes.size());
   scene.meshes.push_back(std::move(copy));
   uses.push_back(1);

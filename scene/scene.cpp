@@ -32,9 +32,9 @@ std::size_t count_triangles(const Scene& scene) {
 }
 
 namespace {
-template <typename T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.size() * sizeof(T);
+template <typename Values>
+std::size_t bytes(const Values& v) {
+  return v.size() * sizeof(v[0]);
 }
 }  // namespace
 

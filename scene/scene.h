@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/math.h"
+#include "scene/padded_vector.h"
 
 namespace gatelight::scene {
 
@@ -95,9 +96,9 @@ struct Material {
 /// counter-clockwise in the space of the mesh.
 struct Mesh {
   std::string name;
-  int material = -1;            ///< index into Scene::materials, always valid after loading
-  std::vector<Vec3> positions;  ///< capacity is at least one more than size: Embree reads 16 bytes a vertex
-  std::vector<Vec3> normals;    ///< unit; empty means flat: the geometric normal of each triangle
+  int material = -1;  ///< index into Scene::materials, always valid after loading
+  PaddedVector<Vec3> positions;
+  std::vector<Vec3> normals;  ///< unit; empty means flat: the geometric normal of each triangle
   std::vector<Vec4>
       tangents;  ///< xyz unit, w the handedness (+1 or -1); present when a normal map needs them
   std::vector<Vec2> uv0;

@@ -12,29 +12,29 @@ struct Frame {
 };
 
 /// Appends copies of vertices, with all their attributes.
-template <typename T>
-void append(std::vector<T>& v, const std::vector<std::uint32_t>& copies, std::size_t extra_capacity = 0) {
+template <typename Rows>
+void append(Rows& v, const std::vector<std::uint32_t>& copies) {
   if (v.empty()) return;
-  std::vector<T> grown;
-  grown.reserve(v.size() + copies.size() + extra_capacity);
+  Rows grown;
+  grown.reserve(v.size() + copies.size());
   grown.insert(grown.end(), v.begin(), v.end());
   for (const std::uint32_t i : copies) grown.push_back(v[i]);
   v = std::move(grown);
 }
 
 void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& copies) {
-  append(mesh.positions, copies, 1);
+  append(mesh.positions, copies);
   append(mesh.normals, copies);
   append(mesh.uv0, copies);
   append(mesh.uv1, copies);
   append(mesh.colors, copies);
 }
 
-template <typename T>
-void gather(std::vector<T>& v, const Mesh& mesh, std::size_t extra_capacity = 0) {
+template <typename Rows>
+void gather(Rows& v, const Mesh& mesh) {
   if (v.empty()) return;
-  std::vector<T> out;
-  out.reserve(mesh.triangles.size() * 3 + extra_capacity);
+  Rows out;
+  out.reserve(mesh.triangles.size() * 3);
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t i : t) out.push_back(v[i]);
   }
@@ -42,7 +42,7 @@ void gather(std::vector<T>& v, const Mesh& mesh, std::size_t extra_capacity = 0)
 }
 
 void unshare_vertices(Mesh& mesh) {
-  gather(mesh.positions, mesh, 1);
+  gather(mesh.positions, mesh);
   gather(mesh.uv0, mesh);
   gather(mesh.uv1, mesh);
   gather(mesh.colors, mesh);

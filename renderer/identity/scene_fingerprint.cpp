@@ -19,8 +19,8 @@ using neural::digest_of;
 using neural::DigestRecord;
 using neural::hexadecimal;
 
-template <class T>
-Digest digest_of_array(const std::vector<T>& values) {
+template <class Values>
+Digest digest_of_array(const Values& values) {
   return digest_of(std::as_bytes(std::span(values)));
 }
 
@@ -32,8 +32,8 @@ void add_numbers(DigestRecord& record, const Eigen::DenseBase<Dense>& values) {
 }
 
 /// An array with its length: two arrays of a mesh never pass for one.
-template <class T>
-void add_array(DigestRecord& record, const std::vector<T>& values) {
+template <class Values>
+void add_array(DigestRecord& record, const Values& values) {
   record.add(std::uint64_t{values.size()});
   record.add(digest_of_array(values));
 }

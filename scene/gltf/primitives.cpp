@@ -82,16 +82,13 @@ class Vertices {
   std::size_t count_ = 0;
 };
 
-template <int N>
-std::vector<Eigen::Matrix<float, N, 1>> read_rows(const Vertices& vertices, const std::string& semantic,
-                                                  Selection selection) {
-  std::vector<Eigen::Matrix<float, N, 1>> rows;
-  if (!vertices.has(semantic)) return rows;
-  const std::size_t count = selection.empty() ? vertices.count() : selection.size();
-  rows.reserve(count + 1);  // Embree reads 16 bytes for the last position
-  rows.resize(count);
-  vertices.read(semantic, {N}, selection, N, rows.data()->data());
-  return rows;
+/// Leaves the rows empty where the file has none.
+template <typename Rows>
+void read_rows(const Vertices& vertices, const std::string& semantic, Selection selection, Rows& rows) {
+  constexpr int kWidth = Rows::value_type::RowsAtCompileTime;
+  if (!vertices.has(semantic)) return;
+  rows.resize(selection.empty() ? vertices.count() : selection.size());
+  vertices.read(semantic, {kWidth}, selection, kWidth, rows.data()->data());
 }
 
 std::vector<Vec4> read_colors(const Vertices& vertices, Selection selection) {
@@ -170,16 +167,16 @@ Mesh load_primitive(const Document& document, int mesh_index, int primitive_inde
   const std::vector<std::uint32_t> selection = compact(mesh.triangles, vertices.count());
 
   const Needs needs = needs_of(material);
-  mesh.positions = read_rows<3>(vertices, "POSITION", selection);
+  read_rows(vertices, "POSITION", selection, mesh.positions);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (mesh.positions[i].allFinite()) continue;
     const Vec3& p = mesh.positions[i];
     document.fail(where, fmt::format("position {} is ({}, {}, {}), expected finite numbers",
                                      selection.empty() ? i : selection[i], p.x(), p.y(), p.z()));
   }
-  mesh.normals = read_rows<3>(vertices, "NORMAL", selection);
-  if (needs.uv[0]) mesh.uv0 = read_rows<2>(vertices, "TEXCOORD_0", selection);
-  if (needs.uv[1]) mesh.uv1 = read_rows<2>(vertices, "TEXCOORD_1", selection);
+  read_rows(vertices, "NORMAL", selection, mesh.normals);
+  if (needs.uv[0]) read_rows(vertices, "TEXCOORD_0", selection, mesh.uv0);
+  if (needs.uv[1]) read_rows(vertices, "TEXCOORD_1", selection, mesh.uv1);
   mesh.colors = read_colors(vertices, selection);
 
   if (repair_normals(mesh))
@@ -190,7 +187,7 @@ Mesh load_primitive(const Document& document, int mesh_index, int primitive_inde
   }
   if (needs.tangents) {
     // The specification says that tangents of flat-shaded meshes are ignored.
-    if (!mesh.normals.empty()) mesh.tangents = read_rows<4>(vertices, "TANGENT", selection);
+    if (!mesh.normals.empty()) read_rows(vertices, "TANGENT", selection, mesh.tangents);
     if (mesh.tangents.empty()) {
       generate_tangents(mesh, *needs.tangents);
     } else {

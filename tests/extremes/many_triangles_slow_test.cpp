@@ -42,9 +42,9 @@ SceneBuilder carpet(std::size_t triangles) {
   SceneBuilder builder;
   const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(0.5 * static_cast<double>(triangles))));
   const int m = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  std::vector<Vec3> p;
+  scene::PaddedVector<Vec3> p;
   std::vector<std::array<std::uint32_t, 3>> t;
-  p.reserve((side + 1) * (side + 1) + 1);
+  p.reserve((side + 1) * (side + 1));
   t.reserve(std::size_t{2} * side * side);
   const float step = 2.0f / static_cast<float>(side);
   for (std::uint32_t y = 0; y <= side; ++y) {

@@ -56,7 +56,7 @@ std::array<Vec3, 3> triangle_of(int exponent) {
 
 SceneBuilder many_sizes(const Color& emission) {
   SceneBuilder builder;
-  std::vector<Vec3> positions;
+  scene::PaddedVector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (int e = kLeast; e <= kGreatest; ++e) {
     const auto first = static_cast<std::uint32_t>(positions.size());
@@ -162,7 +162,7 @@ TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
     const Vec3 n = turn == 0 ? Vec3(0, 0, 1) : random_unit(random);
     const Basis basis(n);
     const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
-    std::vector<Vec3> p;
+    scene::PaddedVector<Vec3> p;
     std::vector<std::array<std::uint32_t, 3>> t;
     std::vector<float> x{-0.5f};
     for (int i = 0; i <= 100; ++i) x.push_back(1e-6f * static_cast<float>(i - 50));
@@ -246,7 +246,6 @@ scene::Scene harmed(Harm harm) {
         }
         break;
     }
-    mesh.positions.reserve(mesh.positions.size() + 1);
   }
   return s;
 }

@@ -43,7 +43,7 @@ inline scene::GltfBuilder file_of(const scene::Scene& scene, const scene::Camera
   nlohmann::json children = nlohmann::json::array();
   const auto child = [&](nlohmann::json node) { children.push_back(file.add("nodes", std::move(node))); };
   for (const scene::Mesh& mesh : scene.meshes) {
-    const auto floats = [](const std::vector<scene::Vec3>& values) {
+    const auto floats = [](const auto& values) {
       std::vector<float> list;
       for (const scene::Vec3& v : values) list.insert(list.end(), {v.x(), v.y(), v.z()});
       return list;

@@ -70,7 +70,6 @@ TEST(Tangents, AVertexOfBothOrientationsIsSplit) {
   ASSERT_EQ(mesh.positions.size(), 6u);
   EXPECT_EQ(mesh.uv0.size(), 6u);
   EXPECT_EQ(mesh.normals.size(), 6u);
-  EXPECT_GE(mesh.positions.capacity(), 7u);
   for (std::size_t f = 0; f < 2; ++f) {
     for (const std::uint32_t v : mesh.triangles[f]) {
       expect_frame(mesh, v, f == 0 ? Vec3(Vec3::UnitX()) : Vec3(-Vec3::UnitX()), Vec3::UnitY());

@@ -43,12 +43,11 @@ class SceneBuilder {
   }
 
   /// Adds a mesh in world space. Counter-clockwise is the front.
-  scene::Mesh& mesh(int material, std::vector<Vec3> positions,
+  scene::Mesh& mesh(int material, scene::PaddedVector<Vec3> positions,
                     std::vector<std::array<std::uint32_t, 3>> triangles) {
     scene::Mesh m;
     m.material = material;
     m.positions = std::move(positions);
-    m.positions.reserve(m.positions.size() + 1);
     m.triangles = std::move(triangles);
     for (const Vec3& p : m.positions) scene_.bounds.extend(p);
     scene::Instance instance;
@@ -66,7 +65,7 @@ class SceneBuilder {
 
   /// Fronts look outwards, or inwards.
   void box(int material, const Vec3& low, const Vec3& high, bool inwards = false) {
-    std::vector<Vec3> p;
+    scene::PaddedVector<Vec3> p;
     for (int i = 0; i < 8; ++i) {
       p.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
     }
@@ -81,7 +80,7 @@ class SceneBuilder {
 
   /// Latitude-longitude sphere, fronts outwards; smooth normals where asked for.
   scene::Mesh& sphere(int material, const Vec3& center, float radius, int segments, bool smooth) {
-    std::vector<Vec3> p;
+    scene::PaddedVector<Vec3> p;
     std::vector<std::array<std::uint32_t, 3>> t;
     const int rings = segments / 2;
     for (int i = 0; i <= rings; ++i) {

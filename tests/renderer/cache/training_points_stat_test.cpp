@@ -34,7 +34,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   // A fan of triangles of different areas, one of them degenerate; both sides.
-  std::vector<Vec3> fan{Vec3::Zero()};
+  scene::PaddedVector<Vec3> fan{Vec3::Zero()};
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t i = 0; i < 8; ++i) {
     const float a = 0.1f * static_cast<float>(i * i);
