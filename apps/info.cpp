@@ -18,7 +18,7 @@
 #include "apps/terminal/version.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/threads.h"
-#include "renderer/surface/accel.h"
+#include "renderer/surface/embree.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {
@@ -42,7 +42,7 @@ struct InfoSettings {
 std::string program_text() {
   return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
                      renderer::best_isa(), "threads", renderer::available_threads(), "embree",
-                     embree_version(), devices_text(find_devices()));
+                     renderer::embree_version(), devices_text(find_devices()));
 }
 
 nlohmann::ordered_json program_json() {
@@ -50,7 +50,7 @@ nlohmann::ordered_json program_json() {
           {"version", version()},
           {"isa", renderer::best_isa()},
           {"threads", renderer::available_threads()},
-          {"embree", embree_version()},
+          {"embree", renderer::embree_version()},
           {"vulkan", devices_json(find_devices())}};
 }
 

@@ -6,7 +6,7 @@
 
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/errors.h"
-#include "renderer/surface/accel.h"
+#include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
 

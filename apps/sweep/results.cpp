@@ -15,7 +15,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/machine/threads.h"
-#include "renderer/surface/accel.h"
+#include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
 namespace {
@@ -82,7 +82,7 @@ ordered_json make_results(const std::vector<std::string>& command, const std::ve
                           {"version", version()},
                           {"command", command},
                           {"machine", nullptr},
-                          {"versions", {{"gatelight", version()}, {"embree", embree_version()}}},
+                          {"versions", {{"gatelight", version()}, {"embree", renderer::embree_version()}}},
                           {"scenes", ordered_json::array()},
                           {"cells", ordered_json::array()}};
   for (const SceneResults& scene : scenes) {

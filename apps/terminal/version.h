@@ -7,7 +7,4 @@ namespace gatelight::apps {
 /// "0.1.0", or "0.1.0 (1a2b3c4)" with the revision where the build knows it.
 std::string version();
 
-/// Of the headers it was built with.
-std::string embree_version();
-
 }  // namespace gatelight::apps

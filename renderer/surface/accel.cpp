@@ -1,12 +1,16 @@
 #include "renderer/surface/accel.h"
 
+#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <vector>
 
+#include "neural/cpu/isa.h"
 #include "renderer/machine/errors.h"
+#include "renderer/surface/embree.h"
 
 namespace gatelight::renderer {
 
@@ -99,17 +103,20 @@ const char* embree_isa(const std::string& isa) {
   return nullptr;
 }
 
-bool has_isa(const std::string& isa) {
-  __builtin_cpu_init();
-  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (isa == "avx512") return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
-  return true;
+bool has_isa(const std::string& name) {
+  const std::optional<neural::cpu::Isa> isa = neural::cpu::parse_isa(name);
+  const std::vector<neural::cpu::Isa> there = neural::cpu::available_isas();
+  return !isa || std::find(there.begin(), there.end(), *isa) != there.end();
 }
 
 }  // namespace
 
 std::string best_isa() {
-  return has_isa("avx512") ? "avx512" : has_isa("avx2") ? "avx2" : "scalar";
+  return std::string(neural::cpu::isa_name(neural::cpu::available_isas().back()));
+}
+
+std::string embree_version() {
+  return RTC_VERSION_STRING;
 }
 
 struct Accel::State {
@@ -117,7 +124,20 @@ struct Accel::State {
   std::size_t limit = 0;
   std::atomic<bool> refused{false};
   std::string first_error;
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
   std::vector<RTCScene> meshes;
+  bool any_filter = false;
+
+  State() = default;
+  State(const State&) = delete;
+  ~State() {
+    for (RTCScene below : meshes) {
+      if (below) rtcReleaseScene(below);
+    }
+    if (top) rtcReleaseScene(top);
+    if (device) rtcReleaseDevice(device);
+  }
 
   static bool monitor(void* self, ssize_t bytes, bool) {
     State& state = *static_cast<State*>(self);
@@ -138,6 +158,7 @@ struct Accel::State {
 
 Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options)
     : coverage_(coverage), state_(std::make_unique<State>()) {
+  State& state = *state_;
   if (!has_isa(options.isa)) {
     throw Unavailable(
         fmt::format("--isa {}: this processor does not have it; its best is {}", options.isa, best_isa()));
@@ -145,26 +166,26 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   isa_ = options.isa == "auto" ? best_isa() : options.isa;
   std::string config = fmt::format("threads={}", options.threads);
   if (const char* isa = embree_isa(options.isa)) config += fmt::format(",isa={}", isa);
-  device_ = rtcNewDevice(config.c_str());
-  if (!device_) {
+  state.device = rtcNewDevice(config.c_str());
+  if (!state.device) {
     const RTCError error = rtcGetDeviceError(nullptr);
     const std::string text = fmt::format("Embree refuses the device \"{}\"", config);
     if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throw Unavailable(text);
     throw OutOfMemory(text + ": there is no memory for it, or no thread");
   }
-  state_->limit = options.memory_limit_bytes;
-  rtcSetDeviceErrorFunction(device_, State::error, state_.get());
-  rtcSetDeviceMemoryMonitorFunction(device_, State::monitor, state_.get());
+  state.limit = options.memory_limit_bytes;
+  rtcSetDeviceErrorFunction(state.device, State::error, &state);
+  rtcSetDeviceMemoryMonitorFunction(state.device, State::monitor, &state);
 
   const auto new_scene = [&] {
-    RTCScene s = rtcNewScene(device_);
+    RTCScene s = rtcNewScene(state.device);
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
     // Without it rays slip through the shared edges of triangles, and a closed room leaks light.
     rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
     return s;
   };
   const auto new_mesh = [&](const scene::Mesh& mesh, std::uint32_t instance) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(state.device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
                                0, sizeof(Vec3), mesh.positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
@@ -172,14 +193,14 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
     if (coverage.tests_alpha(instance)) rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
     if (coverage.filters_shadows(instance)) {
       rtcSetGeometryOccludedFilterFunction(geometry, shadow_filter);
-      any_filter_ = true;
+      state.any_filter = true;
     }
     rtcCommitGeometry(geometry);
     return geometry;
   };
 
-  top_ = new_scene();
-  state_->meshes.assign(scene.meshes.size(), nullptr);
+  state.top = new_scene();
+  state.meshes.assign(scene.meshes.size(), nullptr);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     const scene::Mesh& mesh = scene.mesh_of(instance);
@@ -188,7 +209,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
     if (instance.baked) {
       geometry = new_mesh(mesh, i);
     } else {
-      RTCScene& below = state_->meshes[static_cast<std::size_t>(instance.mesh)];
+      RTCScene& below = state.meshes[static_cast<std::size_t>(instance.mesh)];
       if (!below) {
         below = new_scene();
         RTCGeometry child = new_mesh(mesh, i);
@@ -196,41 +217,29 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
         rtcReleaseGeometry(child);
         rtcCommitScene(below);
       }
-      geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+      geometry = rtcNewGeometry(state.device, RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, below);
       rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, instance.transform.data());
       rtcCommitGeometry(geometry);
     }
-    rtcAttachGeometryByID(top_, geometry, i);
+    rtcAttachGeometryByID(state.top, geometry, i);
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(top_);
-  const RTCError error = rtcGetDeviceError(device_);
-  if (error != RTC_ERROR_NONE || state_->refused || !state_->first_error.empty()) {
-    const std::string text = state_->first_error;
-    const bool refused = state_->refused;
-    const bool memory = refused || error == RTC_ERROR_OUT_OF_MEMORY;
-    const long long used = state_->bytes;
-    for (RTCScene below : state_->meshes) rtcReleaseScene(below);
-    rtcReleaseScene(top_);
-    rtcReleaseDevice(device_);
-    if (memory) {
+  rtcCommitScene(state.top);
+  const RTCError error = rtcGetDeviceError(state.device);
+  if (error != RTC_ERROR_NONE || state.refused || !state.first_error.empty()) {
+    if (state.refused || error == RTC_ERROR_OUT_OF_MEMORY) {
       const std::string limit =
-          refused ? fmt::format("--memory-limit {}", options.memory_limit_bytes >> 20) : "there is";
+          state.refused ? fmt::format("--memory-limit {}", options.memory_limit_bytes >> 20) : "there is";
       throw OutOfMemory(fmt::format("{}: the acceleration structure needs over {} MiB, more than {}",
-                                    scene.path, used >> 20, limit));
+                                    scene.path, state.bytes.load() >> 20, limit));
     }
-    throw std::runtime_error(fmt::format("{}: Embree cannot build the scene: {}", scene.path, text));
+    throw std::runtime_error(
+        fmt::format("{}: Embree cannot build the scene: {}", scene.path, state.first_error));
   }
 }
 
-Accel::~Accel() {
-  for (RTCScene below : state_->meshes) {
-    if (below) rtcReleaseScene(below);
-  }
-  rtcReleaseScene(top_);
-  rtcReleaseDevice(device_);
-}
+Accel::~Accel() = default;
 
 std::size_t Accel::bytes() const {
   return static_cast<std::size_t>(std::max(0ll, state_->bytes.load()));
@@ -252,9 +261,9 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
       set_lane(packet.ray, i, ray);
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      if (any_filter_) context.lanes[i].seed = ray.seed;
+      if (state_->any_filter) context.lanes[i].seed = ray.seed;
     }
-    rtcIntersect16(valid, top_, &context.embree, &packet);
+    rtcIntersect16(valid, state_->top, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       Hit& hit = hits[first + i];
       hit.t = packet.ray.tfar[i];
@@ -280,7 +289,7 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
       valid[i] = i < count ? -1 : 0;
       const Ray& ray = rays[first + std::min(i, count - 1)];
       set_lane(packet, i, ray);
-      if (any_filter_) {
+      if (state_->any_filter) {
         Lane& lane = context.lanes[i];
         lane.seed = ray.seed;
         lane.direction = ray.direction;
@@ -288,12 +297,12 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
         lane.panes = 0;
       }
     }
-    rtcOccluded16(valid, top_, &context.embree, &packet);
+    rtcOccluded16(valid, state_->top, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
-      result[first + i] = blocked       ? Color(0.0f, 0.0f, 0.0f)
-                          : any_filter_ ? context.lanes[i].transmittance
-                                        : Color(1.0f, 1.0f, 1.0f);
+      result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)
+                          : state_->any_filter ? context.lanes[i].transmittance
+                                               : Color(1.0f, 1.0f, 1.0f);
     }
   }
 }

@@ -1,11 +1,8 @@
 #pragma once
-// Embree, behind one pair of files. Single-use meshes lie in the top level; shared meshes are Embree
-// instances.
-
-#include <embree3/rtcore.h>
+// Embree, behind one pair of files: no type of it stands here. Single-use meshes lie in the top level; shared
+// meshes are Embree instances.
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,9 +12,6 @@
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
-
-/// The widest instruction set of this machine: avx512, avx2 or scalar.
-std::string best_isa();
 
 struct AccelOptions {
   int threads = 0;                     ///< of the build; 0: all of the current arena
@@ -51,11 +45,8 @@ class Accel {
   struct State;
 
   const Coverage& coverage_;
-  std::unique_ptr<State> state_;
-  RTCDevice device_ = nullptr;
-  RTCScene top_ = nullptr;
   std::string isa_;
-  bool any_filter_ = false;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace gatelight::renderer

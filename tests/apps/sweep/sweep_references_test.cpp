@@ -17,7 +17,7 @@
 #include "renderer/cache/cache_report.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "renderer/surface/accel.h"
+#include "renderer/surface/embree.h"
 #include "scene/gltf.h"
 #include "tests/support/temporary_folder.h"
 

@@ -331,7 +331,7 @@ TEST(SweepResults, NameTheMachineAndTheVersionsOfTheirCells) {
   EXPECT_EQ(all["schema"], 2);
   EXPECT_EQ(all["machine"], ordered_json({{"cpu", cpu_name()}, {"threads", 7}, {"isa", "avx2, scalar"}}));
   EXPECT_EQ(all["versions"]["gatelight"], version());
-  EXPECT_EQ(all["versions"]["embree"], embree_version());
+  EXPECT_EQ(all["versions"]["embree"], renderer::embree_version());
   EXPECT_EQ(all["versions"]["of_cells"], ordered_json({"0.1", "0.2"}));
   EXPECT_EQ(results({made(1, "scalar", "0.1")})["machine"]["isa"], "scalar");
   const ordered_json none = results({failed});
