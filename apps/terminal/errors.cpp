@@ -41,8 +41,6 @@ Failure describe_current_exception() {
     return {kUsage, error.what(), "choose another file name"};
   } catch (const renderer::OutputError& error) {
     return {kOutput, error.what(), "choose another place or make room"};
-  } catch (const neural::CacheWriteError& error) {
-    return {kOutput, error.what(), "choose another place or make room"};
   } catch (const renderer::OutOfMemory& error) {
     return {kMemory, error.what(), "raise that limit, or use a smaller picture or scene, or fewer --threads"};
   } catch (const neural::OutOfDeviceMemory& error) {

@@ -35,9 +35,9 @@ struct CacheFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A cache file cannot be written.
-struct CacheWriteError : CacheFileError {
-  using CacheFileError::CacheFileError;
+/// A file cannot be written. The message names the file and the reason.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace gatelight::neural

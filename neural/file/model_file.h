@@ -47,7 +47,7 @@ void expect_model(const SafetensorsReader& file, const Model& model, const Train
 void expect_no_other_tensors(const SafetensorsReader& file, const Model& model,
                              const TrainingOptions& options, std::set<std::string> others = {});
 
-/// Writes a file. Throws CacheFileError, and BadConfiguration for a state of another model.
+/// Writes a file. Throws OutputError, and BadConfiguration for a state of another model.
 void write_model_file(const std::filesystem::path& path, const Model& model, const TrainingOptions& options,
                       const ModelState& state, const std::string& fingerprint);
 

@@ -7,8 +7,6 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <set>
 #include <string_view>
@@ -16,6 +14,7 @@
 #include <utility>
 
 #include "neural/base/errors.h"
+#include "neural/file/atomic_file.h"
 
 namespace gatelight::neural {
 
@@ -56,67 +55,6 @@ std::string shape_text(std::span<const std::uint64_t> shape) {
   return fmt::format("[{}]", fmt::join(shape, ", "));
 }
 
-[[noreturn]] void refuse_to_write(const fs::path& path, const std::string& reason) {
-  throw CacheWriteError(fmt::format("cannot write '{}': {}", path.string(), reason));
-}
-
-std::string describe(int error) {
-  return std::generic_category().message(error);
-}
-
-/// A file in the making under a temporary name; without commit() nothing is left of it.
-class PendingFile {
- public:
-  explicit PendingFile(const fs::path& path) : path_(path), target_(path) {
-    std::error_code error;
-    constexpr int kMostLinks = 40;  // as many as Linux follows
-    // What they lead to need not be there yet; an absolute path replaces the one before it.
-    for (int i = 0; i < kMostLinks && fs::is_symlink(target_, error); ++i)
-      target_ = target_.parent_path() / fs::read_symlink(target_, error);
-    // Renaming over a device or a pipe would replace it.
-    const fs::file_status status = fs::status(target_, error);
-    if (fs::is_directory(status)) refuse_to_write(path_, "it is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status))
-      refuse_to_write(path_, "it is not a regular file");
-    // "x" fails where the file is there: another writer's stays untouched.
-    for (int i = 0; file_ == nullptr && i < 1000; ++i) {
-      // Short: the file's own name may have all bytes that a name can have.
-      temporary_ = target_.parent_path() / fmt::format(".gatelight.{}.tmp", i);
-      file_ = std::fopen(temporary_.c_str(), "wbx");
-      if (file_ == nullptr && errno != EEXIST) break;
-    }
-    if (file_ == nullptr) refuse_to_write(path_, describe(errno));
-  }
-  ~PendingFile() {
-    if (file_ != nullptr) std::fclose(file_);
-    std::error_code ignored;
-    if (!committed_) fs::remove(temporary_, ignored);
-  }
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-
-  void write(std::span<const std::byte> bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-      refuse_to_write(path_, describe(errno));
-  }
-
-  void commit() {
-    // Also fclose writes, and some file systems say only then that they are full.
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) refuse_to_write(path_, describe(errno));
-    std::error_code error;
-    fs::rename(temporary_, target_, error);
-    if (error) refuse_to_write(path_, error.message());
-    committed_ = true;
-  }
-
- private:
-  fs::path path_;
-  fs::path target_;
-  fs::path temporary_;
-  std::FILE* file_ = nullptr;
-  bool committed_ = false;
-};
-
 /// Header text, padded so that the data begins at a multiple of eight bytes.
 std::string header_text(std::span<const TensorView> tensors, const Metadata& metadata, const fs::path& path) {
   nlohmann::ordered_json header;
@@ -134,7 +72,7 @@ std::string header_text(std::span<const TensorView> tensors, const Metadata& met
   try {
     text = header.dump();
   } catch (const json::type_error&) {
-    refuse_to_write(path, "a text of the metadata is not UTF-8");
+    throw OutputError(fmt::format("cannot write '{}': a text of the metadata is not UTF-8", path.string()));
   }
   text.resize((text.size() + 7) / 8 * 8, ' ');
   return text;
@@ -186,8 +124,9 @@ void write_safetensors(const ByteSink& sink, const fs::path& path, std::span<con
 }
 
 void write_safetensors(const fs::path& path, std::span<const TensorView> tensors, const Metadata& metadata) {
-  PendingFile file(path);
-  write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes); }, path, tensors, metadata);
+  AtomicFile file(path);
+  write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); }, path,
+                    tensors, metadata);
   file.commit();
 }
 

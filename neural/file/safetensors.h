@@ -34,12 +34,11 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 
 /// Writes the content of a file to `sink`. Tensors with wide elements come first, so that each tensor is
 /// aligned to its elements; else the order is kept. Equal tensors and metadata give equal bytes. `path` is
-/// for messages. Throws CacheFileError.
+/// for messages. Throws OutputError.
 void write_safetensors(const ByteSink& sink, const std::filesystem::path& path,
                        std::span<const TensorView> tensors, const Metadata& metadata);
 
-/// Writes a file under a temporary name in the same folder, then renames it, so that an old file stays intact
-/// until the new one is complete. Follows symbolic links.
+/// Writes an AtomicFile.
 void write_safetensors(const std::filesystem::path& path, std::span<const TensorView> tensors,
                        const Metadata& metadata);
 

@@ -25,8 +25,6 @@ void try_writing(const Callbacks& callbacks, bool again, const std::function<voi
     write();
   } catch (const OutputError&) {
     callbacks.output_failed(std::current_exception(), again);
-  } catch (const neural::CacheWriteError&) {
-    callbacks.output_failed(std::current_exception(), again);
   } catch (const std::bad_alloc&) {
     callbacks.output_failed(std::current_exception(), again);
   }

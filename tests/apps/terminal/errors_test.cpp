@@ -38,7 +38,6 @@ TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
   EXPECT_EQ(failure_of(renderer::Unavailable("m")).code, 5);
   EXPECT_EQ(failure_of(neural::BadConfiguration("m")).code, 1);
   EXPECT_EQ(failure_of(neural::CacheFileError("m")).code, 2);
-  EXPECT_EQ(failure_of(neural::CacheWriteError("m")).code, 3);
   EXPECT_EQ(failure_of(neural::Unavailable("m")).code, 5);
   EXPECT_EQ(failure_of(renderer::NumericalError("m")).code, 6);
   EXPECT_EQ(failure_of(renderer::TrainingDiverged("m")).code, 6);

@@ -1,19 +1,17 @@
-#include "renderer/machine/atomic_file.h"
+#include "neural/file/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 
-#include "renderer/image/image_write.h"
 #include "tests/support/temporary_folder.h"
 
-namespace gatelight::renderer {
+namespace gatelight::neural {
 namespace {
 
 using ::testing::HasSubstr;
@@ -133,59 +131,5 @@ TEST(CheckWritable, RefusesAReadOnlyFolder) {
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
-/// A disk that is full, as far as this process can tell: files may grow to `bytes` only.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
-
-/// Does not compress.
-Picture noise(int size) {
-  Picture picture{.width = size, .height = size};
-  Layer beauty{.channels = {"R", "G", "B"}};
-  std::uint32_t state = 1;
-  for (int i = 0; i < 3 * size * size; ++i) {
-    state = state * 1664525u + 1013904223u;
-    beauty.values.push_back(static_cast<float>(state >> 8) / 16777216.0f);
-  }
-  picture.layers = {beauty};
-  return picture;
-}
-
-TEST(WriteImage, AFullDiskLeavesTheOldPictureWholeAndNoHalfFile) {
-  for (const char* name : {"a.exr", "a.png"}) {
-    const TemporaryFolder folder;
-    folder.write(name, "the old picture");
-    std::string message;
-    {
-      const FileSizeLimit limit(8192);
-      try {
-        write_image(noise(256), folder / name);
-      } catch (const OutputError& error) {
-        message = error.what();
-      }
-    }
-    EXPECT_THAT(message, HasSubstr(name));
-    EXPECT_THAT(message, HasSubstr("File too large"));
-    EXPECT_EQ(read_file(folder / name), "the old picture");
-    EXPECT_EQ(folder.count_files(), 1u);
-  }
-}
-
 }  // namespace
-}  // namespace gatelight::renderer
+}  // namespace gatelight::neural

@@ -1,4 +1,4 @@
-#include "renderer/machine/atomic_file.h"
+#include "neural/file/atomic_file.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace gatelight::renderer {
+namespace gatelight::neural {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,11 +30,13 @@ std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// A file without a name: of a program that is killed nothing is left. -1 where the file system has none.
-int open_nameless(const fs::path& folder) {
+/// A file without a name: of a program that is killed nothing is left. -1 where the system has none.
+int open_nameless([[maybe_unused]] const fs::path& folder) {
+#if defined(O_TMPFILE)
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   if (descriptor < 0 || ::access(link_of(descriptor).c_str(), F_OK) == 0) return descriptor;
   ::close(descriptor);
+#endif
   return -1;
 }
 
@@ -145,4 +147,4 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
   file.commit();
 }
 
-}  // namespace gatelight::renderer
+}  // namespace gatelight::neural

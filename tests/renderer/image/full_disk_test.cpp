@@ -1,0 +1,50 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/image/image_write.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using ::testing::HasSubstr;
+using tests::FileSizeLimit;
+using tests::read_file;
+using tests::TemporaryFolder;
+
+/// Does not compress.
+Picture noise(int size) {
+  Picture picture{.width = size, .height = size};
+  Layer beauty{.channels = {"R", "G", "B"}};
+  std::uint32_t state = 1;
+  for (int i = 0; i < 3 * size * size; ++i) {
+    state = state * 1664525u + 1013904223u;
+    beauty.values.push_back(static_cast<float>(state >> 8) / 16777216.0f);
+  }
+  picture.layers = {beauty};
+  return picture;
+}
+
+TEST(WriteImage, AFullDiskLeavesTheOldPictureWholeAndNoHalfFile) {
+  for (const char* name : {"a.exr", "a.png"}) {
+    const TemporaryFolder folder;
+    folder.write(name, "the old picture");
+    std::string message;
+    {
+      const FileSizeLimit limit(8192);
+      try {
+        write_image(noise(256), folder / name);
+      } catch (const OutputError& error) {
+        message = error.what();
+      }
+    }
+    EXPECT_THAT(message, HasSubstr(name));
+    EXPECT_THAT(message, HasSubstr("File too large"));
+    EXPECT_EQ(read_file(folder / name), "the old picture");
+    EXPECT_EQ(folder.count_files(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
