@@ -14,6 +14,7 @@
 #include <string>
 
 #include "bench/world_fixture.h"
+#include "renderer/film/camera_choice.h"
 
 namespace gatelight::bench {
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/film/camera.h"
+#include "renderer/film/camera_choice.h"
 #include "scene/gltf.h"
 
 namespace gatelight::bench {

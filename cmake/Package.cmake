@@ -14,9 +14,8 @@ foreach(folder IN ITEMS scene neural renderer)
   if(NOT TARGET gatelight_${folder})
     continue()
   endif()
-  install(TARGETS gatelight_${folder} EXPORT gatelight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight
-    FILES_MATCHING PATTERN "*.h")
+  install(TARGETS gatelight_${folder} EXPORT gatelight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight)
 endforeach()
 
 install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTINATION ${GATELIGHT_PACKAGE_DIR})

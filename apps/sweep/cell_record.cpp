@@ -16,7 +16,7 @@
 #include "apps/sweep/machine.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "renderer/film/pixel_filter.h"
+#include "renderer/settings/resolved_options.h"
 #include "scene/png_read.h"
 
 namespace gatelight::apps {
@@ -90,7 +90,7 @@ void add_found(ordered_json& options, const CellPlace& place, const renderer::Re
                float ao_distance) {
   const renderer::RenderOptions& o = place.series.settings.render;
   options["isa"] = s.isa;
-  options["filter-width"] = found_number(renderer::FilterSampler(o.filter, o.filter_width).width());
+  options["filter-width"] = found_number(renderer::resolve_filter_width(o.filter, o.filter_width));
   if (place.series.reference == ReferenceKind::ao) options["ao-distance"] = found_number(ao_distance);
   const auto set = [&](const char* key, const ordered_json& value) {
     if (options.contains(key)) options[key] = value;

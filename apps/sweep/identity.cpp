@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/film/camera.h"
+#include "renderer/film/camera_choice.h"
 #include "renderer/identity/deciding_options.h"
 
 namespace gatelight::apps {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "renderer/cache/cache_model.h"
+#include "renderer/cache/cache_backend.h"
 #include "renderer/machine/errors.h"
 #include "renderer/surface/embree.h"
 

@@ -17,7 +17,7 @@
 #include "apps/terminal/signals.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {

@@ -23,34 +23,6 @@ constexpr std::uint64_t kChosenBytes = std::uint64_t{96} << 20;
 /// Lobes at least this rough are learned as well without the direction of view: README.md, "Defaults".
 constexpr float kRoughForAll = 0.5f;
 
-std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
-  if (options.isa == "auto") return std::nullopt;
-  return neural::cpu::parse_isa(options.isa);
-}
-
-constexpr std::string_view kVulkan = "vulkan";
-
-/// What stands behind "vulkan:"; nothing for the CPU.
-std::optional<std::string> vulkan_device(const RenderOptions& options) {
-  const std::string_view device = options.cache.device;
-  if (device == "cpu") return std::nullopt;
-  if (device == kVulkan) return "";
-  if (device.starts_with(kVulkan) && device.size() > kVulkan.size() && device[kVulkan.size()] == ':')
-    return std::string(device.substr(kVulkan.size() + 1));
-  throw Unavailable(fmt::format("--device {}: expected cpu or vulkan", device));
-}
-
-/// Refusals of the library become the renderer's, which name the flag.
-template <typename Function>
-auto on_device(const RenderOptions& options, Function function) {
-  try {
-    return function();
-  } catch (const neural::Unavailable& error) {
-    if (options.cache.device == "cpu") throw Unavailable(error.what());
-    throw Unavailable(fmt::format("--device {}: {}", options.cache.device, error.what()));
-  }
-}
-
 }  // namespace
 
 neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options) {
@@ -105,25 +77,6 @@ neural::TrainingOptions training_options(const RenderOptions& options) {
   neural::TrainingOptions training = options.cache.training;
   training.seed = training.seed * 0x9e3779b97f4a7c15u + options.seed;
   return training;
-}
-
-std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural::Model> model,
-                                                    const RenderOptions& options) {
-  return on_device(options, [&]() -> std::unique_ptr<neural::Backend> {
-    const neural::TrainingOptions training = training_options(options);
-    if (const std::optional<std::string> device = vulkan_device(options))
-      return neural::vulkan::make_vulkan_backend(neural::vulkan::open_machine({.device = *device}),
-                                                 std::move(model), training);
-    return neural::cpu::make_cpu_backend(std::move(model), training, forced_isa(options));
-  });
-}
-
-std::string cache_machine(const RenderOptions& options) {
-  return on_device(options, [&] {
-    if (const std::optional<std::string> device = vulkan_device(options))
-      return fmt::format("vulkan {}", neural::vulkan::device_name(*device));
-    return std::string(neural::cpu::isa_name(neural::cpu::select_isa(forced_isa(options))));
-  });
 }
 
 int choose_training_steps(const RenderOptions& options, std::uint64_t pixels) {

@@ -2,9 +2,8 @@
 // Options and a scene's requirements become a model.
 
 #include <memory>
-#include <string>
 
-#include "neural/trainer.h"
+#include "neural/model/model.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/settings/options.h"
 #include "renderer/transport/world.h"
@@ -19,13 +18,6 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
                                                       const CacheSetup& setup);
 
 neural::TrainingOptions training_options(const RenderOptions& options);
-
-/// The backend that options.cache.device and options.isa name. Throws Unavailable.
-std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural::Model> model,
-                                                    const RenderOptions& options);
-
-/// The instruction set or device of that backend, in words for files: another one has other last bits.
-std::string cache_machine(const RenderOptions& options);
 
 /// Steps for a picture of so many samples, where the caller leaves it open.
 int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);

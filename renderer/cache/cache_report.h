@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "renderer/film/camera.h"
-#include "renderer/film/film.h"
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
-#include "renderer/transport/world.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
+
+class Camera;
+struct PixelRect;
+struct World;
 
 struct CacheInstanceReport {
   std::string name;

@@ -11,12 +11,14 @@
 #include <utility>
 
 #include "neural/learning/record_status.h"
+#include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/machine/clock.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 namespace {

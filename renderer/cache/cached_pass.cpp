@@ -9,7 +9,7 @@
 #include "renderer/film/first_hit.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/finite_float.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 #include "renderer/transport/occlusion.h"
 #include "renderer/transport/trace_timer.h"
 

@@ -1,12 +1,6 @@
 #include "renderer/film/camera.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-
-#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 
@@ -40,114 +34,6 @@ CameraRay Camera::ray(float x, float y) const {
   result.ray.direction = orthographic_ ? forward_ : Vec3(on_plane.normalized());
   result.cone = cone_;
   return result;
-}
-
-namespace {
-
-/// Eyes and orthographic pictures further from the origin are refused: rays end before squares of distances
-/// leave single precision.
-constexpr float kFurthest = 1e12f;
-
-/// In double: the square of a float may overflow or vanish.
-scene::Affine look_at(const LookAt& view) {
-  using Eigen::Vector3d;
-  const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
-  if (!(z.squaredNorm() > 0.0))
-    throw BadOption("--eye and --target are the same point; expected two different ones");
-  const Vector3d back = z.normalized();
-  const Vector3d up = view.up.cast<double>();
-  Vector3d x = up.cross(back);
-  // Straight up or down: any right vector will do.
-  if (!(x.squaredNorm() > 1e-12 * up.squaredNorm())) x = back.unitOrthogonal();
-  x.normalize();
-  scene::Affine transform = scene::Affine::Identity();
-  transform.linear().col(0) = x.cast<float>();
-  transform.linear().col(1) = back.cross(x).cast<float>();
-  transform.linear().col(2) = back.cast<float>();
-  transform.translation() = view.eye;
-  return transform;
-}
-
-/// Three quarters from the front and a little from above, the bounding sphere just inside the picture.
-scene::Camera frame_scene(const scene::Scene& scene, float fov, float aspect) {
-  scene::Camera camera;
-  camera.name = "auto";
-  camera.vertical_fov = fov;
-  LookAt view;
-  if (!scene.bounds.isEmpty()) {
-    const Vec3 center = scene.bounds.center();
-    const float radius = std::max(0.5f * scene.bounds.diagonal().norm(), 1e-6f * center.norm() + 1e-30f);
-    const float narrow = std::min(0.5f * fov, std::atan(std::tan(0.5f * fov) * aspect));
-    view.target = center;
-    view.eye = center + Vec3(0.45f, 0.3f, 1.0f).normalized() * (radius / std::sin(narrow));
-  }
-  camera.transform = look_at(view);
-  return camera;
-}
-
-std::string names_of(const scene::Scene& scene) {
-  if (scene.cameras.empty()) return "the file has no camera";
-  std::string text = "expected one of";
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    text += fmt::format(" {} ({})", i, scene.cameras[i].name);
-  return text;
-}
-
-/// The camera's own word for its place and size: a flag or a file.
-void require_near(const scene::Camera& camera, float aspect, const std::string& named) {
-  const Vec3 eye = camera.transform.translation();
-  if (!(eye.cwiseAbs().maxCoeff() <= kFurthest)) {
-    throw BadOption(fmt::format("{} is at ({:g}, {:g}, {:g}), expected coordinates of at most {:g} m", named,
-                                eye.x(), eye.y(), eye.z(), kFurthest));
-  }
-  const float half = camera.half_height * std::max(1.0f, aspect);
-  if (camera.orthographic && !(half <= kFurthest)) {
-    throw BadOption(
-        fmt::format("{} shows {:g} m to each side, expected at most {:g} m", named, half, kFurthest));
-  }
-}
-
-scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
-  const float fov = options.fov_degrees ? *options.fov_degrees * scene::kPi / 180.0f : 0.0f;
-  scene::Camera camera;
-  if (options.look_at) {
-    camera.name = "look-at";
-    camera.transform = look_at(*options.look_at);
-    camera.transform.translation() -= scene.origin;
-  } else if (!options.name.empty()) {
-    const scene::Camera* found = nullptr;
-    for (const scene::Camera& c : scene.cameras) {
-      if (c.name == options.name) {
-        found = &c;
-        break;
-      }
-    }
-    std::size_t index = 0;
-    const char* end = options.name.data() + options.name.size();
-    if (!found && std::from_chars(options.name.data(), end, index).ptr == end &&
-        index < scene.cameras.size()) {
-      found = &scene.cameras[index];
-    }
-    if (!found)
-      throw BadOption(
-          fmt::format("--camera {}: no such camera in {}; {}", options.name, scene.path, names_of(scene)));
-    camera = *found;
-  } else if (!scene.cameras.empty()) {
-    camera = scene.cameras.front();
-  } else {
-    return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
-  }
-  if (fov > 0.0f) camera.vertical_fov = fov;
-  return camera;
-}
-
-}  // namespace
-
-scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
-  scene::Camera camera = find_camera(scene, options, aspect);
-  require_near(camera, aspect,
-               options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", camera.name, scene.path));
-  return camera;
 }
 
 }  // namespace gatelight::renderer

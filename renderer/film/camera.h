@@ -1,7 +1,6 @@
 #pragma once
 // Primary rays.
 
-#include "renderer/settings/options.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 #include "scene/scene.h"
@@ -31,10 +30,5 @@ class Camera {
   RayCone cone_;
   bool orthographic_ = false;
 };
-
-/// The camera that the options ask for: given by hand, named or indexed, the first of the file, or one that
-/// frames the whole scene where there is none. Throws BadOption naming the choices, or for a camera so far
-/// away (1e12 m) that its rays would leave single precision.
-scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect);
 
 }  // namespace gatelight::renderer

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/settings/resolved_options.h"
+
 namespace gatelight::renderer {
 
 namespace {
@@ -25,23 +27,9 @@ double profile(PixelFilter filter, double x) {
   return 0.0;
 }
 
-float default_width(PixelFilter filter) {
-  switch (filter) {
-    case PixelFilter::box:
-      return 1.0f;
-    case PixelFilter::tent:
-      return 2.0f;
-    case PixelFilter::gaussian:
-    case PixelFilter::blackman_harris:
-      break;
-  }
-  return 3.0f;
-}
-
 }  // namespace
 
-FilterSampler::FilterSampler(PixelFilter filter, float width)
-    : width_(width > 0.0f ? width : default_width(filter)) {
+FilterSampler::FilterSampler(PixelFilter filter, float width) : width_(resolve_filter_width(filter, width)) {
   std::array<double, kBins + 1> sum{};
   for (std::size_t i = 0; i < kBins; ++i) {
     sum[i + 1] = sum[i] + std::max(0.0, profile(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));

@@ -12,8 +12,7 @@ namespace gatelight::renderer {
 
 class FilterSampler {
  public:
-  /// width: full width in pixels; 0 chooses the filter's usual one (box 1, tent 2, Gaussian 3,
-  /// Blackman-Harris 3).
+  /// width: as resolve_filter_width() takes it.
   FilterSampler(PixelFilter filter, float width);
 
   /// Offset from the pixel's centre, pixels; distributed as the filter (which is not negative) when u is

@@ -6,14 +6,16 @@
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
+#include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cached_pass.h"
+#include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/identity/deciding_options.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
 
 namespace gatelight::renderer {

@@ -13,7 +13,7 @@
 #include "renderer/run/checkpoint_keeper.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -51,9 +51,4 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
   }
 }
 
-float resolve_ao_distance(float option, const scene::Box& bounds) {
-  if (option >= 0.0f) return option;
-  return bounds.isEmpty() ? scene::kInfinity : 0.1f * bounds.diagonal().norm();
-}
-
 }  // namespace gatelight::renderer

@@ -33,7 +33,4 @@ class AoIntegrator {
   float distance_;
 };
 
-/// The distance that the options mean: a tenth of the scene's diagonal where they leave it open.
-float resolve_ao_distance(float option, const scene::Box& bounds);
-
 }  // namespace gatelight::renderer

@@ -5,6 +5,8 @@
 
 #include <atomic>
 
+#include "renderer/settings/resolved_options.h"
+
 namespace gatelight::renderer {
 
 ReferencePass::ReferencePass(const World& world, const PassContext& context)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/film/camera.h"
+#include "renderer/film/camera_choice.h"
 #include "renderer/machine/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"

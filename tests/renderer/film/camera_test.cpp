@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "renderer/film/camera_choice.h"
 #include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {

@@ -1,0 +1,16 @@
+#pragma once
+// What options mean where they leave something open.
+
+#include "renderer/settings/options.h"
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+/// Metres: a tenth of the scene's diagonal where the option is negative.
+float resolve_ao_distance(float option, const scene::Box& bounds);
+
+/// Full width in pixels: the filter's usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3) where the
+/// option is 0.
+float resolve_filter_width(PixelFilter filter, float option);
+
+}  // namespace gatelight::renderer
