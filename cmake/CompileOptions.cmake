@@ -1,5 +1,6 @@
 # One interface target carries the flags of our own code; nothing of it reaches a user of the installed package.
 add_library(gatelight_compile_options INTERFACE)
+target_compile_features(gatelight_compile_options INTERFACE cxx_std_20)
 target_compile_options(gatelight_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
   # The same source must give the same bits whatever instruction set it is compiled for.
