@@ -1,14 +1,14 @@
-# cmake -DOUTPUT=<file.inc> -P EmbedTexts.cmake NAME=FILE[,FILE...] ...
+# cmake -DOUTPUT=<file.inc> -P EmbedTexts.cmake NAME=[FILE[,FILE...]] ...
 #
 # Writes each list of text files, one after the other, as a string literal: constexpr char NAME[].
 cmake_minimum_required(VERSION 3.25)
 set(content "")
 math(EXPR last "${CMAKE_ARGC} - 1")
 foreach(i RANGE ${last})
-  if(NOT CMAKE_ARGV${i} MATCHES "^(k[A-Za-z]+)=(.+)$")
+  if(NOT CMAKE_ARGV${i} MATCHES "^(k[A-Za-z]+)=(.*)$")
     continue()
   endif()
-  string(APPEND content "constexpr char ${CMAKE_MATCH_1}[] = ")
+  string(APPEND content "constexpr char ${CMAKE_MATCH_1}[] = \"\"\n")
   string(REPLACE "," ";" files "${CMAKE_MATCH_2}")
   foreach(file IN LISTS files)
     file(READ "${file}" text)

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-// kPageHtml, kPageStyle, kPageScript and kChartScript: string literals (cmake/EmbedTexts.cmake).
+// kPageHtml, kPageStyle, kPageScript and kChartScript, which is empty in a build without Chart.js: string
+// literals (cmake/EmbedTexts.cmake).
 #include "gatelight_page.inc"
 
 namespace gatelight::apps {

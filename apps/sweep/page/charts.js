@@ -188,11 +188,16 @@ function tooltipLines(item) {
 }
 
 const charts = new Map();
+const kHasCharts = typeof Chart !== "undefined";
 
-/// Replaces what the canvas showed. `xs`, `ys`: values that are to fit; `ticks` of the x axis where not just any will do;
+/// Replaces what the canvas showed; hides its figure where there is no Chart.js. `xs`, `ys`: values that are to fit; `ticks` of the x axis where not just any will do;
 /// `extras`: bands, levels, fronts and limits.
 function drawChart(id, {title, metric, xs, ys, ticks, datasets, extras, description}) {
   const canvas = at(id);
+  if (!kHasCharts) {
+    canvas.closest("figure").hidden = true;
+    return;
+  }
   charts.get(id)?.destroy();
   canvas.setAttribute("aria-label", description);
   const tooltip = {

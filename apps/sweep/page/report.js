@@ -46,7 +46,9 @@ function drawHead() {
   at("abstract").textContent = `${plural(cells.length - failed, "picture")} of ${plural(scenes.length, "scene")}, ` +
     `${plural(styles.size, "series")}, ${plural(seeds, "seed")}` +
     `${failed > 0 ? `, ${failed} failed` : ""}. How far each is from a reference, and what it took.`;
-  at("chart-version").textContent = `Chart.js ${Chart.version}`;
+  at("no-charts").hidden = kHasCharts;
+  at("chart-note").hidden = !kHasCharts;
+  if (kHasCharts) at("chart-version").textContent = `Chart.js ${Chart.version}`;
   const bytes = pictureIndex.reduce((sum, entry) => sum + entry.bytes, 0);
   at("page-size").textContent = `${formatBytes(Number(document.body.dataset.bytes))}` +
     (pictureIndex.length > 0 ? `, of which ${formatBytes(bytes)} are ${plural(pictureIndex.length, "picture")} and maps` : "");
