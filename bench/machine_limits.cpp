@@ -1,5 +1,9 @@
 #include "bench/machine_limits.h"
 
+#if !defined(__x86_64__) || !defined(__linux__)
+#error "the limits of another machine would be measured otherwise: configure with -DGATELIGHT_BENCHMARKS=OFF"
+#endif
+
 #include <immintrin.h>
 #include <sys/mman.h>
 

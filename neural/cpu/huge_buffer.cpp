@@ -4,12 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <new>
 
 namespace gatelight::neural::cpu::detail {
 
 namespace {
+#if defined(MADV_HUGEPAGE)
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
+#else
+constexpr std::size_t kHugePage =
+    std::numeric_limits<std::size_t>::max();  // the system cannot be asked for any
+#endif
 constexpr std::size_t kPage = 4096;
 }  // namespace
 
@@ -34,7 +40,9 @@ void* map_huge(std::size_t bytes) {
   std::byte* const aligned = static_cast<std::byte*>(p) + before;
   if (before > 0) munmap(p, before);
   if (after > used) munmap(aligned + used, after - used);
+#if defined(MADV_HUGEPAGE)
   madvise(aligned, bytes, MADV_HUGEPAGE);  // only advice: ignoring errors costs time, not results
+#endif
   return aligned;
 }
 

@@ -85,7 +85,8 @@ KernelPoints kernel_points(const Model& model, const QueryBatch& batch) {
   return p;
 }
 
-const KernelTable& kernel_table(Isa isa) {
+const KernelTable& kernel_table([[maybe_unused]] Isa isa) {
+#if defined(__x86_64__)
   switch (isa) {
     case Isa::avx512:
       return __builtin_cpu_supports("avx512bf16") != 0 ? kAvx512Bf16Kernels : kAvx512Kernels;
@@ -94,6 +95,7 @@ const KernelTable& kernel_table(Isa isa) {
     case Isa::scalar:
       break;
   }
+#endif
   return kScalarKernels;
 }
 
