@@ -1,6 +1,7 @@
 #include "apps/reports/cache_report_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

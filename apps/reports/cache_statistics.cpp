@@ -1,6 +1,7 @@
 #include "apps/reports/cache_statistics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>

@@ -1,6 +1,7 @@
 #include "apps/reports/scene_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <utility>

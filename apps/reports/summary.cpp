@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/run_report.h"

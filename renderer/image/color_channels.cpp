@@ -1,6 +1,7 @@
 #include "renderer/image/color_channels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,7 @@
 #include "renderer/metrics/merge.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 

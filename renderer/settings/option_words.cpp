@@ -1,6 +1,7 @@
 #include "renderer/settings/option_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "neural/model/model_description.h"
 
