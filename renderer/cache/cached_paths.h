@@ -8,9 +8,7 @@
 #include "renderer/cache/held_light.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/settings/statistics.h"
-#include "renderer/transport/path_integrator.h"
-#include "renderer/transport/scattering.h"
-#include "renderer/transport/world.h"
+#include "renderer/transport/walker.h"
 
 namespace gatelight::renderer {
 
@@ -63,23 +61,25 @@ class CachedPaths {
   struct Links;
   struct Path;
   struct Pending;
-  struct Meeting;
   bool scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& plan, PathBatch& batch,
                std::span<FirstHit> first_hits, Scratch& scratch) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
-  bool answer(Path& path, const Meeting& meeting, PathBatch& batch, Scratch& scratch) const;
-  bool continue_from(Path& path, const Meeting& meeting, bool record, const PathPlan& plan, PathBatch& batch,
-                     Scratch& scratch) const;
+  bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
+  bool continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record, const PathPlan& plan,
+                     PathBatch& batch, Scratch& scratch) const;
   /// links: from `vertex` on, unless the path only passes a pane.
-  bool advance(Path& path, const Meeting& meeting, const BsdfSample& sample, const Links& links,
+  bool advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
                std::int32_t vertex) const;
-  void add_emission(const Path& path, const Color& emission, PathBatch& batch) const;
+  void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
+  /// A light sample of `bsdf` to `vertex`. wide: the lobes whose share the cache holds; null where the vertex
+  /// is no record.
+  void add_light(const Path& path, const Meeting& m, const Bsdf& bsdf, LightKinds kinds, const Bsdf* wide,
+                 std::int32_t vertex, Scratch& scratch) const;
 
-  const World& world_;
+  Walk walk_;
   const RenderOptions& options_;
   const StoredSurfaces& stored_;
   HeldLight held_;
-  MisRule mis_;
   bool delta_lights_;
 };
 

@@ -20,24 +20,18 @@ struct CachedPaths::Links {
   }
 };
 
-struct CachedPaths::Path {
-  RayCone cone;
-  Color throughput{1.0f, 1.0f, 1.0f};  ///< of power, for Russian roulette alone
+struct CachedPaths::Path : Walker {
   Links links;
-  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
-  Departure departure;
-  Sampler sampler;
   float spread = 0.0f;          ///< metres: root of the area over which the path has spread
   float first_spread = 0.0f;    ///< square metres: of the eye's ray at the first surface
   std::int32_t vertex = kNone;  ///< that the ray left from; kNone: the camera
-  std::uint32_t index = 0;      ///< into the starts
-  std::uint32_t seed = 0;
-  std::int32_t depth = 0;     ///< scattering events so far
-  std::int32_t surfaces = 0;  ///< met so far: the block of sampler dimensions
   std::int32_t wide_events = 0;
   std::int32_t records = 0;
   bool to_its_end = false;
-  bool emission_only = false;  ///< the next surface or sky is looked at for its emission alone
+
+  Path() = default;
+  Path(const PathStart& start, std::size_t which)
+      : Walker(start.sample, which), to_its_end(start.to_its_end) {}
 };
 
 /// A light sample on its way to a vertex.

@@ -14,6 +14,13 @@ struct CameraSample {
   CameraRay camera_ray;
   Sampler sampler;
   std::uint32_t seed = 0;  ///< hash of (seed, pixel, sample), for decisions that need no low discrepancy
+
+  /// The camera's ray, which decides by the sample's seed.
+  Ray ray() const {
+    Ray ray = camera_ray.ray;
+    ray.seed = seed;
+    return ray;
+  }
 };
 
 /// The surface at the primary hit, for the arbitrary output variables.
