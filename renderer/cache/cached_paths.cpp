@@ -16,6 +16,10 @@ namespace {
 /// beside the noise of leaving them out, and rarely twice.
 constexpr float kNarrowSurvival = 5.0f;
 
+/// Light at a vertex is summed up as it is worth at the path's start. Where hundreds of media inside each
+/// other lie between the two, single precision does not hold both, and the vertex is no record.
+constexpr float kLeastScale = 1e-20f;
+
 }  // namespace
 
 StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural::Sides> sides)
@@ -53,7 +57,7 @@ bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
 
 void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatch& batch) const {
   if (!found.any()) return;
-  const Color emission = found.radiance * found.weight;
+  const Color emission = found.radiance * (found.weight * path.scale());
   if (path.vertex == kNone) {
     batch.emission[path.index] += path.links.emission * emission;
     return;
@@ -66,11 +70,12 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatc
 void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf, LightKinds kinds,
                             const Bsdf* wide, std::int32_t vertex, Scratch& scratch) const {
   const LightAt at = path.light_at(walk_, m, bsdf, kinds);
-  const Color direct = at.value.value * at.light.radiance * at.weight;
+  const float weight = at.weight * path.scale();
+  const Color direct = at.value.value * at.light.radiance * weight;
   if (!(direct > 0.0f).any()) return;
   Color held = Color::Zero();
   if (wide && held_.light_sample(at.light.delta))
-    held = wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * at.weight;
+    held = wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
   scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
   scratch.pending.push_back({vertex, direct, held});
 }
@@ -100,8 +105,9 @@ bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& 
     }
   }
   if (path.emission_only) {
-    const std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
-    return drawn && advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone);
+    std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
+    return drawn && path.survives(plan.min_depth, *drawn) &&
+           advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone);
   }
   const bool wide = m.bsdf->has_wide(options_.cache.min_roughness);
   const bool ends = wide && ends_here(path, plan);
@@ -125,7 +131,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   PathVertex& v =
       batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
   if (worth_caching(wide_albedo)) {
-    v.reflectance = cache_reflectance(wide_albedo);
+    v.reflectance = cache_reflectance(wide_albedo) * path.scale();
     v.query = static_cast<std::int32_t>(batch.queries.size());
     batch.queries.push_back(m.hit, side, m.wo, m.surface, wide_albedo);
     if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
@@ -165,12 +171,13 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (record && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;
-  record = record && worth_caching(wide.albedo());
+  record = record && worth_caching(wide.albedo()) && path.scale() > kLeastScale &&
+           path.scale() < 1.0f / kLeastScale;
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v =
       batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
   if (record) {
-    v.reflectance = cache_reflectance(wide.albedo());
+    v.reflectance = cache_reflectance(wide.albedo()) * path.scale();
     v.record = static_cast<std::int32_t>(batch.records.size());
     batch.records.push_back(m.hit, side, m.wo, m.surface, wide.albedo());
     batch.targets.resize(3 * batch.records.size(), 0.0f);

@@ -14,7 +14,7 @@ namespace gatelight::renderer {
 inline constexpr std::int32_t kNone = -1;
 
 /// The light R that a vertex reflects, and the part H of it that the cache holds (cache/held_light.h), times
-/// no albedo:
+/// no albedo, both as they are worth in the medium where the path starts (Walker::radiance_scale):
 ///     R = known      + reflectance * answer + next.link * R(next)
 ///     H = known held                        + next.held_link * R(next)
 /// Known, as soon as paths are traced, is the light of light samples and of what shines where the path went
@@ -26,9 +26,9 @@ struct alignas(64) PathVertex {
                                     ///< media between
   Color held_link = Color::Zero();  ///< the same for H of `previous`
   Color known = Color::Zero();
-  Color reflectance = Color::Zero();
-  std::int32_t query = kNone;   ///< into PathBatch::queries
-  std::int32_t record = kNone;  ///< into PathBatch::records
+  Color reflectance = Color::Zero();  ///< of what the cache holds, times radiance_scale here
+  std::int32_t query = kNone;         ///< into PathBatch::queries
+  std::int32_t record = kNone;        ///< into PathBatch::records
 };
 static_assert(sizeof(PathVertex) == 64);
 

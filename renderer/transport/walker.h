@@ -52,13 +52,15 @@ enum class LightKinds : std::uint8_t {
   shapes,  ///< a sample of all, dropped where it is one of those
 };
 
-/// A direction that a path may go on in.
+/// A direction that a path may go on in. Its weight is of power: radiance_scale is not in it.
 struct Drawn : BsdfSample {
   bool through_pane = false;  ///< straight through a thin sheet: no scattering event
   float survival = 1.0f;      ///< of Russian roulette; the weight is divided by it
 
   /// What the weight would be of a part of the surface's lobes, deltas apart.
-  Color weight_of(const Bsdf& part) const { return part.evaluate(wi).value / (pdf * survival); }
+  Color weight_of(const Bsdf& part) const {
+    return part.evaluate(wi).value / (pdf * survival * radiance_scale);
+  }
 };
 
 struct Walker {
@@ -85,8 +87,10 @@ struct Walker {
     departure.position = start.camera_ray.ray.origin;
   }
 
-  /// What radiance at the ray's end is worth at the path's start.
-  Color carried() const { return throughput * static_cast<float>(radiance_scale); }
+  /// What radiance where the path is is worth at its start, losses of power apart.
+  float scale() const { return static_cast<float>(radiance_scale); }
+  /// The same with them.
+  Color carried() const { return throughput * scale(); }
 
   /// The ray leaves the scene.
   Emission sky(const Walk& walk, const Vec3& direction) const {
@@ -140,12 +144,13 @@ struct Walker {
 
   /// A direction of `bsdf`: the surface's, or a part of it. None: the path ends.
   std::optional<Drawn> draw(const Meeting& m, const Bsdf& bsdf) {
-    const BsdfSample sample = bsdf.sample(sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
-                                          sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
+    BsdfSample sample = bsdf.sample(sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
+                                    sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
     if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return {};
     const bool through_pane = sample.delta && sample.transmitted && m.surface.material.thin_walled;
     if (emission_only && !through_pane) return {};
-    throughput *= sample.weight / sample.radiance_scale;
+    sample.weight /= sample.radiance_scale;
+    throughput *= sample.weight;
     radiance_scale *= static_cast<double>(sample.radiance_scale);
     return Drawn{sample, through_pane};
   }
