@@ -44,7 +44,7 @@ class DirectPicture {
             renderer::choose_camera(fixture.scene, options_.camera,
                                     static_cast<float>(kPictureWidth) / static_cast<float>(kPictureHeight)),
             kPictureWidth, kPictureHeight),
-        integrator_(world_, options_) {}
+        integrator_(world_, path_integrator_options(options_)) {}
 
   /// Adds one sample to each pixel.
   void add(std::uint32_t seed, std::uint32_t sample, Sums& sums) {

@@ -107,7 +107,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
     counts_.assign(cache_model->gate.triangle_count, 0);
     counted_at_.assign(counts_.size(), 0);
   }
-  paths_ = std::make_unique<CachedPaths>(world, options, stored_);
+  paths_ = std::make_unique<CachedPaths>(world, cached_paths_options(options), stored_);
   if (options.integrator == Integrator::nao) {
     records_ = std::make_unique<OcclusionRecords>(
         world, *points_, options, stored_, resolve_ao_distance(options.ao_distance, world.scene.bounds),

@@ -55,7 +55,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       session_(session),
       // The cache's own picture shows what it says everywhere, even where it never learned.
       stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
-      paths_(world, context.options, stored_),
+      paths_(world, cached_paths_options(context.options), stored_),
       ao_distance_(resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
       needs_error_(std::find(context.options.aovs.begin(), context.options.aovs.end(), Aov::cache_error) !=
                    context.options.aovs.end()),

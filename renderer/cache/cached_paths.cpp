@@ -33,13 +33,6 @@ StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural
   }
 }
 
-CachedPaths::CachedPaths(const World& world, const RenderOptions& options, const StoredSurfaces& stored)
-    : walk_{world, {options.direct, options.mis}},
-      options_(options),
-      stored_(stored),
-      held_{options.cache.holds},
-      delta_lights_(world.lights.has_delta()) {}
-
 bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
   if (plan.end_after_records != kNone) return !path.to_its_end && path.records >= plan.end_after_records;
   switch (plan.query_at) {
@@ -48,7 +41,7 @@ bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
     case QueryAt::gather:
       return path.wide_events > 0;
     case QueryAt::spread:
-      return path.spread * path.spread > options_.cache.spread_threshold * path.first_spread;
+      return path.spread * path.spread > options_.spread_threshold * path.first_spread;
     case QueryAt::none:
       break;
   }
@@ -64,7 +57,8 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatc
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
   from.known += path.links.emission * emission;
-  if (from.record != kNone && held_.emission()) batch.target(from.record) += path.links.held * emission;
+  if (from.record != kNone && options_.held.emission())
+    batch.target(from.record) += path.links.held * emission;
 }
 
 void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf, LightKinds kinds,
@@ -74,7 +68,7 @@ void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf
   const Color direct = at.value.value * at.light.radiance * weight;
   if (!(direct > 0.0f).any()) return;
   Color held = Color::Zero();
-  if (wide && held_.light_sample(at.light.delta))
+  if (wide && options_.held.light_sample(at.light.delta))
     held = wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
   scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
   scratch.pending.push_back({vertex, direct, held});
@@ -109,7 +103,7 @@ bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& 
     return drawn && path.survives(plan.min_depth, *drawn) &&
            advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone);
   }
-  const bool wide = m.bsdf->has_wide(options_.cache.min_roughness);
+  const bool wide = m.bsdf->has_wide(options_.min_roughness);
   const bool ends = wide && ends_here(path, plan);
   const std::uint32_t side = side_of(m.surface.front, walk_.world.scene.instances[hit.instance].mirrors);
   const bool stored = (ends || (wide && plan.records)) && stored_(neural::surface_index(hit.instance, side));
@@ -122,7 +116,7 @@ bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& 
 
 bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch,
                          Scratch& scratch) const {
-  const float roughness = options_.cache.min_roughness;
+  const float roughness = options_.min_roughness;
   const bool has_narrow = m.bsdf->has_narrow(roughness);
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (has_narrow) part = m.bsdf->wide_part(roughness);
@@ -137,7 +131,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
     if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
   }
 
-  if (!held_.emission()) {
+  if (!options_.held.emission()) {
     // All direct light is sampled here, of all lobes; what the chosen direction brings from further on counts
     // for the narrow ones alone.
     add_light(path, m, *m.bsdf, LightKinds::all, nullptr, index, scratch);
@@ -153,7 +147,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
     return advance(path, m, *drawn, {drawn->weight, scattered}, index);
   }
 
-  const bool delta_apart = delta_lights_ && !held_.light_sample(true);
+  const bool delta_apart = delta_lights_ && !options_.held.light_sample(true);
   if (delta_apart) add_light(path, m, *m.bsdf, LightKinds::delta, nullptr, index, scratch);
   if (!has_narrow) return false;
   const Bsdf narrow = m.bsdf->narrow_part(roughness);
@@ -167,7 +161,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
 
 bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record,
                                 const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
-  const float roughness = options_.cache.min_roughness;
+  const float roughness = options_.min_roughness;
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (record && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;

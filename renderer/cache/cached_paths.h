@@ -44,13 +44,30 @@ struct PathStart {
   bool to_its_end = false;  ///< whatever end_after_records says
 };
 
+/// What the paths read of the options.
+struct CachedPathsOptions {
+  MisRule mis;
+  HeldLight held;
+  float min_roughness = 0.0f;     ///< perceptual; narrower lobes are not asked for
+  float spread_threshold = 0.0f;  ///< of QueryAt::spread, over the spread at the first surface
+};
+inline CachedPathsOptions cached_paths_options(const RenderOptions& options) {
+  return {{options.direct, options.mis},
+          {options.cache.holds},
+          options.cache.min_roughness,
+          options.cache.spread_threshold};
+}
+
 class CachedPaths {
  public:
   struct Scratch;
 
-  /// The world, the surfaces and the options outlive it. Of the options it reads direct, mis and the cache's
-  /// holds, min_roughness and spread_threshold.
-  CachedPaths(const World& world, const RenderOptions& options, const StoredSurfaces& stored);
+  /// The world and the surfaces outlive it.
+  CachedPaths(const World& world, const CachedPathsOptions& options, const StoredSurfaces& stored)
+      : walk_{world, options.mis},
+        options_(options),
+        stored_(stored),
+        delta_lights_(world.lights.has_delta()) {}
 
   /// Traces. `hits` is empty, or has the nearest hit of each start's ray. `first_hits` is empty or as long as
   /// the starts. Afterwards batch.queries wait for answers and batch.resolve() for them. Thread-safe.
@@ -77,9 +94,8 @@ class CachedPaths {
                  std::int32_t vertex, Scratch& scratch) const;
 
   Walk walk_;
-  const RenderOptions& options_;
+  CachedPathsOptions options_;
   const StoredSurfaces& stored_;
-  HeldLight held_;
   bool delta_lights_;
 };
 

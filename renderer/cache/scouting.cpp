@@ -103,7 +103,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
   report.paths = starts.starts.size();
 
   if (options.integrator == Integrator::nrc) {
-    const CachedPaths paths(world, plain, everything);
+    const CachedPaths paths(world, cached_paths_options(plain), everything);
     PointInputs inputs;
     inputs.positions = true;
     RadianceRecords records(paths, points, plain, inputs);

@@ -4,9 +4,6 @@
 
 namespace gatelight::renderer {
 
-PathIntegrator::PathIntegrator(const World& world, const RenderOptions& options)
-    : walk_{world, {options.direct, options.mis}}, options_(options) {}
-
 bool PathIntegrator::scatter(Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
                              Scratch& scratch) const {
   const auto add = [&](const Emission& emission) {

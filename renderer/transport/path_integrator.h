@@ -11,13 +11,25 @@
 
 namespace gatelight::renderer {
 
+/// What the path tracer reads of the options.
+struct PathIntegratorOptions {
+  MisRule mis;
+  int max_depth = 8;  ///< scattering events
+  int min_depth = 2;  ///< before Russian roulette
+};
+inline PathIntegratorOptions path_integrator_options(const RenderOptions& options) {
+  return {{options.direct, options.mis}, options.max_depth, options.min_depth};
+}
+
 /// Traces batches of camera paths breadth first: all rays of a depth together, in packets. Thread-safe; the
 /// scratch memory belongs to the caller's thread.
 class PathIntegrator {
  public:
   struct Scratch;
 
-  PathIntegrator(const World& world, const RenderOptions& options);
+  /// The world outlives it.
+  PathIntegrator(const World& world, const PathIntegratorOptions& options)
+      : walk_{world, options.mis}, options_(options) {}
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
@@ -29,7 +41,7 @@ class PathIntegrator {
                Scratch& scratch) const;
 
   Walk walk_;
-  const RenderOptions& options_;
+  PathIntegratorOptions options_;
 };
 
 /// A light sample on its way through the scene.

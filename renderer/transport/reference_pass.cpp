@@ -11,7 +11,7 @@ namespace gatelight::renderer {
 
 ReferencePass::ReferencePass(const World& world, const PassContext& context)
     : context_(context),
-      path_(world, context.options),
+      path_(world, path_integrator_options(context.options)),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)) {}
 
 void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,

@@ -115,7 +115,7 @@ class Pictures {
   }
 
   std::vector<Color> reference(std::uint32_t seed, int samples) const {
-    const PathIntegrator integrator(built_.world, options_);
+    const PathIntegrator integrator(built_.world, path_integrator_options(options_));
     std::vector<CameraSample> camera_samples;
     for (const PathStart& s : starts(seed, samples)) camera_samples.push_back(s.sample);
     std::vector<SampleResult> results(camera_samples.size());
@@ -138,7 +138,7 @@ class Pictures {
     CachedPaths::Scratch scratch;
 
     const RenderOptions ask_options = options(composed);
-    const CachedPaths ask(built_.world, ask_options, stored);
+    const CachedPaths ask(built_.world, cached_paths_options(ask_options), stored);
     PathPlan plan;
     plan.query_at = composed.query_at;
     plan.max_depth = 16;
@@ -147,7 +147,7 @@ class Pictures {
     ask.trace(asking, {}, plan, batch, {}, rays, scratch);
 
     const RenderOptions learn_options = options(learned);
-    const CachedPaths learn(built_.world, learn_options, stored);
+    const CachedPaths learn(built_.world, cached_paths_options(learn_options), stored);
     PathPlan to_the_end;
     to_the_end.records = true;
     to_the_end.max_depth = 16;

@@ -24,7 +24,7 @@ const double kSignificance = testing::sidak(1e-4, 40);
 Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, std::size_t points,
                       bool self_training = false, float answer = 0.0f) {
   const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, options, stored);
+  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, chosen, options, {});
   RecordBatch batch;
@@ -82,7 +82,7 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
   options.cache.holds = GetParam();
   options.cache.path_length = 2;
   const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, options, stored);
+  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, chosen, options, {});
   // Two scattering events: emission reflected once or twice.
@@ -235,7 +235,7 @@ TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
   options.cache.path_length = 2;  // the pane is no event, its reflection is one
   options.cache.samples_per_point = 8;
   const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, options, stored);
+  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, chosen, options, {});
   RecordBatch batch;

@@ -29,7 +29,7 @@ struct Made {
   Made(const ViewedWorld& viewed, const RenderOptions& options, const RecordRequest& request,
        const AnswerPoints& answer = {}) {
     const StoredSurfaces stored;
-    const CachedPaths paths(viewed.world, options, stored);
+    const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
     const std::vector<neural::Sides> sides(viewed.world.scene.instances.size(), neural::Sides::both);
     const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
     RadianceRecords records(paths, points, options, with_positions());
@@ -221,7 +221,7 @@ TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options;
   const StoredSurfaces stored(viewed.world.scene, std::vector<neural::Sides>{neural::Sides::none});
-  const CachedPaths paths(viewed.world, options, stored);
+  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, points, options, {});
   RecordBatch batch;
@@ -265,7 +265,7 @@ TEST(RadianceRecords, ABatchThatIsUsedAgainIsAsNew) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
   const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, options, stored);
+  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, points, options, with_positions());
   RecordBatch used;

@@ -41,7 +41,8 @@ BothWays trace(const ViewedWorld& viewed, int max_depth, int min_depth, bool rec
   BothWays both;
   std::vector<SampleResult> results(samples.size());
   PathIntegrator::Scratch path_scratch;
-  PathIntegrator(viewed.world, options).trace(samples, results, {}, both.path_tracer_rays, path_scratch);
+  PathIntegrator(viewed.world, path_integrator_options(options))
+      .trace(samples, results, {}, both.path_tracer_rays, path_scratch);
   for (const SampleResult& result : results) both.path_tracer.push_back(result.radiance);
 
   PathPlan plan;
@@ -51,7 +52,7 @@ BothWays trace(const ViewedWorld& viewed, int max_depth, int min_depth, bool rec
   const StoredSurfaces stored;
   PathBatch batch{PointInputs()};
   CachedPaths::Scratch scratch;
-  CachedPaths(viewed.world, options, stored)
+  CachedPaths(viewed.world, cached_paths_options(options), stored)
       .trace(starts, {}, plan, batch, {}, both.cached_paths_rays, scratch);
   both.cached_paths.resize(samples.size());
   batch.resolve({}, both.cached_paths);
