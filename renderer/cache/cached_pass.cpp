@@ -6,12 +6,9 @@
 #include <algorithm>
 
 #include "neural/layout/mesh_colors.h"
-#include "renderer/film/first_hit.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/finite_float.h"
 #include "renderer/settings/resolved_options.h"
-#include "renderer/transport/occlusion.h"
-#include "renderer/transport/trace_timer.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -56,7 +53,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       // The cache's own picture shows what it says everywhere, even where it never learned.
       stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
       paths_(world, cached_paths_options(context.options), stored_),
-      ao_distance_(resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
+      ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
       needs_error_(std::find(context.options.aovs.begin(), context.options.aovs.end(), Aov::cache_error) !=
                    context.options.aovs.end()),
       queries_(session.inputs()) {
@@ -155,59 +152,22 @@ void CachedPass::finish_paths(Tile& tile) const {
 }
 
 void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
-  const std::size_t size = tile.samples.size();
-  worker.rays.resize(size);
-  worker.hits.resize(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    worker.rays[i] = tile.samples[i].camera_ray.ray;
-    worker.rays[i].seed = tile.samples[i].seed;
-  }
-  worker.counts.camera += size;
-  {
-    const TraceTimer timer(worker.counts);
-    world_.accel.intersect(worker.rays, worker.hits, true);
-  }
-  tile.paths.queries.clear();
-  tile.paths.first_queries.assign(size, kNone);
-  tile.paths.unstored_hits = 0;
-  worker.occlusion_rays.clear();
-  worker.occlusion_index.clear();
-  for (std::size_t i = 0; i < size; ++i) {
-    if (i + kTriangleAhead < size) world_.surfaces.prefetch_triangle(worker.hits[i + kTriangleAhead]);
-    if (i + kVerticesAhead < size) world_.surfaces.prefetch_vertices(worker.hits[i + kVerticesAhead]);
-    tile.results[i].radiance = Color::Ones();
-    if (!tile.first_hits.empty()) tile.first_hits[i] = {};
-    const Hit& hit = worker.hits[i];
-    if (!hit) continue;
-    const Ray& ray = worker.rays[i];
-    const RayCone& cone = tile.samples[i].camera_ray.cone;
-    const Surface surface = world_.surfaces.at(hit, ray.direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!tile.first_hits.empty()) tile.first_hits[i] = first_hit(hit, surface, world_.scene.origin);
+  PathBatch& paths = tile.paths;
+  paths.queries.clear();
+  paths.first_queries.assign(tile.samples.size(), kNone);
+  paths.unstored_hits = 0;
+  // Where the cache has no storage one ray is traced, as the reference does.
+  const auto ask = [&](std::size_t i, const Hit& hit, const Surface& surface, const Ray& ray) {
     const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
-    if (stored_(neural::surface_index(hit.instance, side))) {
-      tile.paths.first_queries[i] = static_cast<std::int32_t>(tile.paths.queries.size());
-      tile.paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
-      continue;
+    if (!stored_(neural::surface_index(hit.instance, side))) {
+      ++paths.unstored_hits;
+      return false;
     }
-    // Where the cache has no storage one ray is traced, as the reference does.
-    ++tile.paths.unstored_hits;
-    Ray occlusion_ray;
-    if (make_occlusion_ray(surface, tile.samples[i], ao_distance_, occlusion_ray)) {
-      worker.occlusion_rays.push_back(occlusion_ray);
-      worker.occlusion_index.push_back(static_cast<std::uint32_t>(i));
-    } else {
-      tile.results[i].radiance = Color::Zero();
-    }
-  }
-  if (worker.occlusion_rays.empty()) return;
-  worker.counts.shadow += worker.occlusion_rays.size();
-  worker.transmittance.resize(worker.occlusion_rays.size());
-  {
-    const TraceTimer timer(worker.counts);
-    world_.accel.transmittance(worker.occlusion_rays, worker.transmittance);
-  }
-  for (std::size_t i = 0; i < worker.occlusion_index.size(); ++i)
-    tile.results[worker.occlusion_index[i]].radiance = worker.transmittance[i];
+    paths.first_queries[i] = static_cast<std::int32_t>(paths.queries.size());
+    paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
+    return true;
+  };
+  ao_.trace(tile.samples, tile.results, tile.first_hits, worker.counts, worker.occlusion, ask);
 }
 
 void CachedPass::finish_occlusion(Tile& tile) const {

@@ -7,6 +7,7 @@
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/cached_paths_scratch.h"
+#include "renderer/transport/ao_integrator.h"
 #include "renderer/transport/pass.h"
 
 namespace gatelight::renderer {
@@ -37,11 +38,7 @@ class CachedPass : public Pass {
   };
   struct Worker {
     CachedPaths::Scratch scratch;
-    std::vector<Ray> rays;
-    std::vector<Hit> hits;
-    std::vector<Ray> occlusion_rays;
-    std::vector<std::uint32_t> occlusion_index;
-    std::vector<Color> transmittance;
+    AoIntegrator::Scratch occlusion;
     PathBatch check;  ///< of the error variable
     RayCounts counts;
     SampleCounts samples;
@@ -60,7 +57,7 @@ class CachedPass : public Pass {
   StoredSurfaces stored_;
   CachedPaths paths_;
   PathPlan plan_;
-  float ao_distance_;
+  AoIntegrator ao_;
   bool needs_error_;
   std::vector<Tile> tiles_;
   SurfacePoints queries_;

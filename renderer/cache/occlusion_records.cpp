@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "renderer/transport/occlusion.h"
-#include "renderer/transport/trace_timer.h"
 
 namespace gatelight::renderer {
 
@@ -28,8 +27,7 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   std::mutex mutex;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     RayCounts counts;
-    std::vector<Ray> rays;
-    std::vector<std::int32_t> record_of_ray;
+    OcclusionRays rays;
     for (std::size_t i = batch.starts.offsets[b]; i < batch.starts.offsets[b + 1]; ++i) {
       const Hit& hit = batch.starts.hits[i];
       if (!hit) continue;
@@ -43,20 +41,11 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
         records[b].push_back(hit, side, -direction, surface, surface.material.base_color);
         targets[b].push_back(0.0f);
       }
-      Ray ray;
-      if (!make_occlusion_ray(surface, start, distance_, ray)) continue;
-      rays.push_back(ray);
-      record_of_ray.push_back(static_cast<std::int32_t>(targets[b].size()) - 1);
+      rays.add(surface, start, distance_, targets[b].size() - 1);
     }
-    std::vector<Color> open(rays.size());
-    counts.shadow = rays.size();
-    {
-      const TraceTimer timer(counts);
-      world_.accel.transmittance(rays, open);
-    }
-    for (std::size_t r = 0; r < rays.size(); ++r)
-      targets[b][static_cast<std::size_t>(record_of_ray[r])] +=
-          scene::luminance(open[r]) / static_cast<float>(times);
+    rays.trace(world_, counts, [&](std::size_t record, const Color& open) {
+      targets[b][record] += scene::luminance(open) / static_cast<float>(times);
+    });
     const std::lock_guard lock(mutex);
     rays_.add(counts);
   });

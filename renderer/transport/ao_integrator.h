@@ -2,12 +2,12 @@
 // Reference ambient occlusion at the primary hit: the cosine-weighted fraction of the hemisphere about the
 // smooth normal that nothing hides within a distance. Background counts as open.
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "renderer/film/camera_sample.h"
-#include "renderer/settings/statistics.h"
-#include "renderer/transport/world.h"
+#include "renderer/transport/occlusion.h"
 
 namespace gatelight::renderer {
 
@@ -16,17 +16,19 @@ class AoIntegrator {
   struct Scratch {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
-    std::vector<Ray> shadow_rays;
-    std::vector<std::uint32_t> index;
-    std::vector<Color> transmittance;
+    OcclusionRays occlusion;
   };
 
   /// distance: metres, may be infinite.
   AoIntegrator(const World& world, float distance) : world_(world), distance_(distance) {}
 
+  /// Whether a sample's result comes from elsewhere: no ray is traced for it.
+  using Elsewhere = std::function<bool(std::size_t sample, const Hit&, const Surface&, const Ray&)>;
+
   /// As PathIntegrator::trace.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
-             std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
+             std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch,
+             const Elsewhere& elsewhere = {}) const;
 
  private:
   const World& world_;

@@ -1,22 +1,55 @@
 #pragma once
-// The ray of ambient occlusion: one definition for the reference and for the cache's records.
+// The rays of ambient occlusion: one definition for the reference, for pictures from the cache and for its
+// records.
+
+#include <cstdint>
+#include <vector>
 
 #include "renderer/film/camera_sample.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/surface/surface.h"
+#include "renderer/settings/statistics.h"
+#include "renderer/transport/trace_timer.h"
+#include "renderer/transport/world.h"
 
 namespace gatelight::renderer {
 
-/// Cosine-weighted about the smooth normal. False where the direction lies below the surface: occluded.
-inline bool make_occlusion_ray(const Surface& surface, const CameraSample& sample, float distance, Ray& ray) {
-  ray.direction = Basis(surface.smooth_normal)
-                      .to_world(sample_cosine_hemisphere(
-                          sample.sampler.get_2d(dimension::kFirstVertex + dimension::kBsdfDirection)));
-  if (!(ray.direction.dot(surface.geometric_normal) > 0.0f)) return false;
-  ray.origin = surface.spawn(ray.direction);
-  ray.t_max = distance;
-  ray.seed = hash(sample.seed + 1u);
-  return true;
-}
+/// Collects rays, each with a number of its caller's, and traces them together. Its memory is kept.
+class OcclusionRays {
+ public:
+  /// Cosine-weighted about the smooth normal, `distance` metres long. False where the direction lies below
+  /// the surface: occluded.
+  bool add(const Surface& surface, const CameraSample& sample, float distance, std::size_t number) {
+    Ray ray;
+    ray.direction = Basis(surface.smooth_normal)
+                        .to_world(sample_cosine_hemisphere(
+                            sample.sampler.get_2d(dimension::kFirstVertex + dimension::kBsdfDirection)));
+    if (!(ray.direction.dot(surface.geometric_normal) > 0.0f)) return false;
+    ray.origin = surface.spawn(ray.direction);
+    ray.t_max = distance;
+    ray.seed = hash(sample.seed + 1u);
+    rays_.push_back(ray);
+    numbers_.push_back(number);
+    return true;
+  }
+
+  /// Traces all and forgets them. arrive(number, open): the share of light that passes, 0 or 1 but for panes.
+  template <typename Arrive>
+  void trace(const World& world, RayCounts& counts, Arrive arrive) {
+    counts.shadow += rays_.size();
+    open_.resize(rays_.size());
+    {
+      const TraceTimer timer(counts);
+      world.accel.transmittance(rays_, open_);
+    }
+    for (std::size_t i = 0; i < rays_.size(); ++i) arrive(numbers_[i], open_[i]);
+    rays_.clear();
+    numbers_.clear();
+  }
+
+ private:
+  std::vector<Ray> rays_;
+  std::vector<std::size_t> numbers_;
+  std::vector<Color> open_;
+};
 
 }  // namespace gatelight::renderer

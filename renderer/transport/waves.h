@@ -37,6 +37,12 @@ struct Waves {
 inline constexpr std::size_t kTriangleAhead = 8;
 inline constexpr std::size_t kVerticesAhead = 4;
 
+/// Asks for the data of hits that are shaded soon after the one at `index`.
+inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::size_t index) {
+  if (index + kTriangleAhead < hits.size()) surfaces.prefetch_triangle(hits[index + kTriangleAhead]);
+  if (index + kVerticesAhead < hits.size()) surfaces.prefetch_vertices(hits[index + kVerticesAhead]);
+}
+
 /// Follows the paths until none is left. `first_hits` is empty, or has the hits of the first rays.
 /// scatter(path, ray, hit): gives the path its next ray, or returns false where it ends; adds shadow rays and
 /// what waits for them. arrive(pending, transmittance): a light sample arrives.
@@ -62,8 +68,7 @@ void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path
     pending.clear();
     std::size_t alive = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      if (i + kTriangleAhead < paths.size()) world.surfaces.prefetch_triangle(hits[i + kTriangleAhead]);
-      if (i + kVerticesAhead < paths.size()) world.surfaces.prefetch_vertices(hits[i + kVerticesAhead]);
+      prefetch(world.surfaces, hits, i);
       if (!scatter(paths[i], rays[i], hits[i])) continue;
       if (alive != i) {
         paths[alive] = paths[i];
