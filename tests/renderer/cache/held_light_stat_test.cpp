@@ -27,8 +27,8 @@ using testing::SceneBuilder;
 constexpr int kSide = 64;
 const double kSignificance = testing::sidak(1e-4, 150);
 
-/// Every kind of surface (matte, plastic, rough and smooth metal, mirror, pane, lacquer) under every kind of
-/// light.
+/// Every kind of surface (matte, plastic, rough and smooth metal, mirror, pane, lacquer, rough and smooth
+/// glass, matte inside glass) under every kind of light.
 SceneBuilder mixed_scene() {
   SceneBuilder builder;
   builder.quad(builder.material(SceneBuilder::lambert(Color(0.7f, 0.5f, 0.4f))), Vec3(-3, 0, 3),
@@ -57,6 +57,16 @@ SceneBuilder mixed_scene() {
   pane.base_color = Color(0.8f, 0.9f, 1.0f);
   pane.double_sided = true;
   builder.quad(builder.material(pane), Vec3(0.5f, 0, 1.2f), Vec3(1.0f, 0, 0.2f), Vec3(0, 1.2f, 0));
+  scene::Material glass;
+  glass.metallic = 0.0f;
+  glass.roughness = 0.0f;
+  glass.transmission = 1.0f;
+  glass.thickness = 1.0f;
+  builder.sphere(builder.material(glass), Vec3(-1.0f, 0.45f, 1.7f), 0.4f, 24, true);
+  builder.sphere(builder.material(SceneBuilder::lambert(Color(0.8f, 0.8f, 0.3f))), Vec3(-1.0f, 0.4f, 1.7f),
+                 0.2f, 16, true);
+  glass.roughness = 0.6f;
+  builder.sphere(builder.material(glass), Vec3(0.2f, 0.35f, 1.9f), 0.3f, 24, true);
   const int lamp = builder.material(SceneBuilder::lambert(Color(0.2f, 0.2f, 0.2f), Color(4.0f, 3.0f, 2.0f)));
   builder.quad(lamp, Vec3(-1, 2.9f, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
   scene::PunctualLight point;
