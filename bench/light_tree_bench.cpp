@@ -5,6 +5,7 @@
 // of them is how many times sooner the same noise is reached.
 
 #include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,7 @@
 
 #include "bench/world_fixture.h"
 #include "renderer/film/camera_choice.h"
+#include "renderer/transport/reference_pass.h"
 
 namespace gatelight::bench {
 namespace {
@@ -26,46 +28,27 @@ constexpr int kPictureHeight = 90;
 constexpr std::uint32_t kSpp = 16;
 constexpr std::uint32_t kReferenceSpp = 512;
 
-using Sums = std::vector<Eigen::Array3d>;
-
-/// The direct light of one scene under one way to choose.
+/// The direct light of one scene under one way to choose, in the program's own passes.
 class DirectPicture {
  public:
-  DirectPicture(const WorldFixture& fixture, const renderer::Lights& lights, renderer::DirectLight technique)
+  DirectPicture(const WorldFixture& fixture, LightSelection selection, renderer::DirectLight technique)
       : options_(options_for(fixture, technique)),
-        world_{fixture.scene,
-               fixture.requirements,
-               *fixture.textures,
-               *fixture.surfaces,
-               *fixture.accel,
-               *fixture.environment,
-               lights},
+        world_(fixture.scene, options_.environment, selection),
         camera_(
             renderer::choose_camera(fixture.scene, options_.camera,
                                     static_cast<float>(kPictureWidth) / static_cast<float>(kPictureHeight)),
-            kPictureWidth, kPictureHeight),
-        integrator_(world_, path_integrator_options(options_)) {}
+            kPictureWidth, kPictureHeight) {}
 
-  /// Adds one sample to each pixel.
-  void add(std::uint32_t seed, std::uint32_t sample, Sums& sums) {
-    for (int y = 0; y < kPictureHeight; ++y) {
-      row_.clear();
-      for (int x = 0; x < kPictureWidth; ++x) {
-        renderer::CameraSample s;
-        s.sampler = renderer::Sampler(options_.sampler, seed, static_cast<std::uint32_t>(x),
-                                      static_cast<std::uint32_t>(y), sample);
-        s.seed = renderer::hash(static_cast<std::uint32_t>(y * kPictureWidth + x) ^
-                                renderer::hash(sample ^ renderer::hash(seed)));
-        s.camera_ray = camera_.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        row_.push_back(s);
-      }
-      results_.resize(row_.size());
-      integrator_.trace(row_, results_, {}, rays_, scratch_);
-      for (std::size_t x = 0; x < row_.size(); ++x) {
-        sums[static_cast<std::size_t>(y * kPictureWidth) + x] += results_[x].radiance.cast<double>();
-      }
-    }
+  /// RGB of each pixel, rows from the top. One thread.
+  std::vector<float> render(std::uint32_t seed, std::uint32_t spp) {
+    options_.seed = seed;
+    renderer::ReferencePass pass(world_, {grid_, options_, camera_, filter_});
+    renderer::Film film({0, 0, kPictureWidth, kPictureHeight}, kPictureWidth, kPictureHeight, {});
+    tbb::task_arena(1).execute([&] { pass.run(0, spp, film, [](double) {}); });
+    return film.resolve().layers.front().values;
   }
+
+  std::size_t emitters() const { return world_.lights.emissive_triangles(); }
 
  private:
   static renderer::RenderOptions options_for(const WorldFixture& fixture, renderer::DirectLight technique) {
@@ -75,27 +58,19 @@ class DirectPicture {
     return options;
   }
 
-  const renderer::RenderOptions options_;
+  renderer::RenderOptions options_;
   const renderer::World world_;
   const renderer::Camera camera_;
-  const renderer::PathIntegrator integrator_;
-  std::vector<renderer::CameraSample> row_;
-  std::vector<renderer::SampleResult> results_;
-  renderer::RayCounts rays_;
-  renderer::PathIntegrator::Scratch scratch_;
+  const renderer::TileGrid grid_{{0, 0, kPictureWidth, kPictureHeight}};
+  const renderer::FilterSampler filter_{renderer::PixelFilter::box, 1e-3f};  ///< the pixels' centres
 };
 
-Sums black() {
-  return Sums(static_cast<std::size_t>(kPictureWidth) * kPictureHeight, Eigen::Array3d::Zero());
-}
-
-const Sums& reference(const std::string& name, const WorldFixture& fixture) {
-  static std::map<std::string, Sums> cache;
-  auto [found, inserted] = cache.try_emplace(name, black());
+const std::vector<float>& reference(const std::string& name, const WorldFixture& fixture) {
+  static std::map<std::string, std::vector<float>> cache;
+  auto [found, inserted] = cache.try_emplace(name);
   if (inserted) {
-    DirectPicture light(fixture, *fixture.lights, renderer::DirectLight::mis);
-    for (std::uint32_t i = 0; i < kReferenceSpp; ++i) light.add(1, i, found->second);
-    for (Eigen::Array3d& sum : found->second) sum /= kReferenceSpp;
+    found->second =
+        DirectPicture(fixture, LightSelection::tree, renderer::DirectLight::mis).render(1, kReferenceSpp);
   }
   return found->second;
 }
@@ -106,14 +81,18 @@ struct Error {
 };
 
 /// Squared error over squared reference plus a hundredth of the squared mean: dark pixels do not decide.
-Error relative_error(const Sums& sums, const Sums& reference) {
+Error relative_error(const std::vector<float>& picture, const std::vector<float>& reference) {
+  const auto pixel = [](const std::vector<float>& values, std::size_t i) {
+    return Eigen::Array3d(Eigen::Map<const Eigen::Array3f>(&values[3 * i]).cast<double>());
+  };
+  const std::size_t pixels = reference.size() / 3;
   double mean = 0.0;
-  for (const Eigen::Array3d& r : reference) mean += r.mean();
-  mean /= static_cast<double>(reference.size());
+  for (std::size_t i = 0; i < pixels; ++i) mean += pixel(reference, i).mean();
+  mean /= static_cast<double>(pixels);
   std::vector<double> errors;
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    errors.push_back(
-        ((sums[i] / kSpp - reference[i]).square() / (reference[i].square() + 0.01 * mean * mean)).mean());
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const Eigen::Array3d truth = pixel(reference, i);
+    errors.push_back(((pixel(picture, i) - truth).square() / (truth.square() + 0.01 * mean * mean)).mean());
   }
   std::sort(errors.begin(), errors.end(), std::greater<>());
   const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -126,21 +105,18 @@ void direct_light(benchmark::State& state, const SceneCase& which, renderer::Dir
                   LightSelection selection) {
   const WorldFixture* w = world(which);
   if (!w) return state.SkipWithError(kNoScene);
-  const Sums& converged = reference(which.name, *w);
-  const renderer::Lights lights(w->scene, *w->textures, *w->environment, selection);
-  DirectPicture light(*w, lights, technique);
-  Sums sums;
+  const std::vector<float>& converged = reference(which.name, *w);
+  DirectPicture light(*w, selection, technique);
   double seconds = 0.0;
   Error error;
   std::uint32_t rounds = 0;
   for (auto _ : state) {
-    sums = black();
     const auto start = std::chrono::steady_clock::now();
-    for (std::uint32_t i = 0; i < kSpp; ++i) light.add(2 + rounds, i, sums);
+    const std::vector<float> picture = light.render(2 + rounds, kSpp);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++rounds;
     state.PauseTiming();
-    const Error round = relative_error(sums, converged);
+    const Error round = relative_error(picture, converged);
     error.mean += round.mean;
     error.worst_share += round.worst_share;
     state.ResumeTiming();
@@ -151,7 +127,7 @@ void direct_light(benchmark::State& state, const SceneCase& which, renderer::Dir
   state.counters["worst_1%"] = error.worst_share / rounds;
   state.counters["ns/sample"] = 1e9 * seconds / (static_cast<double>(kPictureWidth) * kPictureHeight * kSpp);
   state.counters["efficiency"] = 1.0 / (error.mean * seconds);
-  state.counters["emitters"] = static_cast<double>(lights.emissive_triangles());
+  state.counters["emitters"] = static_cast<double>(light.emitters());
 }
 
 const int light_tree_registered = [] {

@@ -33,7 +33,7 @@ void build(benchmark::State& state, const SceneCase& which) {
   if (!w) return state.SkipWithError(kNoScene);
   std::size_t bytes = 0;
   for (auto _ : state) {
-    const renderer::Accel accel(w->scene, *w->coverage, renderer::AccelOptions{});
+    const renderer::Accel accel(w->scene, w->world.coverage, renderer::AccelOptions{});
     bytes = accel.bytes();
   }
   const std::size_t triangles = scene::count_triangles(w->scene);

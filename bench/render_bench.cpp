@@ -53,7 +53,7 @@ void set_rates(benchmark::State& state, std::uint64_t samples, std::uint64_t ray
 void render_path(benchmark::State& state, const SceneCase& which) {
   const WorldFixture* w = world(which);
   if (!w) return state.SkipWithError(kNoScene);
-  const renderer::PathIntegrator integrator(*w->world, path_integrator_options(w->options));
+  const renderer::PathIntegrator integrator(w->world, path_integrator_options(w->options));
   const int threads = static_cast<int>(state.range(0));
   tbb::enumerable_thread_specific<Worker> workers;
   std::uint64_t samples = 0;
@@ -103,7 +103,7 @@ const renderer::RayLog& recorded(const WorldFixture& w, const std::string& name)
   static std::map<std::string, renderer::RayLog> cache;
   auto [found, inserted] = cache.try_emplace(name);
   if (inserted) {
-    const renderer::PathIntegrator integrator(*w.world, path_integrator_options(w.options));
+    const renderer::PathIntegrator integrator(w.world, path_integrator_options(w.options));
     Worker worker;
     worker.scratch.log = &found->second;
     for (const std::vector<renderer::CameraSample>& tile : w.tiles(0)) {

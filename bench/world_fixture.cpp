@@ -1,68 +1,56 @@
 #include "bench/world_fixture.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 
-#include "renderer/film/camera.h"
 #include "renderer/film/camera_choice.h"
+#include "renderer/film/film_samples.h"
 #include "scene/gltf.h"
 
 namespace gatelight::bench {
 
 namespace {
 
-std::unique_ptr<WorldFixture> load(const SceneCase& which) {
-  const std::filesystem::path file = file_of(which);
-  if (file.empty()) return nullptr;
-  auto w = std::make_unique<WorldFixture>();
-  w->scene = scene::load_gltf(file);
+scene::Scene load(const SceneCase& which) {
+  scene::Scene scene = scene::load_gltf(file_of(which));
   if (!which.sun) {
-    std::erase_if(w->scene.lights, [](const scene::PunctualLight& light) {
+    std::erase_if(scene.lights, [](const scene::PunctualLight& light) {
       return light.type == scene::LightType::directional;
     });
   }
-  w->options.width = kWidth;
-  w->options.height = kHeight;
-  w->options.max_depth = kMaxDepth;
-  w->options.camera.name = which.camera;
-  w->options.environment.constant = which.sky;
-  w->requirements = scene::compute_requirements(w->scene);
-  w->textures = std::make_unique<renderer::Textures>(w->scene);
-  w->environment = std::make_unique<renderer::Environment>(w->options.environment);
-  w->coverage = std::make_unique<renderer::Coverage>(w->scene, *w->textures);
-  w->surfaces = std::make_unique<renderer::Surfaces>(w->scene, *w->textures);
-  w->accel = std::make_unique<renderer::Accel>(w->scene, *w->coverage, renderer::AccelOptions{});
-  w->lights =
-      std::make_unique<renderer::Lights>(w->scene, *w->textures, *w->environment, w->options.light_selection);
-  w->world = std::make_unique<renderer::World>(renderer::World{
-      w->scene, w->requirements, *w->textures, *w->surfaces, *w->accel, *w->environment, *w->lights});
-  const float aspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
-  w->camera = std::make_unique<renderer::Camera>(renderer::choose_camera(w->scene, w->options.camera, aspect),
-                                                 kWidth, kHeight);
-  return w;
+  return scene;
+}
+
+renderer::RenderOptions options_of(const SceneCase& which) {
+  renderer::RenderOptions options;
+  options.width = kWidth;
+  options.height = kHeight;
+  options.max_depth = kMaxDepth;
+  options.camera.name = which.camera;
+  options.environment.constant = which.sky;
+  return options;
 }
 
 }  // namespace
 
+WorldFixture::WorldFixture(const SceneCase& which)
+    : scene(load(which)),
+      options(options_of(which)),
+      world(scene, options.environment, options.light_selection) {}
+
 std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32_t sample) const {
-  constexpr int kTile = 16;
-  std::vector<std::vector<renderer::CameraSample>> result;
-  for (int ty = 0; ty < kHeight; ty += kTile) {
-    for (int tx = 0; tx < kWidth; tx += kTile) {
-      std::vector<renderer::CameraSample>& tile = result.emplace_back();
-      for (int y = ty; y < std::min(ty + kTile, kHeight); ++y) {
-        for (int x = tx; x < std::min(tx + kTile, kWidth); ++x) {
-          renderer::CameraSample s;
-          s.sampler = renderer::Sampler(options.sampler, 0, static_cast<std::uint32_t>(x),
-                                        static_cast<std::uint32_t>(y), sample);
-          s.seed = renderer::hash(static_cast<std::uint32_t>(y * kWidth + x) ^ renderer::hash(sample));
-          const scene::Vec2 offset = s.sampler.get_2d(renderer::dimension::kFilm);
-          s.camera_ray = camera->ray(static_cast<float>(x) + offset.x(), static_cast<float>(y) + offset.y());
-          tile.push_back(s);
-        }
-      }
-    }
+  const renderer::Camera camera(
+      renderer::choose_camera(scene, options.camera,
+                              static_cast<float>(kWidth) / static_cast<float>(kHeight)),
+      kWidth, kHeight);
+  const renderer::FilterSampler filter(options.filter, options.filter_width);
+  const renderer::TileGrid grid({0, 0, kWidth, kHeight});
+  std::vector<std::vector<renderer::CameraSample>> result(static_cast<std::size_t>(grid.count()));
+  std::vector<renderer::Pixel> pixels;
+  for (int tile = 0; tile < grid.count(); ++tile) {
+    grid.pixels(tile, pixels);
+    renderer::make_camera_samples(pixels, sample, options, camera, filter,
+                                  result[static_cast<std::size_t>(tile)]);
   }
   return result;
 }
@@ -82,7 +70,7 @@ std::filesystem::path file_of(const SceneCase& which) {
 const WorldFixture* world(const SceneCase& which) {
   static std::map<std::string, std::unique_ptr<WorldFixture>> cache;
   auto [found, inserted] = cache.try_emplace(which.name);
-  if (inserted) found->second = load(which);
+  if (inserted && !file_of(which).empty()) found->second = std::make_unique<WorldFixture>(which);
   return found->second.get();
 }
 

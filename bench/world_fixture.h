@@ -35,24 +35,18 @@ inline constexpr int kHeight = 360;
 /// Four bounces after the first hit: five scattering events.
 inline constexpr int kMaxDepth = 5;
 
-/// Scene and world of one case, and everything they refer to.
+/// Scene and world of one case.
 struct WorldFixture {
-  scene::Scene scene;
-  renderer::RenderOptions options;
-  scene::SceneRequirements requirements;
-  std::unique_ptr<renderer::Textures> textures;
-  std::unique_ptr<renderer::Environment> environment;
-  std::unique_ptr<renderer::Coverage> coverage;
-  std::unique_ptr<renderer::Surfaces> surfaces;
-  std::unique_ptr<renderer::Accel> accel;
-  std::unique_ptr<renderer::Lights> lights;
-  std::unique_ptr<renderer::World> world;
-  std::unique_ptr<renderer::Camera> camera;
-  /// Camera samples of one pass over the picture, in tiles of 16x16.
-  std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
+  explicit WorldFixture(const SceneCase& which);
 
+  /// Camera samples of one pass over the picture, tile by tile as the program makes them.
+  std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
   /// Built when it is first asked for. Not thread-safe.
   const BareEmbree& bare() const;
+
+  scene::Scene scene;
+  renderer::RenderOptions options;
+  renderer::World world;
 
  private:
   mutable std::unique_ptr<BareEmbree> bare_;

@@ -45,7 +45,6 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
 Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in)
     : scene(scene_in),
       options(options_in),
-      requirements(scene::compute_requirements(scene_in)),
       threads(options.threads > 0 ? options.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads),
@@ -66,24 +65,19 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
         options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
   }
   arena.execute([&] {
-    textures.emplace(scene);
-    environment.emplace(options.environment);
-    if (!environment->warning().empty()) statistics.warnings.push_back(environment->warning());
-    coverage.emplace(scene, *textures);
-    surfaces.emplace(scene, *textures);
-    accel.emplace(scene, *coverage, AccelOptions{threads, options.isa, budget});
-    lights.emplace(scene, *textures, *environment, options.light_selection);
+    world.emplace(scene, options.environment, options.light_selection,
+                  AccelOptions{threads, options.isa, budget});
   });
-  world.emplace(World{scene, requirements, *textures, *surfaces, *accel, *environment, *lights});
+  if (!world->environment.warning().empty()) statistics.warnings.push_back(world->environment.warning());
   statistics.build_seconds = seconds_since(start);
   statistics.width = region.width();
   statistics.height = region.height();
   statistics.threads = threads;
-  statistics.isa = accel->isa();
+  statistics.isa = world->accel.isa();
   statistics.geometry_bytes = scene::geometry_bytes(scene);
-  statistics.bvh_bytes = accel->bytes();
-  statistics.texture_bytes = textures->bytes() + environment->bytes();
-  statistics.light_bytes = lights->bytes();
+  statistics.bvh_bytes = world->accel.bytes();
+  statistics.texture_bytes = world->textures.bytes() + world->environment.bytes();
+  statistics.light_bytes = world->lights.bytes();
 }
 
 SceneFingerprint Renderer::Implementation::scene_fingerprint() {
@@ -93,7 +87,7 @@ SceneFingerprint Renderer::Implementation::scene_fingerprint() {
 }
 
 CheckpointIdentity Renderer::Implementation::identity(const SceneFingerprint& fingerprint) const {
-  NamedTexts machine = {{"isa", accel->isa()}};
+  NamedTexts machine = {{"isa", world->accel.isa()}};
   if (uses_cache(options.integrator)) machine.push_back({"kernels", cache_machine(options)});
   return {deciding_options(options, view, machine), fingerprint, scene.instances.size()};
 }

@@ -59,7 +59,6 @@ struct Renderer::Implementation {
 
   const scene::Scene& scene;
   RenderOptions options;
-  scene::SceneRequirements requirements;
   int threads;
   tbb::global_control control;
   tbb::task_arena arena;
@@ -69,12 +68,6 @@ struct Renderer::Implementation {
   Camera camera;
   FilterSampler filter;
   std::size_t budget;
-  std::optional<Textures> textures;
-  std::optional<Environment> environment;
-  std::optional<Coverage> coverage;
-  std::optional<Surfaces> surfaces;
-  std::optional<Accel> accel;
-  std::optional<Lights> lights;
   std::optional<World> world;
   bool steps_chosen = false;  ///< of training, by the picture's pixels and samples
   RenderStatistics statistics;

@@ -12,14 +12,30 @@
 
 namespace gatelight::renderer {
 
+/// Later parts refer to earlier ones, so that it stays where it was built.
 struct World {
+  /// Builds in the caller's arena. The scene must outlive it. Throws what its parts throw.
+  explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},
+                 LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {})
+      : scene(scene_in),
+        requirements(scene::compute_requirements(scene)),
+        textures(scene),
+        environment(sky),
+        coverage(scene, textures),
+        surfaces(scene, textures),
+        accel(scene, coverage, acceleration),
+        lights(scene, textures, environment, selection) {}
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
   const scene::Scene& scene;
-  const scene::SceneRequirements& requirements;
-  const Textures& textures;
-  const Surfaces& surfaces;
-  const Accel& accel;
-  const Environment& environment;
-  const Lights& lights;
+  scene::SceneRequirements requirements;
+  Textures textures;
+  Environment environment;
+  Coverage coverage;
+  Surfaces surfaces;
+  Accel accel;
+  Lights lights;
 };
 
 }  // namespace gatelight::renderer

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/transport/scattering.h"
+#include "renderer/transport/world.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
-#include "tests/support/built_world.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -42,20 +42,20 @@ struct LampAndReceiver {
 /// Of light samples at the receiver the part that is not shadowed: there is nothing between it and the lamp.
 double unshadowed(LampAndReceiver& made, Random& random, int samples) {
   const scene::Scene& s = made.builder.scene();
-  const BuiltWorld built(s);
+  const World world(s);
   std::vector<Ray> rays;
   for (int i = 0; i < samples; ++i) {
     const Hit hit{1.0f, 0.5f * random.uniform_float(), 0.5f * random.uniform_float(), 1,
                   static_cast<std::uint32_t>(i & 1)};
-    const Surface surface = built.surfaces.at(hit, made.normal, 0.0f, 0.0f);
+    const Surface surface = world.surfaces.at(hit, made.normal, 0.0f, 0.0f);
     const LightSample light =
-        built.lights.sample(surface.position, surface.shading_normal, random.uniform_float(),
+        world.lights.sample(surface.position, surface.shading_normal, random.uniform_float(),
                             {random.uniform_float(), random.uniform_float()});
     if (light.pdf > 0.0f && light.wi.dot(surface.shading_normal) > 0.0f)
       rays.push_back(shadow_ray(surface, light, 0));
   }
   std::vector<Color> passed(rays.size());
-  built.accel.transmittance(rays, passed);
+  world.accel.transmittance(rays, passed);
   double sum = 0.0;
   for (const Color& c : passed) sum += static_cast<double>(c.x());
   return rays.empty() ? 0.0 : sum / static_cast<double>(rays.size());

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/transport/scattering.h"
+#include "renderer/transport/world.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
-#include "tests/support/built_world.h"
 #include "tests/support/room.h"
 #include "tests/support/statistics.h"
 
@@ -71,7 +71,7 @@ SceneBuilder many_sizes(const Color& emission) {
 
 TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselves) {
   SceneBuilder builder = many_sizes(Color::Zero());
-  const BuiltWorld built(builder.scene());
+  const World world(builder.scene());
   Random random(1);
   double worst = 0.0;
   int missed = 0, self = 0;
@@ -88,12 +88,12 @@ TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselve
       ray.origin = at + side * from;
       ray.direction = -from.normalized();
       Hit hit;
-      built.accel.intersect({&ray, 1}, {&hit, 1}, false);
+      world.accel.intersect({&ray, 1}, {&hit, 1}, false);
       if (!hit || hit.primitive != static_cast<std::uint32_t>(e - kLeast)) {
         ++missed;
         continue;
       }
-      const Surface s = built.surfaces.at(hit, ray.direction, 0.0f, 0.0f);
+      const Surface s = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f);
       worst = std::max(worst, static_cast<double>((s.position - at).norm() / side));
       EXPECT_NEAR(s.geometric_normal.y(), 1.0f, 1e-6f);
       Ray next;
@@ -102,7 +102,7 @@ TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselve
               .to_world(sample_cosine_hemisphere({random.uniform_float(), random.uniform_float()}));
       next.origin = s.spawn(next.direction);
       Hit again;
-      built.accel.intersect({&next, 1}, {&again, 1}, false);
+      world.accel.intersect({&next, 1}, {&again, 1}, false);
       self += again ? 1 : 0;
     }
   }
@@ -119,8 +119,8 @@ TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselve
 
 TEST(Meshes, LampsOfAllSizesInOneMeshLightWhatIsNearEach) {
   SceneBuilder builder = many_sizes(Color::Ones());
-  const BuiltWorld built(builder.scene());
-  EXPECT_EQ(built.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kLeast + 1));
+  const World world(builder.scene());
+  EXPECT_EQ(world.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kLeast + 1));
   Random random(2);
   double worst = 0.0;
   for (int e = kLeast; e <= kGreatest; ++e) {
@@ -137,7 +137,7 @@ TEST(Meshes, LampsOfAllSizesInOneMeshLightWhatIsNearEach) {
     Moments moments;
     for (int i = 0; i < 20000; ++i) {
       const LightSample light =
-          built.lights.sample(p, n, random.uniform_float(), {random.uniform_float(), random.uniform_float()});
+          world.lights.sample(p, n, random.uniform_float(), {random.uniform_float(), random.uniform_float()});
       const float cosine = light.wi.dot(n);
       moments.add(light.pdf > 0.0f && cosine > 0.0f
                       ? static_cast<double>(light.radiance.x() * cosine / light.pdf)

@@ -8,8 +8,8 @@
 #include "neural/cpu/cpu_backend.h"
 #include "neural/file/content_digest.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/transport/world.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/support/built_world.h"
 #include "tests/support/held_state.h"
 #include "tests/support/scene_builder.h"
 
@@ -34,7 +34,7 @@ scene::Scene two_squares() {
 
 struct MadeCache::Built {
   scene::Scene scene = two_squares();
-  testing::BuiltWorld built{scene};
+  renderer::World world{scene};
 };
 
 MadeCache::MadeCache() : built_(std::make_unique<Built>()) {
@@ -53,7 +53,7 @@ neural::TrainingOptions MadeCache::training() const {
 }
 
 std::shared_ptr<const neural::Model> MadeCache::model(const renderer::CacheSetup& setup) const {
-  return renderer::make_cache_model(built_->built.world, options, setup);
+  return renderer::make_cache_model(built_->world, options, setup);
 }
 
 renderer::CacheState MadeCache::state() const {

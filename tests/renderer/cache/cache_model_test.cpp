@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "renderer/settings/presets.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::SceneBuilder;
 
 class CacheModel : public ::testing::Test {
@@ -23,8 +22,7 @@ class CacheModel : public ::testing::Test {
   }
 
   SceneBuilder builder_;
-  BuiltWorld built_{matte_quad()};
-  const World& world_ = built_.world;
+  World world_{matte_quad()};
 };
 
 TEST_F(CacheModel, TheNormalIsReadUnlessThePapersGateIsAskedFor) {
@@ -49,7 +47,7 @@ TEST_F(CacheModel, TheDirectionIsReadWhereLightThatTheCacheHoldsDependsOnIt) {
   options.integrator = Integrator::nrc;
   options.cache.min_roughness = 0.25f;
   EXPECT_FALSE(required_inputs(world_, options).direction);
-  built_.requirements.view_dependent = true;
+  world_.requirements.view_dependent = true;
   EXPECT_TRUE(required_inputs(world_, options).direction);
   options.cache.min_roughness = 0.5f;
   EXPECT_FALSE(required_inputs(world_, options).direction);

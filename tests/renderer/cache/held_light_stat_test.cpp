@@ -13,14 +13,13 @@
 #include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/film/camera.h"
 #include "renderer/transport/path_integrator.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::Moments;
 using testing::SceneBuilder;
 
@@ -97,7 +96,7 @@ class Pictures {
  public:
   Pictures()
       : builder_(mixed_scene()),
-        built_(builder_.scene(), {.constant = Color(0.1f, 0.2f, 0.4f)}),
+        world_(builder_.scene(), {.constant = Color(0.1f, 0.2f, 0.4f)}),
         camera_(view(), kSide, kSide) {
     options_.max_depth = 16;
   }
@@ -125,7 +124,7 @@ class Pictures {
   }
 
   std::vector<Color> reference(std::uint32_t seed, int samples) const {
-    const PathIntegrator integrator(built_.world, path_integrator_options(options_));
+    const PathIntegrator integrator(world_, path_integrator_options(options_));
     std::vector<CameraSample> camera_samples;
     for (const PathStart& s : starts(seed, samples)) camera_samples.push_back(s.sample);
     std::vector<SampleResult> results(camera_samples.size());
@@ -148,7 +147,7 @@ class Pictures {
     CachedPaths::Scratch scratch;
 
     const RenderOptions ask_options = options(composed);
-    const CachedPaths ask(built_.world, cached_paths_options(ask_options), stored);
+    const PathIntegrator integrator(world_, path_integrator_options(options_));
     PathPlan plan;
     plan.query_at = composed.query_at;
     plan.max_depth = 16;
@@ -157,7 +156,7 @@ class Pictures {
     ask.trace(asking, {}, plan, batch, {}, rays, scratch);
 
     const RenderOptions learn_options = options(learned);
-    const CachedPaths learn(built_.world, cached_paths_options(learn_options), stored);
+    const PathIntegrator integrator(world_, path_integrator_options(options_));
     PathPlan to_the_end;
     to_the_end.records = true;
     to_the_end.max_depth = 16;
@@ -198,7 +197,7 @@ class Pictures {
   }
 
   SceneBuilder builder_;
-  BuiltWorld built_;
+  World world_;
   Camera camera_;
   RenderOptions options_;
 };

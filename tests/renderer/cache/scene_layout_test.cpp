@@ -9,13 +9,12 @@
 
 #include "neural/layout/build_gate_layout.h"
 #include "renderer/cache/surface_points.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::SceneBuilder;
 
 std::vector<neural::Sides> fronts(const scene::Scene& scene) {
@@ -113,7 +112,7 @@ TEST_P(SidesOfKinds, AViewersSideIsTheOneOfTheCornersAndHasStorage) {
   OneTriangle made(material, placed(mirrors));
   const scene::Scene& scene = made.builder.scene();
   const scene::Instance& instance = scene.instances[0];
-  const BuiltWorld built(scene);
+  const World world(scene);
 
   const neural::Sides possible = possible_sides(scene, instance);
   EXPECT_EQ(possible, double_sided || glass ? neural::Sides::both
@@ -131,9 +130,9 @@ TEST_P(SidesOfKinds, AViewersSideIsTheOneOfTheCornersAndHasStorage) {
     ray.direction = from_front ? Vec3(-front) : front;
     ray.origin = middle - 2.0f * ray.direction;
     Hit hit;
-    built.accel.intersect(std::span(&ray, 1), std::span(&hit, 1), false);
+    world.accel.intersect(std::span(&ray, 1), std::span(&hit, 1), false);
     ASSERT_TRUE(hit);
-    const Surface surface = built.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
     EXPECT_EQ(surface.front, from_front);
     const std::uint32_t side = side_of(surface.front, instance.mirrors);
     EXPECT_EQ(side, side_by_corners(scene, ray.direction));

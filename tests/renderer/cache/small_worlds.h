@@ -9,7 +9,7 @@
 #include "renderer/film/camera.h"
 #include "renderer/film/film.h"
 #include "renderer/settings/options.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::testing {
@@ -40,14 +40,11 @@ inline SceneBuilder closed_furnace(float albedo, float emission) {
 struct ViewedWorld {
   explicit ViewedWorld(const SceneBuilder& made, const renderer::EnvironmentOptions& sky = {})
       : builder(made),
-        built(builder.scene(), sky),
-        world(built.world),
+        world(builder.scene(), sky),
         camera(builder.scene().cameras.at(0), region.width(), region.height()) {}
-  ViewedWorld(const ViewedWorld&) = delete;
 
   SceneBuilder builder;
-  BuiltWorld built;
-  const renderer::World& world;
+  renderer::World world;
   renderer::PixelRect region{0, 0, 64, 48};
   renderer::Camera camera;
 };

@@ -10,14 +10,13 @@
 #include "neural/layout/build_gate_layout.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/training_points.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::Moments;
 using testing::SceneBuilder;
 
@@ -51,13 +50,13 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   mirrored.transform.scale(Vec3(-1.5f, 2, 1));
   builder.quad(matte, Vec3(0, 0, 5), Vec3(9, 0, 0), Vec3(0, 9, 0));
   const scene::Scene& scene = builder.scene();
-  const BuiltWorld built(scene);
+  const World world(scene);
   const Camera camera(view(), 64, 48);
   RenderOptions options;
   options.sampler = SamplerKind::independent;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back, neural::Sides::none};
-  const TrainingPoints points(built.world, camera, kRegion, options, sides, nullptr);
+  const TrainingPoints points(world, camera, kRegion, options, sides, nullptr);
 
   constexpr std::size_t kCount = 40000;
   TrainingStarts starts;
@@ -83,7 +82,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   for (std::size_t i = 0; i < kCount; ++i) {
     const Hit& hit = starts.hits[i];
     const Vec3 direction = starts.starts[i].sample.camera_ray.ray.direction;
-    const Surface surface = built.surfaces.at(hit, direction, 0.0f, 0.5f);
+    const Surface surface = world.surfaces.at(hit, direction, 0.0f, 0.5f);
     const std::uint32_t side = side_of(surface.front, hit.instance == 1);
     ++met[{hit.instance, hit.primitive, side}];
     // The four triangles between the middles of the edges have the same area.
@@ -111,7 +110,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
 
 /// Four strips of a wall before the camera, a quarter of the picture each; the last has no storage.
 struct Strips {
-  Strips() : built(fill()), camera(view(), 64, 48) {
+  Strips() : world(fill()), camera(view(), 64, 48) {
     sides = {neural::Sides::front, neural::Sides::front, neural::Sides::front, neural::Sides::none};
     const WeldedMeshes meshes(builder.scene());
     layout = neural::build_gate_layout(meshes.layout(builder.scene(), sides), {});
@@ -129,7 +128,7 @@ struct Strips {
     return builder.scene();
   }
   SceneBuilder builder;
-  BuiltWorld built;
+  World world;
   Camera camera;
   std::vector<neural::Sides> sides;
   neural::GateLayout layout;
@@ -140,8 +139,7 @@ std::array<double, 4> chosen_strips(const Strips& strips, int candidates,
                                     std::array<std::uint32_t, 3> trained, std::size_t& made) {
   RenderOptions options;
   options.cache.candidates = candidates;
-  const TrainingPoints points(strips.built.world, strips.camera, kRegion, options, strips.sides,
-                              &strips.layout);
+  const TrainingPoints points(strips.world, strips.camera, kRegion, options, strips.sides, &strips.layout);
   std::vector<std::uint32_t> counts(strips.layout.triangle_count);
   for (std::uint32_t i = 0; i < 3; ++i) {
     const neural::GateSurface& s = strips.layout.surfaces[neural::surface_index(i, 0)];

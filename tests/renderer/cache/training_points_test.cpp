@@ -12,13 +12,12 @@
 #include <set>
 
 #include "renderer/cache/scene_layout.h"
-#include "tests/support/built_world.h"
+#include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::SceneBuilder;
 
 constexpr int kWidth = 64;
@@ -33,7 +32,7 @@ scene::Camera view() {
 
 /// Two walls before the camera: the left half of the picture and the right one.
 struct TwoWalls {
-  TwoWalls() : built(fill()), camera(view(), kWidth, kHeight) {}
+  TwoWalls() : world(fill()), camera(view(), kWidth, kHeight) {}
 
   const scene::Scene& fill() {
     const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
@@ -42,7 +41,7 @@ struct TwoWalls {
     return builder.scene();
   }
   SceneBuilder builder;
-  BuiltWorld built;
+  World world;
   Camera camera;
 };
 
@@ -50,7 +49,7 @@ TrainingStarts choose(const TwoWalls& walls, const RenderOptions& options, std::
                       std::size_t count, PixelRect region = {0, 0, kWidth, kHeight}, bool need_hits = false,
                       std::uint64_t* traced = nullptr) {
   const std::vector<neural::Sides> sides(2, neural::Sides::front);
-  const TrainingPoints points(walls.built.world, walls.camera, region, options, sides, nullptr);
+  const TrainingPoints points(walls.world, walls.camera, region, options, sides, nullptr);
   TrainingStarts result;
   RayCounts rays;
   points.choose(step, count, need_hits, {}, result, rays);
@@ -233,12 +232,12 @@ TEST(TrainingPoints, SurfacePointsLieWhereTheirRaysSay) {
   mirrored.mirrors = true;
   mirrored.transform.translate(Vec3(10, 0, 0));
   mirrored.transform.scale(Vec3(-1, 2, 1));
-  const BuiltWorld built(builder.scene());
+  const World world(builder.scene());
   const Camera camera(view(), kWidth, kHeight);
   RenderOptions options;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back};
-  const TrainingPoints points(built.world, camera, {0, 0, kWidth, kHeight}, options, sides, nullptr);
+  const TrainingPoints points(world, camera, {0, 0, kWidth, kHeight}, options, sides, nullptr);
   TrainingStarts starts;
   RayCounts rays;
   points.choose(0, 500, false, {}, starts, rays);
@@ -250,11 +249,11 @@ TEST(TrainingPoints, SurfacePointsLieWhereTheirRaysSay) {
     const Ray& ray = starts.starts[i].sample.camera_ray.ray;
     const Hit& hit = starts.hits[i];
     ASSERT_NEAR(ray.direction.norm(), 1.0f, 1e-5f);
-    const Surface surface = built.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
     const Vec3 p = ray.origin + hit.t * ray.direction;
     ASSERT_LT((p - surface.position).norm(), 1e-5f * (1.0f + p.norm()));
     Hit met;
-    built.accel.intersect(std::span(&ray, 1), std::span(&met, 1), false);
+    world.accel.intersect(std::span(&ray, 1), std::span(&met, 1), false);
     ASSERT_EQ(met.instance, hit.instance);
     ASSERT_EQ(met.primitive, hit.primitive);
     // A side that has storage.
@@ -270,8 +269,7 @@ TEST(TrainingPoints, WithoutAnySurfaceTheCameraIsTheSource) {
   RenderOptions options;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> none(2, neural::Sides::none);
-  const TrainingPoints points(walls.built.world, walls.camera, {0, 0, kWidth, kHeight}, options, none,
-                              nullptr);
+  const TrainingPoints points(walls.world, walls.camera, {0, 0, kWidth, kHeight}, options, none, nullptr);
   TrainingStarts starts;
   RayCounts rays;
   points.choose(0, 64, false, {}, starts, rays);
