@@ -21,8 +21,7 @@ class CachedPass : public Pass {
            const std::function<void(double)>& report) override;
   SampleCounts counts() const override;
   RayCounts rays() const override;
-  /// Adds what rendering asked.
-  void add_to(CacheStatistics& statistics) const;
+  void add_to(CacheStatistics& statistics) const override;
 
  private:
   /// A tile between its tracing and its answers.

@@ -7,7 +7,6 @@
 
 #include "neural/base/flush_denormals.h"
 #include "renderer/cache/cache_backend.h"
-#include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cached_pass.h"
 #include "renderer/film/camera_choice.h"
@@ -92,87 +91,6 @@ CheckpointIdentity Renderer::Implementation::identity(const SceneFingerprint& fi
   return {deciding_options(options, view, machine), fingerprint, scene.instances.size()};
 }
 
-Training Renderer::Implementation::begin_training(Checkpoint* found, const SceneFingerprint& fingerprint,
-                                                  const Callbacks& callbacks) {
-  Training training;
-  const std::string& file = options.cache.cache_in;
-  const auto make_session = [&](const CacheSetup* setup, const auto& expect_model) {
-    if (!setup && callbacks.progress) callbacks.progress({.phase = Phase::scout, .spp = options.spp});
-    arena.execute([&] {
-      training.session = std::make_unique<CacheSession>(*world, camera, region, options, setup, expect_model);
-    });
-  };
-  if (found) {
-    make_session(&found->cache_setup(),
-                 [&](const neural::Model& model) { found->expect_model(model, training_options(options)); });
-    training.session->import_state(found->read_cache(training.session->model(), training_options(options)));
-    training.first_step = found->progress().first_step;
-  } else if (!file.empty()) {
-    CacheFile cache(file);
-    cache.expect(meaning_of(options, resolve_ao_distance(options.ao_distance, scene.bounds)), fingerprint,
-                 scene.instances.size());
-    make_session(&cache.setup(),
-                 [&](const neural::Model& model) { cache.expect_model(model, training_options(options)); });
-    training.session->import_state(cache.read_state(training.session->model(), training_options(options)));
-    training.first_step = training.session->steps();
-  } else {
-    make_session(nullptr, nullptr);
-  }
-  training.chosen = steps_chosen;
-  training.steps = training.all_steps = options.cache.train_steps.value_or(0);
-  training.complete = found && found->progress().phase == Phase::render;
-  return training;
-}
-
-void Renderer::Implementation::train(Training& training, const Callbacks& callbacks,
-                                     const std::function<void()>& after_group) {
-  const CacheSession& session = *training.session;
-  const auto first = static_cast<int>(training.first_step);
-  double reported = -1.0;
-  CacheSession::Watch watch;
-  watch.stop = [&] { return training.stopped = callbacks.stop && callbacks.stop(); };
-  watch.after_group = after_group;
-  watch.progress = [&](int step, int, double loss) {
-    const int done = step - first;
-    const double now = session.statistics().train_seconds;
-    if (!callbacks.progress || (done < training.all_steps && now - reported < 0.1)) return;
-    reported = now;
-    callbacks.progress({.phase = Phase::train,
-                        .steps_done = done,
-                        .steps = training.all_steps,
-                        .loss = loss,
-                        .spp = options.spp,
-                        .fraction = static_cast<double>(done) / training.all_steps,
-                        .seconds = now});
-  };
-  const std::uint64_t end = training.first_step + static_cast<std::uint64_t>(training.steps);
-  arena.execute([&] { training.session->train(end, watch); });
-  training.complete = !training.stopped || training.session->steps() >= end;
-}
-
-bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* found,
-                                              RenderStatistics& earlier, const Callbacks& callbacks) {
-  CacheSession& session = *training.session;
-  const std::uint64_t good = session.good_steps();
-  const bool loaded = !options.cache.cache_in.empty();
-  if (good == 0 && !loaded) return false;
-  arena.execute([&] { session.start_anew(); });
-  const neural::TrainingOptions learning = training_options(options);
-  std::optional<CacheState> state;
-  if (found) state = found->read_cache(session.model(), learning);
-  if (!state || state->steps > good) {
-    // A checkpoint may be later than the last good step: from the start, then.
-    earlier = {};
-    state.reset();
-    if (loaded) state = CacheFile(options.cache.cache_in).read_state(session.model(), learning);
-  }
-  if (state) session.import_state(*state);
-  training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
-  if (good > session.steps()) train(training, callbacks, {});
-  training.complete = !training.stopped;
-  return true;
-}
-
 std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   const PassContext context{tiles, options, camera, filter};
   if (training.session) return std::make_unique<CachedPass>(*world, context, *training.session);
@@ -198,7 +116,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
     sum.cache.steps_chosen = training.chosen;
     sum.cache.steps_wanted = training.steps;
     sum.cache.diverged = training.diverged;
-    if (const auto* cached = dynamic_cast<const CachedPass*>(pass)) cached->add_to(sum.cache);
+    if (pass) pass->add_to(sum.cache);
   }
   add_earlier(sum, earlier);
   return sum;

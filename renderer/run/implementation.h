@@ -52,6 +52,7 @@ struct Renderer::Implementation {
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
                           const RenderStatistics& earlier) const;
 
+  class PictureRun;
   bool render_step_series(const std::vector<int>& train_steps, const SeriesPicture& picture,
                           const Callbacks& callbacks);
   bool render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,

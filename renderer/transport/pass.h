@@ -29,6 +29,8 @@ class Pass {
   /// Of all runs so far.
   virtual SampleCounts counts() const = 0;
   virtual RayCounts rays() const = 0;
+  /// Adds what was asked of a cache.
+  virtual void add_to(CacheStatistics&) const {}
 };
 
 }  // namespace gatelight::renderer

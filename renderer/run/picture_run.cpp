@@ -1,0 +1,163 @@
+// Renderer::render: one picture from start to end.
+
+#include <functional>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "neural/base/errors.h"
+#include "neural/base/flush_denormals.h"
+#include "renderer/cache/cache_file.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/machine/atomic_file.h"
+#include "renderer/run/checkpoint_keeper.h"
+#include "renderer/run/implementation.h"
+#include "renderer/run/sample_loop.h"
+#include "renderer/transport/ao_integrator.h"
+
+namespace gatelight::renderer {
+
+class Renderer::Implementation::PictureRun {
+ public:
+  PictureRun(Implementation& renderer, const Callbacks& callbacks)
+      : renderer_(renderer),
+        options_(renderer.options),
+        callbacks_(callbacks),
+        film_(renderer.region, options_.width, options_.height, options_.aovs) {}
+
+  Picture make() {
+    restore();
+    train();
+    write_cache();
+    const std::unique_ptr<Pass> pass = renderer_.make_pass(training_);
+    SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp);
+    run_passes(loop, *pass);
+    end(loop, *pass);
+    return film_.resolve();
+  }
+
+ private:
+  void restore() {
+    const CacheOptions& cache = options_.cache;
+    const bool keeps = !options_.checkpoint.file.empty();
+    const bool caches = uses_cache(options_.integrator);
+    if (caches && !cache.cache_out.empty()) check_writable(cache.cache_out);
+    if (keeps || (caches && !(cache.cache_in.empty() && cache.cache_out.empty())))
+      fingerprint_ = renderer_.scene_fingerprint();
+    if (!keeps) return;
+    keeper_.emplace(options_.checkpoint, renderer_.identity(fingerprint_));
+    found_ = keeper_->find(options_.spp);
+    if (found_) found_->restore(film_, earlier_);
+  }
+
+  void train() {
+    if (!uses_cache(options_.integrator)) return;
+    training_ = renderer_.begin_training(found(), fingerprint_, callbacks_);
+    if (training_.complete) return;
+    try {
+      renderer_.train(training_, callbacks_, [&] {
+        if (!keeper_ || !keeper_->due()) return;
+        training_.session->settle();
+        keep(Phase::train, sum_up(), true);
+      });
+    } catch (const TrainingDiverged& error) {
+      // A picture and a cache file of the last good state are worth more than none. The checkpoint stays.
+      if (!renderer_.return_to_good(training_, found(), earlier_, callbacks_)) throw;
+      training_.diverged = error.what();
+      keeper_.reset();
+    }
+    // Training that a time limit ended is not to be repeated: where it ended is part of the picture.
+    if (keeper_) keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
+  }
+
+  void write_cache() const {
+    if (!training_.session || !whole() || options_.cache.cache_out.empty()) return;
+    try_writing(false, [&] {
+      write_cache_file(
+          options_.cache.cache_out, training_.session->export_state(), training_.session->model(),
+          training_options(options_),
+          meaning_of(options_, resolve_ao_distance(options_.ao_distance, renderer_.scene.bounds)),
+          fingerprint_);
+    });
+  }
+
+  void run_passes(SampleLoop& loop, const Pass& pass) {
+    loop.begin_at(earlier_.spp);
+    if (training_.stopped) loop.stop();
+    while (loop.done() < options_.spp) {
+      try {
+        loop.run_pass(options_.spp);
+      } catch (const neural::DeviceLost& error) {
+        // Every pixel is the mean of its own samples: the part of a pass that was made is a picture, but none
+        // that a checkpoint could go on from. The last one stays.
+        if (loop.done() == 0) throw;
+        device_lost_ = error.what();
+        return;
+      }
+      if (loop.done() == options_.spp) return;
+      if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
+        renderer_.statistics = sum_up(loop, pass);
+        callbacks_.snapshot(film_.resolve());
+      }
+      if (loop.over()) return;
+      if (keeper_ && whole() && keeper_->due()) keep(Phase::render, sum_up(loop, pass), true);
+    }
+  }
+
+  void end(const SampleLoop& loop, const Pass& pass) {
+    RenderStatistics& statistics = renderer_.statistics;
+    statistics = sum_up(loop, pass);
+    statistics.interrupted = loop.done() < options_.spp || !whole();
+    statistics.device_lost = device_lost_;
+    if (keeper_ && whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
+    loop.report_end();
+  }
+
+  Checkpoint* found() { return found_ ? &*found_ : nullptr; }
+  /// A picture with half a cache is for looking at, and no part of the whole one.
+  bool whole() const { return !training_.session || training_.complete; }
+  /// Before the first pass.
+  RenderStatistics sum_up() const { return renderer_.sum_up(0, 0.0, nullptr, training_, earlier_); }
+  RenderStatistics sum_up(const SampleLoop& loop, const Pass& pass) const {
+    return renderer_.sum_up(loop.done(), loop.seconds(), &pass, training_, earlier_);
+  }
+  /// Writes a checkpoint. `again`: another one will be tried.
+  void keep(Phase phase, const RenderStatistics& sum, bool again) {
+    const CheckpointProgress progress{phase, phase == Phase::render ? sum.spp : 0, training_.first_step};
+    try_writing(again, [&] {
+      keeper_->write(progress, sum, film_, training_.session.get(), training_options(options_));
+    });
+  }
+
+  /// A full disk, or too little memory for a copy of the state, is to cost a file but not the picture.
+  void try_writing(bool again, const std::function<void()>& write) const {
+    if (!callbacks_.output_failed) return write();
+    try {
+      write();
+    } catch (const OutputError&) {
+      callbacks_.output_failed(std::current_exception(), again);
+    } catch (const neural::CacheWriteError&) {
+      callbacks_.output_failed(std::current_exception(), again);
+    } catch (const std::bad_alloc&) {
+      callbacks_.output_failed(std::current_exception(), again);
+    }
+  }
+
+  Implementation& renderer_;
+  const RenderOptions& options_;
+  const Callbacks& callbacks_;
+  Film film_;
+  SceneFingerprint fingerprint_;
+  std::optional<CheckpointKeeper> keeper_;
+  std::optional<Checkpoint> found_;
+  RenderStatistics earlier_;  ///< of the checkpoint
+  Training training_;
+  std::string device_lost_;
+};
+
+Picture Renderer::render(const Callbacks& callbacks) {
+  const neural::FlushDenormals flush;
+  return Implementation::PictureRun(*implementation_, callbacks).make();
+}
+
+}  // namespace gatelight::renderer
