@@ -18,6 +18,7 @@
 #include "apps/terminal/version.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/threads.h"
+#include "renderer/render.h"
 #include "renderer/surface/embree.h"
 #include "scene/gltf.h"
 
@@ -66,7 +67,7 @@ Told tell_scene(const RenderSettings& settings) {
   for (const std::string& warning : scene.warnings) log_warning(warning);
   Told told{scene_report_text(scene, report), scene_report_json(scene, report)};
   if (renderer::uses_cache(settings.render.integrator)) {
-    const renderer::CacheReport cache = renderer::report_cache(scene, settings.render);
+    const renderer::CacheReport cache = renderer::Renderer(scene, settings.render).report_cache();
     told.text += cache_report_text(cache, settings.render);
     told.json["cache"] = cache_report_json(cache, settings.render);
   }

@@ -75,9 +75,4 @@ CacheReport report_cache(const World& world, const Camera& camera, const PixelRe
   return report;
 }
 
-CacheReport report_cache(const scene::Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  return renderer.report_cache();
-}
-
 }  // namespace gatelight::renderer

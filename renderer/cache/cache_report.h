@@ -29,9 +29,7 @@ struct CacheReport {
   std::uint64_t bytes_without_scouting = 0;    ///< parameters, had all possible sides storage
 };
 
-/// For integrators with a cache. Throws what Renderer throws. The second is for callers that have built a
-/// world.
-CacheReport report_cache(const scene::Scene& scene, const RenderOptions& options);
+/// For integrators with a cache. Throws what CacheSession throws.
 CacheReport report_cache(const World& world, const Camera& camera, const PixelRect& region,
                          const RenderOptions& options);
 

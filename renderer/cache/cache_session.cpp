@@ -1,23 +1,22 @@
 #include "renderer/cache/cache_session.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "neural/learning/record_status.h"
+#include "renderer/cache/answers.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/scene_layout.h"
+#include "renderer/cache/scouting.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/machine/clock.h"
+#include "renderer/machine/errors.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -25,26 +24,6 @@ namespace {
 
 /// The reported loss is the mean of so many last steps.
 constexpr std::size_t kLossWindow = 64;
-
-// The divergence guard: a running mean of the loss that grows tenfold over its least value. Single bright
-// records raise one step's loss a thousandfold, so that the mean is slow and no step counts for more than
-// tenfold; a loss that has gone to nothing may double as it likes.
-constexpr double kGuardDecay = 0.995;
-constexpr std::uint64_t kGuardFrom = 200;  ///< steps of this run: another camera or batch has another loss
-constexpr double kGuardFactor = 10.0;
-constexpr double kGuardFloor = 1e-2;
-
-// And what no training that learns anything reaches, looked at between groups: answers that are a hundred
-// times as bright as any group's targets, or a loss 130 times that of answering one everywhere. (Answers of
-// nothing where rare light of t falls come to 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) A
-// loss alone would not tell: the relative one goes to one for answers without bounds.
-constexpr std::size_t kLookedAt = 1024;  ///< points
-constexpr double kGreatestBrightness = 100.0;
-constexpr double kGreatestLoss = 130.0;
-/// As good as ever: the running mean is within so much of its least, and the group's own within so much of
-/// that.
-constexpr double kGoodAverage = 1.25;
-constexpr double kGoodGroup = 2.0;
 
 /// Paths of one step that are held at once.
 constexpr double kMostPaths = 1 << 24;
@@ -80,7 +59,7 @@ bool counts_needed(const RenderOptions& options) {
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                            const RenderOptions& options, const CacheSetup* setup,
                            const std::function<void(const neural::Model&)>& expect_model)
-    : world_(world), options_(options) {
+    : options_(options) {
   check_options(options.cache);
   Clock::time_point start = Clock::now();
   if (setup) {
@@ -103,10 +82,8 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
   points_ = std::make_unique<TrainingPoints>(world, camera, region, options, setup_.sides,
                                              gate ? &cache_model->gate : nullptr);
-  if (gate && counts_needed(options)) {
-    counts_.assign(cache_model->gate.triangle_count, 0);
-    counted_at_.assign(counts_.size(), 0);
-  }
+  if (gate && counts_needed(options))
+    counts_ = TriangleCounts(cache_model->gate, options.cache.candidates > 1 ? points_.get() : nullptr);
   paths_ = std::make_unique<CachedPaths>(world, cached_paths_options(options), stored_);
   if (options.integrator == Integrator::nao) {
     records_ = std::make_unique<OcclusionRecords>(
@@ -158,114 +135,12 @@ std::uint64_t CacheSession::last_group_end(std::uint64_t steps) const {
 }
 
 RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count) const {
-  const SelfTrainingOptions& self = options_.cache.self_training;
   const std::uint64_t records = options_.cache.batch * count;
-  RecordRequest request;
-  request.step = step;
-  request.self_training = options_.integrator == Integrator::nrc && self.start_step >= 0 &&
-                          step >= static_cast<std::uint64_t>(self.start_step);
-  double per_point =
-      static_cast<double>(request.self_training ? setup_.records_per_short_path : setup_.records_per_path);
-  // The first records of a point's paths are one.
-  if (options_.integrator == Integrator::nrc)
-    per_point += (options_.cache.samples_per_point - 1) * (per_point - std::min(per_point, 1.0));
-  // A few points more than enough: the number of records varies, and what is too much is left out.
-  const double slack = options_.integrator == Integrator::nrc ? 1.03 : 1.0;
-  request.points =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(slack * static_cast<double>(records) / per_point)));
+  RecordRequest request = records_->request(setup_, step, records);
   request.most_records = records;
   request.batches = count;
-  request.target_scale = options_.integrator == Integrator::nrc ? setup_.target_scale : 1.0f;
-  if (options_.cache.candidates > 1) request.counts = counts_;
+  if (options_.cache.candidates > 1) request.counts = counts_.values();
   return request;
-}
-
-void CacheSession::count_triangles(const RecordBatch& group, std::uint64_t batch) {
-  if (counts_.empty()) return;
-  const neural::GateLayout& layout = model().gate;
-  // Once a step, however many records lie on it.
-  const auto count = [&](std::size_t triangle) {
-    if (counted_at_[triangle] == steps_ + 1) return;
-    counted_at_[triangle] = steps_ + 1;
-    if (counts_[triangle] != ~0u) ++counts_[triangle];
-  };
-  for (std::size_t i = group.dealing.begin(batch); i < group.dealing.begin(batch + 1); ++i) {
-    const neural::GateSurface& surface = layout.surfaces[group.records.surface(i)];
-    if (surface.triangle_count > 0) count(surface.first_triangle + group.records.triangle(i));
-  }
-  if (options_.cache.candidates <= 1) return;
-  // Paths that begin at a mirror leave no record there, and its triangles would be chosen ever after.
-  for (std::size_t i = 0; i < group.starts.hits.size(); ++i) {
-    if (!group.starts.hits[i]) continue;
-    const Vec3& direction = group.starts.starts[i].sample.camera_ray.ray.direction;
-    const std::uint32_t triangle = points_->triangle_number(group.starts.hits[i], direction);
-    if (triangle != TrainingPoints::kNoTriangle) count(triangle);
-  }
-}
-
-void CacheSession::guard(const neural::StepStatistics& step, std::uint64_t number) {
-  if (step.records == 0) return;
-  if (!std::isfinite(step.loss))
-    throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", number));
-  guard_.group_loss += step.loss;
-  ++guard_.group_steps;
-  const double fed =
-      guard_.loss_average > 0.0 ? std::min(step.loss, kGuardFactor * guard_.loss_average) : step.loss;
-  guard_.loss_average = guard_.loss_average > 0.0
-                            ? guard_.loss_average + (1.0 - kGuardDecay) * (fed - guard_.loss_average)
-                            : fed;
-  if (++guard_.steps < kGuardFrom) {
-    guard_.loss_least = guard_.loss_average;
-    return;
-  }
-  guard_.loss_least = std::min(guard_.loss_least, guard_.loss_average);
-  if (guard_.loss_average > kGuardFactor * std::max(guard_.loss_least, kGuardFloor)) {
-    throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", number,
-                                       guard_.loss_least, guard_.loss_average));
-  }
-}
-
-void CacheSession::look_at_answers(const RecordBatch& group) {
-  if (guard_.group_steps == 0 || group.records.size() == 0) return;
-  const double loss = guard_.group_loss / static_cast<double>(guard_.group_steps);
-  guard_.group_loss = 0.0;
-  guard_.group_steps = 0;
-  double bright = 0.0, ones = 0.0;
-  for (const float t : group.targets) {
-    if (!std::isfinite(t)) continue;
-    const double target =
-        std::min(static_cast<double>(std::abs(t)), static_cast<double>(options_.cache.training.max_target));
-    bright += target;
-    ones += (target - 1.0) * (target - 1.0);
-  }
-  const double values = static_cast<double>(group.targets.size());
-  guard_.brightest = std::max(guard_.brightest, bright / values);
-  if (loss > kGreatestLoss * std::max(ones / values, kGuardFloor)) {
-    throw TrainingDiverged(
-        fmt::format("training step {}: a loss of {:.3g}, where answering the mean has one of {:.3g}", steps_,
-                    loss, ones / values));
-  }
-
-  const std::size_t points = std::min(kLookedAt, group.records.size());
-  std::vector<float> answers(points * outputs());
-  const neural::QueryBatch asked = group.records.batch(0, points);
-  trainer_->query(asked, {.range = neural::OutputRange::raw}, answers);
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < points; ++i) {
-    if (!neural::is_finite(model(), asked, i)) continue;
-    for (std::size_t o = 0; o < outputs(); ++o)
-      sum += static_cast<double>(std::abs(answers[i * outputs() + o]));
-    count += static_cast<double>(outputs());
-  }
-  const double mean = count > 0.0 ? sum / count : 0.0;
-  if (!(mean <= kGreatestBrightness * guard_.brightest)) {
-    throw TrainingDiverged(
-        fmt::format("training step {}: answers of {:.3g} in the mean, where targets are {:.3g}", steps_, mean,
-                    guard_.brightest));
-  }
-  if (guard_.steps >= kGuardFrom && guard_.loss_average <= kGoodAverage * guard_.loss_least &&
-      loss <= kGoodGroup * guard_.loss_average)
-    guard_.good_steps = steps_;
 }
 
 void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
@@ -291,7 +166,7 @@ void CacheSession::settle() {
     if (last_losses_.size() > kLossWindow) last_losses_.erase(last_losses_.begin());
     statistics_.loss = std::accumulate(last_losses_.begin(), last_losses_.end(), 0.0) /
                        static_cast<double>(last_losses_.size());
-    guard(step, number);
+    guard_.look_at_loss(step, number);
   }
   statistics_.train_step_seconds += seconds_since(begin);
 }
@@ -303,9 +178,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   RecordBatch group;
   const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
-    const std::uint64_t negative = statistics_.negative_answers;
-    answer_with(neural::QueryPrecision::fp32, points, answers);
-    statistics_.negative_answers = negative;
+    ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
     statistics_.train_query_seconds += seconds_since(begin);
   };
   while (steps_ < steps) {
@@ -316,17 +189,17 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     records_->trace(wish, group);
     const double stepped = statistics_.train_step_seconds;
     settle();  // the steps of the group before, which a device made meanwhile
-    look_at_answers(group);
+    guard_.look_at_answers(group, *trainer_, steps_);
     const double waited = statistics_.train_step_seconds - stepped;
     records_->finish(wish, answer_tail, group);
     statistics_.train_trace_seconds +=
         seconds_since(begin) - waited - (statistics_.train_query_seconds - queried);
     statistics_.training_paths += group.paths_traced;
     for (std::uint64_t batch = 0; batch < count; ++batch) {
-      count_triangles(group, batch);
+      counts_.add(group, batch, steps_);
       learn(group, batch);
     }
-    if (!trainer_->backend().runs_alongside()) look_at_answers(group);
+    if (!trainer_->backend().runs_alongside()) guard_.look_at_answers(group, *trainer_, steps_);
     statistics_.train_seconds = before + seconds_since(start);
     if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
     if (watch.after_group) watch.after_group();
@@ -334,7 +207,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
   }
   settle();
-  look_at_answers(group);
+  guard_.look_at_answers(group, *trainer_, steps_);
   statistics_.train_seconds = before + seconds_since(start);
 }
 
@@ -342,7 +215,7 @@ void CacheSession::start_anew() {
   CacheState state;
   state.setup = setup_;
   state.model = neural::initial_state(model(), trainer_->options());
-  state.triangle_counts.assign(counts_.size(), 0);
+  state.triangle_counts.assign(counts_.values().size(), 0);
   import_state(state);
   RayCounts abandoned = rays();
   abandoned.subtract(scout_rays_);
@@ -351,38 +224,10 @@ void CacheSession::start_anew() {
   last_losses_.clear();
 }
 
-void CacheSession::answer(const SurfacePoints& points, std::span<float> answers) {
-  answer_with(options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
-              points, answers);
-}
-
-void CacheSession::answer_with(neural::QueryPrecision precision, const SurfacePoints& points,
-                               std::span<float> answers) {
-  const bool occlusion = options_.integrator == Integrator::nao;
-  neural::QueryOptions query;
-  constexpr float kGreatest = std::numeric_limits<float>::max();
-  query.precision = precision;
-  query.range = neural::OutputRange::raw;
-  trainer_->query(points.batch(), query, answers);
-  const float scale = 1.0f / setup_.target_scale;
-  const std::size_t outputs = this->outputs();
-  statistics_.negative_answers += tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, points.size(), 4096), std::uint64_t{0},
-      [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t negative) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          bool below = false;
-          for (float& a : answers.subspan(outputs * i, outputs)) {
-            if (!(a >= 0.0f && a <= kGreatest)) {
-              below = true;
-              a = 0.0f;
-            }
-            a = occlusion ? std::min(a, 1.0f) : std::min(a * scale, kGreatest);
-          }
-          if (below) ++negative;
-        }
-        return negative;
-      },
-      std::plus<>());
+std::uint64_t CacheSession::answer(const SurfacePoints& points, std::span<float> answers) const {
+  return ask_cache(*trainer_,
+                   options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
+                   records_->units(setup_), points, answers);
 }
 
 CacheState CacheSession::export_state() const {
@@ -390,7 +235,7 @@ CacheState CacheSession::export_state() const {
   state.setup = setup_;
   state.model = trainer_->backend().export_state();
   state.steps = steps_;
-  state.triangle_counts = counts_;
+  state.triangle_counts = counts_.values();
   state.guard = guard_;
   return state;
 }
@@ -400,8 +245,7 @@ void CacheSession::import_state(const CacheState& state) {
   for (; steps_under_way_ > 0; --steps_under_way_) trainer_->finish();
   trainer_->backend().import_state(state.model);
   steps_ = state.steps;
-  if (state.triangle_counts.size() == counts_.size()) counts_ = state.triangle_counts;
-  std::fill(counted_at_.begin(), counted_at_.end(), 0);
+  counts_.restart(state.triangle_counts);
   guard_ = state.guard;
 }
 

@@ -8,8 +8,7 @@
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/record_batch.h"
-#include "renderer/cache/scouting.h"
-#include "renderer/render.h"
+#include "renderer/cache/triangle_counts.h"
 
 namespace gatelight::renderer {
 
@@ -58,8 +57,8 @@ class CacheSession {
   void return_to(const Bookmark& bookmark);
 
   /// Answers in the picture's units: radiance over reflectance (3 floats a point) or openness (1). Not finite
-  /// or negative ones become zero and are counted. One thread at a time.
-  void answer(const SurfacePoints& points, std::span<float> answers);
+  /// or negative ones become zero: says for how many points. One thread at a time.
+  std::uint64_t answer(const SurfacePoints& points, std::span<float> answers) const;
 
   CacheState export_state() const;
   /// The setup must be this session's.
@@ -69,7 +68,7 @@ class CacheSession {
   const StoredSurfaces& stored() const { return stored_; }
   const PointInputs& inputs() const { return inputs_; }
   const CacheSetup& setup() const { return setup_; }
-  std::span<const std::uint32_t> triangle_counts() const { return counts_; }
+  std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
   /// Of scouting and training.
   RayCounts rays() const;
@@ -80,12 +79,7 @@ class CacheSession {
   RecordRequest request(std::uint64_t step, std::uint64_t count) const;
   std::uint64_t group_end(std::uint64_t step) const;
   void learn(const RecordBatch& group, std::uint64_t batch);
-  void count_triangles(const RecordBatch& group, std::uint64_t batch);
-  void guard(const neural::StepStatistics& step, std::uint64_t number);
-  void look_at_answers(const RecordBatch& group);
-  void answer_with(neural::QueryPrecision precision, const SurfacePoints& points, std::span<float> answers);
 
-  const World& world_;
   const RenderOptions& options_;
   CacheSetup setup_;
   std::unique_ptr<neural::Trainer> trainer_;
@@ -96,8 +90,7 @@ class CacheSession {
   std::unique_ptr<RecordSource> records_;
   std::uint64_t steps_ = 0;
   std::uint64_t steps_under_way_ = 0;  ///< of these
-  std::vector<std::uint32_t> counts_;
-  std::vector<std::uint64_t> counted_at_;  ///< step after which a triangle was counted last
+  TriangleCounts counts_;
   TrainingGuard guard_;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;

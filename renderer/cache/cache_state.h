@@ -7,6 +7,7 @@
 
 #include "neural/layout/surface_layout.h"
 #include "neural/model/state.h"
+#include "renderer/cache/training_guard.h"
 
 namespace gatelight::renderer {
 
@@ -21,18 +22,6 @@ struct CacheSetup {
   float target_scale = 1.0f;            ///< targets are radiance times this
   float records_per_path = 1.0f;        ///< of paths that run to their end
   float records_per_short_path = 1.0f;  ///< of paths that end in the cache's answer
-};
-
-/// What training has shown so far, by which one that diverges is noticed.
-struct TrainingGuard {
-  double loss_average = 0.0;  ///< a slow mean
-  double loss_least = 0.0;    ///< that it has had
-  std::uint64_t steps = 0;    ///< looked at
-  double group_loss = 0.0;    ///< sum over the steps since answers were looked at
-  std::uint64_t group_steps = 0;
-  double brightest = 1.0;        ///< greatest mean magnitude of a group's targets
-  std::uint64_t good_steps = 0;  ///< CacheState::steps when training was last as good as ever; 0: never
-  friend bool operator==(const TrainingGuard&, const TrainingGuard&) = default;
 };
 
 struct CacheState {

@@ -105,9 +105,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
       statistics_.render_trace_seconds += seconds_since(start);
 
       start = Clock::now();
-      const std::uint64_t negative = session_.statistics().negative_answers;
-      if (asked > 0) session_.answer(queries_, answers_);
-      statistics_.negative_answers += session_.statistics().negative_answers - negative;
+      if (asked > 0) statistics_.negative_answers += session_.answer(queries_, answers_);
       statistics_.render_query_seconds += seconds_since(start);
       statistics_.queries += asked;
 
@@ -254,7 +252,7 @@ void CachedPass::add_to(CacheStatistics& statistics) const {
   statistics.render_trace_seconds += statistics_.render_trace_seconds;
   statistics.render_query_seconds += statistics_.render_query_seconds;
   statistics.queries += statistics_.queries;
-  statistics.negative_answers = statistics_.negative_answers;
+  statistics.negative_answers += statistics_.negative_answers;
   statistics.unstored_hits += statistics_.unstored_hits;
 }
 

@@ -12,6 +12,11 @@ class OcclusionRecords : public RecordSource {
   OcclusionRecords(const World& world, const TrainingPoints& points, const RenderOptions& options,
                    const StoredSurfaces& stored, float distance, const PointInputs& inputs);
 
+  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const override {
+    return {.step = step,
+            .points = points_for(static_cast<double>(records), static_cast<double>(setup.records_per_path))};
+  }
+  AnswerUnits units(const CacheSetup&) const override { return {.greatest = 1.0f}; }
   void trace(const RecordRequest& request, RecordBatch& batch) override;
   void finish(const RecordRequest&, const AnswerPoints&, RecordBatch&) override {}
   RayCounts rays() const override { return rays_; }

@@ -21,6 +21,20 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
                                  const RenderOptions& options, const PointInputs& inputs)
     : paths_(paths), points_(points), options_(options), inputs_(inputs) {}
 
+RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,
+                                       std::uint64_t records) const {
+  const int start = options_.cache.self_training.start_step;
+  RecordRequest request{.step = step, .target_scale = setup.target_scale};
+  request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
+  double per_point =
+      static_cast<double>(request.self_training ? setup.records_per_short_path : setup.records_per_path);
+  // The first records of a point's paths are one.
+  per_point += (options_.cache.samples_per_point - 1) * (per_point - std::min(per_point, 1.0));
+  // A few points more than enough: the number of records varies, and what is too much is left out.
+  request.points = points_for(1.03 * static_cast<double>(records), per_point);
+  return request;
+}
+
 void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_);
   PathPlan plan;

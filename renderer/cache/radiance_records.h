@@ -15,6 +15,8 @@ class RadianceRecords : public RecordSource {
   RadianceRecords(const CachedPaths& paths, const TrainingPoints& points, const RenderOptions& options,
                   const PointInputs& inputs);
 
+  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const override;
+  AnswerUnits units(const CacheSetup& setup) const override { return {1.0f / setup.target_scale}; }
   void trace(const RecordRequest& request, RecordBatch& batch) override;
   void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) override;
   RayCounts rays() const override;

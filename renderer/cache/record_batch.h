@@ -2,12 +2,15 @@
 // The records of a few training steps in the making, and those who make them.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "neural/base/batch.h"
+#include "renderer/cache/answers.h"
+#include "renderer/cache/cache_state.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 
@@ -72,6 +75,11 @@ struct RecordRequest {
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 
+/// So many points leave about as many records.
+inline std::size_t points_for(double records, double records_per_point) {
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(records / records_per_point)));
+}
+
 /// Answers in radiance over reflectance: 3 floats for each point.
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
 
@@ -80,6 +88,10 @@ using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<f
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
+  /// For about so many records of the steps from `step` on; the rest of it is the caller's.
+  virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
+  /// Of the answers of a cache that learns these records.
+  virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual void trace(const RecordRequest& request, RecordBatch& batch) = 0;
   virtual void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) = 0;
   virtual RayCounts rays() const = 0;

@@ -17,6 +17,7 @@
 #include "renderer/cache/cache_report.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
+#include "renderer/render.h"
 #include "renderer/surface/embree.h"
 #include "scene/gltf.h"
 #include "tests/support/temporary_folder.h"
@@ -227,7 +228,7 @@ TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsRemembered) {
   options.cache.gate.features = 3;
   const std::string file = (folder / "memory.json").string();
   const std::uint64_t bytes = GateMemoryStore(file).bytes("k", *scene_, options);
-  const renderer::CacheReport report = renderer::report_cache(*scene_, options);
+  const renderer::CacheReport report = renderer::Renderer(*scene_, options).report_cache();
   EXPECT_EQ(bytes, report.statistics.cache.nodes * 3 * 4);
   EXPECT_LE(bytes, report.statistics.cache.parameter_bytes);
   EXPECT_GT(bytes + 64 * 1024, report.statistics.cache.parameter_bytes) << "the network is small";

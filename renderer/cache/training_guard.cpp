@@ -1,0 +1,100 @@
+#include "renderer/cache/training_guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "neural/learning/record_status.h"
+#include "renderer/cache/record_batch.h"
+#include "renderer/machine/errors.h"
+
+namespace gatelight::renderer {
+namespace {
+
+// A running mean of the loss that grows tenfold over its least value is noticed. Single bright records raise
+// one step's loss a thousandfold, so that the mean is slow and no step counts for more than tenfold; a loss
+// that has gone to nothing may double as it likes.
+constexpr double kDecay = 0.995;
+constexpr std::uint64_t kFirstLooked = 200;  ///< steps of this run: another camera or batch has another loss
+constexpr double kFactor = 10.0;
+constexpr double kFloor = 1e-2;
+
+// And what no training that learns anything reaches, looked at between groups: answers that are a hundred
+// times as bright as any group's targets, or a loss 130 times that of answering one everywhere. (Answers of
+// nothing where rare light of t falls come to 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) A
+// loss alone would not tell: the relative one goes to one for answers without bounds.
+constexpr std::size_t kLookedAt = 1024;  ///< points
+constexpr double kGreatestBrightness = 100.0;
+constexpr double kGreatestLoss = 130.0;
+/// As good as ever: the running mean is within so much of its least, and the group's own within so much of
+/// that.
+constexpr double kGoodAverage = 1.25;
+constexpr double kGoodGroup = 2.0;
+
+}  // namespace
+
+void TrainingGuard::look_at_loss(const neural::StepStatistics& step, std::uint64_t number) {
+  if (step.records == 0) return;
+  if (!std::isfinite(step.loss))
+    throw TrainingDiverged(fmt::format("training step {}: the loss is not finite", number));
+  group_loss += step.loss;
+  ++group_steps;
+  const double fed = loss_average > 0.0 ? std::min(step.loss, kFactor * loss_average) : step.loss;
+  loss_average = loss_average > 0.0 ? loss_average + (1.0 - kDecay) * (fed - loss_average) : fed;
+  if (++steps < kFirstLooked) {
+    loss_least = loss_average;
+    return;
+  }
+  loss_least = std::min(loss_least, loss_average);
+  if (loss_average > kFactor * std::max(loss_least, kFloor)) {
+    throw TrainingDiverged(fmt::format("training step {}: the loss grew from {:.3g} to {:.3g}", number,
+                                       loss_least, loss_average));
+  }
+}
+
+void TrainingGuard::look_at_answers(const RecordBatch& group, const neural::Trainer& trainer,
+                                    std::uint64_t steps_done) {
+  if (group_steps == 0 || group.records.size() == 0) return;
+  const double loss = group_loss / static_cast<double>(group_steps);
+  group_loss = 0.0;
+  group_steps = 0;
+  double bright = 0.0, ones = 0.0;
+  for (const float t : group.targets) {
+    if (!std::isfinite(t)) continue;
+    const double target =
+        std::min(static_cast<double>(std::abs(t)), static_cast<double>(trainer.options().max_target));
+    bright += target;
+    ones += (target - 1.0) * (target - 1.0);
+  }
+  const double values = static_cast<double>(group.targets.size());
+  brightest = std::max(brightest, bright / values);
+  if (loss > kGreatestLoss * std::max(ones / values, kFloor)) {
+    throw TrainingDiverged(
+        fmt::format("training step {}: a loss of {:.3g}, where answering the mean has one of {:.3g}",
+                    steps_done, loss, ones / values));
+  }
+
+  const std::size_t outputs = trainer.model().config.mlp.outputs;
+  const std::size_t points = std::min(kLookedAt, group.records.size());
+  std::vector<float> answers(points * outputs);
+  const neural::QueryBatch asked = group.records.batch(0, points);
+  trainer.query(asked, {.range = neural::OutputRange::raw}, answers);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (!neural::is_finite(trainer.model(), asked, i)) continue;
+    for (std::size_t o = 0; o < outputs; ++o) sum += static_cast<double>(std::abs(answers[i * outputs + o]));
+    count += static_cast<double>(outputs);
+  }
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  if (!(mean <= kGreatestBrightness * brightest)) {
+    throw TrainingDiverged(
+        fmt::format("training step {}: answers of {:.3g} in the mean, where targets are {:.3g}", steps_done,
+                    mean, brightest));
+  }
+  if (steps >= kFirstLooked && loss_average <= kGoodAverage * loss_least && loss <= kGoodGroup * loss_average)
+    good_steps = steps_done;
+}
+
+}  // namespace gatelight::renderer

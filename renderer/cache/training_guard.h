@@ -1,0 +1,30 @@
+#pragma once
+// Notices a training that diverges.
+
+#include <cstdint>
+
+#include "neural/trainer.h"
+
+namespace gatelight::renderer {
+
+struct RecordBatch;
+
+/// What training has shown so far. All members throw TrainingDiverged.
+struct TrainingGuard {
+  double loss_average = 0.0;  ///< a slow mean
+  double loss_least = 0.0;    ///< that it has had
+  std::uint64_t steps = 0;    ///< looked at
+  double group_loss = 0.0;    ///< sum over the steps since answers were looked at
+  std::uint64_t group_steps = 0;
+  double brightest = 1.0;        ///< greatest mean magnitude of a group's targets
+  std::uint64_t good_steps = 0;  ///< CacheState::steps when training was last as good as ever; 0: never
+  friend bool operator==(const TrainingGuard&, const TrainingGuard&) = default;
+
+  /// After each step: that its loss is finite, and that losses do not grow without end.
+  void look_at_loss(const neural::StepStatistics& step, std::uint64_t number);
+  /// Between groups, after `steps_done` steps: that losses and answers stay within what training can reach.
+  /// group: any records, of which answers are asked.
+  void look_at_answers(const RecordBatch& group, const neural::Trainer& trainer, std::uint64_t steps_done);
+};
+
+}  // namespace gatelight::renderer
