@@ -13,7 +13,7 @@
 #include "renderer/run/checkpoint_keeper.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 
@@ -135,8 +135,6 @@ class Renderer::Implementation::PictureRun {
     try {
       write();
     } catch (const OutputError&) {
-      callbacks_.output_failed(std::current_exception(), again);
-    } catch (const neural::CacheWriteError&) {
       callbacks_.output_failed(std::current_exception(), again);
     } catch (const std::bad_alloc&) {
       callbacks_.output_failed(std::current_exception(), again);

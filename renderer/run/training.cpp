@@ -6,7 +6,7 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/run/implementation.h"
-#include "renderer/transport/ao_integrator.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 
