@@ -176,6 +176,10 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
   RecordBatch group;
+  const auto look_at_answers = [&] {
+    const std::size_t some = std::min(TrainingGuard::kLookedAt, group.records.size());
+    guard_.look_at_answers(group.targets, group.records.batch(0, some), *trainer_, steps_);
+  };
   const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
     ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
@@ -189,7 +193,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     records_->trace(wish, group);
     const double stepped = statistics_.train_step_seconds;
     settle();  // the steps of the group before, which a device made meanwhile
-    guard_.look_at_answers(group, *trainer_, steps_);
+    look_at_answers();
     const double waited = statistics_.train_step_seconds - stepped;
     records_->finish(wish, answer_tail, group);
     statistics_.train_trace_seconds +=
@@ -199,7 +203,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
       counts_.add(group, batch, steps_);
       learn(group, batch);
     }
-    if (!trainer_->backend().runs_alongside()) guard_.look_at_answers(group, *trainer_, steps_);
+    if (!trainer_->backend().runs_alongside()) look_at_answers();
     statistics_.train_seconds = before + seconds_since(start);
     if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
     if (watch.after_group) watch.after_group();
@@ -207,7 +211,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
   }
   settle();
-  guard_.look_at_answers(group, *trainer_, steps_);
+  look_at_answers();
   statistics_.train_seconds = before + seconds_since(start);
 }
 

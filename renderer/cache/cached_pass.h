@@ -6,7 +6,6 @@
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_paths.h"
-#include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/transport/ao_integrator.h"
 #include "renderer/transport/pass.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/film/first_hit.h"
 

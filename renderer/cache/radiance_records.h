@@ -4,7 +4,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "renderer/cache/cached_paths.h"
-#include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/cache/record_batch.h"
 
 namespace gatelight::renderer {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "neural/learning/record_status.h"
-#include "renderer/cache/record_batch.h"
 #include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
@@ -25,7 +24,6 @@ constexpr double kFloor = 1e-2;
 // times as bright as any group's targets, or a loss 130 times that of answering one everywhere. (Answers of
 // nothing where rare light of t falls come to 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) A
 // loss alone would not tell: the relative one goes to one for answers without bounds.
-constexpr std::size_t kLookedAt = 1024;  ///< points
 constexpr double kGreatestBrightness = 100.0;
 constexpr double kGreatestLoss = 130.0;
 /// As good as ever: the running mean is within so much of its least, and the group's own within so much of
@@ -54,21 +52,21 @@ void TrainingGuard::look_at_loss(const neural::StepStatistics& step, std::uint64
   }
 }
 
-void TrainingGuard::look_at_answers(const RecordBatch& group, const neural::Trainer& trainer,
-                                    std::uint64_t steps_done) {
-  if (group_steps == 0 || group.records.size() == 0) return;
+void TrainingGuard::look_at_answers(std::span<const float> targets, const neural::QueryBatch& some,
+                                    const neural::Trainer& trainer, std::uint64_t steps_done) {
+  if (group_steps == 0 || some.size == 0) return;
   const double loss = group_loss / static_cast<double>(group_steps);
   group_loss = 0.0;
   group_steps = 0;
   double bright = 0.0, ones = 0.0;
-  for (const float t : group.targets) {
+  for (const float t : targets) {
     if (!std::isfinite(t)) continue;
     const double target =
         std::min(static_cast<double>(std::abs(t)), static_cast<double>(trainer.options().max_target));
     bright += target;
     ones += (target - 1.0) * (target - 1.0);
   }
-  const double values = static_cast<double>(group.targets.size());
+  const double values = static_cast<double>(targets.size());
   brightest = std::max(brightest, bright / values);
   if (loss > kGreatestLoss * std::max(ones / values, kFloor)) {
     throw TrainingDiverged(
@@ -77,13 +75,11 @@ void TrainingGuard::look_at_answers(const RecordBatch& group, const neural::Trai
   }
 
   const std::size_t outputs = trainer.model().config.mlp.outputs;
-  const std::size_t points = std::min(kLookedAt, group.records.size());
-  std::vector<float> answers(points * outputs);
-  const neural::QueryBatch asked = group.records.batch(0, points);
-  trainer.query(asked, {.range = neural::OutputRange::raw}, answers);
+  std::vector<float> answers(some.size * outputs);
+  trainer.query(some, {.range = neural::OutputRange::raw}, answers);
   double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < points; ++i) {
-    if (!neural::is_finite(trainer.model(), asked, i)) continue;
+  for (std::size_t i = 0; i < some.size; ++i) {
+    if (!neural::is_finite(trainer.model(), some, i)) continue;
     for (std::size_t o = 0; o < outputs; ++o) sum += static_cast<double>(std::abs(answers[i * outputs + o]));
     count += static_cast<double>(outputs);
   }

@@ -1,13 +1,13 @@
 #pragma once
 // Notices a training that diverges.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "neural/trainer.h"
 
 namespace gatelight::renderer {
-
-struct RecordBatch;
 
 /// What training has shown so far. All members throw TrainingDiverged.
 struct TrainingGuard {
@@ -22,9 +22,12 @@ struct TrainingGuard {
 
   /// After each step: that its loss is finite, and that losses do not grow without end.
   void look_at_loss(const neural::StepStatistics& step, std::uint64_t number);
-  /// Between groups, after `steps_done` steps: that losses and answers stay within what training can reach.
-  /// group: any records, of which answers are asked.
-  void look_at_answers(const RecordBatch& group, const neural::Trainer& trainer, std::uint64_t steps_done);
+  /// Points of which answers are asked, at most.
+  static constexpr std::size_t kLookedAt = 1024;
+  /// Between groups, after `steps_done` steps: losses and answers must stay within what training can reach.
+  /// `targets` are those of the group, `some` are points of it.
+  void look_at_answers(std::span<const float> targets, const neural::QueryBatch& some,
+                       const neural::Trainer& trainer, std::uint64_t steps_done);
 };
 
 }  // namespace gatelight::renderer

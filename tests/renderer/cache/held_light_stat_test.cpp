@@ -10,7 +10,6 @@
 #include <string>
 
 #include "renderer/cache/cached_paths.h"
-#include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/film/camera.h"
 #include "renderer/transport/path_integrator.h"
 #include "renderer/transport/world.h"

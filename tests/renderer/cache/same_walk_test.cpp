@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/cache/cached_paths.h"
-#include "renderer/cache/cached_paths_scratch.h"
 #include "renderer/transport/path_integrator.h"
 #include "tests/renderer/cache/small_worlds.h"
 
