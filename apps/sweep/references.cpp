@@ -17,6 +17,7 @@
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
+#include "renderer/metrics/compare.h"
 #include "renderer/metrics/merge.h"
 
 namespace gatelight::apps {

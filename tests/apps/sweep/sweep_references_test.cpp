@@ -17,6 +17,7 @@
 #include "renderer/cache/cache_report.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
+#include "renderer/metrics/compare.h"
 #include "renderer/render.h"
 #include "renderer/surface/embree.h"
 #include "scene/gltf.h"
