@@ -10,6 +10,10 @@
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
+using scene::Color;
+using scene::Vec2;
+using scene::Vec3;
+
 namespace {
 
 using ::testing::HasSubstr;

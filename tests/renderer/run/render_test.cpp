@@ -9,6 +9,9 @@
 #include "tests/support/room.h"
 
 namespace gatelight::renderer {
+using scene::Color;
+using scene::Vec3;
+
 namespace {
 
 using testing::room;

@@ -15,6 +15,8 @@
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
+using scene::Vec3;
+
 namespace {
 
 using kinds::expect_same;

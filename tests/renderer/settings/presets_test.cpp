@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 namespace gatelight::renderer {
+using scene::Color;
+
 namespace {
 
 /// What the paper says of its experiments, for both applications.

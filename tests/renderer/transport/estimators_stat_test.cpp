@@ -13,6 +13,9 @@
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
+using scene::Color;
+using scene::Vec3;
+
 namespace {
 
 using testing::Moments;

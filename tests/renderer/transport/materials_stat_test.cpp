@@ -15,6 +15,9 @@
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
+using scene::Color;
+using scene::Vec3;
+
 namespace {
 
 using scene::Material;
