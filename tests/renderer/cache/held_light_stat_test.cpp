@@ -146,7 +146,7 @@ class Pictures {
     CachedPaths::Scratch scratch;
 
     const RenderOptions ask_options = options(composed);
-    const PathIntegrator integrator(world_, path_integrator_options(options_));
+    const CachedPaths ask(world_, cached_paths_options(ask_options), stored);
     PathPlan plan;
     plan.query_at = composed.query_at;
     plan.max_depth = 16;
@@ -155,7 +155,7 @@ class Pictures {
     ask.trace(asking, {}, plan, batch, {}, rays, scratch);
 
     const RenderOptions learn_options = options(learned);
-    const PathIntegrator integrator(world_, path_integrator_options(options_));
+    const CachedPaths learn(world_, cached_paths_options(learn_options), stored);
     PathPlan to_the_end;
     to_the_end.records = true;
     to_the_end.max_depth = 16;
