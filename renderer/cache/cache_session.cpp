@@ -93,12 +93,12 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
     records_ = std::make_unique<RadianceRecords>(*paths_, *points_, options, inputs_);
   }
 
+  const auto count = [](neural::Sides sides) {
+    return static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(sides)));
+  };
   for (std::size_t i = 0; i < setup_.sides.size(); ++i) {
-    const auto sides_of = [](neural::Sides s) -> std::uint64_t {
-      return s == neural::Sides::both ? 2 : s == neural::Sides::none ? 0 : 1;
-    };
-    statistics_.surfaces_stored += sides_of(setup_.sides[i]);
-    statistics_.surfaces_possible += sides_of(possible_sides(world.scene, world.scene.instances[i]));
+    statistics_.surfaces_stored += count(setup_.sides[i]);
+    statistics_.surfaces_possible += count(possible_sides(world.scene, world.scene.instances[i]));
   }
   statistics_.nodes = cache_model->parameters.node_count;
   statistics_.node_spacing = gate ? cache_model->gate.report.node_spacing : 0.0f;
@@ -216,16 +216,10 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
 }
 
 void CacheSession::start_anew() {
-  CacheState state;
-  state.setup = setup_;
-  state.model = neural::initial_state(model(), trainer_->options());
-  state.triangle_counts.assign(counts_.values().size(), 0);
-  import_state(state);
-  RayCounts abandoned = rays();
-  abandoned.subtract(scout_rays_);
-  abandoned_rays_.add(abandoned);
-  statistics_ = first_statistics_;
-  last_losses_.clear();
+  Bookmark start{{.setup = setup_}, first_statistics_, scout_rays_, {}};
+  start.state.model = neural::initial_state(model(), trainer_->options());
+  start.state.triangle_counts.assign(counts_.values().size(), 0);
+  return_to(start);
 }
 
 std::uint64_t CacheSession::answer(const SurfacePoints& points, std::span<float> answers) const {

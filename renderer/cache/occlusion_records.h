@@ -1,6 +1,7 @@
 #pragma once
 // Ambient occlusion at training points as records: what AoIntegrator measures, one or more rays a point.
 
+#include "renderer/cache/cache_state.h"
 #include "renderer/cache/record_batch.h"
 #include "renderer/transport/ao_integrator.h"
 

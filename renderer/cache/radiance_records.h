@@ -3,6 +3,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/record_batch.h"
 

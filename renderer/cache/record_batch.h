@@ -10,11 +10,12 @@
 
 #include "neural/base/batch.h"
 #include "renderer/cache/answers.h"
-#include "renderer/cache/cache_state.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 
 namespace gatelight::renderer {
+
+struct CacheSetup;
 
 /// Where the records of several batches lie, and which are kept: of n records at most `most` (0: all), evenly
 /// spread, are dealt to the batches in turn, so that each batch has records from the whole picture.
