@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "renderer/sampling/sampler.h"
 #include "renderer/settings/options.h"
 #include "renderer/transport/world.h"
 
