@@ -225,7 +225,7 @@ TEST(PathStat, AmbientOcclusionOfADiscMatchesItsFormFactor) {
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
   builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
   // A disc of radius 1 at height 0.75: form factor R^2 / (R^2 + h^2) = 0.64.
-  std::vector<Vec3> points{Vec3(0, 0.75f, 0)};
+  scene::PaddedVector<Vec3> points{Vec3(0, 0.75f, 0)};
   std::vector<std::array<std::uint32_t, 3>> fan;
   constexpr std::uint32_t kSegments = 256;
   for (std::uint32_t i = 0; i < kSegments; ++i) {
