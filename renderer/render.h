@@ -1,5 +1,5 @@
 #pragma once
-// One picture from one scene. The only thing an application has to call.
+// Makes pictures of one scene. An application needs no other header to render.
 
 #include <exception>
 #include <functional>
@@ -18,64 +18,67 @@ enum class Phase : std::uint8_t { scout, train, render };
 
 struct Progress {
   Phase phase = Phase::render;
-  int steps_done = 0;  ///< of training
+  int steps_done = 0;  ///< training steps
   int steps = 0;
   double loss = 0.0;
   int spp_done = 0;
   int spp = 0;
-  double fraction = 0.0;  ///< of the phase, in [0, 1]
-  double seconds = 0.0;   ///< since scouting or rendering started
+  double fraction = 0.0;  ///< how much of the phase is done, in [0, 1]
+  double seconds = 0.0;   ///< wall time since scouting or rendering started
 };
 
 struct Callbacks {
-  /// Called from a worker at most some ten times a second.
+  /// A worker thread calls it about ten times a second at most.
   std::function<void(const Progress&)> progress;
-  /// Asked between tiles, by several workers at once. When it answers true the current pass is finished and
-  /// rendering stops.
+  /// Worker threads call it between tiles, several at once. When it returns true, the current pass is
+  /// finished and rendering stops.
   std::function<bool()> stop;
-  /// Asked after every pass; when it answers true, `snapshot` receives the picture so far. Of the statistics,
-  /// spp and render_seconds are up to date then.
+  /// Called after every pass. When it returns true, `snapshot` receives the picture so far. Only spp and
+  /// render_seconds of the statistics are up to date at that time.
   std::function<bool()> snapshot_wanted;
   std::function<void(const Picture&)> snapshot;
-  /// A checkpoint or the cache file could not be written: the picture goes on. `again`: it will be tried
-  /// again. Where this is not set, the exception ends the render.
+  /// A checkpoint or the cache file could not be written, and the render goes on. `again` says whether the
+  /// write will be tried again. Where this callback is not set, the exception ends the render.
   std::function<void(const std::exception_ptr& error, bool again)> output_failed;
 };
 
-/// The points at which pictures are wanted of one training, or of one plain rendering. Ascending, not empty;
-/// RenderOptions's own train_steps or spp does not count then.
+/// The points of one training, or of one plain rendering, at which pictures are made. They are ascending and
+/// not empty. They replace train_steps or spp of RenderOptions.
 struct Series {
-  std::vector<int> train_steps;  ///< of nao and nrc, beyond those of a loaded cache; 0: an untrained one
-  std::vector<int> spp;          ///< of path and ao
+  std::vector<int> train_steps;  ///< nao and nrc: beyond those of a loaded cache; 0 is untrained
+  std::vector<int> spp;          ///< path and ao: samples per pixel
 };
 
-/// `statistics` are those that a run which ended at this point would have had: training up to there, with
-/// the time that it took alone, and its own picture. Of path and ao rendering up to there.
+/// `statistics` are those of a run that ends at this point. For nao and nrc they hold the training up to the
+/// point, with the time of training alone, and the rendering of this picture. For path and ao they hold the
+/// rendering up to the point.
 using SeriesPicture =
     std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
 
 struct CacheReport;  // cache/cache_report.h
 
-/// Holds what was built for a scene (acceleration structure, lights, textures), so that several pictures can
-/// be made of it.
+/// Holds what is built once for a scene (acceleration structure, lights, textures) and renders pictures from
+/// it.
 class Renderer {
  public:
-  /// Builds. The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or
-  /// std::runtime_error naming the file where the environment cannot be read.
+  /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or std::runtime_error
+  /// that names the file when the environment cannot be read.
   Renderer(const scene::Scene& scene, const RenderOptions& options);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  /// Renders. The same scene, options and Embree ISA give the same bits for any number of threads.
+  /// The same scene, options and Embree ISA give the same bits for any number of threads.
   Picture render(const Callbacks& callbacks = {});
-  /// Calls `picture` with the picture of each point, in order. It has the bits that render() gives with these
-  /// steps or samples. Answers false when callbacks.stop ended it before the last point; a point that was not
-  /// reached is not called. Throws BadOption for points that make no series, and for limits of time,
-  /// checkpoints and cache_out.
+  /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
+  /// or samples. Returns false when callbacks.stop ends it before the last point; `picture` is not called for
+  /// the points that remain. Throws BadOption for points that are not a valid series, and when the options
+  /// ask for a time limit, checkpoints or cache_out.
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
-  /// What the cache would be: scouts, but neither trains nor renders. For integrators with a cache.
+  /// Describes the cache that rendering would build. Scouts, but neither trains nor renders. Only for
+  /// integrators with a cache.
   CacheReport report_cache();
-  /// The same without instances, and without the cache that it is compared with.
+  /// Like report_cache(), but without the report of each instance and without the size of a cache that is not
+  /// scouted.
   CacheStatistics set_up_cache();
   const RenderStatistics& statistics() const;
 

@@ -30,7 +30,8 @@ std::string link_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// A file without a name: of a program that is killed nothing is left. -1 where the system has none.
+/// Opens a file without a name, so that a killed program leaves nothing behind. Returns -1 where the file
+/// system does not support it.
 int open_nameless([[maybe_unused]] const fs::path& folder) {
 #if defined(O_TMPFILE)
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
@@ -40,7 +41,7 @@ int open_nameless([[maybe_unused]] const fs::path& folder) {
   return -1;
 }
 
-/// The rename has reached the disk only when its folder has. Best effort: some file systems refuse.
+/// A rename is on the disk only when its folder is. Errors are ignored, because some file systems refuse.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -56,7 +57,7 @@ fs::path replaced_file(fs::path path) {
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
     const fs::path there = fs::read_symlink(path, error);
     if (error) break;
-    path = path.parent_path() / there;  // `there` alone where it is absolute
+    path = path.parent_path() / there;  // an absolute `there` replaces the folder
   }
   return path;
 }
@@ -89,9 +90,9 @@ void check_writable(const fs::path& path) {
 AtomicFile::AtomicFile(const fs::path& path) : target_(replaced_file(path)) {
   check_writable(path);
   static std::atomic<unsigned> counter{0};
-  // Short: the file's own name may have all bytes that a name can have.
+  // The name is short and independent of the target, whose name may already have the maximum length.
   temporary_ = folder_of(target_) / fmt::format(".gatelight-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
-  // 0666 leaves the permissions to the umask, as for any other file.
+  // With 0666 the umask decides the permissions, as for any other file.
   int descriptor = open_nameless(folder_of(target_));
   named_ = descriptor < 0;
   if (named_) descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -116,7 +117,7 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 }
 
 void AtomicFile::commit() {
-  // A write that failed in a seek is forgotten by the next flush, but not by ferror().
+  // When a write fails inside a seek, the next flush does not report it, but ferror() does.
   if (std::ferror(stream_) != 0) refuse(target_, "a part of it could not be written");
   if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail(errno);
   const std::string link = link_of(::fileno(stream_));
@@ -125,14 +126,14 @@ void AtomicFile::commit() {
   };
   const bool is_new = !named_ && link_to(target_);
   if (!named_ && !is_new) {
-    // A link does not replace a file, so that the name that a rename needs is given at the last moment.
+    // A link cannot replace a file. So the file gets a temporary name now, and a rename replaces the target.
     const auto give_name = [&] { return link_to(temporary_); };
-    // The name may be left from a process of the same number that was killed right here.
+    // A process with the same number may have been killed right here and left the name behind.
     if (!give_name() && (errno != EEXIST || ::unlink(temporary_.c_str()) != 0 || !give_name())) fail(errno);
     named_ = true;
   }
   if (!is_new && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  std::fclose(stream_);  // nothing is left to be flushed
+  std::fclose(stream_);  // everything is flushed already
   stream_ = nullptr;
   sync_folder(folder_of(target_));
 }

@@ -19,7 +19,7 @@ std::optional<std::array<std::size_t, 3>> color_channels(const Layer& layer) {
                    [&](auto it) { return static_cast<std::size_t>(it - begin); });
     return index;
   }
-  // Part of a colour is none, and with X this is a position.
+  // An incomplete colour does not count as one, and a layer with X is a position.
   const bool others =
       find("X") != end || std::any_of(rgb.begin(), rgb.end(), [&](auto it) { return it != end; });
   const auto grey = find("Y");

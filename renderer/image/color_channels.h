@@ -1,6 +1,5 @@
 #pragma once
-// Which of a layer's channels are its colours, by their names: files hold them in any order, with others
-// between.
+// Finds a layer's colour channels by their names. Files hold channels in any order, with others between.
 
 #include <array>
 #include <cstddef>
@@ -11,11 +10,11 @@
 
 namespace gatelight::renderer {
 
-/// Where red, green and blue are among the layer's channels: R, G and B, or three times Y, which is grey.
-/// Nothing where these names are not there (depth, X Y Z, colours that lack one).
+/// The indices of R, G and B among the layer's channels, or three times the index of Y for a grey layer.
+/// Empty for other layers (depth, X Y Z, an incomplete colour).
 std::optional<std::array<std::size_t, 3>> color_channels(const Layer& layer);
 
-/// "channels A, Z, expected R, G and B, or Y": for messages about a layer without colours.
+/// Text for messages about a layer without colours: "channels A, Z, expected R, G and B, or Y".
 std::string describe_channels(const Layer& layer);
 
 }  // namespace gatelight::renderer

@@ -1,5 +1,5 @@
 #pragma once
-// The OpenEXR side of image_read.h and image_write.h.
+// Reads and writes EXR files by OpenEXR, for image_read.h and image_write.h.
 
 #include <cstdio>
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace gatelight::renderer {
 
-/// Writes to a seekable stream. Throws std::exception when the stream refuses.
+/// Writes to a seekable stream. Throws std::exception when the stream fails.
 void write_exr(const Picture& picture, std::FILE* stream, bool all_float);
 
-/// Throws std::exception without the file's name in front.
+/// Throws std::exception; its message does not name the file.
 Picture read_exr(const std::filesystem::path& path);
 
 }  // namespace gatelight::renderer

@@ -18,7 +18,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Colour and vector channels in their usual order, others after them.
+/// The sort key of a channel: colour and vector channels in their usual order, then all others.
 int channel_rank(std::string_view channel) {
   constexpr std::string_view kOrder = "RGBAXYZ";
   const std::size_t at = channel.size() == 1 ? kOrder.find(channel) : std::string_view::npos;
@@ -46,7 +46,7 @@ std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
   }
   const auto first = [&](auto condition) { return std::find_if(layers.begin(), layers.end(), condition); };
   auto beauty = first([](const Layer& l) { return l.name.empty() && color_channels(l); });
-  // A grey one with a name is depth or a mask.
+  // A grey layer with a name is depth or a mask.
   const auto has_rgb = [](const Layer& l) {
     const auto index = color_channels(l);
     return index && (*index)[0] != (*index)[1];
@@ -86,8 +86,8 @@ Picture read_exr(const std::filesystem::path& path) {
     const std::size_t count = layer.channels.size();
     layer.values.resize(pixels * count);
     const std::size_t pixel_bytes = count * sizeof(float);
-    // Where pixel 0, 0 would be: the library adds as much again. Data windows lie anywhere, so that this is a
-    // number and no pointer, and wraps.
+    // The address of the pixel (0, 0), to which the library adds the offset of the data window. A data window
+    // may lie anywhere, so the address is an integer that may wrap, not a pointer.
     const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(layer.values.data()) -
                                   static_cast<std::uintptr_t>(data.min.x) * pixel_bytes -
                                   static_cast<std::uintptr_t>(data.min.y) * pixel_bytes * width;

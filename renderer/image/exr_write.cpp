@@ -31,7 +31,7 @@ class StdioStream final : public Imf::OStream {
     if (position < 0) fail();
     return static_cast<std::uint64_t>(position);
   }
-  /// The library ends a file in a destructor, which swallows what goes wrong there.
+  /// The library finishes a file in a destructor, which hides errors.
   void check() const {
     if (error_ != 0) throw_error();
   }
@@ -52,7 +52,7 @@ class StdioStream final : public Imf::OStream {
   int error_ = 0;
 };
 
-/// Half's conversion turns what is beyond its range into infinity; a finite radiance stays finite.
+/// Keeps finite radiance finite. The conversion of `half` turns values beyond its range into infinity.
 half to_half(float value) {
   constexpr float kLargest = 65504.0f;
   if (value > kLargest && value <= std::numeric_limits<float>::max()) return half(kLargest);
@@ -60,7 +60,7 @@ half to_half(float value) {
   return half(value);
 }
 
-/// Address of the pixel (0, 0), which lies before the buffer where the data window begins elsewhere.
+/// The address of the pixel (0, 0). It lies before the buffer when the data window starts elsewhere.
 char* origin(void* base, std::size_t pixel_bytes, std::size_t row_bytes, const Picture& picture) {
   return static_cast<char*>(base) - picture.x0 * static_cast<std::ptrdiff_t>(pixel_bytes) -
          picture.y0 * static_cast<std::ptrdiff_t>(row_bytes);
@@ -85,7 +85,7 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
   Imf::Header header = make_header(picture);
   Imf::FrameBuffer frame;
   const std::size_t width = static_cast<std::size_t>(picture.width);
-  // Reserved, because the frame buffer keeps addresses.
+  // The memory is reserved, because the frame buffer keeps addresses.
   std::vector<std::vector<half>> halves;
   halves.reserve(picture.layers.size());
 
@@ -93,7 +93,7 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
     const bool as_float = all_float || layer.full_precision;
     const std::size_t count = layer.channels.size();
     const std::size_t value_bytes = as_float ? sizeof(float) : sizeof(half);
-    // The library's interface is not const; it only reads from the frame buffer of an output file.
+    // The library's interface is not const, but it only reads from the frame buffer of an output file.
     void* base = const_cast<float*>(layer.values.data());
     if (!as_float) {
       std::vector<half>& converted = halves.emplace_back(layer.values.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Which format a file name asks for.
+// The file format that a file name asks for.
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@ namespace gatelight::renderer {
 
 enum class ImageFormat { exr, png, hdr, unknown };
 
-/// By the extension, in any case.
+/// The extension decides, in upper or lower case.
 ImageFormat image_format(const std::filesystem::path& path);
 
 }  // namespace gatelight::renderer

@@ -53,7 +53,7 @@ Picture read_png(const std::filesystem::path& path) {
 }
 
 Picture read_hdr(const std::filesystem::path& path) {
-  // By its name alone: else a file that is no HDR is tried with every format that the library knows.
+  // The format is given by name. Otherwise the library tries every format it knows on a file that is not HDR.
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("hdr");
   if (!input) throw std::runtime_error(OIIO::geterror());
   OIIO::ImageSpec spec;
@@ -74,7 +74,7 @@ Picture read_as(ImageFormat format, const std::filesystem::path& path) {
   return format == ImageFormat::png ? read_png(path) : read_hdr(path);
 }
 
-/// The libraries' messages end in line breaks and name the file again.
+/// Makes one line of a library's message, which may contain line breaks.
 std::string one_line(std::string text) {
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);

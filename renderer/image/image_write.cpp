@@ -19,7 +19,7 @@ void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions
   if (!output) throw std::runtime_error(OIIO::geterror());
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  // Into memory first, so that every error of the disk passes through AtomicFile.
+  // The PNG is encoded in memory, so that AtomicFile reports every error of the disk.
   std::vector<unsigned char> encoded;
   OIIO::Filesystem::IOVecOutput memory(encoded);
   if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||

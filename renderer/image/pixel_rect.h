@@ -2,7 +2,7 @@
 
 namespace gatelight::renderer {
 
-/// Pixels x0 <= x < x1, y0 <= y < y1 of a picture.
+/// The pixels x0 <= x < x1, y0 <= y < y1 of a picture.
 struct PixelRect {
   int x0 = 0;
   int y0 = 0;

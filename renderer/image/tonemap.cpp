@@ -8,7 +8,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Not std::clamp, which lets NaN through.
+/// Clamps to [0, 1] and turns NaN into 0, which std::clamp does not.
 float unit(float x) {
   if (!(x > 0.0f)) return 0.0f;
   return std::min(x, 1.0f);
@@ -17,7 +17,7 @@ float unit(float x) {
 }  // namespace
 
 float filmic(float x) {
-  // Beyond this the curve is 1 for good; squares of huge values would be inf / inf.
+  // Beyond this value the curve is 1. Squares of huge values would give inf / inf.
   constexpr float kSaturated = 1e6f;
   if (x > kSaturated) return 1.0f;
   const float v = x > 0.0f ? x : 0.0f;

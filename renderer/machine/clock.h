@@ -1,5 +1,5 @@
 #pragma once
-// Wall time of phases.
+// Measures wall time.
 
 #include <chrono>
 

@@ -9,8 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// From a group up to the root of its hierarchy. Inside a container the path may belong to the host; its
-/// missing folders have no limit, and the walk ends at the container's own group.
+/// The tightest limit from a group up to the root of its hierarchy. Inside a container the path may belong to
+/// the host. Folders that are missing there have no limit, and the walk ends at the container's own group.
 double tightest(const fs::path& mount, const std::string& group, const ReadLimit& read) {
   double limit = kUnlimited;
   fs::path relative = fs::path(group).relative_path();

@@ -1,16 +1,17 @@
 #pragma once
-// The ways in which the renderer refuses. Everything else is std::runtime_error: unusable input.
+// The exceptions by which the renderer refuses a request. For other unusable input it throws
+// std::runtime_error.
 
 #include <stdexcept>
 
 namespace gatelight::renderer {
 
-/// More memory than there is or than the limit allows. The message holds the bytes needed and allowed.
+/// A request needs more memory than there is or than the limit allows. The message gives both sizes.
 struct OutOfMemory : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A non-finite sample under NanPolicy::error. The message locates it.
+/// A sample is not finite under NanPolicy::error. The message gives its place.
 struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -20,12 +21,12 @@ struct TrainingDiverged : NumericalError {
   using NumericalError::NumericalError;
 };
 
-/// The device or instruction set asked for is not there.
+/// The requested device or instruction set is not available.
 struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An option that no scene can satisfy (an unknown camera, an empty region). The message names value and
+/// An option cannot be satisfied (an unknown camera, an empty region). The message names the value and the
 /// choices.
 struct BadOption : std::invalid_argument {
   using std::invalid_argument::invalid_argument;

@@ -1,12 +1,12 @@
 #pragma once
-// From double to single precision without making infinities.
+// Converts from double to single precision without infinities.
 
 #include <algorithm>
 #include <limits>
 
 namespace gatelight::renderer {
 
-/// What lies beyond the greatest float, infinity too, becomes that; NaN stays NaN.
+/// Values beyond the largest float, infinity included, become the largest float. NaN stays NaN.
 inline float finite_float(double value) {
   constexpr double kGreatest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -kGreatest, kGreatest));

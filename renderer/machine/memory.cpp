@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of one number; "max" is none.
+/// Reads a file of one number; "max" means no limit.
 double read_limit(const fs::path& file) {
   std::ifstream stream(file);
   double bytes = 0.0;

@@ -10,13 +10,13 @@ namespace gatelight::renderer {
 
 struct MemoryRoom {
   std::size_t bytes = std::numeric_limits<std::size_t>::max();
-  std::string_view limit = "the machine";  ///< what sets it
+  std::string_view limit = "the machine";  ///< what sets the limit
 };
 
-/// The least of what is left of the machine's memory with its swap, of the limits of the process's control
-/// group and its ancestors (cgroup v2: memory.max; v1: memory.limit_in_bytes), and of its address space
-/// (ulimit -v). What is not taken yet may be taken by others. `root` is where /proc and /sys/fs/cgroup are
-/// looked for.
+/// The smallest remainder of three limits: the machine's memory with its swap, the limits of the process's
+/// control group and its ancestors (cgroup v2: memory.max; v1: memory.limit_in_bytes), and the address space
+/// (ulimit -v). Other processes may take the same memory. `root` is the folder that holds proc and
+/// sys/fs/cgroup.
 MemoryRoom memory_room(const std::filesystem::path& root = "/");
 
 }  // namespace gatelight::renderer

@@ -24,19 +24,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// oneTBB's own choice for its workers on 64-bit machines.
+/// The stack size that oneTBB gives its workers on 64-bit machines.
 constexpr std::size_t kStackBytes = std::size_t{4} << 20;
 
 double quota_of(double quota, double period) {
   return quota > 0.0 && period > 0.0 ? quota / period : kUnlimited;
 }
 
-/// "max 100000" or "150000 100000".
+/// The file holds "max 100000" or "150000 100000".
 double read_quota_v2(const fs::path& folder) {
   std::ifstream file(folder / "cpu.max");
   double quota = 0.0;
   double period = 0.0;
-  // "max" is not a number: no limit.
+  // "max" is not a number and means no limit.
   return file >> quota >> period ? quota_of(quota, period) : kUnlimited;
 }
 
@@ -45,7 +45,7 @@ double read_quota_v1(const fs::path& folder) {
   std::ifstream period_file(folder / "cpu.cfs_period_us");
   double quota = 0.0;
   double period = 0.0;
-  // -1: no limit.
+  // A quota of -1 means no limit.
   return quota_file >> quota && period_file >> period ? quota_of(quota, period) : kUnlimited;
 }
 
@@ -78,7 +78,7 @@ void require_threads(int threads) {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kStackBytes);
-  // All at once, each with the memory that its first allocation takes.
+  // All threads exist at once, each with the memory that its first allocation takes.
   std::mutex gate;
   std::vector<pthread_t> trial;
   int failed = 0;
