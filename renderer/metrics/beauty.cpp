@@ -8,7 +8,7 @@ namespace gatelight::renderer {
 namespace {
 
 struct Place {
-  int x0, y0, width, height;  ///< the last two of the full picture
+  int x0, y0, width, height;  ///< width and height of the full picture
 };
 
 Place place(const Picture& picture) {
@@ -38,8 +38,8 @@ void require_comparable(const NamedPicture& a, const NamedPicture& b) {
                                    a.name, a.picture.width, a.picture.height, b.name, b.picture.width,
                                    b.picture.height));
   }
-  // Of full pictures of different sizes nobody knows what lies where; a part may be all that another file
-  // holds.
+  // The places are compared only for full pictures of one size. Otherwise one file may hold only the part
+  // that the other shows.
   const Place at = place(a.picture), other = place(b.picture);
   if (at.width == other.width && at.height == other.height && (at.x0 != other.x0 || at.y0 != other.y0)) {
     throw CompareError(fmt::format(

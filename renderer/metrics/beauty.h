@@ -1,5 +1,5 @@
 #pragma once
-// The colours of a picture's beauty layer, whatever the order of its channels.
+// Reads the colours of a picture's beauty layer, in any order of its channels.
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace gatelight::renderer {
 
-/// Pictures that cannot be compared. The message names both.
+/// Thrown for pictures that cannot be compared. The message names them.
 struct CompareError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,8 +25,8 @@ using Rgb = std::array<double, 3>;
 
 class Beauty {
  public:
-  /// A layer of one channel is grey. Throws CompareError where there is no beauty layer. The picture must
-  /// outlive this.
+  /// A layer of one channel is grey. Throws CompareError without a beauty layer. The picture must outlive
+  /// this object.
   explicit Beauty(const NamedPicture& named);
 
   bool is_grey() const { return index_[0] == index_[1]; }
@@ -48,8 +48,8 @@ inline std::size_t pixel_count(const Picture& picture) {
   return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
 }
 
-/// Throws CompareError for different sizes, for different regions of a full picture of one size, for one grey
-/// and one colour, and without a beauty layer.
+/// Throws CompareError when the sizes differ, when the regions of full pictures of one size differ, when one
+/// picture is grey and the other has colours, or when a beauty layer is missing.
 void require_comparable(const NamedPicture& a, const NamedPicture& b);
 
 }  // namespace gatelight::renderer

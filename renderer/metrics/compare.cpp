@@ -63,7 +63,7 @@ ErrorMetrics compare_pictures(const NamedPicture& reference, const NamedPicture&
       metrics.max_error = std::max(metrics.max_error, std::abs(difference));
     }
   }
-  // Without a pixel there is no error to tell: 0/0, a NaN.
+  // Without a pixel the errors are undefined: 0 / 0 gives NaN.
   const double count = 3.0 * static_cast<double>(metrics.pixels);
   metrics.mse /= count;
   metrics.rel_mse /= count;

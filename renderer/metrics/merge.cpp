@@ -19,7 +19,7 @@ Rule rule_of(const std::string& layer) {
   return Rule::mean;
 }
 
-/// Of a picture that tells them.
+/// Parses the samples per pixel of a picture's metadata.
 std::uint64_t samples_per_pixel(const NamedPicture& named, const std::string& text) {
   std::uint64_t spp = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), spp);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of one scene with different seeds into one with less noise.
+// Merges pictures of one scene with different seeds into one picture with less noise.
 
 #include <cstdint>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace gatelight::renderer {
 
-/// The mean of the pictures, weighted by their samples per pixel (metadata "spp") where they tell them, by
-/// the same weight where none does. One at a time, so that many need no more memory than two.
+/// Computes the mean of pictures, weighted by their samples per pixel (metadata "spp"). Pictures without this
+/// entry have equal weights. Pictures are added one at a time, so that many need no more memory than two.
 ///
-/// Layers are averaged, but "samples" is the sum, "variance" that of the mean, and "primitive" and
-/// "instance", of which there is no mean, are the first picture's. Of the metadata remains what all have in
-/// common; "spp" is the sum, "seed" the list.
+/// Layers are averaged, except four. "samples" is the sum, "variance" is the variance of the mean, and
+/// "primitive" and "instance" are those of the first picture. The metadata keeps the entries that are equal
+/// in all pictures; "spp" is the sum, "seed" the list of all seeds.
 class PictureMerger {
  public:
-  /// Throws CompareError where size, place or layers are not those of the first, where some tell their spp
-  /// and others do not, where their sum leaves 64 bits, or where they tell of different integrators.
+  /// Throws CompareError when size, place, layers or integrator differ from the first picture. Also throws
+  /// when only some pictures have an "spp", or when their sum exceeds 64 bits.
   void add(const NamedPicture& named);
 
-  /// At least one was added. All layers in full precision.
+  /// The merged picture; at least one was added. All layers have full precision.
   Picture finish() const;
 
  private:
@@ -29,15 +29,15 @@ class PictureMerger {
   void require_same_shape(const NamedPicture& named) const;
   void merge_metadata(const Picture& picture);
 
-  Picture merged_;  ///< all but the values that are summed
+  Picture merged_;  ///< everything except the values that are summed
   std::string first_name_;
-  std::vector<std::vector<double>> sums_;  ///< of each layer
+  std::vector<std::vector<double>> sums_;  ///< one for each layer
   bool weighted_ = false;
   double weight_ = 0.0;
   std::uint64_t spp_ = 0;
 };
 
-/// Of all of them at once.
+/// Merges all pictures at once.
 Picture merge_pictures(const std::vector<NamedPicture>& pictures);
 
 }  // namespace gatelight::renderer

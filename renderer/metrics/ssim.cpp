@@ -23,10 +23,10 @@ constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01;
 constexpr double kC2 = 0.03 * 0.03;
 
-/// Rows of one task.
+/// The rows that one task computes.
 constexpr Index kBandRows = 32;
 
-/// Of one axis; the window is a product of two.
+/// Weights along one axis. The window is the product of two.
 Weights window_weights() {
   Weights weights;
   for (int i = 0; i < kSsimWindow; ++i) {
@@ -50,8 +50,8 @@ GreyPlane read_grey(const NamedPicture& named, const SsimOptions& options) {
   return grey;
 }
 
-/// Weighted means within the windows of some rows, first along x alone. The squares of the difference stand
-/// for the product of both, so that where both are equal all that counts is exactly 0.
+/// Weighted means of some rows, filtered along x only. The squared difference replaces the product of both
+/// pictures, so that equal pictures give exactly 0.
 struct Moments {
   GreyPlane reference, test, reference_square, test_square, difference_square;
 
@@ -76,7 +76,7 @@ Row filter_y(const GreyPlane& plane, Index first, const Weights& weights) {
   return sum;
 }
 
-/// Rows `begin` to `end` of the windows' upper edges.
+/// Sums SSIM over the windows whose upper edges are the rows `begin` to `end`.
 void sum_band(const GreyPlane& reference, const GreyPlane& test, Index begin, Index end,
               const Weights& weights, std::vector<double>& sums) {
   const Index rows = end - begin + kSsimWindow - 1;
@@ -100,7 +100,7 @@ void sum_band(const GreyPlane& reference, const GreyPlane& test, Index begin, In
                               .max(0.0);
     const Row of_means = (t - r).square();
     const Row of_structure = (filter_y(moments.difference_square, first, weights) - of_means).max(0.0);
-    // (2 r t + c) / (r^2 + t^2 + c) = 1 - (t - r)^2 / (r^2 + t^2 + c), and likewise the covariance.
+    // (2 r t + c) / (r^2 + t^2 + c) = 1 - (t - r)^2 / (r^2 + t^2 + c); the same holds for the covariance.
     sums[static_cast<std::size_t>(y)] =
         ((1.0 - of_means / (means + kC1)) * (1.0 - of_structure / (variances + kC2))).sum();
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Color = std::array<float, 3>;
 
-/// Every fifth colour of the table of 256.
+/// Every fifth colour of the published table of 256.
 constexpr std::array<Color, 52> kColors{{
     {0.001462f, 0.000466f, 0.013866f}, {0.007588f, 0.006356f, 0.044973f}, {0.018815f, 0.016026f, 0.084584f},
     {0.035520f, 0.028397f, 0.125209f}, {0.056615f, 0.042160f, 0.167446f}, {0.078815f, 0.054184f, 0.211667f},

@@ -5,7 +5,8 @@
 namespace gatelight::renderer::flip {
 namespace {
 
-/// White-relative XYZ from linear RGB: the matrix of the primaries of sRGB, each row over its sum.
+/// The matrix from linear RGB to XYZ relative to white: that of the sRGB primaries, each row divided by its
+/// sum.
 Eigen::Matrix3d make_rgb_to_xyz() {
   Eigen::Matrix3d m;
   m << 10135552.0, 8788810.0, 4435075.0,  //
@@ -22,7 +23,7 @@ Row dot(const Eigen::Matrix3f& m, Eigen::Index row, const Row& a, const Row& b, 
   return m(row, 0) * a + m(row, 1) * b + m(row, 2) * c;
 }
 
-/// CIE's curve of lightness: a cube root with a straight foot.
+/// CIE's lightness curve: a cube root with a linear part near 0.
 Row lightness_curve(const Row& t) {
   constexpr float kDelta = 6.0f / 29.0f;
   return (t > kDelta * kDelta * kDelta)

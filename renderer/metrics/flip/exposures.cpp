@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPreExposure = 0.6f;
 
-/// What the curve shows as 0.85 (t of 2021, section 3.2): the root of
+/// The value that the curve shows as 0.85 (t of 2021, section 3.2). It is the root of
 /// (2.51 - 2.43 t) u^2 + (0.03 - 0.59 t) u - 0.14 t = 0 with u = 0.6 x.
 double nearly_white() {
   constexpr double kShown = 0.85;
@@ -24,7 +24,7 @@ double nearly_white() {
   return (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a) / kPreExposure;
 }
 
-/// Of a sorted range that is not empty.
+/// The range is sorted and not empty.
 double median(const double* first, const double* last) {
   const std::ptrdiff_t count = last - first;
   return count % 2 == 1 ? first[count / 2] : 0.5 * (first[count / 2 - 1] + first[count / 2]);
@@ -53,7 +53,7 @@ Exposures choose_exposures(const RgbPlanes& reference) {
 }
 
 RgbPlanes expose(const RgbPlanes& radiance, double stops) {
-  // In double: of radiances near the greatest float the scale would be flushed to zero.
+  // The scale is a double: for radiance near the largest float, a float scale would be flushed to zero.
   const double scale = std::exp2(stops) * static_cast<double>(kPreExposure);
   RgbPlanes shown;
   const auto curve = [&](const Plane& from, Plane& to) {

@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 using Weights = std::vector<double>;
 
-/// a sqrt(pi/b) exp(-pi^2 r^2 / b), r in degrees: table 1 of 2020.
+/// A contrast sensitivity filter a sqrt(pi/b) exp(-pi^2 r^2 / b) with r in degrees: table 1 of 2020.
 struct Sensitivity {
   double a;
   double b;
@@ -20,11 +20,11 @@ constexpr Sensitivity kRedGreen{1.0, 0.0053};
 constexpr Sensitivity kBlueYellowWide{34.1, 0.04};
 constexpr Sensitivity kBlueYellowNarrow{13.5, 0.025};
 
-/// Of the features, degrees.
+/// The width of the feature filters in degrees.
 constexpr double kFeatureWidth = 0.082;
 
-/// The factor along one axis: its square root stands before the exponential, so that the product of two has
-/// all of it.
+/// The weights along one axis. They have the square root of the factor before the exponential, so that the
+/// product of two axes has the factor once.
 Weights sensitivity_weights(const Sensitivity& s, int radius, double pixels_per_degree) {
   Weights weights;
   for (int i = -radius; i <= radius; ++i) {
@@ -50,7 +50,7 @@ Kernel normalized(const Weights& weights) {
   return scaled(weights, 1.0 / sum(weights));
 }
 
-/// Positive and negative weights by themselves.
+/// Scales positive weights to the sum 1 and negative ones to -1.
 Kernel balanced(Weights weights) {
   double positive = 0.0;
   double negative = 0.0;
@@ -67,7 +67,7 @@ int Filters::radius() const {
 
 Filters make_filters(double pixels_per_degree) {
   Filters filters;
-  // Three standard deviations of the widest.
+  // The radius is three standard deviations of the widest filter.
   const int spatial_radius =
       static_cast<int>(std::ceil(3.0 * std::sqrt(kBlueYellowWide.b / (2.0 * pi * pi)) * pixels_per_degree));
   const auto spatial = [&](const Sensitivity& s) {

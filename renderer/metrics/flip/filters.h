@@ -1,11 +1,12 @@
 #pragma once
-// The filters of FLIP, each a product of one along x and one along y, as long as the pixels per degree ask.
+// The filters of FLIP. Each is a product of one along x and one along y. The pixels per degree decide their
+// size.
 
 #include <vector>
 
 namespace gatelight::renderer::flip {
 
-/// Weights of the pixels -radius() to radius().
+/// The weights of the pixels -radius() to radius().
 struct Kernel {
   std::vector<float> weights;
 
@@ -13,13 +14,13 @@ struct Kernel {
 };
 
 struct Filters {
-  // What the eye still resolves (contrast sensitivity; 2020, section 4.1.1). Blue-yellow is the sum of two
-  // products, which together sum up to 1.
+  // The contrast sensitivity of the eye (2020, section 4.1.1). Blue-yellow is the sum of two products; its
+  // weights sum to 1.
   Kernel achromatic, red_green, blue_yellow_wide, blue_yellow_narrow;
-  // Gaussian and its derivatives (2020, section 4.2): positive weights sum up to 1, negative ones to -1.
+  // A Gaussian and its derivatives (2020, section 4.2). Positive weights sum to 1, negative ones to -1.
   Kernel gaussian, edge, point;
 
-  int radius() const;  ///< the largest
+  int radius() const;  ///< of the largest filter
 };
 
 Filters make_filters(double pixels_per_degree);

@@ -13,18 +13,19 @@ namespace {
 
 using Eigen::Index;
 
-/// Rows of one task. The filters' results along x of so many rows and their neighbours stay in the cache.
+/// The rows that one task computes. The results of the filters along x for these rows and their neighbours
+/// fit in the processor's cache.
 constexpr Index kBandRows = 32;
 
 // Constants of 2020, table 2.
 constexpr float kColorExponent = 0.7f;    // q_c
-constexpr float kColorKnee = 0.4f;        // p_c: this part of the largest difference ...
-constexpr float kColorKneeError = 0.95f;  // p_t: ... takes this part of the errors
+constexpr float kColorKnee = 0.4f;        // p_c: this fraction of the largest difference ...
+constexpr float kColorKneeError = 0.95f;  // p_t: ... maps to this fraction of the error range
 constexpr float kFeatureExponent = 0.5f;  // q_f
 
 /// Rows of a picture after the filters along x.
 struct FilteredX {
-  Index first = 0;  ///< row of the picture that is row 0 here
+  Index first = 0;  ///< the picture's row that is row 0 here
   Index height = 0;
   Plane y, red_green, blue_yellow_wide, blue_yellow_narrow;  ///< of YCxCz
   Plane gaussian, edge, point;                               ///< of the achromatic channel in [0, 1]
@@ -36,7 +37,7 @@ struct FilteredX {
   }
 };
 
-/// `padded` holds `pad` more pixels on either side.
+/// `padded` holds `pad` more pixels on each side.
 Row filter_x(const Row& padded, Index pad, const Kernel& kernel) {
   const Index width = padded.cols() - 2 * pad;
   Row sum = Row::Zero(width);
@@ -46,7 +47,7 @@ Row filter_x(const Row& padded, Index pad, const Kernel& kernel) {
   return sum;
 }
 
-/// The border's pixels go on beyond it.
+/// Repeats the border pixels beyond the border.
 Row pad_row(const Row& row, Index pad) {
   Row padded(row.cols() + 2 * pad);
   padded << Row::Constant(pad, row[0]), row, Row::Constant(pad, row[row.cols() - 1]);
@@ -74,7 +75,7 @@ FilteredX filter_rows(const RgbPlanes& rgb, Index first, Index last, const Filte
   return out;
 }
 
-/// One row of the picture, whose height is `height`.
+/// Computes one row of a picture of this height.
 Row filter_y(const FilteredX& rows, const Plane& plane, Index row, Index height, const Kernel& kernel) {
   Row sum = Row::Zero(plane.cols());
   for (std::size_t k = 0; k < kernel.weights.size(); ++k) {
@@ -93,8 +94,8 @@ OpponentRow perceived_color(const FilteredX& rows, Index row, Index height, cons
   return rgb_to_hunt_lab(ycxcz_to_unit_rgb(ycxcz));
 }
 
-/// Length of the gradient of edges or points: `along` is the derivative's kernel, `plane_x` its result along
-/// x.
+/// The gradient length of edges or points. `along` is the kernel of the derivative, `plane_x` its result
+/// along x.
 Row feature(const FilteredX& rows, const Plane& plane_x, const Kernel& along, Index row, Index height,
             const Filters& filters) {
   const Row dx = filter_y(rows, plane_x, row, height, filters.gaussian);
@@ -102,7 +103,7 @@ Row feature(const FilteredX& rows, const Plane& plane_x, const Kernel& along, In
   return (dx.square() + dy.square()).sqrt();
 }
 
-/// The largest distance between colours of a screen, to the power of q_c: pure green to pure blue.
+/// The largest distance between two colours of a screen, pure green and pure blue, to the power of q_c.
 float largest_color_difference() {
   const Row zero = Row::Zero(1);
   const Row one = Row::Ones(1);
@@ -110,7 +111,7 @@ float largest_color_difference() {
                   kColorExponent);
 }
 
-/// Differences up to the knee take most of the errors (2020, eq. 8).
+/// Differences up to the knee get most of the error range (2020, eq. 8).
 Row color_error(const OpponentRow& reference, const OpponentRow& test) {
   static const float largest = largest_color_difference();
   const float knee = kColorKnee * largest;

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures inside FLIP: one plane of floats for each channel.
+// Pictures as FLIP uses them: one plane of floats for each channel.
 
 #include <Eigen/Core>
 

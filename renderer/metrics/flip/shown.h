@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as a screen shows them.
+// Converts pictures to what a screen shows.
 
 #include "renderer/image/tonemap.h"
 #include "renderer/metrics/beauty.h"
@@ -7,12 +7,13 @@
 
 namespace gatelight::renderer::flip {
 
-/// Radiance. Negative values, which no screen shows, become 0. Throws CompareError for a picture without a
-/// beauty layer, without pixels or with values that are not finite; `measure` is what is defined for finite
-/// ones.
+/// Reads radiance. Negative values, which no screen shows, become 0. Throws CompareError for a picture
+/// without a beauty layer, without pixels or with values that are not finite. `measure` is the metric's name
+/// for the message.
 RgbPlanes read_planes(const NamedPicture& named, const char* measure);
 
-/// Times 2^exposure, through the curve, cut to [0, 1]: linear light. Throws as read_planes().
+/// Reads linear light: radiance times 2^exposure, through the tone curve, clamped to [0, 1]. Throws what
+/// read_planes() throws.
 RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap);
 
 }  // namespace gatelight::renderer::flip

@@ -5,7 +5,7 @@
 namespace gatelight::renderer::flip {
 namespace {
 
-/// The error at which the running sum of the sorted errors passes `part` of their sum.
+/// The error at which the running sum of the sorted errors exceeds `part` of their total `sum`.
 double weighted_quantile(const std::vector<float>& sorted, double part, double sum) {
   double running = 0.0;
   for (const float error : sorted) {

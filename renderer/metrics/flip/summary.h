@@ -4,8 +4,8 @@
 
 namespace gatelight::renderer {
 
-/// Of the errors of all pixels. The quartiles are weighted: the errors up to `first_quartile`, say, make a
-/// quarter of the sum of all errors. Zero where there is no error.
+/// Statistics of the errors of all pixels. The quartiles are weighted: for example, the errors up to
+/// `first_quartile` make a quarter of the sum of all errors. All are zero where there is no error.
 struct FlipSummary {
   double mean = 0.0;
   double weighted_median = 0.0;
@@ -17,7 +17,7 @@ struct FlipSummary {
 
 namespace flip {
 
-/// Not empty, all in [0, 1].
+/// `errors` is not empty; all values are in [0, 1].
 FlipSummary summarize(std::span<const float> errors);
 
 }  // namespace flip
