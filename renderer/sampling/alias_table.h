@@ -1,5 +1,5 @@
 #pragma once
-// Choice by weight in constant time: Walker's alias method, built by Vose's algorithm (1991).
+// Samples an index by weight in constant time: Walker's alias method, built by Vose's algorithm (1991).
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@ class AliasTable {
  public:
   AliasTable() = default;
 
-  /// Weights are finite and not negative. When all are zero nothing can be chosen.
+  /// Weights are finite and not negative. When all are zero, the table is empty.
   explicit AliasTable(std::span<const double> weights) {
     double sum = 0.0;
     for (const double w : weights) sum += w;
@@ -41,7 +41,8 @@ class AliasTable {
         small.push_back(high);
       }
     }
-    // What is left has a weight of one but for rounding; only an entry without any weight could be wrong.
+    // The remaining entries have a scaled weight of one except for rounding. Only an entry with weight zero
+    // would be wrong.
     const auto heaviest =
         static_cast<std::uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
     for (const std::uint32_t i : small) {
@@ -51,7 +52,7 @@ class AliasTable {
 
   bool empty() const { return entries_.empty(); }
 
-  /// u in [0, 1). The chosen index has a weight above zero.
+  /// u is in [0, 1). The returned index has a weight above zero.
   std::uint32_t sample(double u) const {
     const double scaled = u * static_cast<double>(entries_.size());
     const std::size_t i = std::min(static_cast<std::size_t>(scaled), entries_.size() - 1);
@@ -63,7 +64,7 @@ class AliasTable {
 
  private:
   struct Entry {
-    double threshold = 1.0;  ///< below it the entry itself, else its alias
+    double threshold = 1.0;  ///< below it the entry itself is chosen, otherwise its alias
     float probability = 0.0f;
     std::uint32_t alias = 0;
   };

@@ -1,11 +1,11 @@
 #pragma once
-// Random numbers keyed by (seed, pixel, sample, dimension): a number never depends on what was drawn before
-// it, on the thread or on the tile.
+// Random numbers that are a function of (seed, pixel, sample, dimension). A number does not depend on earlier
+// numbers, on the thread or on the tile.
 //
-// Sobol points are scrambled and shuffled by hashing (Burley 2020, "Practical Hash-based Owen Scrambling"):
-// every dimension takes the first two Sobol dimensions, visits them in an order of its own (which keeps each
-// aligned block of 2^k indices together) and scrambles each coordinate with its own nested uniform
-// permutation. So the first 2^k samples of every pair are a (0,k,2)-net, and dimensions are independent.
+// Sobol points are scrambled and shuffled by hashing (Burley 2020, "Practical Hash-based Owen Scrambling").
+// Every dimension uses the first two Sobol dimensions. It shuffles their indices, which keeps each aligned
+// block of 2^k indices together, and scrambles each coordinate by its own nested uniform permutation. So the
+// first 2^k samples of every pair are a (0,k,2)-net, and dimensions are independent.
 
 #include <cstdint>
 
@@ -25,16 +25,16 @@ inline std::uint32_t reverse_bits(std::uint32_t x) {
   return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
 }
 
-/// Finaliser of MurmurHash3 with Stafford's thirteenth set of constants: a bijection in which every input bit
-/// reaches every output bit.
+/// The finaliser of MurmurHash3 with Stafford's thirteenth set of constants. It is a bijection in which every
+/// input bit affects every output bit.
 inline std::uint64_t mix_bits(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
 }
 
-/// A permutation in which a bit depends on itself and the lower ones only (Laine and Karras 2011, with
-/// Vegdahl's 2021 constants). Between two bit reversals it is a nested uniform scramble, Owen's.
+/// A permutation in which each bit depends only on itself and the lower bits (Laine and Karras 2011, with
+/// Vegdahl's 2021 constants). Between two bit reversals it is Owen's nested uniform scramble.
 inline std::uint32_t permute_upward(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -44,9 +44,9 @@ inline std::uint32_t permute_upward(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-/// The second Sobol dimension of an index, its bits reversed. Its generator is Pascal's triangle modulo two,
-/// whose entry (j, k) is one where the bits of k are a subset of those of j (Lucas): a sum over supersets,
-/// done for the five bits of a bit's position in turn.
+/// The second Sobol dimension of an index, with its bits reversed. Its generator matrix is Pascal's triangle
+/// modulo 2. The entry (j, k) is 1 where the bits of k are a subset of those of j (Lucas' theorem). So the
+/// product is a sum over supersets, one step for each of the five bits of a bit position.
 inline std::uint32_t sobol_second_reversed(std::uint32_t index) {
   index ^= (index >> 1) & 0x55555555u;
   index ^= (index >> 2) & 0x33333333u;
@@ -55,21 +55,21 @@ inline std::uint32_t sobol_second_reversed(std::uint32_t index) {
   return index ^ (index >> 16);
 }
 
-/// The upper 24 bits: exact in a float, never 1.
+/// Converts the upper 24 bits to [0, 1): exact in a float, never 1.
 inline float to_unit_float(std::uint32_t x) {
   return static_cast<float>(x >> 8) * 0x1p-24f;
 }
 
 }  // namespace sampling
 
-/// The samples of one camera path. Trivially copyable, 12 bytes; two samplers with the same key give the same
-/// numbers.
+/// The random numbers of one camera path. Trivially copyable, 12 bytes. Two samplers with the same key give
+/// the same numbers.
 class Sampler {
  public:
   Sampler() = default;
   Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample);
 
-  /// Uniform in [0, 1). A dimension is used for one purpose, either as a number or as a pair.
+  /// Uniform in [0, 1). Use a dimension for one purpose, either as a number or as a pair.
   float get_1d(std::uint32_t dimension) const;
   Vec2 get_2d(std::uint32_t dimension) const;
 
@@ -82,7 +82,7 @@ class Sampler {
   }
 
   std::uint32_t key_ = 0;
-  std::uint32_t index_ = 0;  ///< of the sample; its bits reversed for Sobol points
+  std::uint32_t index_ = 0;  ///< number of the sample; for Sobol points with reversed bits
   SamplerKind kind_ = SamplerKind::sobol;
 };
 
@@ -113,7 +113,7 @@ inline Vec2 Sampler::get_2d(std::uint32_t dimension) const {
   const std::uint64_t hash = dimension_hash(dimension);
   const auto second_hash = static_cast<std::uint32_t>((hash * 0xd1342543de82ef95u) >> 32);
   const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
-  // The first Sobol dimension is the index itself, its bits reversed.
+  // The first Sobol dimension is the index itself with reversed bits.
   return {to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32)))),
           to_unit_float(reverse_bits(permute_upward(sobol_second_reversed(index), second_hash)))};
 }

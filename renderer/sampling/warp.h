@@ -1,6 +1,6 @@
 #pragma once
-// Maps from the unit square to the shapes that light transport integrates over, with their densities.
-// All are continuous or nearly so: a stratified square stays stratified. Hemispheres and cones are about +z.
+// Maps from the unit square to the shapes that light transport integrates over, with their pdfs. The maps are
+// continuous or nearly so, which keeps stratified samples stratified. Hemispheres and cones have the axis +z.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ inline constexpr float kTwoPi = 2.0f * scene::kPi;
 inline constexpr float kInvTwoPi = 0.5f * scene::kInvPi;
 inline constexpr float kInvFourPi = 0.25f * scene::kInvPi;
 
-/// A right-handed orthonormal basis about a unit normal.
+/// A right-handed orthonormal basis around a unit normal.
 struct Basis {
   Vec3 tangent;
   Vec3 bitangent;
@@ -39,8 +39,8 @@ struct Basis {
   }
 };
 
-/// Sine and cosine of an angle within [-pi/4, pi/4]: Taylor's polynomials, exact to the last bit or two
-/// there, several times faster than the general functions and the same on every machine.
+/// (cos, sin) of an angle in [-pi/4, pi/4] by Taylor polynomials. They are exact to the last bit or two,
+/// several times faster than the general functions, and equal on every machine.
 inline Vec2 cos_sin_octant(float angle) {
   const float x = angle * angle;
   const float s =
@@ -51,7 +51,7 @@ inline Vec2 cos_sin_octant(float angle) {
 
 /// (cos, sin) of 2 pi u for u in [0, 1].
 inline Vec2 cos_sin_turn(float u) {
-  const int octant = static_cast<int>(u * 4.0f + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
+  const int octant = static_cast<int>(u * 4.0f + 0.5f);  // NOLINT(bugprone-incorrect-roundings): u >= 0
   Vec2 cs = cos_sin_octant((u - 0.25f * static_cast<float>(octant)) * kTwoPi);
   switch (octant & 3) {
     case 0:
@@ -65,7 +65,7 @@ inline Vec2 cos_sin_turn(float u) {
   }
 }
 
-/// Unit disk, uniform: Shirley and Chiu's concentric map.
+/// Uniform on the unit disk: Shirley and Chiu's concentric map.
 inline Vec2 sample_concentric_disk(const Vec2& u) {
   const Vec2 a(2.0f * u.x() - 1.0f, 2.0f * u.y() - 1.0f);
   if (std::abs(a.x()) > std::abs(a.y())) {
@@ -79,7 +79,7 @@ inline float pdf_concentric_disk() {
   return scene::kInvPi;
 }
 
-/// Density cos / pi. The cosine of a sample may be 0, and its density with it.
+/// The pdf is cos / pi. The cosine of a sample may be 0, and then its pdf is 0.
 inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
   const Vec2 d = sample_concentric_disk(u);
   return {d.x(), d.y(), std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()))};
@@ -107,8 +107,7 @@ inline float pdf_uniform_hemisphere() {
   return kInvTwoPi;
 }
 
-/// Directions within a cone. Takes 1 - cos of its half angle, which keeps its digits where the cone is
-/// narrow.
+/// Uniform within a cone. The parameter is 1 - cos of the half angle, which stays precise for narrow cones.
 inline Vec3 sample_uniform_cone(const Vec2& u, float one_minus_cos_max) {
   const float one_minus_cos = u.x() * one_minus_cos_max;
   const float r = std::sqrt(std::max(0.0f, one_minus_cos * (2.0f - one_minus_cos)));
@@ -119,8 +118,8 @@ inline float pdf_uniform_cone(float one_minus_cos_max) {
   return kInvTwoPi / one_minus_cos_max;
 }
 
-/// Barycentric weights of the first and second corner, uniform by area; the density is 1 / area.
-/// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+/// Barycentric weights of the first and second corner, uniform by area; the pdf is 1 / area. Heitz 2019, "A
+/// Low-Distortion Map Between Triangle and Square".
 inline Vec2 sample_uniform_triangle(const Vec2& u) {
   if (u.y() > u.x()) {
     const float b0 = 0.5f * u.x();
