@@ -8,17 +8,17 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Half vectors and Smith's terms need a wo that is not in the plane itself.
+/// Half vectors and Smith's terms need a wo that does not lie in the surface plane.
 constexpr float kMinCosine = 1e-5f;
-/// Rough boundaries of media whose indices differ by less do not refract but let everything pass straight:
-/// the half vector of a refraction would be all cancellation, and the microfacet model loses most of the
-/// light there.
+/// Rough boundaries with a smaller difference of the indices do not refract; light goes straight on. The half
+/// vector of a refraction would suffer from cancellation, and the microfacet model loses most of the light
+/// there.
 constexpr float kMinRoughIorStep = 0.02f;
 /// Clearcoat has ior 1.5.
 constexpr float kCoatF0 = 0.04f;
 
-/// Turns n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
-/// and the lifted mirror direction, so that wo is above its horizon too.
+/// Bends n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
+/// and the lifted mirror direction, so wo is above its horizon too.
 Vec3 bend_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
   const float on = wo.dot(n);
   const float og = std::max(wo.dot(ng), 0.0f);
@@ -34,8 +34,8 @@ Vec3 bend_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
   return length2 > 1e-8f ? Vec3(half / std::sqrt(length2)) : ng;
 }
 
-/// Of the light that single scattering loses, the part that comes out in the end, over the mean reflectance:
-/// one more reflection, then a geometric series (Hill 2018).
+/// The part of the light lost by single scattering that leaves after more scattering, divided by the mean
+/// reflectance: one more reflection, then a geometric series (Hill 2018).
 template <class T>
 T multiple_part(const T& mean_fresnel, float mean_loss) {
   return mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
@@ -60,9 +60,9 @@ Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, cons
     nc_ = bend_normal(nc, ng, wo);
     set_up_layers(material);
   }
-  // The tables' interpolation can overshoot by some tenths of a percent.
+  // Interpolation in the tables can overshoot by some tenths of a percent.
   albedo_ = albedo_.max(0.0f).min(1.0f);
-  // Whatever has a value must have a chance, however small its albedo came out.
+  // A lobe with a value needs a probability above zero, even if its albedo is tiny.
   p_microfacet_ = std::max(p_microfacet_, 1e-3f * f90_ * base_scale_);
   normalize_chances();
 }
@@ -103,17 +103,17 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
   const GgxAlbedo& mean = row_.mean();
   scale_o_ = out.scale;
 
-  // KHR_materials_specular: the colour scales the normal reflectance, the factor all of it.
+  // KHR_materials_specular: the colour scales f0, the factor scales f0 and f90.
   const float ior_f0 = dielectric_f0(ior);
   const Color f0 = (ior_f0 * material.specular_color).max(0.0f).min(1.0f) * specular;
   const float thin = glass_ == Glass::thin ? glass : 0.0f;
   f0_ = metallic * base + (opaque + thin) * f0;
   f90_ = metallic + (opaque + thin) * specular;
 
-  // The largest channel counts, so that a tinted layer does not give the base its complementary colour.
+  // The largest channel decides, so that a tinted layer does not give the base its complementary colour.
   const float largest_f0 = f0.maxCoeff();
   const float part = multiple_part(schlick_mean(largest_f0, specular), mean.loss);
-  // What a sheet does not reflect in the end it transmits: nothing is lost.
+  // A sheet transmits all that it does not reflect, so nothing is lost.
   multiple_f0_ = (opaque * part + thin) * f0;
   multiple_f90_.setConstant((opaque * part + thin) * specular);
   if (metallic > 0.0f) {
@@ -126,7 +126,7 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
             multiple_f90_ * (out.b_scaled - out.b);
   p_microfacet_ = scene::luminance(albedo_);
 
-  // The diffuse base gets what the dielectric lets in, and out again.
+  // The diffuse base receives and emits only what the dielectric transmits.
   if (opaque > 0.0f) {
     coupling_[0] = 1.0f - largest_f0;
     coupling_[1] = (1.0f - part) * largest_f0;
@@ -171,7 +171,7 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   glass_there_ = tables.rows(roughness, 1.0f / eta_);
   const float k = glass_f90_;
   const GlassAlbedo out = glass_here_.at(ggx_.cos_o);
-  // The reflectance of the smooth interface scaled to what is not lost, and the table's difference to it.
+  // The reflectance of the smooth interface, scaled to what is not lost, plus the difference from the table.
   const Color reflected_once =
       (straight.reflected * (1.0f - out.lost) + glass_weight_ * (k * out.reflected + out.total))
           .max(0.0f)
@@ -185,8 +185,8 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   const float mean_there = glass_there_.mean_loss(k);
   const float loss = out.loss(k);
   if (!(loss > 0.0f && mean_here > 0.0f && mean_there > 0.0f)) return;
-  // The part that leaves on the other side. Scattering to the other side is reciprocal if part * mean loss
-  // here is eta^2 times part * mean loss there; the mean Fresnel transmittances have the ratio eta^2 already.
+  // `part` of the loss leaves on the other side. This is reciprocal if part * mean loss here is eta^2 times
+  // part * mean loss there. The mean Fresnel transmittances already have the ratio eta^2.
   const float smooth =
       eta_ > 1.0f ? 1.0f - glass_here_.mean_fresnel(k) : eta_ * eta_ * (1.0f - glass_there_.mean_fresnel(k));
   const float part = std::clamp(smooth * mean_there / std::max(mean_here, mean_there), 0.0f, 1.0f);

@@ -1,4 +1,4 @@
-// Values and densities of the lobes for a given wi.
+// Values and pdfs of the lobes for a given wi.
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Half vectors shorter than this have no direction left: wo and wi are opposite, both in the plane.
+/// A shorter half vector has no reliable direction: wo and wi are opposite, both in the surface plane.
 constexpr float kMinHalf2 = 1e-10f;
 
-/// Reflectance of clearcoat, ior 1.5.
+/// The reflectance of clearcoat, which has ior 1.5.
 float coat_fresnel(float cos_h) {
   return 0.04f + 0.96f * schlick_weight(cos_h);
 }
@@ -25,8 +25,8 @@ Bsdf::Facet Bsdf::facet(float cos_h) const {
   if (glass_ == Glass::thin) {
     result.transmitted = glass_tint_ * (1.0f - glass_f0_ - (glass_f90_ - glass_f0_) * result.schlick);
   } else if (glass_ == Glass::refracting) {
-    // The exact curve from f0 to f90, where Schlick has (1 - c)^5. At total internal reflection nothing can
-    // be transmitted, whatever the specular factor.
+    // The exact curve from f0 to f90 replaces Schlick's (1 - c)^5. At total internal reflection nothing is
+    // transmitted, for any specular factor.
     const float exact = fresnel_dielectric(cos_h, eta_, result.cos_t);
     if (result.cos_t > 0.0f) {
       const float curve = std::max(0.0f, (exact - fresnel_base_) / (1.0f - fresnel_base_));
@@ -117,8 +117,8 @@ void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) cons
     result.value += glass_multiple_transmit_ * (glass_there_.loss_at(cos_i, glass_f90_) * cos_i);
     result.pdf += p_loss_transmit_ * loss_lobe_.pdf(cos_i);
   }
-  // Walter et al. 2007, equations 16, 17 and 21. The half vector -(wo + eta wi) points to the rarer side;
-  // turned to the side of wo, it must see wo from above and wi from below.
+  // Walter et al. 2007, equations 16, 17 and 21. The half vector -(wo + eta wi) points to the side of the
+  // lower index. Turned to the side of wo, it must have wo above its plane and wi below.
   Vec3 h = wo_ + eta_ * wi;
   if (h.dot(ns_) < 0.0f) h = -h;
   const float h2 = h.squaredNorm();
@@ -128,7 +128,7 @@ void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) cons
   const float length = std::sqrt(h2);
   const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
   const Facet half = facet(std::min(1.0f, oh / length));
-  // |dh / dwi| without its factor eta^2, which the radiance loses again.
+  // |dh / dwi| without its factor eta^2, which the radiance scale cancels.
   const float jacobian = -ih / (length * h2);
   const float visible = 4.0f * (oh / length) * jacobian;
   result.value += half.transmitted * (terms.d * terms.visibility * cos_i * visible);

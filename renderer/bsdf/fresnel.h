@@ -1,5 +1,5 @@
 #pragma once
-// Reflectance of a plane interface.
+// The reflectance of a plane interface.
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,12 @@ inline float schlick_weight(float cos_theta) {
   return x2 * x2 * x;
 }
 
-/// Cosine-weighted mean of Schlick's weight over the hemisphere.
+/// The cosine-weighted mean of Schlick's weight over the hemisphere.
 inline constexpr float kSchlickMean = 1.0f / 21.0f;
 
-/// Unpolarised Fresnel reflectance. eta: index behind the interface over the index on the side of the ray.
-/// Sets the cosine of the refracted ray; it is zero, and the reflectance one, at total internal reflection.
+/// The unpolarised Fresnel reflectance. `eta` is the index behind the interface divided by the index on the
+/// side of the ray. Sets `cos_t`, the cosine of the refracted ray. At total internal reflection cos_t is 0
+/// and the reflectance is 1.
 inline float fresnel_dielectric(float cos_i, float eta, float& cos_t) {
   const float cos_t2 = 1.0f - (1.0f - cos_i * cos_i) / (eta * eta);
   if (!(cos_t2 > 0.0f)) {

@@ -1,6 +1,6 @@
 #pragma once
-// The isotropic GGX distribution with height-correlated Smith shadowing, without Fresnel. Cosines are with
-// the shading normal and positive on the side of wo.
+// The isotropic GGX distribution with height-correlated Smith shadowing, without Fresnel. Cosines are
+// relative to the shading normal and positive on the side of wo.
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace gatelight::renderer {
 using scene::kInvPi;
 using scene::kPi;
 
-/// Below this perceptual roughness a lobe is a delta: it is half a pixel wide at most, no different from a
-/// mirror in a picture, while its peak, 1 / (pi alpha^2), leaves the range where float directions resolve it.
+/// Below this perceptual roughness a lobe is a delta. Such a lobe is at most half a pixel wide and looks like
+/// a mirror in a picture. Directions in single precision cannot resolve its peak 1 / (pi alpha^2).
 inline constexpr float kDeltaRoughness = 0.03f;
 inline constexpr float kDeltaAlpha = kDeltaRoughness * kDeltaRoughness;
 
@@ -23,15 +23,15 @@ inline float smith_root(float alpha2, float cosine) {
   return std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine);
 }
 
-/// G2 / G1(wo), the weight of a visible normal: (1 + L_o) / (1 + L_o + L_i).
+/// G2 / G1(wo), the weight of a sampled visible normal: (1 + L_o) / (1 + L_o + L_i).
 inline float smith_ratio(float alpha2, float cos_o, float cos_i) {
   const float o = cos_i * (cos_o + smith_root(alpha2, cos_o));
   const float i = cos_o * smith_root(alpha2, cos_i);
   return o / (cos_i * smith_root(alpha2, cos_o) + i);
 }
 
-/// A microfacet normal seen from wo (both in the frame of the normal, wo.z > 0), distributed as
-/// G1(wo) max(0, wo.h) D(h) / wo.z. Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical
+/// A microfacet normal h seen from wo, with the pdf G1(wo) max(0, wo.h) D(h) / wo.z. Both are in the frame of
+/// the shading normal, with wo.z > 0. Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical
 /// caps".
 inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
   const Vec3 stretched = Vec3(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
@@ -39,12 +39,12 @@ inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
   const float z = (1.0f - u.y()) * (1.0f + stretched.z()) - stretched.z();
   const float sine = std::sqrt(std::max(0.0f, 1.0f - z * z));
   const Vec3 half(sine * phi.x() + stretched.x(), sine * phi.y() + stretched.y(), z + stretched.z());
-  // Only a rounding away from the horizon can make z negative or the vector vanish.
+  // Without the limit, rounding at the horizon can make z negative or the vector zero.
   return Vec3(alpha * half.x(), alpha * half.y(), std::max(half.z(), 1e-7f)).normalized();
 }
 
-/// Directions as the light goes that a rough lobe loses: cos / (cos^2 + a^2), from cosine-distributed at a
-/// large alpha to near the horizon at a small one.
+/// Directions distributed like the light that a rough lobe loses: proportional to cos / (cos^2 + a^2). This
+/// is close to a cosine for large alpha and close to the horizon for small alpha.
 struct LossLobe {
   float a2 = 1.0f;
   float log_norm = 1.0f;
@@ -60,7 +60,7 @@ struct LossLobe {
   }
 };
 
-/// One distribution seen from one wo.
+/// A GGX distribution for one wo.
 struct GgxLobe {
   float alpha2 = 1.0f;
   float cos_o = 1.0f;
@@ -74,14 +74,14 @@ struct GgxLobe {
     pdf_scale = 0.5f / (cos_o + root_o);
   }
 
-  /// D of a half vector and the visibility G2 / (4 cos_o cos_i). The half vector need not be normalised;
-  /// h2 is its squared length, positive.
+  /// D of a half vector, and the visibility G2 / (4 cos_o cos_i). The half vector h need not be normalised;
+  /// h2 > 0 is its squared length.
   struct Terms {
     float d;
     float visibility;
   };
   Terms terms(const Vec3& n, const Vec3& h, float h2, float cos_i) const {
-    // The sine comes from a cross product: one minus a squared cosine has no digits left for a narrow lobe.
+    // The sine comes from a cross product, because 1 - cos^2 loses all digits for a narrow lobe.
     const float nh = n.dot(h);
     const float sin2 = n.cross(h).squaredNorm();
     const float root = alpha2 * nh * nh + sin2;

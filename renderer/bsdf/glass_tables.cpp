@@ -8,12 +8,12 @@ namespace {
 
 constexpr float kMaxRoot = 0.5f;
 
-/// The root of the normal reflectance goes with the square of the coordinate in [-1, 1]: interfaces change
-/// fast where the media are almost alike.
+/// The root of the normal reflectance is the signed square of the coordinate in [-1, 1], because interfaces
+/// change fast where the indices are almost equal.
 float eta_of_node(int node) {
   const float x = 2.0f * static_cast<float>(node) / (GlassTables::kEta - 1) - 1.0f;
   float root = kMaxRoot * x * std::abs(x);
-  // An interface between equal media does not scatter; its rough limit does.
+  // An interface between equal media does not scatter, but its limit does.
   if (root == 0.0f) root = 5e-4f;
   return (1.0f + root) / (1.0f - root);
 }
@@ -24,7 +24,7 @@ GlassAlbedo integrate(float alpha, float cosine, float eta) {
   float reflected = 0.0f;
   float total = 0.0f;
   float transmitted = 0.0f;
-  float unreflected = 0.0f;  // would be transmitted too if F were 0
+  float unreflected = 0.0f;  // additional transmitted power if F were 0
   for_visible_normals<377, 233>(alpha, wo, [&](const Vec3& h, float weight) {
     const float oh = std::max(wo.dot(h), 0.0f);
     float cos_t;

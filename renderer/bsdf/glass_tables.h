@@ -1,5 +1,6 @@
 #pragma once
-// Directional albedos of a rough refracting interface with exact Fresnel, single scattering.
+// Directional albedos of a rough refracting interface with the exact Fresnel reflectance and single
+// scattering.
 
 #include <algorithm>
 #include <array>
@@ -8,36 +9,37 @@
 
 namespace gatelight::renderer {
 
-/// For the reflectance k F, and 1 at total internal reflection. Reflected power is tabulated less what a
-/// smooth interface would reflect (of what is not lost), whose edge at the critical angle no table could
-/// hold.
+/// Albedos for a microfacet reflectance of k F, which is 1 at total internal reflection. The table holds the
+/// difference between the reflected power and that of a smooth interface, scaled to what is not lost. A table
+/// could not represent the edge of the smooth interface at the critical angle.
 struct GlassAlbedo {
-  float lost = 0.0f;       ///< for k = 1
-  float change = 0.0f;     ///< with k: lost + (1 - k) change is lost
-  float reflected = 0.0f;  ///< by F below the critical angle, less F of the smooth interface
-  float total = 0.0f;      ///< by total internal reflection, less that of the smooth interface
+  float lost = 0.0f;       ///< lost power for k = 1
+  float change = 0.0f;     ///< with k: the lost power is lost + (1 - k) change
+  float reflected = 0.0f;  ///< by F below the critical angle, minus F of the smooth interface
+  float total = 0.0f;      ///< by total internal reflection, minus that of the smooth interface
 
   float loss(float k) const { return std::max(0.0f, lost + (1.0f - k) * change); }
 };
 
-/// Over roughness, cosine (with the coordinate of GgxTables) and the signed root of the normal reflectance,
-/// (eta - 1) / (eta + 1), for eta in [1/3, 3]. 80 KiB, built when the first rough refracting surface is met.
+/// A table over roughness, cosine (with the coordinate of GgxTables) and the signed root of the normal
+/// reflectance, (eta - 1) / (eta + 1), for eta in [1/3, 3]. It has 80 KiB and is built when the first rough
+/// refracting surface is met.
 class GlassTables {
  public:
-  static constexpr int kEta = 17;  // odd: the middle one is eta = 1
+  static constexpr int kEta = 17;  // odd: the middle node is eta = 1
   static constexpr int kRoughness = 10;
   static constexpr int kCosine = 28;
 
   static constexpr int kMeans = 32;
 
-  /// The table for one roughness and eta.
+  /// The interpolated table for one roughness and one eta.
   class Rows {
    public:
     GlassAlbedo at(float cosine) const;
     float loss_at(float cosine, float k) const { return at(cosine).loss(k); }
-    /// Cosine-weighted mean of the loss over the hemisphere.
+    /// The cosine-weighted mean of the loss over the hemisphere.
     float mean_loss(float k) const { return loss_ + (1.0f - k) * loss_change_; }
-    /// Mean reflectance of the smooth interface.
+    /// The mean reflectance of the smooth interface.
     float mean_fresnel(float k) const { return k * fresnel_ + total_; }
 
    private:
@@ -55,13 +57,13 @@ class GlassTables {
   };
 
   static const GlassTables& get();
-  /// eta: index behind the interface over the index on the side of wo.
+  /// `eta` is the index behind the interface divided by the index on the side of wo.
   Rows rows(float roughness, float eta) const;
 
  private:
   GlassTables();
   struct Mean {
-    float loss, loss_change;  // over alpha^2, which makes them smooth in the roughness
+    float loss, loss_change;  // divided by alpha^2, which makes them smooth in the roughness
   };
   struct Smooth {
     float fresnel, total;

@@ -1,6 +1,6 @@
-// A surface without some of its lobes. A lobe without a chance has neither value nor density, so a part is a
-// copy in which the chances of the others are zero; what the lobes do to each other (the coupling of the
-// diffuse base, the scales of the layers) stays that of the whole.
+// Surfaces with only some of the lobes. A lobe with probability zero is not evaluated. So a part is a copy in
+// which the other lobes have probability zero. The interactions of the lobes (the coupling of the diffuse
+// base, the scales of the layers) stay those of the whole.
 
 #include <algorithm>
 
@@ -9,8 +9,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// alpha^2 is the fourth power of the perceptual roughness; the same products as in the lobe, so that a
-/// lobe is not narrower than its own roughness.
+/// alpha^2 is the fourth power of the perceptual roughness. It is computed by the same products as in the
+/// lobe, so that a lobe is never narrower than its own roughness.
 bool is_narrow(const GgxLobe& lobe, float roughness) {
   const float alpha = roughness * roughness;
   return lobe.delta || lobe.alpha2 < alpha * alpha;
@@ -44,7 +44,7 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   const bool narrow_facets = is_narrow(ggx_, roughness);
   const bool narrow_coat = is_narrow(coat_, roughness);
   const bool keeps_facets = narrow_facets == narrow;
-  // The albedo of the side where the microfacets are not; the other side has the rest.
+  // The albedo of the part without the microfacets. The other part has the rest.
   Color apart = Color::Zero();
   if (narrow_facets) {
     apart += diffuse_albedo() + sheen_albedo();
@@ -65,7 +65,7 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   const bool keeps_glass = glass_ == Glass::clear ? narrow : keeps_facets;
   if (!keeps_glass) result.glass_ = Glass::none;
   result.albedo_ = keeps_facets ? Color(albedo_ - apart) : apart;
-  // What rounding leaves is no light.
+  // A remainder from rounding is not light.
   if (!(narrow ? has_narrow(roughness) : has_wide(roughness))) result.albedo_.setZero();
   result.normalize_chances();
   return result;

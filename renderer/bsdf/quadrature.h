@@ -1,5 +1,5 @@
 #pragma once
-// Quadrature over the unit square of visible normals, for the albedo tables.
+// Quadrature over visible normals and cosines, for the albedo tables.
 
 #include <array>
 
@@ -7,12 +7,12 @@
 
 namespace gatelight::renderer {
 
-/// Calls f(h, weight) for visible normals of wo = (sin, 0, cosine) on one side of its plane; mirrored, they
-/// make the whole distribution. The points are a Fibonacci lattice of `count` points, `previous` the
-/// Fibonacci number before. Both coordinates are v^2 (3 - 2 v) of the lattice's: at grazing incidence the
-/// integrand is singular in corners of the square, and the smooth step spends its points there and makes the
-/// integrand periodic, as lattices like it. Total reflection's kink, on which a product rule of as many
-/// points is off by 2 %, does no harm.
+/// Calls f(h, weight) for visible normals of wo = (sin, 0, cosine) on one side of the plane y = 0; the other
+/// side is symmetric. The points are a Fibonacci lattice of `count` points; `previous` is the Fibonacci
+/// number before `count`. A smooth step v^2 (3 - 2 v) maps both coordinates. It puts more points into the
+/// corners of the square, where the integrand is singular at grazing incidence, and makes the integrand
+/// periodic, which suits lattices. The kink at total reflection does no harm; a product rule with as many
+/// points has an error of 2 % there.
 template <int count, int previous, class F>
 void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
   struct Point {
@@ -36,13 +36,14 @@ void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
   for (const Point& point : points) f(sample_visible_normal(alpha, wo, point.u), point.weight);
 }
 
-/// Cosine of the coordinate u in [0, 1] of the albedo tables, the inverse of u = cosine (1 + alpha) / (cosine
-/// + alpha). Kept off the horizon itself.
+/// The cosine for the coordinate u in [0, 1] of the albedo tables: the inverse of u = cosine (1 + alpha) /
+/// (cosine + alpha). It stays above 0.
 inline float table_cosine(float u, float alpha) {
   return std::clamp(u * alpha / (1.0f + alpha - u), 1e-3f * alpha, 1.0f);
 }
 
-/// How much of the light of one node of the cosine goes to each other one, linearly interpolated.
+/// The light that goes from each node of the cosine (row) to each other node (column), with linear
+/// interpolation.
 template <int count>
 class CosineMatrix {
  public:
@@ -63,11 +64,11 @@ class CosineMatrix {
   std::array<std::array<float, count>, count> cells_{};
 };
 
-/// Iterations of Sinkhorn's balance; the change is below 1e-6 after half as many.
+/// Iterations of Sinkhorn's balance. The change is below 1e-6 after half of them.
 inline constexpr int kBalanceSteps = 24;
 
-/// Calls f(cosine, weight) for the cosine-weighted mean over the hemisphere, with steps that get finer
-/// towards the horizon. The weights add up to one.
+/// Calls f(cosine, weight) for the cosine-weighted mean over the hemisphere. The steps get finer towards the
+/// horizon. The weights add up to one.
 template <class F>
 void for_mean_cosines(F&& f) {
   constexpr int kSteps = 384;

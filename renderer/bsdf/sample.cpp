@@ -1,4 +1,4 @@
-// Choice of a lobe and of a direction in it.
+// Chooses a lobe and a direction in it.
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,14 @@ Vec3 mirror(const Vec3& wo, const Vec3& n) {
   return 2.0f * wo.dot(n) * n - wo;
 }
 
-/// Unit again: leaving a dense medium multiplies the error of wo's length by the square of the index.
+/// The result is normalised. Refraction out of a dense medium multiplies the error of wo's length by the
+/// square of the index.
 Vec3 refracted(const Vec3& wo, const Vec3& n, float cos_o, float cos_t, float eta) {
   const Vec3 wi = (cos_o / eta - cos_t) * n - wo / eta;
   return wi / wi.norm();
 }
 
-/// A visible normal of a lobe, in the world.
+/// A visible normal of a lobe, in world space.
 Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const Vec2& u) {
   const Basis basis(normal);
   const Vec3 local(wo.dot(basis.tangent), wo.dot(basis.bitangent), lobe.cos_o);
@@ -30,8 +31,8 @@ Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const 
 
 BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
   float rest = u_lobe;
-  // A lobe is taken if the number falls into its share, or if rounding leaves a bit and no later lobe has a
-  // share.
+  // Takes a lobe if the number falls into its share. Also takes it if only a rounding error remains for later
+  // lobes.
   float later = 1.0f - p_microfacet_;
   const auto takes = [&](float p) {
     later -= p;
@@ -120,7 +121,7 @@ BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
 BsdfSample Bsdf::finish(const Vec3& wi, const Vec3& normal, float spread) const {
   BsdfSample sample;
   sample.wi = wi;
-  // A direction on the wrong side is lost to this lobe; it must not be taken for another lobe's.
+  // A direction on the wrong side has no weight. It must not count as a sample of another lobe.
   sample.transmitted = wi.dot(ng_) < 0.0f;
   const bool behind = normal.dot(ng_) < 0.0f;
   if (!(wi.dot(normal) > 0.0f) || sample.transmitted != behind) return sample;

@@ -6,14 +6,14 @@ namespace {
 using scene::kPi;
 using scene::Vec3;
 
-/// Mean over the hemisphere of f(sin2_h, cos_i) cos_i, times its solid angle, for wo = (sin, 0, cosine).
+/// The integral of f(sin2_h, cos_i) cos_i over the hemisphere, for wo = (sin, 0, cosine).
 template <class F>
 float integrate(float cosine, F&& f) {
   constexpr int kSteps = 32;
   const Vec3 wo(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    // The cosine is the square of the variable: steps get finer towards the horizon.
+    // The cosine is the square of the variable, so steps get finer towards the horizon.
     const float v = (static_cast<float>(i) + 0.5f) / kSteps;
     const float cos_i = v * v;
     const float sin_i = std::sqrt(1.0f - cos_i * cos_i);

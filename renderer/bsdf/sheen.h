@@ -1,6 +1,6 @@
 #pragma once
-// Cloth-like retroreflection at grazing angles: the distribution of Estevez and Kulla 2017, "Production
-// Friendly Microfacet Sheen BRDF", with the visibility of Neubelt and Pettineo, as in KHR_materials_sheen.
+// Sheen of cloth at grazing angles: the distribution of Estevez and Kulla 2017, "Production Friendly
+// Microfacet Sheen BRDF", with the visibility of Neubelt and Pettineo, as in KHR_materials_sheen.
 
 #include <algorithm>
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace gatelight::renderer {
 
-/// Narrower distributions would put all sheen into the last degrees above the horizon.
+/// The smallest roughness. Narrower distributions put all sheen into the last degrees above the horizon.
 inline constexpr float kMinSheenRoughness = 0.2f;
 
-/// Over roughness and the root of the cosine; built when the first surface with sheen is met. The model
-/// itself reflects up to twice what arrives (small roughness, grazing angles), so it is divided by the
-/// larger of its directional albedos for wo and wi wherever that exceeds one: reciprocal, and never more than
-/// all.
+/// A table over roughness and the root of the cosine, built when the first surface with sheen is met. The
+/// model reflects up to twice the incident light (small roughness, grazing angles). So it is divided by the
+/// larger of its directional albedos for wo and wi where that exceeds one. The result is reciprocal and never
+/// gains energy.
 class SheenTables {
  public:
   static constexpr int kRoughness = 16;
   static constexpr int kCosine = 32;
 
   struct Row {
-    /// The divisor for one of the two directions: the larger counts.
+    /// The divisor for one of the two directions. The larger divisor applies.
     float divisor(float cosine) const { return std::max(1.0f, lookup(0, cosine)); }
-    /// Directional albedo of white sheen after the division.
+    /// The directional albedo of white sheen after the division.
     float albedo(float cosine) const { return lookup(1, cosine); }
 
    private:
@@ -51,19 +51,19 @@ class SheenTables {
   std::array<std::array<std::array<float, 2>, kCosine>, kRoughness> values_;
 };
 
-/// White sheen.
+/// A lobe of white sheen.
 struct SheenLobe {
   float exponent = 1.0f;  ///< 1 / alpha
-  float scale = 1.0f;     ///< (2 + exponent) / (8 pi): the distribution's norm and the visibility's quarter
+  float scale = 1.0f;  ///< (2 + exponent) / (8 pi): the norm of the distribution times 1/4 of the visibility
   SheenTables::Row row;
 
   SheenLobe() = default;
-  /// roughness at least kMinSheenRoughness
+  /// The roughness is at least kMinSheenRoughness.
   SheenLobe(float roughness, const SheenTables::Row& table_row) : row(table_row) {
     exponent = 1.0f / (roughness * roughness);
     scale = (2.0f + exponent) * (0.125f * scene::kInvPi);
   }
-  /// Without the division. sin2_h is the squared sine of the half vector.
+  /// The value before the division. sin2_h is the squared sine of the half vector.
   float undivided(float sin2_h, float cos_o, float cos_i) const {
     const float distribution = std::exp2(0.5f * exponent * std::log2(std::clamp(sin2_h, 1e-30f, 1.0f)));
     return scale * distribution / (cos_o + cos_i - cos_o * cos_i);

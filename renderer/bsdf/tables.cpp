@@ -10,7 +10,7 @@ GgxTables::GgxTables() {
     const float alpha = std::max(roughness * roughness, kDeltaAlpha);
     const float alpha2 = alpha * alpha;
 
-    // What goes from each cosine to each other one, for the reflectance 1 and for Schlick's weight.
+    // The light that goes from each cosine to each other one, for the reflectance 1 and for Schlick's weight.
     CosineMatrix<kCosine> all;
     CosineMatrix<kCosine> grazing;
     for (int i = 0; i < kCosine; ++i) {
@@ -42,8 +42,8 @@ GgxTables::GgxTables() {
                        scale[i] * grazing.row_sum(i, scale) - schlick, scale[i]};
     }
   }
-  // The means of the interpolated table itself, so that the coupled diffuse lobe adds up to what is let
-  // through.
+  // The means are those of the interpolated table itself, so that the coupled diffuse lobe sums to the
+  // transmitted light.
   means_ = {};
   for (int k = 0; k < kRoughness; ++k) {
     const Row own = row(std::max(static_cast<float>(k) / (kRoughness - 1), kDeltaRoughness));

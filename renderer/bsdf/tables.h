@@ -1,6 +1,6 @@
 #pragma once
-// Directional albedos of the GGX reflection lobe with Schlick's Fresnel, and the scale that gives back what
-// single scattering loses between the microfacets.
+// Directional albedos of the GGX reflection lobe with Schlick's Fresnel reflectance, and the scale that
+// restores the energy that single scattering loses between the microfacets.
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,9 @@
 
 namespace gatelight::renderer {
 
-/// For one cosine. The albedo of a lobe with reflectances f0 and f90 is f0 (1 - loss - b) + f90 b. Multiplied
-/// by scale(cos_o) scale(cos_i) it loses nothing: its albedo is f0 (1 - b_scaled) + f90 b_scaled.
+/// Albedos for one cosine. The albedo of a lobe with reflectances f0 and f90 is f0 (1 - loss - b) + f90 b. A
+/// lobe multiplied by scale(cos_o) scale(cos_i) loses nothing: its albedo is f0 (1 - b_scaled) + f90
+/// b_scaled.
 struct GgxAlbedo {
   float loss = 0.0f;
   float b = 0.0f;
@@ -19,9 +20,9 @@ struct GgxAlbedo {
   float reflect(float f0, float f90) const { return f0 * (1.0f - loss - b) + f90 * b; }
 };
 
-/// A table over roughness and cosine. Near the horizon the loss is a function of cosine / alpha alone, so the
-/// cosine's coordinate is u = cosine (1 + alpha) / (cosine + alpha): the same few nodes resolve a dip that is
-/// alpha wide. 16 KiB.
+/// A table over roughness and cosine, of 16 KiB. Near the horizon the loss is a function of cosine / alpha
+/// alone. So the coordinate of the cosine is u = cosine (1 + alpha) / (cosine + alpha), and few nodes resolve
+/// a dip of width alpha.
 class GgxTables {
  public:
   static constexpr int kRoughness = 32;
@@ -45,7 +46,7 @@ class GgxTables {
       const float loss = part(0);
       return {loss, part(1) + (1.0f - loss) * schlick, part(2) + schlick, part(3)};
     }
-    /// Cosine-weighted mean over the hemisphere; its scale has no meaning.
+    /// The cosine-weighted mean over the hemisphere. Its `scale` has no meaning.
     const GgxAlbedo& mean() const { return mean_; }
 
    private:
@@ -58,7 +59,7 @@ class GgxTables {
     GgxAlbedo mean_{0.0f, kSchlickMean, kSchlickMean, 1.0f};
   };
 
-  /// Built at first use (some milliseconds), the same on every machine; safe from any thread.
+  /// Built at first use in some milliseconds, equal on every machine. Any thread may call it.
   static const GgxTables& get();
 
   Row row(float roughness) const {
@@ -81,7 +82,7 @@ class GgxTables {
 
  private:
   GgxTables();
-  // Loss; b less the cosine's own Schlick weight times 1 - loss; b_scaled less that weight; scale.
+  // With the Schlick weight w of the cosine itself: loss; b - w (1 - loss); b_scaled - w; scale.
   std::array<std::array<std::array<float, 4>, kCosine>, kRoughness> values_;
   std::array<GgxAlbedo, kRoughness> means_;
 };
