@@ -1,5 +1,5 @@
 #pragma once
-// Whether a ray meets a surface at all: alpha masks, stochastic alpha, and panes of clear glass for shadow
+// Decides whether a surface stops a ray: alpha masks, stochastic alpha, and panes of clear glass for shadow
 // rays.
 
 #include <cstdint>
@@ -16,18 +16,18 @@ class Coverage {
  public:
   Coverage(const scene::Scene& scene, const Textures& textures);
 
-  /// Some ray may pass through this instance: it has an alpha test.
+  /// Whether rays may pass through this instance because it has an alpha test.
   bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }
-  /// Some shadow ray may pass through it: it has an alpha test, or is a pane.
+  /// Whether shadow rays may pass through this instance: it has an alpha test or is a pane.
   bool filters_shadows(std::uint32_t instance) const { return flags_[instance] != 0; }
 
-  /// False where the surface is not there for a ray with this seed. A blended surface decides by a hash of
-  /// the seed, the instance and the primitive: independent between surfaces, and the same whatever order they
-  /// are met in.
+  /// False where a ray with this seed passes through the surface. A blended surface decides by a hash of the
+  /// seed, the instance and the primitive. So surfaces are independent of each other and of the order in
+  /// which they are hit.
   bool is_there(const Hit& hit, std::uint32_t seed) const;
 
-  /// Smooth thin-walled transmission neither bends nor blurs light, so a shadow ray goes straight through it.
-  /// The fraction of light that does; zero for every other surface.
+  /// The fraction of light that a shadow ray keeps behind the surface. Only smooth thin-walled transmission
+  /// lets light go straight on; the fraction is zero for every other surface.
   Color pane_transmittance(const Hit& hit, const Vec3& direction) const;
 
  private:

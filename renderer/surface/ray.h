@@ -1,5 +1,5 @@
 #pragma once
-// Rays and hits as the integrators see them; renderer/surface/accel.h turns them into Embree's packets.
+// Rays and hits of the integrators. renderer/surface/accel.h converts them to Embree's packets.
 
 #include <cstdint>
 
@@ -15,7 +15,7 @@ struct Ray {
   Vec3 origin = Vec3::Zero();
   float t_max = scene::kInfinity;
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
-  std::uint32_t seed = 0;             ///< of the stochastic alpha test: the same seed sees the same surfaces
+  std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds see equal surfaces
 };
 
 struct Hit {
@@ -28,7 +28,7 @@ struct Hit {
   explicit operator bool() const { return instance != kNoInstance; }
 };
 
-/// One round of an integer hash with full avalanche (the constants of "lowbias32" by C. Wellons).
+/// An integer hash with full avalanche: "lowbias32" by C. Wellons.
 inline std::uint32_t hash(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;

@@ -1,5 +1,5 @@
 #pragma once
-// How far rounding moves a point that lies on a triangle.
+// Bounds how far rounding moves a point on a triangle.
 
 #include <Eigen/SVD>
 
@@ -9,10 +9,10 @@
 
 namespace gatelight::renderer {
 
-/// What the way from a mesh to the world adds; nothing for a mesh in world space.
+/// The rounding of an instance's transform; none for a mesh in world space.
 struct PlacementRounding {
   float translation = 0.0f;  ///< largest coordinate of the transform's translation
-  float condition = 1.0f;    ///< of the transform: how much it blows up the error of an intersection
+  float condition = 1.0f;    ///< of the transform: how much it amplifies the error of an intersection
 
   PlacementRounding() = default;
   explicit PlacementRounding(const scene::Instance& instance) {
@@ -24,9 +24,10 @@ struct PlacementRounding {
   }
 };
 
-/// Metres along the normal that a point on the triangle and an intersection with it may be off: rounding in
-/// the corners, the interpolation and the intersection test is some units in the last place of the largest
-/// coordinate; 16 of them were enough from 1e-3 to 1e6 metres (tests/renderer/surface/accel_test.cpp).
+/// A bound in metres, along the normal, for the error of a point on the triangle and of an intersection with
+/// it. Rounding in the corners, the interpolation and the intersection test gives some units in the last
+/// place of the largest coordinate. 16 units were enough from 1e-3 to 1e6 metres
+/// (tests/renderer/surface/accel_test.cpp).
 inline float rounding_offset(const scene::Vec3& p0, const scene::Vec3& p1, const scene::Vec3& p2,
                              const PlacementRounding& placement) {
   constexpr float kUlps = 16.0f * 0x1p-23f;

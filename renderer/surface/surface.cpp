@@ -17,7 +17,7 @@ T interpolate(const std::vector<T>& values, const Corners& c, const Vec3& b) {
   return values[c[0]] * b.x() + values[c[1]] * b.y() + values[c[2]] * b.z();
 }
 
-/// Reads the slots of one material at one point.
+/// Reads the textures of one material at one point.
 class Reader {
  public:
   Reader(const Textures& textures, const scene::Mesh& mesh, const Corners& corners, const Vec3& b,
@@ -41,7 +41,7 @@ class Reader {
   Color color(const scene::TextureSlot& slot) const {
     return (*this)(slot, Encoding::srgb).head<3>().array();
   }
-  /// Always of the finest level: next-event estimation samples that one.
+  /// Reads the finest level always, because next-event estimation samples that level.
   Color emission(const scene::TextureSlot& slot) const {
     return textures_.lookup(slot, Encoding::srgb, uv_[slot.texcoord == 1 ? 1 : 0], 0.0f, 0.0f)
         .head<3>()
@@ -55,7 +55,7 @@ class Reader {
   float footprint_[2] = {0.0f, 0.0f};
 };
 
-/// Tangent-space normal map to world space; falls back to n where the map or the frame is degenerate.
+/// Transforms a tangent-space normal to world space. Returns n where the map or the frame is degenerate.
 Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& tangent_w, bool flip_tangent) {
   const Vec3 m((texel.x() * 2.0f - 1.0f) * scale, (texel.y() * 2.0f - 1.0f) * scale, texel.z() * 2.0f - 1.0f);
   Vec3 t = tangent_w.head<3>();
@@ -133,15 +133,15 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     if (squared > 0.0f) ns = n / std::sqrt(squared);
   }
   s.geometric_normal = s.front ? ng : Vec3(-ng);
-  // Normals of the file may disagree with the winding: the side of the geometric normal decides.
+  // The file's normals may contradict the winding. The side of the geometric normal decides.
   const bool turn = ns.dot(s.geometric_normal) < 0.0f;
   s.smooth_normal = turn ? Vec3(-ns) : ns;
   s.shading_normal = s.smooth_normal;
   s.coat_normal = s.smooth_normal;
 
   const float cosine = std::abs(ng.dot(direction));
-  // The footprint's short side is the cone's width and its long side width / cosine: the geometric mean of
-  // both.
+  // The short side of the footprint is the cone's width, the long side is width / cosine. This is their
+  // geometric mean.
   const Reader read(textures_, mesh, corners, b, cone_width / std::sqrt(std::max(cosine, 0.01f)), area,
                     u_level);
 
@@ -189,7 +189,7 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     Vec4 tangent = interpolate(mesh.tangents, corners, b);
     tangent.w() = mesh.tangents[corners[0]].w();
     if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
-    // The bitangent belongs to the frame of the file's normal; turning the normal turns the frame with it.
+    // The bitangent belongs to the frame of the file's normal. A turned normal turns the whole frame.
     const bool flip = turn != view.mirrors;
     if (m.normal_texture) {
       s.shading_normal = mapped_normal(read(m.normal_texture, Encoding::linear), m.normal_scale,

@@ -1,5 +1,5 @@
 #pragma once
-// What a ray has met: position, normals, textured material and emission at a hit.
+// The surface at a hit: position, normals, textured material and emission.
 
 #include <cstdint>
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace gatelight::renderer {
 
-/// A ray's cone, for the choice of texture levels (Akenine-Moeller et al. 2019, "Texture level of detail
+/// A ray's cone, for the choice of mip levels (Akenine-Moeller et al. 2019, "Texture level of detail
 /// strategies").
 struct RayCone {
-  float width = 0.0f;   ///< metres, at the origin of the ray
-  float spread = 0.0f;  ///< radians: growth of the width per metre
+  float width = 0.0f;   ///< in metres, at the origin of the ray
+  float spread = 0.0f;  ///< in radians: growth of the width per metre
 };
 
 struct Surface {
@@ -25,14 +25,13 @@ struct Surface {
   Vec3 shading_normal = Vec3::Zero();    ///< unit, on the side of the viewer, normal map applied
   Vec3 smooth_normal = Vec3::Zero();     ///< unit, on the side of the viewer, without the normal map
   Vec3 coat_normal = Vec3::Zero();       ///< unit, on the side of the viewer
-  float offset =
-      0.0f;  ///< metres along the geometric normal by which a new ray starts outside the error of `position`
-  bool front = true;  ///< the viewer is on the front
+  float offset = 0.0f;  ///< in metres along the geometric normal: bounds the error of `position`
+  bool front = true;    ///< whether the viewer is on the front side
   bool unlit = false;
   Color emission{0.0f, 0.0f, 0.0f};  ///< radiance towards the viewer
   SurfaceMaterial material;
 
-  /// Where a ray towards `direction` starts.
+  /// The origin of a new ray towards `direction`.
   Vec3 spawn(const Vec3& direction) const {
     return position + geometric_normal * (geometric_normal.dot(direction) < 0.0f ? -offset : offset);
   }
@@ -43,13 +42,12 @@ class Surfaces {
  public:
   Surfaces(const scene::Scene& scene, const Textures& textures);
 
-  /// `cone_width` is the ray cone's width at the hit, metres; `u_level` in [0, 1) chooses between texture
+  /// `cone_width` is the ray cone's width at the hit, in metres. `u_level` in [0, 1) chooses between mip
   /// levels.
   Surface at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
 
-  /// Hints for a batch of hits, to be given some hits ahead of at(): first the indices of the triangle, then,
-  /// when these have arrived, what they point to. Vertex fetches are scattered and would stall one after the
-  /// other.
+  /// Prefetches for a batch of hits, to call some hits ahead of at(): first the indices of the triangle, then
+  /// the vertices. Vertex reads are scattered, and each would stall.
   void prefetch_triangle(const Hit& hit) const {
     if (hit) __builtin_prefetch(&views_[hit.instance].mesh->triangles[hit.primitive]);
   }

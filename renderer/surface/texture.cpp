@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 
 namespace {
 
-/// Texels are stored in blocks of 4x4: one cache line, so that a bilinear lookup reads 1.6 lines on average.
+/// Texels are stored in blocks of 4x4, one cache line, so that a bilinear lookup reads 1.6 lines on average.
 constexpr int kBlock = 4;
 
 int blocks(int texels) {
@@ -30,7 +30,7 @@ std::size_t block_index(int width, int x, int y) {
   return block * 16 + static_cast<std::size_t>((y & 3) * 4 + (x & 3));
 }
 
-/// Row-major linear RGBA of the level being built.
+/// Linear RGBA of the level that is being built, in row-major order.
 using FloatLevel = std::vector<Vec4>;
 
 FloatLevel to_float(const scene::Image& image, Encoding encoding) {
@@ -49,8 +49,8 @@ FloatLevel to_float(const scene::Image& image, Encoding encoding) {
   return level;
 }
 
-/// Area-weighted reduction along one axis: exact for odd sizes, where a texel is shared by its two
-/// neighbours.
+/// Area-weighted reduction along one axis. It is exact for odd sizes, where two result texels share a source
+/// texel.
 FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) {
   const int length = along_x ? width : height;
   const int half = std::max(1, length / 2);
@@ -81,7 +81,7 @@ FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) 
   return result;
 }
 
-/// The finest level keeps the file's bytes.
+/// Packs a texel of the finest level, which keeps the file's bytes.
 std::uint32_t pack_source(const scene::Image& image, std::size_t texel) {
   const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
   const bool grey = image.channels < 3;
@@ -99,7 +99,7 @@ std::uint32_t pack(const Vec4& c, Encoding encoding) {
   return color(c.x()) | color(c.y()) << 8 | color(c.z()) << 16 | byte(c.w()) << 24;
 }
 
-/// 0..size-1 for any integer coordinate.
+/// Maps any integer coordinate to [0, size - 1].
 int wrap(int x, int size, scene::Wrap mode) {
   if (static_cast<unsigned>(x) < static_cast<unsigned>(size)) return x;
   switch (mode) {
@@ -117,7 +117,8 @@ int wrap(int x, int size, scene::Wrap mode) {
   return m < 0 ? m + size : m;
 }
 
-/// In texels. Coordinates without meaning (not finite, or beyond what an int can count) read as 0.
+/// Converts a texture coordinate to texels. Coordinates that are not finite, or too large for an int, become
+/// 0.
 float texels_from(float coordinate, int size) {
   const float x = coordinate * static_cast<float>(size);
   return std::abs(x) < 1e9f ? x : 0.0f;
@@ -127,7 +128,7 @@ float texels_from(float coordinate, int size) {
 
 Textures::Textures(const scene::Scene& scene) {
   lookups_.resize(scene.textures.size());
-  // Which encodings of which image some material reads.
+  // For each image, the encodings that some material reads.
   std::vector<std::array<bool, 2>> needed(scene.images.size(), {false, false});
   const auto need = [&](const scene::TextureSlot& slot, Encoding encoding) {
     if (!slot) return;
@@ -224,13 +225,13 @@ Vec4 Textures::lookup(const scene::TextureSlot& slot, Encoding encoding, const V
   std::size_t index = 0;
   const int last = static_cast<int>(pyramid->levels.size()) - 1;
   if (footprint > 0.0f && last > 0) {
-    // The transform's area scale carries the footprint from uv to st; one texel of level l is 2^l / size
-    // wide.
+    // The area scale of the transform converts the footprint from uv to st. One texel of level l is 2^l /
+    // size wide.
     const float scale = std::sqrt(
         std::abs(slot.transform(0, 0) * slot.transform(1, 1) - slot.transform(0, 1) * slot.transform(1, 0)));
     const float size = static_cast<float>(std::max(pyramid->levels[0].width, pyramid->levels[0].height));
     const float texels = footprint * scale * size;
-    // log2 by parts: the exponent plus a linear mantissa, within 0.09 of the true value.
+    // log2 as the exponent plus a linear mantissa, within 0.09 of the true value.
     if (texels > 1.0f) {
       const std::uint32_t bits = std::bit_cast<std::uint32_t>(texels);
       const float lod = static_cast<float>(bits) * (1.0f / (1 << 23)) - 127.0f;

@@ -1,5 +1,5 @@
 #pragma once
-// Filtered texture lookups: mip pyramids built once from the scene's decoded images.
+// Filtered texture lookups from mip pyramids, which are built once from the scene's decoded images.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ using scene::Vec2;
 using scene::Vec3;
 using scene::Vec4;
 
-/// How the bytes of a colour channel turn into numbers. Alpha is always linear.
+/// How the bytes of a colour channel are decoded. Alpha is always linear.
 enum class Encoding : std::uint8_t { linear, srgb };
 
 /// Thread-safe after construction.
@@ -24,14 +24,14 @@ class Textures {
  public:
   explicit Textures(const scene::Scene& scene);
 
-  /// Bilinear lookup, RGBA in [0, 1], linear. `uv` is the mesh's coordinate of the slot's set, before the
-  /// slot's transform. `footprint` is the width of the ray's cone measured in untransformed uv units (0:
-  /// finest level); the level is chosen between the two nearest ones with probability u_level in [0, 1),
-  /// whose mean over u_level is the trilinear lookup.
+  /// A bilinear lookup. The result is linear RGBA in [0, 1]. `uv` is the mesh's coordinate of the slot's set,
+  /// before the slot's transform. `footprint` is the width of the ray's cone in untransformed uv units; 0
+  /// reads the finest mip level. `u_level` in [0, 1) chooses one of the two nearest mip levels. The mean over
+  /// u_level is the trilinear lookup.
   Vec4 lookup(const scene::TextureSlot& slot, Encoding encoding, const Vec2& uv, float footprint,
               float u_level) const;
 
-  /// Mean of the whole picture, linear RGBA: for estimates of power.
+  /// The mean of the whole image in linear RGBA, for estimates of power.
   Vec4 mean(const scene::TextureSlot& slot, Encoding encoding) const;
 
   std::size_t bytes() const;
@@ -48,7 +48,7 @@ class Textures {
     Vec4 mean = Vec4::Zero();
   };
   struct Lookup {
-    const Pyramid* pyramid[2] = {nullptr, nullptr};  ///< by Encoding; built only where a material asks for it
+    const Pyramid* pyramid[2] = {nullptr, nullptr};  ///< by Encoding; null where no material needs it
     scene::Wrap wrap_s = scene::Wrap::repeat;
     scene::Wrap wrap_t = scene::Wrap::repeat;
     bool nearest = false;
