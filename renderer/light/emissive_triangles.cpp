@@ -15,12 +15,12 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A texture may be bright between the points that an estimate looks at: this part of the texture's mean is
-/// added everywhere, so that nothing that emits is never chosen.
+/// A texture may be bright between the points of an estimate. This part of the texture's mean is added
+/// everywhere, so that every emitting triangle can be chosen.
 constexpr float kTextureFloor = 0.02f;
 constexpr float kCoverageFloor = 0.05f;
 
-/// Interpolates a vertex attribute. `weights` are those of the three corners in the file's order.
+/// Interpolates a vertex attribute. `weights` are for the three corners in the file's order.
 template <typename T>
 T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& t, const Vec3& weights) {
   return weights[0] * values[t[0]] + weights[1] * values[t[1]] + weights[2] * values[t[2]];
@@ -42,7 +42,7 @@ Vec2 uv_at(const scene::Mesh& mesh, const scene::TextureSlot& slot, const std::a
   return uv.empty() ? Vec2(Vec2::Zero()) : interpolate(uv, t, weights);
 }
 
-/// Width in uv units of a quarter of the triangle: what one of four lookups stands for.
+/// The width in uv units of a quarter of the triangle, which one of four lookups represents.
 float quarter_footprint(const scene::Mesh& mesh, const scene::TextureSlot& slot,
                         const std::array<std::uint32_t, 3>& t) {
   const std::vector<Vec2>& uv = uv_set(mesh, slot);
@@ -70,7 +70,7 @@ EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance
   float twice_area = 0.0f;
   triangle.normal =
       scene::triangle_normal(p[0], p[instance.mirrors ? 2 : 1], p[instance.mirrors ? 1 : 2], twice_area);
-  // What the float arithmetic of sampling cannot carry counts as degenerate.
+  // A triangle counts as degenerate if its area is not a normal float, which sampling needs.
   triangle.area = std::isnormal(0.5f * twice_area) ? 0.5f * twice_area : 0.0f;
   triangle.offset = rounding_offset(p[0], p[1], p[2], rounding);
   return triangle;
@@ -96,8 +96,8 @@ EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& 
   find_duplicates();
 }
 
-// Of faces that lie in the same place a ray meets one, so that only one may be sampled: the others have no
-// intensity, and are taken for the first when their density is asked for.
+// A ray meets only one of several triangles in the same place, so only the first is sampled. The others have
+// no intensity, and find() returns the first for them.
 void EmissiveTriangles::find_duplicates() {
   using Key = std::array<float, 10>;
   const auto key_of = [&](const EmissiveTriangle& t) {
@@ -169,7 +169,7 @@ double EmissiveTriangles::estimate_intensity(const EmissiveTriangle& triangle) c
   const scene::Instance& instance = scene_.instances[triangle.instance];
   const scene::Mesh& mesh = scene_.mesh_of(instance);
   const scene::Material& material = scene_.material_of(instance);
-  // The four sub-triangles that halving the edges makes, each by its centre.
+  // The centres of the four sub-triangles between the midpoints of the edges.
   const std::array<Vec2, 4> centres{Vec2(1.0f / 3.0f, 1.0f / 3.0f), Vec2(1.0f / 6.0f, 1.0f / 6.0f),
                                     Vec2(2.0f / 3.0f, 1.0f / 6.0f), Vec2(1.0f / 6.0f, 2.0f / 3.0f)};
   const float footprint =

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that emit, each instance counted, in world space.
+// The emissive triangles of all instances, in world space.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace gatelight::renderer {
 
 struct EmissiveTriangle {
-  TriangleCorners corners;  ///< world; counter-clockwise is the front, for mirrored instances too
-  Vec3 normal{0, 0, 0};     ///< unit, of the front; zero where degenerate
+  TriangleCorners corners;  ///< world space; counter-clockwise on the front, also for mirrored instances
+  Vec3 normal{0, 0, 0};     ///< unit, on the front; zero if degenerate
   Color emission{0, 0, 0};  ///< radiance before texture and coverage
   std::uint32_t instance = 0;
   std::uint32_t primitive = 0;
   float area = 0.0f;
-  float offset = 0.0f;  ///< metres along the normal within which a ray may meet it: rounding
+  float offset = 0.0f;  ///< in metres along the normal: bounds the rounding of a hit
   bool two_sided = false;
-  bool plain = true;      ///< neither emission texture nor alpha: radiance is `emission` everywhere
+  bool plain = true;      ///< no emission texture and no alpha: the radiance is `emission` everywhere
   bool mirrored = false;  ///< edge1 ends in the file's third corner, edge2 in its second
 };
 
@@ -28,26 +28,27 @@ class EmissiveTriangles {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  /// Materials that are unlit emit nothing: their colour is what is seen, and lights nothing.
+  /// Unlit materials do not emit. Their colour is visible but does not light the scene.
   EmissiveTriangles(const scene::Scene& scene, const Textures& textures);
 
   std::size_t size() const { return triangles_.size(); }
   const EmissiveTriangle& operator[](std::size_t i) const { return triangles_[i]; }
 
-  /// Radiant intensity along the normal, W/sr, as a luminance: what the choice of lights goes by. Zero for
-  /// degenerate triangles, for those whose texture is black everywhere, and for all but the first of several
-  /// in the same place; never zero for any other that emits.
+  /// The luminance of the radiant intensity along the normal in W/sr, by which lights are chosen. It is zero
+  /// for degenerate triangles, for triangles with a black texture, and for all but the first of several in
+  /// the same place. It is above zero for all others that emit.
   double intensity(std::size_t i) const { return intensities_[i]; }
 
-  /// kNone where the triangle does not emit. Of several in the same place the first.
+  /// The index of a triangle, or of the first of several in the same place. kNone if the triangle does not
+  /// emit.
   std::uint32_t find(std::uint32_t instance, std::uint32_t primitive) const {
     const std::uint32_t first = first_[instance];
     if (first == kNone) return kNone;
     return same_as_.empty() ? first + primitive : same_as_[first + primitive];
   }
 
-  /// Radiance leaving the front (or the back, where two-sided) at these barycentric weights of the ends of
-  /// edge1 and edge2, times the coverage of alpha.
+  /// The radiance that leaves the front (and the back if two-sided), times the coverage of alpha.
+  /// `barycentrics` are the weights of the ends of edge1 and edge2.
   Color radiance(const EmissiveTriangle& triangle, const Vec2& barycentrics) const {
     return triangle.plain ? triangle.emission : textured_radiance(triangle, barycentrics, 0.0f, true);
   }
@@ -63,10 +64,10 @@ class EmissiveTriangles {
   const scene::Scene& scene_;
   const Textures& textures_;
   std::vector<EmissiveTriangle> triangles_;
-  std::vector<double> intensities_;   ///< after construction read by the tree's builder only
+  std::vector<double> intensities_;   ///< after construction only the tree's builder reads them
   std::vector<std::uint32_t> first_;  ///< for each instance the index of its first triangle, or kNone
   std::vector<std::uint32_t>
-      same_as_;  ///< the first triangle with the same corners and material; empty: all differ
+      same_as_;  ///< the first triangle with the same corners and material; empty if all differ
 };
 
 }  // namespace gatelight::renderer

@@ -17,10 +17,10 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Largest radiance that is kept: sums of a whole picture and products with a throughput stay finite.
+/// Larger radiance is clamped, so that sums of a whole picture and products with a throughput stay finite.
 constexpr float kLargest = 1e30f;
 
-/// Black for what is no light: negative or NaN.
+/// Negative values and NaN become 0.
 float usable(double value) {
   return value > 0.0 ? static_cast<float>(std::min(value, static_cast<double>(kLargest))) : 0.0f;
 }
@@ -29,7 +29,7 @@ float scaled(float value, float scale) {
   return usable(static_cast<double>(usable(value)) * static_cast<double>(scale));
 }
 
-/// The values of a picture as light, and what was wrong with them.
+/// Repairs the values of a picture and counts what was wrong.
 class Repair {
  public:
   explicit Repair(std::span<const float> values) {
@@ -52,12 +52,12 @@ class Repair {
   }
 
  private:
-  float greatest_ = 65504.0f;  ///< in half precision all beyond it is infinite
+  float greatest_ = 65504.0f;  ///< half precision stores anything larger as infinity
   std::size_t infinite_ = 0;
   std::size_t no_light_ = 0;
 };
 
-/// What a file says of the whole sphere: an EXR may store a part of its picture, and the rest is black.
+/// Checks the size of the full picture. An EXR may store only a part of it; the rest is black.
 void check_full_size(const Picture& picture, const std::string& file) {
   try {
     check_claimed_size(picture.full_width, picture.full_height, 3, file);

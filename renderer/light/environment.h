@@ -1,5 +1,5 @@
 #pragma once
-// Light from infinitely far away: a constant, or a latitude-longitude picture that is sampled by importance.
+// Light from infinitely far away: a constant, or a latitude-longitude picture with importance sampling.
 
 #include <filesystem>
 #include <memory>
@@ -18,29 +18,29 @@ using scene::Vec3;
 
 class EnvironmentPicture;
 
-/// The centre of the picture is seen along -z, +x to its right, +y up (the convention of most viewers).
-/// Infinite values count as the greatest finite one of the picture, 65504 (the end of half precision) at
-/// least; NaN and negative ones as zero. Thread-safe after construction.
+/// The centre of the picture is in the direction -z, +x is to its right, and +y is up (the convention of most
+/// viewers). Infinite values become the largest finite value of the picture, at least 65504 (the largest
+/// half). NaN and negative values become zero. Thread-safe after construction.
 class Environment {
  public:
-  /// Throws std::runtime_error naming the file when it cannot be read.
+  /// Throws std::runtime_error that names the file when it cannot be read.
   explicit Environment(const EnvironmentOptions& options);
   ~Environment();
   Environment(Environment&&) noexcept;
 
   Color radiance(const Vec3& direction) const;
-  /// The same, filtered for a ray whose cone has this full angle (radians).
+  /// The same, filtered for a ray cone with this full angle in radians.
   Color radiance(const Vec3& direction, float cone_angle) const;
   /// A constant environment is sampled uniformly over the sphere, a picture by its luminance.
   EnvironmentSample sample(const Vec2& u) const;
   float pdf(const Vec3& direction) const;
-  /// Mean radiance over the sphere (texels by their solid angle).
+  /// The mean radiance over the sphere; texels are weighted by their solid angle.
   Color mean() const { return mean_; }
   bool black() const { return (mean_ == 0.0f).all(); }
-  /// The same radiance from everywhere: worth sampling by the receiver's cosine instead.
+  /// Whether the radiance is the same in all directions. Then sampling by the receiver's cosine is better.
   bool constant() const { return picture_ == nullptr; }
   std::size_t bytes() const;
-  /// How many values of the picture are not finite or negative, in a line; empty: none.
+  /// One line that counts the values of the picture that are negative or not finite; empty if there are none.
   const std::string& warning() const { return warning_; }
 
  private:
@@ -54,7 +54,7 @@ class Environment {
   std::unique_ptr<const EnvironmentPicture> picture_;
   std::string warning_;
   Color mean_{0.0f, 0.0f, 0.0f};
-  float cos_ = 1.0f;  ///< of the rotation
+  float cos_ = 1.0f;  ///< cosine and sine of the rotation
   float sin_ = 0.0f;
 };
 

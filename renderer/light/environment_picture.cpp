@@ -10,10 +10,10 @@
 namespace gatelight::renderer {
 namespace {
 
-/// u to the right from 0 to 1 with 0.5 along -z, v down from +y.
+/// u goes to the right from 0 to 1, with 0.5 at -z. v goes down from +y.
 Vec2 direction_to_uv(const Vec3& d) {
   return {0.5f + std::atan2(d.x(), -d.z()) * kInvTwoPi,
-          // The arc cosine loses its digits at the poles; this form keeps them.
+          // This form is precise at the poles, unlike the arc cosine.
           std::atan2(std::sqrt(d.x() * d.x() + d.z() * d.z()), d.y()) * scene::kInvPi};
 }
 
@@ -22,11 +22,12 @@ int clamp_index(float x, int count) {
 }
 
 double cosine_at(int row, int height) {
-  // Symmetric about the equator to the last bit.
+  // This form is symmetric about the equator to the last bit.
   return std::sin(M_PI * (0.5 - static_cast<double>(row) / height));
 }
 
-/// Fills `cdf` (one longer than `weights`) and returns the sum. All zero: uniform.
+/// Fills `cdf` (one longer than `weights`) and returns the sum. The distribution is uniform if all weights
+/// are zero.
 double accumulate(std::span<const double> weights, std::span<float> cdf) {
   double sum = 0.0;
   for (const double w : weights) sum += w;
@@ -42,11 +43,11 @@ double accumulate(std::span<const double> weights, std::span<float> cdf) {
 
 struct Choice {
   int index = 0;
-  float fraction = 0.0f;  ///< within the interval, in [0, 1): the number used again
+  float fraction = 0.0f;  ///< position within the interval, in [0, 1)
 };
 
 Choice invert(const float* cdf, int count, float u) {
-  // The first interval that ends beyond u; intervals of no width are never chosen.
+  // The first interval that ends beyond u. Intervals of width zero are never chosen.
   const float* end = std::upper_bound(cdf + 1, cdf + count, u);
   const int index = static_cast<int>(end - cdf) - 1;
   const float width = cdf[index + 1] - cdf[index];
@@ -81,8 +82,8 @@ Color EnvironmentPicture::bilinear(const Level& level, const Vec2& uv) {
 }
 
 EnvironmentPicture::Level EnvironmentPicture::halve(const Level& source) {
-  // A texel of the coarser level is the mean over the part of the sphere that it covers; where the size is
-  // odd, texels of the source belong to two.
+  // A texel of the coarser level is the mean over the part of the sphere that it covers. If the size is odd,
+  // two texels share a source texel.
   Level level{std::max(1, source.width / 2), std::max(1, source.height / 2), {}};
   level.texels.resize(static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
   const double step_x = static_cast<double>(source.width) / level.width;
@@ -153,7 +154,7 @@ void EnvironmentPicture::build_density() {
       columns[x] = (0.75 * blurred[x] + 0.125 * (left + right)) * cell;
     }
     rows[y] = accumulate(columns, std::span(column_cdf_).subspan(y * (width + 1), width + 1));
-    // The weight itself for now; divided by the sum below.
+    // This is the weight. The loop below divides it by the sum.
     for (std::size_t x = 0; x < width; ++x) density_[y * width + x] = static_cast<float>(columns[x] / cell);
   }
   mean_ = mean.cast<float>();
@@ -189,7 +190,7 @@ EnvironmentSample EnvironmentPicture::sample(const Vec2& u) const {
   const float cos_theta = row_cosines_[y] + row.fraction * (row_cosines_[y + 1] - row_cosines_[y]);
   const float sin_theta = std::sqrt(std::max(0.0f, (1.0f - cos_theta) * (1.0f + cos_theta)));
   const float turn = (static_cast<float>(column.index) + column.fraction) / static_cast<float>(finest.width);
-  // A turn of 0 is +z, seen at the left edge; the centre is -z and +x lies to its right.
+  // A turn of 0 is +z, at the left edge. The centre is -z, and +x is to its right.
   const Vec2 cs = cos_sin_turn(turn);
   sample.wi = Vec3(-sin_theta * cs.y(), cos_theta, sin_theta * cs.x());
   sample.radiance = radiance(sample.wi);

@@ -1,12 +1,12 @@
 #pragma once
-// A latitude-longitude picture as a function on the sphere: lookups, a pyramid for filtered ones, and
+// A latitude-longitude picture as a function on the sphere: lookups, a pyramid for filtered lookups, and
 // sampling.
 //
-// Radiance is interpolated between texel centres (wrapping round, clamped at the poles). Cells of the density
-// are the texels; a cell's weight is the exact integral of the interpolated luminance over it (in the
-// picture's plane: 3/4 of the texel and 1/8 of either neighbour, along both axes) times its solid angle, so
-// that a cell in which anything shines is never left out. Within a cell directions are uniform per solid
-// angle, which needs no sine and has no singular poles.
+// Radiance is interpolated between texel centres, with wrap-around in longitude and clamping at the poles.
+// The pdf is constant on each texel. The weight of a texel is the exact integral of the interpolated
+// luminance in the picture's plane, times its solid angle. Along each axis that is 3/4 of the texel and 1/8
+// of each neighbour. So every texel with any light has a pdf above zero. Within a texel directions are
+// uniform per solid angle, which needs no sine and has no singular poles.
 
 #include <cstddef>
 #include <vector>
@@ -21,7 +21,7 @@ using scene::Vec3;
 
 class EnvironmentPicture {
  public:
-  /// Rows from the top; values finite and not negative. Directions are in the picture's own frame.
+  /// The first row is the top. Values are finite and not negative. Directions are in the picture's own frame.
   EnvironmentPicture(int width, int height, std::vector<Color> texels);
 
   Color radiance(const Vec3& direction) const;
@@ -44,7 +44,7 @@ class EnvironmentPicture {
 
   std::vector<Level> levels_;  ///< from the finest to 1x1
   Color mean_{0.0f, 0.0f, 0.0f};
-  std::vector<float> row_cosines_;  ///< height + 1: cosine of the polar angle at the rows' upper edges
+  std::vector<float> row_cosines_;  ///< height + 1: cosine of the polar angle at the upper edge of each row
   std::vector<float> row_cdf_;      ///< height + 1
   std::vector<float> column_cdf_;   ///< (width + 1) for each row
   std::vector<float> density_;      ///< per solid angle, one for each texel

@@ -5,30 +5,30 @@
 
 namespace gatelight::renderer {
 
-// Equation 3 of the paper for four children at once. With the angles theta between the axis and the direction
-// to the receiver, theta_o of the normals' cone, theta_b that the bounding sphere fills, theta_i at the
-// receiver:
+// Equation 3 of the paper for four children at once. The angles are: theta between the axis and the direction
+// to the receiver, theta_o of the cone of normals, theta_b of the bounding sphere, and theta_i at the
+// receiver.
 //   theta'  = max(0, theta - theta_o - theta_b)   the smallest angle of emission in the group
 //   theta_i' = max(0, theta_i - theta_b)          the smallest angle of incidence
 //   importance = intensity * cos(theta') * cos(theta_i') / distance^2,  0 where theta' >= theta_e.
-// Differences of angles are taken through sines and cosines; no branch depends on the data.
+// Sines and cosines give the differences of angles. No branch depends on the data.
 LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3& n) const {
   Weights weights;
   const float px = p.x(), py = p.y(), pz = p.z();
   const float nx = n.x(), ny = n.y(), nz = n.z();
-  // A receiver without a normal takes light from everywhere.
+  // A receiver without a normal receives light from all sides.
   const float free = nx == 0.0f && ny == 0.0f && nz == 0.0f ? 1.0f : 0.0f;
   for (int k = 0; k < 4; ++k) {
     const float dx = node.centre_x[k] - px;
     const float dy = node.centre_y[k] - py;
     const float dz = node.centre_z[k] - pz;
     const float distance2 = dx * dx + dy * dy + dz * dz;
-    // A receiver within a group's sphere is as near as its rim.
+    // For a receiver within a group's sphere the distance is the radius.
     const float radius2 = node.radius[k] * node.radius[k];
     const float strength = node.intensity[k] / std::max(std::max(distance2, radius2), nearest2_);
 
-    // One descent is a chain of steps that wait for each other: roots and quotients are taken of lengths that
-    // are not yet normalised, so that they do not wait for the inverse.
+    // The descent is a chain of dependent steps. Roots and quotients use lengths that are not normalised, so
+    // that they need not wait for the inverse.
     const float safe2 = std::max(distance2, 1e-37f);
     const float inverse = 1.0f / std::sqrt(safe2);
     const float ratio2 = radius2 / safe2;
@@ -51,7 +51,7 @@ LightTree::Weights LightTree::weigh(const Node& node, const Vec3& p, const Vec3&
     const float cos_i = up * inverse;
     const float sin_i = std::sqrt(std::max(0.0f, distance2 - up * up)) * inverse;
     const float cos_received = cos_i > cos_b ? 1.0f : cos_i * cos_b + sin_i * sin_b;
-    const float received = std::max(free, cos_received);  // free is 0 or 1: the clamp from below, too
+    const float received = std::max(free, cos_received);  // free is 0 or 1, so this also clamps to 0
 
     weights.value[k] = strength * (emitted * received);
   }
@@ -64,8 +64,8 @@ LightTree::Choice LightTree::sample(const Weights& root, const Vec3& p, const Ve
   Weights weights = root;
   std::uint32_t index = 0;
   while (weights.sum > 0.0f) {
-    // The first child whose running sum exceeds the target; a child of no weight does not move the sum, so it
-    // cannot be the first.
+    // The first child whose running sum exceeds the target. A child with weight 0 does not change the sum, so
+    // it is never chosen.
     const double w0 = static_cast<double>(weights.value[0]);
     const double w1 = w0 + static_cast<double>(weights.value[1]);
     const double w2 = w1 + static_cast<double>(weights.value[2]);

@@ -11,8 +11,8 @@ namespace {
 using scene::Box;
 using scene::kPi;
 
-/// What a group of lights sums up to while splits are compared: cheap to merge. The spread of the normals is
-/// guessed from the length of their mean, which for a uniform cap of half angle t is (1 + cos t) / 2.
+/// A summary of a group of lights that is cheap to merge, for comparing splits. The spread of the normals is
+/// estimated from the length of their mean, which is (1 + cos t) / 2 for a uniform cap of half angle t.
 struct Summary {
   Box box;
   Vec3 axes = Vec3::Zero();
@@ -39,8 +39,8 @@ struct Summary {
     all_directions |= other.all_directions;
   }
 
-  /// Section 4.4 of the paper: intensity times the surface of the box times the measure of the directions.
-  /// A little of the squared diagonal keeps flat and thin groups apart.
+  /// Section 4.4 of the paper: intensity times the surface of the box times the measure of the directions. A
+  /// small part of the squared diagonal distinguishes flat and thin groups.
   float cost() const {
     const float cos_o = all_directions
                             ? -1.0f
@@ -75,7 +75,7 @@ struct LightTree::Builder {
 
   const LightBounds& at(std::size_t i) const { return lights[order[i]]; }
 
-  /// The bounds of a group, exact but for rounding.
+  /// The bounds of a group, exact except for rounding.
   LightBounds bound(const Group& group) const {
     if (group.size() == 1) return at(group.begin);
     LightBounds b;
@@ -103,20 +103,20 @@ struct LightTree::Builder {
       const float cosine = std::clamp(light.two_sided ? std::abs(along) : along, -1.0f, 1.0f);
       b.cos_normals = std::min(b.cos_normals, widen(cosine, light.cos_normals));
     }
-    // Rounding must not leave a light outside.
+    // The margins keep all lights inside in spite of rounding.
     b.radius *= 1.0f + 1e-5f;
     b.cos_normals = std::max(-1.0f, b.cos_normals - 1e-6f);
     return b;
   }
 
-  /// Cosine of the sum of two angles in [0, pi], at most pi.
+  /// The cosine of the sum of two angles in [0, pi]; the sum is clamped to pi.
   static float widen(float cos_a, float cos_b) {
     if (cos_b >= 1.0f) return cos_a;
     if (cos_a <= -cos_b) return -1.0f;
     return cos_a * cos_b - std::sqrt((1.0f - cos_a * cos_a) * (1.0f - cos_b * cos_b));
   }
 
-  /// Parts a group of two or more in two; returns where the second begins.
+  /// Splits a group of at least two lights and returns where the second part begins.
   std::size_t split(const Group& group) {
     constexpr int kMaxBins = 12;
     const std::size_t middle = group.begin + group.size() / 2;
@@ -150,7 +150,7 @@ struct LightTree::Builder {
         right_cost[b] = right.count > 0 ? right.cost() : -1.0f;
       }
       Summary left;
-      // The paper's regularisation: long axes first, so that groups do not become thin slices.
+      // The paper's regularisation prefers long axes, so that groups do not become thin slices.
       const float stretch = extent.maxCoeff() / extent[axis];
       for (std::size_t b = 1; b < static_cast<std::size_t>(bins); ++b) {
         if (bin[b - 1].count > 0) left.add(bin[b - 1]);
@@ -170,7 +170,7 @@ struct LightTree::Builder {
           begin, end, [&](std::uint32_t light) { return bin_of(lights[light], best_axis) < best_bin; });
       if (second != begin && second != end) return static_cast<std::size_t>(second - order.begin());
     }
-    // All in one place.
+    // All lights are in one place.
     return middle;
   }
 
@@ -178,7 +178,7 @@ struct LightTree::Builder {
     std::array<Group, 4> groups{all};
     std::size_t count = 1;
     while (count < 4) {
-      // The heaviest group that can be parted; sizes decide among those of no cost.
+      // The largest group that can be split.
       std::size_t widest = 4;
       for (std::size_t i = 0; i < count; ++i) {
         if (groups[i].size() < 2) continue;
@@ -223,7 +223,7 @@ struct LightTree::Builder {
     node.cos_normals[k] = b.cos_normals;
     node.cos_emission[k] = b.cos_emission;
     node.side[k] = b.two_sided ? -1.0f : 1.0f;
-    // A share that a float cannot hold still has a chance.
+    // A share below the range of a float still gets a value above 0.
     node.intensity[k] = b.intensity > 0.0 ? std::max(static_cast<float>(b.intensity / total), 1e-30f) : 0.0f;
   }
 };
@@ -238,8 +238,8 @@ LightTree::LightTree(std::span<const LightBounds> lights) : places_(lights.size(
     box.extend(lights[i].centre);
   }
   if (builder.order.empty()) return;
-  // A receiver that touches a point light. A millionth of the lights' extent would be far for a tiny lamp
-  // among huge ones.
+  // A bound for receivers that touch a point light. A millionth of the lights' extent would be far for a tiny
+  // lamp among huge ones.
   nearest2_ = std::max(1e-24f * box.sizes().squaredNorm(), 1e-36f);
   nodes_.reserve(builder.order.size() / 2 + 1);
   builder.build({0, builder.order.size()}, kNone);

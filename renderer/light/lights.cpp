@@ -19,8 +19,8 @@ TriangleCorners seen_from(const Vec3& p, const EmissiveTriangle& triangle) {
   return t;
 }
 
-/// Cosine between the front's normal and the direction from the triangle to the point; positive on a side
-/// that emits.
+/// The cosine between the normal of the front and the direction from the triangle to the point. It is
+/// positive on a side that emits.
 float cos_emitted(const EmissiveTriangle& triangle, const Vec3& wi) {
   const float cosine = -wi.dot(triangle.normal);
   return triangle.two_sided ? std::abs(cosine) : cosine;
@@ -56,8 +56,8 @@ LightBounds bounds_of(const PunctualLight& light) {
   return bounds;
 }
 
-/// A number falls into one of several equal parts; what is left of it is a number again. Far down a tree
-/// the 24 bits of one number are used up: the lowest come from another, where they do no harm.
+/// Chooses one of several equal parts by a random number, and reuses the rest of the number. A deep tree
+/// needs more than the 24 bits of one number, so the lowest bits come from another number.
 struct Share {
   float size = 0.0f;
   int part = 0;
@@ -199,7 +199,7 @@ LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, flo
   sample.distance = to_light.norm();
   if (!(sample.distance > 0.0f)) return {};
   sample.wi = to_light / sample.distance;
-  // Often drawn into the surface of a lamp or a ceiling.
+  // Such lights are often placed inside the surface of a lamp or a ceiling.
   sample.offset = 1e-4f * sample.distance;
   sample.radiance = punctual_irradiance(light, sample.wi, sample.distance);
   sample.pdf = choice;

@@ -8,7 +8,7 @@
 
 namespace gatelight::renderer {
 
-/// The extension's recommended window: 1 near the light, 0 from its range on, smooth between.
+/// The extension's recommended window: 1 near the light, 0 from its range on, and smooth between them.
 inline float range_window(float distance, float range) {
   if (!(range < scene::kInfinity)) return 1.0f;
   const float x = distance / range;
@@ -16,15 +16,15 @@ inline float range_window(float distance, float range) {
   return std::clamp(1.0f - x2 * x2, 0.0f, 1.0f);
 }
 
-/// The extension's falloff between the cones: squared, linear in the cosine. `cos_angle` is between the
-/// light's direction and the direction from the light to the point.
+/// The extension's falloff between the cones: the square of a ramp that is linear in the cosine. `cos_angle`
+/// is between the light's direction and the direction from the light to the point.
 inline float spot_falloff(const scene::PunctualLight& light, float cos_angle) {
   const float width = std::max(0.001f, light.cos_inner - light.cos_outer);
   const float x = std::clamp((cos_angle - light.cos_outer) / width, 0.0f, 1.0f);
   return x * x;
 }
 
-/// Irradiance of a point or spot light on a plane that faces it at `distance`; `wi` points to the light.
+/// The irradiance of a point or spot light on a plane that faces it at `distance`. `wi` points to the light.
 inline scene::Color punctual_irradiance(const scene::PunctualLight& light, const scene::Vec3& wi,
                                         float distance) {
   float factor = range_window(distance, light.range) / (distance * distance);

@@ -1,7 +1,7 @@
 #pragma once
-// Points on a triangle as seen from a point: uniform by solid angle where the triangle looks big, uniform by
-// area where it is so small that both are the same. The decision depends on the point and the triangle
-// alone, so that the density of a direction found by another technique can be asked for.
+// Samples points on a triangle as seen from a point: uniform by solid angle where the triangle looks large,
+// uniform by area where it looks so small that both agree. The decision depends only on the point and the
+// triangle, so the pdf of a direction from another technique can be computed.
 
 #include <algorithm>
 #include <cmath>
@@ -24,17 +24,16 @@ struct TrianglePoint {
   bool per_solid_angle = false;
 };
 
-/// Below this solid angle (steradian) sampling by area has next to no variance of its own; above the other,
-/// nearly the whole half-space, the point lies in the plane but for rounding. The bounds of pbrt-v4.
+/// Bounds in steradians, from pbrt-v4. Below the minimum, area sampling adds almost no variance. Above the
+/// maximum, nearly the whole hemisphere, the point lies in the plane of the triangle except for rounding.
 inline constexpr float kMinSolidAngle = 3e-4f;
 inline constexpr float kMaxSolidAngle = 6.22f;
 
 /// The solid angle of a triangle seen from the origin, and the unit directions of its corners: Van Oosterom
-/// and Strackee 1983. The triple product is taken of the corner and the edges, which keeps its digits for
-/// small triangles.
+/// and Strackee 1983. The triple product uses one corner and the edges, which is precise for small triangles.
 struct SphericalTriangle {
   Vec3 a, b, c;      ///< unit
-  float g0, g1, g2;  ///< the sine-like and the two cosine-like terms of half the solid angle
+  float g0, g1, g2;  ///< terms of the half angle: tan(solid_angle / 2) = g0 / (g1 + g2)
   float solid_angle;
 
   explicit SphericalTriangle(const TriangleCorners& t) {
@@ -52,8 +51,8 @@ struct SphericalTriangle {
     solid_angle = 2.0f * std::atan2(g0, g1 + g2);
   }
 
-  /// Uniform on the spherical triangle: a part of the area is cut off by an arc through b, then a point is
-  /// chosen on that arc (Arvo 1995), in the form without inverse trigonometry of Peters 2021, "BRDF
+  /// Uniform on the spherical triangle: an arc through b cuts off a part of the area, then a point is chosen
+  /// on that arc (Arvo 1995). This form without inverse trigonometric functions is from Peters 2021, "BRDF
   /// Importance Sampling for Polygonal Lights".
   Vec3 sample(const Vec2& u) const {
     const float half = 0.5f * solid_angle * u.x();  // in [0, pi)
@@ -63,7 +62,7 @@ struct SphericalTriangle {
     const float norm2 = r.squaredNorm();
     Vec3 end = c;
     if (norm2 > 0.0f) end = (2.0f * a.dot(r) / norm2) * r - a;
-    // Uniform in the cosine along the arc from b to end; 1 - cos is taken from the chord, to keep its digits.
+    // Uniform in the cosine along the arc from b to end. The chord gives a precise 1 - cos.
     const float whole = 0.5f * (end - b).squaredNorm();
     const float part = u.y() * whole;
     const float cos_end = 1.0f - whole;
@@ -72,9 +71,9 @@ struct SphericalTriangle {
   }
 };
 
-/// Whether area sampling is good enough without asking for the solid angle, which costs an arc tangent. The
-/// triangle's area against the squared distance of its nearest corner bounds the solid angle but for slivers
-/// that pass close by.
+/// Whether area sampling is good enough, without computing the solid angle, which costs an arc tangent. The
+/// area over the squared distance of the nearest corner bounds the solid angle, except for slivers that pass
+/// close by.
 inline bool looks_tiny(const TriangleCorners& t, float area) {
   const float nearest = std::min(
       {t.corner.squaredNorm(), (t.corner + t.edge1).squaredNorm(), (t.corner + t.edge2).squaredNorm()});
@@ -85,8 +84,8 @@ inline bool samples_solid_angle(const SphericalTriangle& s) {
   return s.solid_angle >= kMinSolidAngle && s.solid_angle <= kMaxSolidAngle;
 }
 
-/// Density per solid angle with which sample_triangle() would make a direction that meets the triangle at
-/// `distance`. `cos_light` is the absolute cosine there. The triangle is given relative to the point.
+/// The pdf per solid angle with which sample_triangle_point() returns a direction that hits the triangle at
+/// `distance`. `cos_light` is the absolute cosine there. The triangle is relative to the point.
 inline float pdf_triangle_point(const TriangleCorners& t, float area, float cos_light, float distance) {
   if (!looks_tiny(t, area)) {
     const SphericalTriangle s(t);
@@ -95,13 +94,13 @@ inline float pdf_triangle_point(const TriangleCorners& t, float area, float cos_
   return distance * distance / (area * cos_light);
 }
 
-/// The triangle is given relative to the point it is seen from.
+/// The triangle is relative to the point from which it is seen.
 inline TrianglePoint sample_triangle_point(const TriangleCorners& t, float area, const Vec2& u) {
   TrianglePoint point;
   if (!looks_tiny(t, area)) {
     const SphericalTriangle s(t);
     if (samples_solid_angle(s)) {
-      // The ray from the origin meets the plane of the triangle: Moeller and Trumbore 1997.
+      // Intersects the ray from the origin with the plane of the triangle: Moeller and Trumbore 1997.
       const Vec3 d = s.sample(u);
       const Vec3 p = d.cross(t.edge2);
       const float determinant = t.edge1.dot(p);
