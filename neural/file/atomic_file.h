@@ -1,6 +1,6 @@
 #pragma once
-// Files that are whole or not there: written without a name, or under a temporary one in the same folder
-// where the file system asks for it, then renamed.
+// Writes files that are either complete or absent. The data goes to a file without a name, or with a
+// temporary name in the same folder where the file system needs one. Then it gets its final name.
 
 #include <cstdio>
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace gatelight::neural {
 
-/// Where a file written to `path` will lie: at the end of its symbolic links, whether anything is there or
-/// not.
+/// Where a file written to `path` will lie. Follows symbolic links to their end, whether or not a file exists
+/// there.
 std::filesystem::path replaced_file(std::filesystem::path path);
 
 /// Throws OutputError unless a file can be made at `path`: its folder exists and can be written, and the path
-/// is free or holds a regular file. Meant for the time before the long work.
+/// is free or holds a regular file. Call it before the long work.
 void check_writable(const std::filesystem::path& path);
 
-/// A file in the making. An old file of the same name stays whole until commit(); without commit() nothing
-/// changes. A symbolic link is followed, so that the link itself stays.
+/// A file that is being written. An old file of the same name stays unchanged until commit(). A symbolic link
+/// is followed and stays a link.
 class AtomicFile {
  public:
   /// Throws OutputError.
@@ -28,11 +28,11 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Seekable, for binary data. Do not close it.
+  /// A seekable binary stream. Do not close it.
   std::FILE* stream() const { return stream_; }
   void write(const void* data, std::size_t bytes);
 
-  /// Flushes to the disk, renames. Throws OutputError.
+  /// Flushes the data to the disk and gives the file its name. Throws OutputError.
   void commit();
 
  private:
@@ -40,11 +40,11 @@ class AtomicFile {
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;
-  bool named_ = false;  ///< whether temporary_ is there
+  bool named_ = false;  ///< whether temporary_ exists
   std::FILE* stream_ = nullptr;
 };
 
-/// The whole of a small file at once.
+/// Writes a small file at once. Throws OutputError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace gatelight::neural

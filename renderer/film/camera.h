@@ -1,5 +1,5 @@
 #pragma once
-// Primary rays.
+// Generates primary rays.
 
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
@@ -14,18 +14,18 @@ struct CameraRay {
 
 class Camera {
  public:
-  /// A camera of the file for a picture of this size. Where the camera has an aspect ratio of its own and the
-  /// picture another, the vertical field of view is kept.
+  /// Takes the scene's camera and the size of the picture in pixels. The picture's aspect ratio replaces that
+  /// of the camera; the vertical field of view stays.
   Camera(const scene::Camera& camera, int width, int height);
 
-  /// x, y in pixels from the top left corner of the picture.
+  /// `x` and `y` are in pixels from the top left corner of the picture.
   CameraRay ray(float x, float y) const;
 
  private:
   Vec3 origin_;
-  Vec3 right_;  ///< of one pixel, on the plane one metre ahead (perspective) or in the world (orthographic)
+  Vec3 right_;  ///< one pixel, at a distance of one metre (perspective) or in the world (orthographic)
   Vec3 down_;
-  Vec3 corner_;  ///< the top left corner of the picture: a direction, or a point
+  Vec3 corner_;  ///< the top left corner of the picture: a direction (perspective) or a point (orthographic)
   Vec3 forward_;
   RayCone cone_;
   bool orthographic_ = false;

@@ -1,6 +1,6 @@
 #pragma once
-// What goes into an integrator and what comes out of it: one camera path each. Integrators work on batches,
-// so that rays travel in packets and, later, so that a cache can be asked in bulk.
+// The input and output of an integrator, one of each for a camera path. Integrators work on batches, so that
+// rays are traced in packets and cache queries run in bulk.
 
 #include <cstdint>
 
@@ -13,9 +13,9 @@ namespace gatelight::renderer {
 struct CameraSample {
   CameraRay camera_ray;
   Sampler sampler;
-  std::uint32_t seed = 0;  ///< hash of (seed, pixel, sample), for decisions that need no low discrepancy
+  std::uint32_t seed = 0;  ///< a hash of (seed, pixel, sample), for decisions that need no low discrepancy
 
-  /// The camera's ray, which decides by the sample's seed.
+  /// The camera's ray. Its stochastic decisions use the seed of the sample.
   Ray ray() const {
     Ray ray = camera_ray.ray;
     ray.seed = seed;
@@ -23,16 +23,16 @@ struct CameraSample {
   }
 };
 
-/// The surface at the primary hit, for the arbitrary output variables.
+/// The surface at the primary hit, for the output variables.
 struct FirstHit {
   bool hit = false;
   Color albedo{0.0f, 0.0f, 0.0f};
   Vec3 normal = Vec3::Zero();
   Vec3 position = Vec3::Zero();
-  float depth = 0.0f;  ///< metres from the eye along the ray
+  float depth = 0.0f;  ///< in metres from the eye along the ray
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
-  // Of the cache, where it was first asked.
+  // These come from the first cache query of the path.
   bool asked = false;
   Color answer{0.0f, 0.0f, 0.0f};
   Color node{0.0f, 0.0f, 0.0f};
@@ -45,8 +45,7 @@ struct SampleResult {
   Color radiance{0.0f, 0.0f, 0.0f};
 };
 
-/// Dimensions of the sampler. The film takes the first pair, every vertex of the path four dimensions after
-/// it.
+/// Dimensions of the sampler. The film uses the first one, then every vertex of the path uses four.
 namespace dimension {
 inline constexpr std::uint32_t kFilm = 0;
 inline constexpr std::uint32_t kFirstVertex = 1;

@@ -19,7 +19,7 @@ void accumulate(std::array<double, 3>& sum, const Eigen::Vector3f& v) {
   for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(v[i]);
 }
 
-// Each member of a pixel in turn, for both directions.
+// Visits each member of a pixel in turn, for export and import.
 template <class Radiance, class Take>
 void each_of_radiance(Radiance& p, Take&& take) {
   for (auto* array : {&p.sum, &p.square}) {
@@ -151,7 +151,7 @@ Layer Film::layer(Aov aov) const {
   const auto over_asked = [](double sum, const First& p) { return p.asked > 0 ? sum / p.asked : 0.0; };
   switch (aov) {
     case Aov::albedo:
-      // Background weighs in as black, as in the beauty layer: edges stay soft.
+      // The background counts as black, as in the beauty layer, so edges stay soft.
       fill({"R", "G", "B"}, first_,
            [](const First& p, std::size_t i) { return p.count > 0 ? p.albedo[i] / p.count : 0.0; });
       break;
@@ -193,8 +193,8 @@ Layer Film::layer(Aov aov) const {
       fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
       break;
     case Aov::variance:
-      // Of the pixel's mean, unbiased, as if samples were independent: an upper bound for low-discrepancy
-      // samples.
+      // The variance of the pixel's mean, unbiased for independent samples. It is an upper bound for
+      // low-discrepancy samples.
       fill({"R", "G", "B"}, radiance_, [](const Radiance& p, std::size_t i) {
         if (p.count < 2) return 0.0;
         const double n = p.count;

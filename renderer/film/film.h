@@ -1,6 +1,6 @@
 #pragma once
-// Sums of samples per pixel. A pixel belongs to one task at a time and takes its samples in order, so that
-// its bits do not depend on the number of threads; sums are double, so that a million samples do not drift.
+// Sums samples for each pixel. A pixel belongs to one task at a time and adds its samples in order, so its
+// bits do not depend on the number of threads. Sums are double, so that a million samples do not drift.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace gatelight::renderer {
 
-/// A film's sums to the bit, pixel after pixel. Of the first hits empty where the film keeps none.
+/// The exact sums of a film, pixel after pixel. The `first` members are empty if the film keeps no first
+/// hits.
 struct FilmState {
   std::vector<double> radiance;
   std::vector<std::uint32_t> radiance_counts;
@@ -29,17 +30,17 @@ class Film {
 
   const PixelRect& rect() const { return rect_; }
   bool has_aovs() const { return !aovs_.empty(); }
-  /// Whether some requested variable comes from the primary hit.
+  /// Whether some requested output variable comes from the primary hit.
   bool needs_first_hits() const { return needs_first_hits_; }
 
   void add(int x, int y, const Color& radiance);
   void add(int x, int y, const FirstHit& first);
 
-  /// Means so far. A pixel without samples is black.
+  /// The means so far. A pixel without samples is black.
   Picture resolve() const;
 
   FilmState export_state() const;
-  /// Of a film of the same size and variables.
+  /// The state comes from a film with the same size and output variables.
   void import_state(const FilmState& state);
 
   static std::size_t bytes_per_pixel(std::span<const Aov> aovs);
@@ -60,7 +61,7 @@ class Film {
     double error = 0.0;
     double training_count = 0.0;
     double resolution = 0.0;
-    std::uint32_t count = 0;  ///< of samples
+    std::uint32_t count = 0;  ///< number of samples
     std::uint32_t asked = 0;
     std::uint32_t hits = 0;
     float instance = -1.0f;
@@ -81,7 +82,7 @@ class Film {
   std::vector<First> first_;
 };
 
-/// The name of a variable on the command line and in files.
+/// The name of an output variable on the command line and in files.
 const char* aov_name(Aov aov);
 
 }  // namespace gatelight::renderer

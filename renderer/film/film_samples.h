@@ -1,5 +1,5 @@
 #pragma once
-// From pixels to camera samples, and from their results to the film.
+// Makes camera samples from pixels, and adds their results to the film.
 
 #include <cstdint>
 #include <span>
@@ -14,12 +14,12 @@
 
 namespace gatelight::renderer {
 
-/// One sample for each pixel.
+/// Makes one sample for each pixel.
 void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples);
 
-/// What was left out or changed on the way to the film.
+/// Counts the samples that were dropped or clamped on the way to the film.
 struct SampleCounts {
   std::uint64_t nonfinite = 0;
   std::uint64_t clamped = 0;
@@ -28,7 +28,7 @@ struct SampleCounts {
   void add(const SampleCounts& other);
 };
 
-/// The first of them, in the order of (y, x, sample), enough for statistics.
+/// Keeps the first 16 in the order of (y, x, sample), for the statistics.
 void keep_first(std::vector<NonFiniteSample>& samples);
 
 /// Adds the results of sample number `sample` of each pixel. `first_hits` is empty or as long as the pixels.

@@ -1,12 +1,12 @@
 #pragma once
-// What the output variables keep of a primary hit: one definition for all integrators.
+// The values that the output variables keep of a primary hit, for all integrators.
 
 #include "renderer/film/camera_sample.h"
 #include "renderer/surface/surface.h"
 
 namespace gatelight::renderer {
 
-/// Its position is in the file's coordinates: `origin` is the scene's.
+/// The position is in the file's coordinates. `origin` is the scene's origin.
 inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& origin) {
   FirstHit first;
   first.hit = true;

@@ -10,11 +10,11 @@ namespace gatelight::renderer {
 
 namespace {
 
-/// Bytes per triangle of Embree's high-quality, robust BVH while it is being built. A generous guess, not a
-/// measurement: finished, it holds 64 to 67 (gatelight-bench --benchmark_filter=bvh).
+/// Bytes per triangle of Embree's high-quality, robust BVH while it is built. This is a generous estimate,
+/// not a measurement. The finished BVH has 64 to 67 (gatelight-bench --benchmark_filter=bvh).
 constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
-/// A triangle light with its node of the tree.
+/// Bytes of an emissive triangle with its node of the light tree.
 constexpr std::size_t kLightBytes = 256;
 
 }  // namespace
@@ -29,14 +29,14 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
       need.lights += scene.mesh_of(instance).triangles.size() * kLightBytes;
   }
   for (const scene::Image& image : scene.images) {
-    // Four bytes a texel and a third more for the coarser levels.
+    // Four bytes per texel, and a third more for the coarser mip levels.
     need.textures += static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 16 / 3;
   }
   const std::size_t pixels =
       options.region ? static_cast<std::size_t>((*options.region)[2] - (*options.region)[0]) *
                            static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
                      : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  // The sums, and the resolved picture beside them: at most 13 floats.
+  // The sums, and at the same time the resolved picture of at most 13 floats.
   need.film = pixels * (Film::bytes_per_pixel(options.aovs) + 13 * sizeof(float) + options.aovs.size() * 12);
   return need;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory a picture will take, before anything is built.
+// Estimates the memory that a picture needs, before anything is built.
 
 #include <cstddef>
 #include <string_view>
@@ -10,7 +10,7 @@
 namespace gatelight::renderer {
 
 struct MemoryEstimate {
-  std::size_t geometry = 0;  ///< vertices, indices and decoded images, already there
+  std::size_t geometry = 0;  ///< vertices, indices and decoded images, which are already allocated
   std::size_t bvh = 0;
   std::size_t textures = 0;
   std::size_t lights = 0;
@@ -21,8 +21,8 @@ struct MemoryEstimate {
 
 MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& options);
 
-/// Throws OutOfMemory where `all` of rendering `what` needs more than options.memory_limit_bytes, or `more`,
-/// what is not taken yet, than memory_room() leaves.
+/// Throws OutOfMemory if `all`, the bytes that rendering `what` needs, exceeds options.memory_limit_bytes.
+/// Also throws if `more`, the bytes that are not allocated yet, exceeds what memory_room() leaves.
 void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more);
 
 }  // namespace gatelight::renderer

@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 
 namespace {
 
-/// x in [-1, 1] over the full width.
+/// The filter's value for x in [-1, 1] over the full width.
 double profile(PixelFilter filter, double x) {
   switch (filter) {
     case PixelFilter::box:
@@ -17,7 +17,7 @@ double profile(PixelFilter filter, double x) {
     case PixelFilter::tent:
       return 1.0 - std::abs(x);
     case PixelFilter::gaussian:
-      // Three standard deviations at the edge, shifted down to end at zero.
+      // The edge is at three standard deviations, and the curve is shifted down to end at zero.
       return std::exp(-4.5 * x * x) - std::exp(-4.5);
     case PixelFilter::blackman_harris: {
       const double a = M_PI * (x + 1.0);
@@ -43,9 +43,9 @@ FilterSampler::FilterSampler(PixelFilter filter, float width) : width_(resolve_f
 }
 
 float FilterSampler::sample_1d(float u) const {
-  // The inverse itself in a table would be wrong at the tails, where it is steep; the guides only shorten the
-  // search (Chen and Asau 1974). Where the filter is not near zero there is at most one edge between two
-  // guides: a step without a branch, which nobody could predict.
+  // A table of the inverse would be wrong at the tails, where the inverse is steep. So guides only shorten
+  // the search (Chen and Asau 1974). Where the filter is not near zero, at most one edge lies between two
+  // guides. That step has no branch, because it could not be predicted.
   std::size_t above = guide_[static_cast<std::size_t>(u * kGuides)];
   above += cumulative_[above] <= u ? 1 : 0;
   while (cumulative_[above] <= u) ++above;

@@ -1,5 +1,5 @@
 #pragma once
-// The picture in square tiles: the unit of work of a thread, and of a batch of camera paths.
+// Splits the picture into square tiles. A tile is the unit of work of a thread, and a batch of camera paths.
 
 #include <array>
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace gatelight::renderer {
 
-/// Pixels of a tile's side. The camera rays of a tile, one a pixel, are traced as one batch: at depth four
-/// there are still enough of them to fill packets of 16, and their paths (200 bytes each) stay in the
-/// second-level cache.
+/// The side of a tile in pixels. The camera rays of a tile, one per pixel, are traced as one batch. At depth
+/// four enough rays remain to fill packets of 16, and their paths (200 bytes each) stay in the second-level
+/// cache.
 inline constexpr int kTile = 16;
 
 struct Pixel {
@@ -19,13 +19,14 @@ struct Pixel {
   int y = 0;
 };
 
-/// Tiles lie on the grid of the full picture, so that a region sees the same batches as the whole.
+/// Tiles lie on the grid of the full picture, so that a region has the same batches as the full picture.
 class TileGrid {
  public:
   explicit TileGrid(const PixelRect& region);
 
   int count() const { return columns_ * rows_; }
-  /// The tile's pixels within the region, in Morton order, which keeps packets of 16 rays square.
+  /// Sets `result` to the tile's pixels within the region, in Morton order, which keeps packets of 16 rays
+  /// square.
   void pixels(int tile, std::vector<Pixel>& result) const;
 
  private:
