@@ -1,5 +1,5 @@
 #pragma once
-// Embree and nothing else: the same triangles, build quality and robustness as the renderer's, no filter
+// Embree alone, with the triangles, build quality and robustness of the renderer, but without filter
 // functions.
 
 #include <embree3/rtcore.h>

@@ -1,5 +1,5 @@
-// Nanoseconds per call of the BSDF, for the common materials. A directions' array that does not fit the
-// branch predictor keeps the measurement honest.
+// Nanoseconds per call of the BSDF, for the common materials. The directions come from an array that is too
+// long for the branch predictor to learn.
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
-// light_tree/{nee,mis}/{tree,power}/SCENE: what the choice of lights saves. Direct light at the first hit, by
-// next-event estimation alone and as it is rendered (multiple importance sampling), 160x90 pixels of 16
-// samples at the pixels' centres, one thread. rel_mse is the error against a converged picture, worst_1% the
-// share of it that a hundredth of the pixels holds; efficiency is 1 / (rel_mse * seconds): the ratio of two
-// of them is how many times sooner the same noise is reached.
+// light_tree/{nee,mis}/{tree,power}/SCENE: noise and time of both ways to choose a light. The pictures show
+// direct light at the first hit, by next-event estimation alone and by multiple importance sampling as
+// rendered: 160x90 pixels, 16 samples at each pixel's centre, one thread. rel_mse is the error against a
+// converged picture. worst_1% is the part of the error in the worst hundredth of the pixels. efficiency is 1
+// / (rel_mse * seconds). The ratio of two efficiencies says how many times sooner the same noise is reached.
 
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
@@ -136,8 +136,8 @@ const int light_tree_registered = [] {
          {std::pair{"nee", renderer::DirectLight::nee}, std::pair{"mis", renderer::DirectLight::mis}}) {
       for (const auto& [name, selection] :
            {std::pair{"tree", LightSelection::tree}, std::pair{"power", LightSelection::power}}) {
-        // A fixed number of pictures, each of another seed: rare bright samples make the error of one
-        // unsteady.
+        // The number of pictures is fixed, each with another seed, because rare bright samples make the error
+        // of one picture unsteady.
         benchmark::RegisterBenchmark(
             (std::string("light_tree/") + technique_name + "/" + name + "/" + which->name).c_str(),
             [which, technique = technique, selection = selection](benchmark::State& s) {

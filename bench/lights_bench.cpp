@@ -12,7 +12,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Small lamps scattered in a cube of 10 m, and points that ask for light.
+/// Small lamps scattered in a cube of 10 m, and points that sample their light.
 struct Lamps {
   scene::Scene scene;
   std::unique_ptr<Textures> textures;

@@ -1,5 +1,5 @@
-// limits/*: what the machine can do at most, on all threads. A row shows the best of its passes, as a limit
-// is one; the time is the mean of a pass.
+// limits/*: the limits of the machine, on all threads. A row shows the best of its passes; the time is the
+// mean of a pass.
 
 #include <benchmark/benchmark.h>
 

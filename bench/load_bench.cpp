@@ -1,5 +1,5 @@
-// load/SCENE: from the file to the scene, textures decoded. bvh/SCENE: from the scene to Embree's
-// acceleration structure, on all threads. Both in seconds.
+// load/SCENE: from the file to the scene with decoded textures. bvh/SCENE: from the scene to Embree's
+// acceleration structure, on all threads. Both are in seconds.
 
 #include <benchmark/benchmark.h>
 

@@ -21,8 +21,9 @@ namespace gatelight::bench {
 
 namespace {
 
-// Enough chains of dependent operations for two units of latency 4 to 6, and few enough for the registers.
-// Initialisation, loop and sum are all unrolled: an array that is indexed anywhere stays in memory.
+// There are enough chains of dependent operations for two units with a latency of 4 to 6, and few enough for
+// the registers. Initialisation, loop and sum are all unrolled, because an array that is indexed stays in
+// memory.
 constexpr int kChains = 12;      // of 16 registers
 constexpr int kWideChains = 24;  // of 32
 
@@ -90,7 +91,7 @@ __attribute__((target("avx512f,avx512bf16"))) float burn_bf16(std::int64_t steps
 struct Burner {
   Arithmetic arithmetic;
   float (*burn)(std::int64_t);
-  double operations;  ///< of a step
+  double operations;  ///< per step
 };
 constexpr std::array<Burner, 4> kBurners = {{{Arithmetic::sse2, burn_sse2, 8.0 * kChains},
                                              {Arithmetic::avx2, burn_avx2, 16.0 * kChains},
@@ -111,11 +112,11 @@ bool is_available(Arithmetic arithmetic) {
   return false;
 }
 
-/// Results end up here, so that no loop is thrown away.
+/// Results go here, so that the compiler removes no loop.
 std::atomic<std::uint64_t> sink{0};
 
-/// body(thread) on all threads at once, the calling one among them; seconds from the common start to the last
-/// end.
+/// Runs body(thread) on all threads at once, including the calling one. Returns the seconds from the common
+/// start to the last end.
 template <class Body>
 double seconds_of(int threads, Body&& body) {
   using Clock = std::chrono::steady_clock;
@@ -149,7 +150,7 @@ std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
   return sum;
 }
 
-/// Knuth's linear congruential generator; its upper bits are random enough to defeat caches and prefetchers.
+/// Knuth's linear congruential generator. Its upper bits are random enough for caches and prefetchers.
 std::uint64_t next_random(std::uint64_t& state) {
   state = state * 6364136223846793005u + 1442695040888963407u;
   return state;
@@ -241,7 +242,7 @@ Work run_fma(Arithmetic arithmetic) {
 BigBuffer::BigBuffer(bool huge_pages) {
   constexpr std::size_t kHugePage = std::size_t{2} << 20;
   words_ = static_cast<std::uint64_t*>(::operator new (kBytes, std::align_val_t{kHugePage}));
-  // Where huge pages are refused, the reads are slower, and so is the limit.
+  // Where the system refuses huge pages, the reads are slower and the limit is lower.
   ::madvise(words_, kBytes, huge_pages ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   const int threads = renderer::available_threads();
   const std::size_t count = kBytes / sizeof(std::uint64_t);
@@ -257,7 +258,7 @@ BigBuffer::~BigBuffer() {
 }
 
 Work run_stream(const BigBuffer& buffer) {
-  // Each pass has an eighth, so that it comes back to one after a gigabyte.
+  // Each pass reads an eighth of the buffer, so that it returns to the same bytes after a gigabyte.
   constexpr std::size_t kPassWords = BigBuffer::kBytes / sizeof(std::uint64_t) / 8;
   static std::atomic<std::size_t> passes{0};
   const int threads = renderer::available_threads();
@@ -271,7 +272,7 @@ Work run_stream(const BigBuffer& buffer) {
 
 Work run_gather(const BigBuffer& buffer) {
   constexpr std::size_t kReads = 250'000;
-  // Never the same places: those of the last pass may still be in a cache.
+  // Each pass reads other places, because those of the last pass may still be in a cache.
   static std::atomic<std::uint64_t> seeds{0};
   const int threads = renderer::available_threads();
   const double seconds = seconds_of(threads, [&](int) {

@@ -1,6 +1,6 @@
 #pragma once
-// What this machine can do at most, measured here and now on all threads that the process may use: the
-// denominators of every fraction that the benchmarks print.
+// The limits of this machine, measured at run time on all threads that the process may use. They are the
+// denominators of all fractions that the benchmarks print.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,14 +12,14 @@
 namespace gatelight::bench {
 
 enum class Arithmetic : std::uint8_t {
-  sse2,    ///< multiply and add of 4 floats: what code for any x86-64 can do
-  avx2,    ///< fused, of 8 floats
-  avx512,  ///< fused, of 16 floats
+  sse2,    ///< multiply and add of 4 floats, on any x86-64
+  avx2,    ///< fused multiply-add of 8 floats
+  avx512,  ///< fused multiply-add of 16 floats
   bf16,    ///< dot products of 32 bfloat16 into 16 floats (AVX512_BF16)
 };
 
 std::string_view arithmetic_name(Arithmetic arithmetic);
-/// What the processor has, slowest first.
+/// What the processor supports, slowest first.
 std::vector<Arithmetic> available_arithmetics();
 Arithmetic arithmetic_of(neural::cpu::Isa isa);
 
@@ -30,10 +30,11 @@ struct Work {
   double rate() const { return amount / seconds; }
 };
 
-/// Floating-point operations: a multiplication and an addition count two. Some milliseconds.
+/// The amount is floating-point operations; a multiplication and an addition count two. Takes some
+/// milliseconds.
 Work run_fma(Arithmetic arithmetic);
 
-/// Memory far greater than any cache, in huge pages where the system gives them, touched.
+/// Memory far larger than any cache, in huge pages where the system gives them. All pages are touched.
 class BigBuffer {
  public:
   explicit BigBuffer(bool huge_pages = true);
@@ -47,12 +48,12 @@ class BigBuffer {
   std::uint64_t* words_ = nullptr;
 };
 
-/// Bytes read in a row.
+/// The amount is bytes, read in sequence.
 Work run_stream(const BigBuffer& buffer);
-/// Reads of 64 aligned bytes at random places, prefetched 32 ahead.
+/// The amount is reads of 64 aligned bytes at random places, prefetched 32 ahead.
 Work run_gather(const BigBuffer& buffer);
 
-/// The best of several runs, made once in the life of the process (0.2 s for all).
+/// The best of several runs, measured once in the process (0.2 s for all).
 double fma_limit(Arithmetic arithmetic);  ///< operations per second
 double stream_limit();                    ///< bytes per second
 double gather_limit();                    ///< reads per second

@@ -1,5 +1,5 @@
-// mlp/{nrc,nao}: the network's arithmetic alone on 49152 samples, encoded inputs given; mlp/nrc/eigen: the
-// same by Eigen's matrix products, which is what one would write without kernels.
+// mlp/{nrc,nao}: the network's arithmetic alone, on 49152 samples with encoded inputs. mlp/nrc/eigen: the
+// same by Eigen's matrix products, which is the usual code without kernels.
 
 #include <tbb/parallel_for.h>
 

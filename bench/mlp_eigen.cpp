@@ -1,5 +1,6 @@
-// Compiled twice (CMakeLists.txt), with GATELIGHT_EIGEN_CHUNK naming the function. Eigen is renamed, so that
-// the linker can give none of its inline functions to the rest of the program, which runs on any processor.
+// Compiled twice (CMakeLists.txt); GATELIGHT_EIGEN_CHUNK names the function. The namespace Eigen is renamed.
+// Otherwise the linker could use its inline functions in the rest of the program, which must run on any
+// processor.
 #define Eigen GATELIGHT_EIGEN_NAMESPACE
 #include "bench/mlp_eigen.h"
 
@@ -12,7 +13,7 @@ namespace {
 using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Weights = Eigen::Map<const RowMajor>;
 using Gradients = Eigen::Map<RowMajor>;
-// A sample is a column: its inputs are contiguous, as rows of the caller's arrays are.
+// A sample is a column. Its inputs are contiguous, like the rows of the caller's arrays.
 using Samples = Eigen::MatrixXf;
 
 constexpr float kSlope = 0.01f;

@@ -66,14 +66,14 @@ NeuralSurface make_surface() {
   return surface;
 }
 
-/// Numbers of one point: the same for any order in which points are made.
+/// The random numbers of one point. They do not depend on the order in which points are made.
 struct PointRandom {
   std::uint64_t key;
   std::uint64_t counter;
   float next() { return neural::uniform_float(key, counter++); }
 };
 
-/// A smooth colour of radiance that a small network can learn in part: bands over the surface and a lobe over
+/// A smooth radiance that a small network can partly learn: bands over the surface and a lobe over
 /// directions.
 Float3 radiance(const Float3& p, const Float3& direction, const Float3& albedo) {
   const float bands = 0.6f + 0.4f * std::sin(3.0f * p[0]) * std::cos(2.0f * p[1] + p[2]);
@@ -102,7 +102,7 @@ void set_point(NeuralPoints& points, std::size_t i, std::uint32_t triangle, cons
   std::copy(target.begin(), target.end(), points.targets.begin() + static_cast<std::ptrdiff_t>(3 * i));
 }
 
-/// The pixel's place in its quad; the quad's diagonal goes from corner (0,0) to (1,1).
+/// Puts the pixel at its place in its quad. The quad's diagonal goes from corner (0,0) to (1,1).
 void set_pixel(NeuralPoints& points, std::size_t i, std::uint32_t x, std::uint32_t y, std::uint32_t patch,
                PointRandom& random) {
   const std::uint32_t column = (x / 2 + 137 * patch) % kColumns, row = (y / 2 + 61 * patch) % kRows;

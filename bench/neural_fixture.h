@@ -1,6 +1,6 @@
 #pragma once
-// A surface of one million triangles, models on it and points to train and ask: what train_step, query and
-// mlp measure. No scene is needed, and no ray.
+// A surface of one million triangles, models on it, and points for training and queries. train_step, query
+// and mlp measure on it, without a scene and without rays.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace gatelight::bench {
 
-/// A torus with bumps of kColumns x kRows quads, closed, its vertices welded.
+/// A closed torus with bumps, of kColumns x kRows quads with welded vertices.
 struct NeuralSurface {
   static constexpr std::uint32_t kColumns = 1000;
   static constexpr std::uint32_t kRows = 500;
@@ -28,11 +28,11 @@ enum class Cache : std::uint8_t {
   nao,  ///< ambient occlusion: L = 2, no direction, 2 x 32, 1 output
 };
 
-/// What the point on the surface becomes. Hash grids are the paper's 8 levels x 4 features at base 2, with
-/// normal and albedo as further inputs of nrc; they differ in bytes.
+/// The encoding of a point on the surface. Hash grids have the paper's 8 levels x 4 features at base 2. Their
+/// nrc has normal and albedo as additional inputs. They differ in size.
 enum class Encoding : std::uint8_t {
   gate,         ///< two levels, R = 2 and 1
-  hash_grid,    ///< as many bytes as gate
+  hash_grid,    ///< of the same size as gate
   hash_grid_m,  ///< 132.24 MB for nrc, 83.09 MB for nao: the paper's M
   hash_grid_s,  ///< 0.91 MB: the paper's S
 };
@@ -46,46 +46,46 @@ struct NeuralCase {
 std::string case_name(const NeuralCase& which);
 
 neural::ModelConfig neural_config(const NeuralCase& which);
-/// Built when it is first asked for, then kept. Not thread-safe.
+/// Built at the first call, then kept. Not thread-safe.
 std::shared_ptr<const neural::Model> neural_model(const NeuralCase& which);
 
-/// Points with everything that any of the models reads.
+/// Points with all inputs that any of the models reads.
 struct NeuralPoints {
   std::vector<std::uint32_t> surfaces, triangles;
   std::vector<neural::Float2> barycentrics;
   std::vector<neural::Float3> positions, directions, normals, albedos;
-  std::vector<float> targets;  ///< 3 a point
+  std::vector<float> targets;  ///< 3 per point
 
   std::size_t size() const { return triangles.size(); }
   neural::QueryBatch query_batch() const;
 };
 
 enum class Order : std::uint8_t {
-  coherent,  ///< pixels in rows over neighbouring triangles, two of them to a triangle
+  coherent,  ///< pixels in rows over neighbouring triangles, two pixels per triangle
   random,    ///< any triangle of the surface
-  sorted,    ///< likewise, in the order of their numbers
+  sorted,    ///< any triangle, in the order of the triangles' numbers
 };
 std::string order_name(Order order);
 
-/// Pixels are two a quad in each direction, and begin at a place of the surface that `patch` decides. Random
-/// points are as many.
+/// A quad has two pixels in each direction. The pixels begin at a place of the surface that depends on
+/// `patch`. Random points have the same number.
 NeuralPoints make_points(Order order, std::uint32_t width, std::uint32_t height, std::uint32_t patch);
 
 inline constexpr std::uint32_t kBatchWidth = 256;
 inline constexpr std::uint32_t kBatchHeight = 192;
 inline constexpr std::uint32_t kBatchRecords = kBatchWidth * kBatchHeight;  ///< 49152
 
-/// Batches of 49152 records at different places, so that a step finds none of the last one's nodes in a cache
-/// that a renderer would have emptied.
+/// Batches of 49152 records at different places. So a step does not find the nodes of the last step in the
+/// processor's cache, as in a renderer.
 const std::vector<NeuralPoints>& training_points(Order order);
-/// The first `outputs` of the three.
+/// The first `outputs` of the three targets of each point.
 std::vector<float> training_targets(const NeuralPoints& points, std::uint32_t outputs);
-/// 1920x1080.
+/// 1920x1080 points.
 const NeuralPoints& query_points(Order order);
 
-/// Floating-point operations of the network that a record needs, without encoding, biases, activations or
-/// loss: two for each weight forward, for each weight's gradient, and for each gradient of an input that is a
-/// feature or a neuron.
+/// The floating-point operations of the network for a record, without encoding, biases, activations and loss.
+/// Each weight counts two in the forward pass and two for its gradient. It also counts two for the gradient
+/// of its input, if that is a feature or a neuron.
 double forward_operations(const neural::ParameterLayout& layout);
 double training_operations(const neural::ParameterLayout& layout);
 

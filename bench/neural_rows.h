@@ -1,5 +1,5 @@
 #pragma once
-// What the rows of train_step, query and mlp have in common: the backend under measurement and the counters.
+// Common parts of train_step, query and mlp: the threads and the counters of a row.
 
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
@@ -14,13 +14,13 @@
 
 namespace gatelight::bench {
 
-/// All threads that the process may use, as in the limits.
+/// An arena of all threads that the process may use, as for the limits.
 inline tbb::task_arena& all_threads() {
   static tbb::task_arena arena(renderer::available_threads());
   return arena;
 }
 
-/// The arithmetic whose peak a row is measured by: that of the instruction set in use.
+/// The arithmetic whose limit a row is compared with: that of the instruction set in use.
 inline Arithmetic arithmetic_in_use(bool bf16 = false) {
   const Arithmetic arithmetic = arithmetic_of(neural::cpu::select_isa());
   return bf16 && arithmetic == Arithmetic::avx512 && available_arithmetics().back() == Arithmetic::bf16
@@ -28,8 +28,8 @@ inline Arithmetic arithmetic_in_use(bool bf16 = false) {
              : arithmetic;
 }
 
-/// `operations` of the network and `reads` of feature vectors in so many seconds. Reads are given where
-/// memory rules.
+/// Sets the counters for `operations` of the network and `reads` of feature vectors in `seconds`. Reads are
+/// given where memory is the limit.
 inline void set_fractions(benchmark::State& state, double operations, double seconds, Arithmetic arithmetic,
                           double reads = 0.0) {
   state.counters["GFLOP/s"] = operations / seconds / 1e9;

@@ -1,5 +1,5 @@
-// query/{nrc,nao}/{gate,hashgrid}/{coherent,random}/{fp32,bf16}: the answers for 1920x1080 points on one
-// million triangles.
+// query/{nrc,nao}/{gate,hashgrid}/{coherent,random}/{fp32,bf16}: the cache's answers for 1920x1080 points on
+// one million triangles.
 
 #include "bench/neural_rows.h"
 

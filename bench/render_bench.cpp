@@ -1,6 +1,6 @@
-// The whole path tracer beside its limits, on real scenes: render/path, render/tracing_only, and the rays
-// that path traced, replayed: replay/{camera,bounce,shadow}/{single,packet16}. Counters are per second on the
-// threads of the run.
+// The whole path tracer and its limits on real scenes. render/path is the path tracer, render/tracing_only
+// only traces. replay/{camera,bounce,shadow}/{single,packet16} traces the recorded rays of render/path again.
+// Counters are per second on the threads of the run.
 
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>

@@ -5,7 +5,7 @@
 namespace gatelight::renderer {
 namespace {
 
-// One sampler a path, a dimension for every number, as in the integrator.
+// One sampler per path and one dimension for every number, as in the integrator.
 template <SamplerKind kKind>
 void get_1d(benchmark::State& state) {
   Sampler sampler(kKind, 0, 3, 5, 7);

@@ -1,9 +1,8 @@
 // texture/{ours,oiio}/{coherent,random}/{fine,coarse}: a lookup of four channels, bilinear in one level, in
-// the same eight pictures. Coherent: a picture's worth of neighbours, a texel of the level apart, 256 in a
-// row from one picture. Random: any point of any picture. OpenImageIO has its best: tiled and mipmapped files
-// of its own making, all in its cache before the clock starts, handles and per-thread data at hand, and no
-// derivatives to filter over. ours/.../srgb decodes sRGB as well, which OpenImageIO's texture system does
-// not.
+// the same eight pictures. Coherent lookups are neighbours, one texel of the level apart, 256 in a row from
+// one picture. Random lookups are at any point of any picture. OpenImageIO has its best conditions: tiled and
+// mipmapped files of its own format, all in its cache before the clock starts, handles and per-thread data at
+// hand, and no derivatives. ours/.../srgb also decodes sRGB, which OpenImageIO's texture system does not.
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -30,7 +29,7 @@ constexpr int kPictures = 8;
 constexpr int kSize = 1024;
 constexpr int kLookups = 1 << 16;
 
-/// Smooth colours with some grain, different in every picture.
+/// A picture of smooth colours with some grain, different for every index.
 scene::Image picture(int index) {
   scene::Image image;
   image.width = image.height = kSize;
@@ -45,7 +44,7 @@ scene::Image picture(int index) {
   return image;
 }
 
-/// The same pictures for both.
+/// The same pictures for both libraries.
 struct Pictures {
   scene::Scene scene;
   std::unique_ptr<renderer::Textures> ours;
@@ -104,7 +103,7 @@ std::vector<Lookup> lookups(bool random, int level) {
       const renderer::Sampler sampler(renderer::SamplerKind::independent, 0, i, 0, 0);
       result.push_back({renderer::hash(i) % kPictures, sampler.get_2d(0)});
     } else {
-      // Tiles of 16x16, as the renderer walks through them.
+      // Tiles of 16x16 pixels, in the order of the renderer.
       const std::uint32_t tile = i / 256;
       const renderer::Vec2 origin(static_cast<float>(tile % 8) / 8.0f, static_cast<float>(tile / 8) / 32.0f);
       const renderer::Vec2 step(static_cast<float>(i % 16) + 0.3f, static_cast<float>(i / 16 % 16) + 0.7f);
@@ -116,14 +115,14 @@ std::vector<Lookup> lookups(bool random, int level) {
 
 void report(benchmark::State& state, double sum, std::uint64_t count) {
   state.SetItemsProcessed(static_cast<std::int64_t>(count));
-  // Says that both read the same pictures.
+  // Shows that both read the same pictures.
   state.counters["mean"] = sum / static_cast<double>(count);
 }
 
 void ours(benchmark::State& state, bool random, int level, Encoding encoding) {
   const Pictures& p = pictures();
   const std::vector<Lookup> all = lookups(random, level);
-  // A lookup's level lies between the two nearest ones: half a level above, u_level of 0 is this one alone.
+  // The footprint is half a level above `level`, so u_level = 0 always reads `level`.
   const float footprint = std::ldexp(1.4f / kSize, level);
   double sum = 0.0;
   std::uint64_t count = 0;

@@ -1,4 +1,5 @@
-// train_step/{nrc,nao}/{gate,hashgrid}/{coherent,random}: a step of 49152 records on one million triangles.
+// train_step/{nrc,nao}/{gate,hashgrid}/{coherent,random}: a training step of 49152 records on one million
+// triangles.
 
 #include "bench/neural_rows.h"
 
@@ -14,7 +15,7 @@ struct TrainCase {
   friend bool operator==(const TrainCase&, const TrainCase&) = default;
 };
 
-/// Google Benchmark calls a row several times: the backend of the last one is kept.
+/// Google Benchmark calls a row several times, so the last backend is kept.
 struct Learner {
   TrainCase which;
   std::shared_ptr<const neural::Model> model;
@@ -70,7 +71,7 @@ void train_step(benchmark::State& state, const TrainCase& which) {
     }
     const neural::Model& model = *learner->model;
     const double records = steps * kBatchRecords;
-    // A node is read for each record that it belongs to; the update reads two moments and the average.
+    // A node is read for each of its records. The update reads two moments and the average.
     const double reads = records * model.nodes_per_point() + 3 * touched;
     set_fractions(state, records * training_operations(model.parameters), seconds, arithmetic_in_use(),
                   which.order != Order::coherent ? reads : 0.0);

@@ -1,6 +1,6 @@
-// vulkan/train_step and vulkan/query: the same rows as the CPU's on the device that the environment variable
-// GATELIGHT_BENCH_VULKAN names ("" is the best one); without it there are none. Milliseconds of the device
-// are counters, those of the caller the rows' time.
+// vulkan/train_step and vulkan/query: the same rows as for the CPU, on the device that the environment
+// variable GATELIGHT_BENCH_VULKAN names ("" is the best one). Without the variable there are no rows.
+// Counters are milliseconds of the device; the time of a row is that of the caller.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 namespace vulkan = neural::vulkan;
 
 constexpr std::uint64_t kReadBytes = std::uint64_t{256} << 20;
-/// Steps that are started before the first is waited for.
+/// Steps that are started before the first wait.
 constexpr std::size_t kAhead = 2;
 
 std::shared_ptr<vulkan::Machine> shared_machine() {
@@ -29,8 +29,8 @@ const vulkan::MeasuredLimits& limits() {
   return measured;
 }
 
-/// Bytes that a step of so many records, which touches so many nodes, has to move, if each went over the bus
-/// once.
+/// The bytes that a step has to move if each goes over the bus once, for a number of records and of touched
+/// nodes.
 double step_bytes(const neural::Model& model, double records, double touched) {
   const double vector = 4.0 * model.parameters.features;
   const double read = records * model.nodes_per_point() * vector;  // interpolation

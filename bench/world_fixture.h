@@ -1,5 +1,5 @@
 #pragma once
-// Real scenes made ready for tracing, loaded once per program.
+// Real scenes that are ready for tracing, loaded once per program.
 
 #include <filesystem>
 #include <memory>
@@ -24,7 +24,7 @@ inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {0.65f, 0.
 inline const SceneCase kKitchen{"kitchen", "country-kitchen/country-kitchen.glb", "", {0.0f, 0.0f, 0.0f}};
 inline const SceneCase kBistro{
     "bistro", "bistro-exterior/bistro-exterior.glb", "street", {0.65f, 0.8f, 1.0f}};
-/// Without sun and sky, by the light of its lamps.
+/// Without sun and sky: only its lamps give light.
 inline const SceneCase kBistroNight{
     "bistro_night", "bistro-exterior/bistro-exterior.glb", "street", {0.0f, 0.0f, 0.0f}, false};
 
@@ -52,10 +52,10 @@ struct WorldFixture {
   mutable std::unique_ptr<BareEmbree> bare_;
 };
 
-/// Empty where GATELIGHT_SCENES is not set or does not hold the file.
+/// Empty if GATELIGHT_SCENES is not set or its folder does not hold the file.
 std::filesystem::path file_of(const SceneCase& which);
 
-/// Nullptr where file_of() finds nothing.
+/// Null where file_of() is empty.
 const WorldFixture* world(const SceneCase& which);
 
 }  // namespace gatelight::bench
