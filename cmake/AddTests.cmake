@@ -1,8 +1,8 @@
 # gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>...)
 #
-# One executable for a folder of tests, one CTest entry for each file NAME_test.cpp in it (programs that link
-# OpenImageIO start slowly, so an entry for every case would double the time). The entry runs the test suites that
-# the file defines. Its label is the last word before _test: stat, golden, slow; anything else is "unit".
+# Adds one executable for a folder of tests, and one CTest entry for each of its files NAME_test.cpp. An entry for every
+# case would double the time, because programs that link OpenImageIO start slowly. An entry runs the test suites of its
+# file. Its label is the last word before _test if that is stat, golden or slow, otherwise "unit".
 include(GoogleTest)
 function(gatelight_add_tests target)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;PRECOMPILE;SOURCES" ${ARGN})
@@ -12,14 +12,14 @@ function(gatelight_add_tests target)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} gatelight_compile_options GTest::gmock GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-  # What takes long is in the libraries.
+  # The libraries do the long work, so -O1 is enough here.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   gatelight_precompile(${target} <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <string> <vector> ${ARG_PRECOMPILE})
   target_compile_definitions(${target} PRIVATE
     GATELIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GATELIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(timeout 900)
-  if(GATELIGHT_SANITIZE_THREADS)  # all that is read and written is looked at, with a tenth of the speed
+  if(GATELIGHT_SANITIZE_THREADS)  # the sanitizer checks every access, at a tenth of the speed
     set(timeout 7200)
   endif()
   foreach(source IN LISTS ARG_SOURCES)
@@ -47,7 +47,7 @@ function(gatelight_add_tests target)
   endforeach()
 endfunction()
 
-# gatelight_run_on_lavapipe(<test>...): Vulkan sees Mesa's device in software alone, where it is installed.
+# gatelight_run_on_lavapipe(<test>...): the tests see only Mesa's software device, where it is installed.
 find_file(GATELIGHT_LAVAPIPE NAMES lvp_icd.${CMAKE_SYSTEM_PROCESSOR}.json lvp_icd.json
   PATHS /usr/share/vulkan/icd.d /usr/local/share/vulkan/icd.d NO_DEFAULT_PATH)
 mark_as_advanced(GATELIGHT_LAVAPIPE)

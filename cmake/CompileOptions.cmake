@@ -1,11 +1,11 @@
-# One interface target carries the flags of our own code; nothing of it reaches a user of the installed package.
+# One interface target carries the flags of our own code. They do not reach users of the installed package.
 add_library(gatelight_compile_options INTERFACE)
 target_compile_features(gatelight_compile_options INTERFACE cxx_std_20)
 target_compile_options(gatelight_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
-  # The same source must give the same bits whatever instruction set it is compiled for.
+  # The same source must give the same bits for every instruction set.
   -ffp-contract=off
-  # Nothing reads errno after a math call, and no floating-point exception is ever trapped.
+  # No code reads errno after a math call, and no floating-point exception is trapped.
   -fno-math-errno -fno-trapping-math)
 if(GATELIGHT_WARNINGS_AS_ERRORS)
   target_compile_options(gatelight_compile_options INTERFACE -Werror)
@@ -19,7 +19,7 @@ if(GATELIGHT_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     message(FATAL_ERROR "GATELIGHT_FUZZ needs clang, which has libFuzzer: use the preset 'fuzz'")
   endif()
-  # Vectors of the standard library refuse to be read beyond their end, too.
+  # This also checks the bounds of the standard library's vectors.
   target_compile_definitions(gatelight_compile_options INTERFACE _GLIBCXX_ASSERTIONS)
   target_compile_options(gatelight_compile_options INTERFACE
     -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
@@ -30,7 +30,7 @@ if(GATELIGHT_SANITIZE_THREADS)
   target_link_options(gatelight_compile_options INTERFACE -fsanitize=thread)
 endif()
 if(GATELIGHT_COVERAGE)
-  # Many threads count: lost updates would end as lines that nobody ran.
+  # Many threads count, and lost updates would show executed lines as not executed.
   target_compile_options(gatelight_compile_options INTERFACE --coverage -fprofile-update=atomic)
   target_link_options(gatelight_compile_options INTERFACE --coverage)
 endif()

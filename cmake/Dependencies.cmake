@@ -12,10 +12,10 @@ find_package(embree 3.13 CONFIG REQUIRED)
 find_package(TBB 2021 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(spdlog CONFIG REQUIRED)
-# Has no CMake files, and is used as a header alone.
+# xxHash has no CMake files and is used as a header only.
 find_path(GATELIGHT_XXHASH xxhash.h REQUIRED)
 mark_as_advanced(GATELIGHT_XXHASH)
-# A script of one file that stands in the reports of `gatelight sweep`.
+# Chart.js is one script that is copied into the reports of `gatelight sweep`.
 find_file(GATELIGHT_CHART_JS NAMES chart.min.js Chart.min.js
   PATHS /usr/share/javascript/chart.js /usr/share/nodejs/chart.js/dist NO_DEFAULT_PATH
   DOC "Chart.js, version 3 or 4, as one script (UMD)")
@@ -36,7 +36,7 @@ endif()
 if(GATELIGHT_BENCHMARKS)
   find_package(benchmark CONFIG REQUIRED)
 endif()
-# Headers and the shader compiler; the loader itself is opened at run time.
+# The build needs the headers and the shader compiler. The loader is opened at run time.
 set(GATELIGHT_VULKAN_FOUND FALSE)
 if(NOT GATELIGHT_VULKAN STREQUAL "OFF")
   find_path(GATELIGHT_VULKAN_HEADERS vulkan/vulkan_raii.hpp)

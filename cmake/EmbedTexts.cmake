@@ -1,6 +1,6 @@
 # cmake -DOUTPUT=<file.inc> -P EmbedTexts.cmake NAME=[FILE[,FILE...]] ...
 #
-# Writes each list of text files, one after the other, as a string literal: constexpr char NAME[].
+# Writes each list of text files as one string literal: constexpr char NAME[].
 cmake_minimum_required(VERSION 3.25)
 set(content "")
 math(EXPR last "${CMAKE_ARGC} - 1")

@@ -2,7 +2,8 @@ option(GATELIGHT_FAST_BUILD "Builds from nothing are faster: heavy headers are p
 
 # gatelight_precompile(<target> <header>...)
 #
-# Sources include what they use all the same: the other presets, which precompile nothing, find what is missing.
+# Precompiles headers for the target. Sources still include what they use: the other presets precompile nothing and find
+# a missing include.
 function(gatelight_precompile target)
   if(GATELIGHT_FAST_BUILD)
     target_precompile_headers(${target} PRIVATE ${ARGN})
@@ -11,8 +12,8 @@ endfunction()
 
 # gatelight_compile_together(<target> <name> <source>...)
 #
-# One object of several sources of the target, where what they include takes longer than what they are. Their unnamed
-# namespaces become one: two functions of the same name must not meet there. Sources in no group stay alone.
+# Compiles several sources of the target to one object, where their includes take longer than their own code. Their
+# unnamed namespaces become one, so two functions there must not have the same name. Other sources are compiled alone.
 function(gatelight_compile_together target name)
   if(NOT GATELIGHT_FAST_BUILD)
     return()
@@ -23,7 +24,7 @@ endfunction()
 
 # gatelight_compile_rooms_together(<target> <folder>...)
 #
-# The same for all sources of the target that lie in each folder: an object a folder.
+# Does the same for all sources of the target in each folder: one object per folder.
 function(gatelight_compile_rooms_together target)
   get_target_property(sources ${target} SOURCES)
   foreach(room IN LISTS ARGN)

@@ -1,9 +1,9 @@
 # Finds OpenImageIO and defines OpenImageIO::OpenImageIO: by its own configuration where that works, else by its files.
 # Also part of the installed package.
 #
-# Debian's own OpenImageIOConfig.cmake cannot be used: it insists on the command line tools, which are in a package of
-# their own (with Qt), and names an include folder of OpenCV that is not there. Such an error cannot be caught, so that
-# the configuration is tried in a project of its own, once.
+# Debian's own OpenImageIOConfig.cmake cannot be used. It requires the command line tools, which are in a separate
+# package (with Qt), and names an include folder of OpenCV that does not exist. Such an error cannot be caught, so the
+# configuration is tried once in a project of its own.
 include(FindPackageHandleStandardArgs)
 
 if(NOT DEFINED OpenImageIO_CONFIG_WORKS)

@@ -1,5 +1,5 @@
-# Install rules and the exported package: find_package(gatelight) gives gatelight::scene, gatelight::neural
-# and gatelight::renderer.
+# Install rules and the exported package. find_package(gatelight) gives gatelight::scene, gatelight::neural and
+# gatelight::renderer.
 include(CMakePackageConfigHelpers)
 
 set(GATELIGHT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/gatelight)

@@ -1,7 +1,7 @@
 # cmake -DSOURCE=<folder> -DOUTPUT=<header> -P Revision.cmake
 #
-# Writes the revision of the working tree into a header, at build time, and only when it has changed. Empty where the
-# sources are not a git checkout of their own.
+# Writes the revision of the working tree into a header at build time, only when it has changed. The revision is empty
+# where the sources are not a git checkout of their own.
 cmake_minimum_required(VERSION 3.25)
 set(revision "")
 if(EXISTS ${SOURCE}/.git)

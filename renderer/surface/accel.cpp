@@ -19,13 +19,13 @@ namespace {
 constexpr unsigned kPacket = 16;
 struct Lane {
   std::uint32_t seed = 0;
-  Vec3 direction = Vec3::Zero();  ///< world space: Embree's own is in the instance's
+  Vec3 direction = Vec3::Zero();  ///< in world space; Embree's is in the space of the instance
   Color transmittance{1.0f, 1.0f, 1.0f};
   int panes = 0;
-  std::uint64_t seen[Accel::kMaxPanes];  ///< `panes` of them: spatial splits report a triangle more than once
+  std::uint64_t seen[Accel::kMaxPanes];  ///< the first `panes`: spatial splits repeat a triangle
 };
 
-/// Embree hands its context back to the filters: the lanes travel behind it.
+/// Embree passes its context to the filters, so the lanes are stored behind it.
 struct Context {
   RTCIntersectContext embree;
   const Coverage* coverage = nullptr;
@@ -142,7 +142,7 @@ struct Accel::State {
   static bool monitor(void* self, ssize_t bytes, bool) {
     State& state = *static_cast<State*>(self);
     const long long total = state.bytes.fetch_add(bytes) + bytes;
-    // Embree asks the same question about memory that it gives back; only growth can be refused.
+    // Embree also calls this for memory that it frees. Only growth can be refused.
     if (state.limit > 0 && bytes > 0 && total > static_cast<long long>(state.limit)) {
       state.refused = true;
       return false;
@@ -180,7 +180,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   const auto new_scene = [&] {
     RTCScene s = rtcNewScene(state.device);
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
-    // Without it rays slip through the shared edges of triangles, and a closed room leaks light.
+    // Without this flag rays slip through the shared edges of triangles, and a closed room leaks light.
     rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
     return s;
   };

@@ -1,6 +1,6 @@
 #pragma once
-// Embree, behind one pair of files: no type of it stands here. Single-use meshes lie in the top level; shared
-// meshes are Embree instances.
+// The ray tracing kernels of Embree. accel.cpp alone uses Embree; no type of it stands here. Meshes that are
+// used once lie in the top level; shared meshes are Embree instances.
 
 #include <cstddef>
 #include <memory>
@@ -14,28 +14,28 @@
 namespace gatelight::renderer {
 
 struct AccelOptions {
-  int threads = 0;                     ///< of the build; 0: all of the current arena
-  std::string isa = "auto";            ///< auto, scalar (SSE2), avx2, avx512
-  std::size_t memory_limit_bytes = 0;  ///< of Embree's own allocations; 0: none
+  int threads = 0;                     ///< of the build; 0 means all of the current arena
+  std::string isa = "auto";            ///< auto, scalar (SSE2), avx2 or avx512
+  std::size_t memory_limit_bytes = 0;  ///< of Embree's own allocations; 0 means no limit
 };
 
 /// Thread-safe after construction; holds references to the scene's vertices and to the coverage.
 class Accel {
  public:
-  /// Throws OutOfMemory, Unavailable (the ISA), or std::runtime_error with Embree's own words.
+  /// Throws OutOfMemory, Unavailable (the ISA), or std::runtime_error with Embree's message.
   Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  /// Nearest hits in (0, t_max). Sizes are equal. Rays are traced in packets of 16 in the order given;
-  /// `coherent` says that neighbours point the same way.
+  /// Finds the nearest hits in (0, t_max). The spans have equal sizes. Rays are traced in packets of 16 in
+  /// the given order. `coherent` says that neighbours have similar directions.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
 
-  /// A ray that has passed more panes ends: what is left of it counts as dark.
+  /// A ray that meets more panes than this ends and counts as blocked.
   static constexpr int kMaxPanes = 64;
 
-  /// Fraction of light that passes along each ray in (0, t_max): zero behind an opaque surface.
+  /// The fraction of light that passes along each ray in (0, t_max); zero behind an opaque surface.
   void transmittance(std::span<const Ray> rays, std::span<Color> result) const;
 
   std::size_t bytes() const;
