@@ -36,7 +36,7 @@ double tightest_limit(const fs::path& root, const std::string& controller, const
   const fs::path mount = root / "sys/fs/cgroup";
   double limit = kUnlimited;
   std::ifstream groups(root / "proc/self/cgroup");
-  // Each line: hierarchy:controllers:path
+  // Each line has the form hierarchy:controllers:path.
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':');
     const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);

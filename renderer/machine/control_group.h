@@ -1,5 +1,5 @@
 #pragma once
-// Limits that control groups set for this process.
+// Reads the limits that control groups set for this process.
 
 #include <filesystem>
 #include <functional>

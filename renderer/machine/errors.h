@@ -16,7 +16,7 @@ struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The loss grew without end or is not finite. The message names the step.
+/// The training loss grows without bound or is not finite. The message names the step.
 struct TrainingDiverged : NumericalError {
   using NumericalError::NumericalError;
 };

@@ -8,7 +8,7 @@ namespace gatelight::renderer::flip {
 using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
 using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Linear light.
+/// Planes of linear light.
 struct RgbPlanes {
   Plane r, g, b;
 
