@@ -21,8 +21,8 @@ class Trainer {
     backend_->query(batch, options, out);
   }
 
-  /// Writes the whole state and configuration to a .safetensors file (an AtomicFile). `fingerprint` identifies
-  /// what was learned; it is any text, for example a hash of the scene. Throws OutputError.
+  /// Writes the whole state and configuration to a .safetensors file (an AtomicFile). `fingerprint`
+  /// identifies what was learned; it is any text, for example a hash of the scene. Throws OutputError.
   void save(const std::filesystem::path& path, const std::string& fingerprint) const;
   /// Throws CacheFileError, which names the difference, for a damaged file or another configuration, layout,
   /// version or fingerprint. The trainer is unchanged then.
