@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/vulkan/vulkan_backend.h"
+#include "neural/vulkan/devices.h"
 
 namespace gatelight::apps {
 
