@@ -114,7 +114,7 @@ def scopes_of_lines(code):
 
 def operand_end(code, begin):
     """Where the operand that begins there ends: a name or number with what is called, indexed and selected."""
-    match = re.compile(r"[-+!~]?(?:[\w:.']|->)*").match(code, begin)
+    match = re.compile(r"[-+!~]?(?:_cast<[\w:<> ]*>(?=\()|[\w:.']|->)*").match(code, begin)
     end = match.end()
     while end < len(code) and code[end] in PAIRS:
         end = closing(code, end)
@@ -165,6 +165,12 @@ def dropped_factors(code):
             yield "dropped factor", match.start(), end, ""
 
 
+def may_be_swapped(first, second):
+    """Not a text with what is none, nor parts of a type."""
+    return (first and second and first != second and first.startswith('"') == second.startswith('"') and
+            not any(argument.count("<") != argument.count(">") for argument in (first, second)))
+
+
 def swapped_arguments(code):
     for opening in re.finditer(r"(?<=\w)(?<!min)(?<!max)\(", code):
         end = closing(code, opening.start())
@@ -179,7 +185,7 @@ def swapped_arguments(code):
         cuts.append(len(inside))
         for a, b, c in zip(cuts, cuts[1:], cuts[2:]):
             first, second = inside[a + 2:b], inside[b + 2:c]
-            if first.strip() and second.strip() and first != second:
+            if may_be_swapped(first.strip(), second.strip()):
                 begin, end = opening.end() + a + 2, opening.end() + c
                 yield "swapped arguments", begin, end, ((opening.end() + b + 2, end), ", ", (begin, opening.end() + b))
 
@@ -216,7 +222,7 @@ def dropped_statements(code):
 def negated_conditions(code):
     for match in re.finditer(r"\b(?:if|while) \(", code):
         end = closing(code, match.end() - 1)
-        if end is not None:
+        if end is not None and not re.search(r"\w+[*&]? \w+ = ", code[match.end():end]):
             yield "negated condition", match.end(), end, ("!(", (match.end(), end), ")")
 
 
@@ -226,17 +232,19 @@ def removed_exits(code, line_before):
     if not match:
         return
     at = statement_begin(code)
-    guarded = re.match(r"\s*(\} )?(if|else)\b", code) or re.search(r"\b(if \(.*|else)\s*\{?$|\) \{?$", line_before.rstrip())
+    guarded = re.match(r"\s*(\} )?(if|else)\b", code) or re.search(r"\bif \(.*[{)]$|\belse( \{)?$", line_before.rstrip())
     if at == match.start() and guarded:
         yield "removed exit", match.start(), match.end(), ";"
 
 
-def changes(code, line_before):
+def changes(code, line_before, scope):
     """(kind, begin, end, what stands there instead: text, or texts and columns of the line)."""
     yield from changed_operators(code)
     yield from changed_constants(code)
     yield from dropped_factors(code)
     yield from swapped_arguments(code)
+    if scope != "code":
+        return
     yield from dropped_statements(code)
     yield from negated_conditions(code)
     yield from removed_exits(code, line_before)
@@ -261,7 +269,7 @@ def mutants_of(text, file):
             line = initialiser_only(line)
         before = originals[number]
         found = {}
-        for kind, begin, end, other in changes(line, lines[number - 1] if number else ""):
+        for kind, begin, end, other in changes(line, lines[number - 1] if number else "", scope):
             parts = (other,) if isinstance(other, str) else other
             text_there = "".join(part if isinstance(part, str) else before[slice(*part)] for part in parts)
             after = before[:begin] + text_there + before[end:]

@@ -132,6 +132,12 @@ TEST(Images, DamageUnderRightChecksumsIsRefusedInSilence) {
   }
 }
 
+TEST(Images, AHeaderBehindThePictureIsRefused) {
+  std::vector<std::uint8_t> bytes = kGrey;
+  bytes.insert(bytes.end() - 12, kGrey.begin() + 8, kGrey.begin() + 33);
+  EXPECT_THAT(with_bytes(bytes).refused(), HasSubstr("images[0]"));
+}
+
 TEST(Images, AJpegThatLibjpegMakesUpIsRefused) {
   const Scene whole = with_bytes(kJpeg).load();
   EXPECT_THAT(whole.images.at(0).pixels, ::testing::Each(128));

@@ -338,6 +338,17 @@ TEST(Flip, PixelsPerDegreeHaveARange) {
   }
 }
 
+TEST(FlipMap, NoColourIsOffTheCurve) {
+  // The map has equal steps for the eye, and the source every fifth of its colours.
+  const auto color = [](int i) { return flip::magma(static_cast<float>(i) / 51.0f); };
+  for (int i = 1; i < 51; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float bend = color(i - 1)[c] - 2.0f * color(i)[c] + color(i + 1)[c];
+      EXPECT_LT(std::abs(bend), 0.0105f) << i << " " << c;
+    }
+  }
+}
+
 TEST(FlipMap, ShowsThePublishedColours) {
   struct Entry {
     int index;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/bsdf/bsdf.h"
+#include "renderer/surface/surface.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
@@ -81,6 +83,31 @@ TEST(Panes, TexturesOfTransmissionAndMetalDarkenAsTheirFactorsDo) {
   const Color metal = through(pane_of(textured, &image));
   EXPECT_TRUE(metal.isApprox(through(pane_of(factors)), 1e-4f));
   EXPECT_LT(metal.maxCoeff(), 0.6f);
+}
+
+TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
+  scene::Material pane = SceneBuilder::clear_glass();
+  pane.base_color = Color(0.9f, 0.8f, 0.7f);
+  pane.ior = 2.0f;
+  pane.specular = 0.8f;
+  pane.specular_color = Color(0.9f, 0.6f, 0.3f);
+  pane.metallic = 0.2f;
+  pane.transmission = 0.7f;
+  const scene::Scene scene = pane_of(pane);
+  const Textures textures(scene);
+  Hit hit;
+  hit.instance = 0;
+  hit.primitive = 0;
+  hit.u = 0.25f;
+  hit.v = 0.25f;
+  for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0.6f, 0, -0.8f), Vec3(0.6f, 0, 0.8f)}) {
+    const Surface s = Surfaces(scene, textures).at(hit, direction, 0.0f, 0.0f);
+    const Bsdf bsdf(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, -direction, s.front);
+    const Color expected = bsdf.straight_transmittance();
+    const Color seen = Coverage(scene, textures).pane_transmittance(hit, direction);
+    EXPECT_GT(expected.minCoeff(), 0.0f);
+    EXPECT_TRUE(seen.isApprox(expected, 1e-5f)) << seen.transpose() << " and " << expected.transpose();
+  }
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-// Normal maps in mirrored instances and from behind: the surface that is seen does not depend on how its mesh
-// came to its place.
+// What a hit sees of its material, and normal maps in mirrored instances and from behind: the surface that is
+// seen does not depend on how its mesh came to its place.
 
 #include "renderer/surface/surface.h"
 
 #include <gtest/gtest.h>
 
+#include "renderer/image/srgb.h"
 #include "scene/bake.h"
 #include "tests/support/scene_builder.h"
 
@@ -103,6 +104,137 @@ TEST(NormalMaps, AnInstanceLooksLikeItsMeshMovedIntoTheWorld) {
       expect_near(seen(placed, world).coat, seen(baked, world).coat);
     }
   }
+}
+
+/// A square of the material, all of whose textures are a picture of two texels: the first set of coordinates
+/// finds one, the second the other.
+scene::Scene painted(const scene::Material& material) {
+  SceneBuilder builder;
+  scene::Mesh& mesh = builder.quad(builder.material(material), Vec3::Zero(), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  mesh.uv0.assign(4, Vec2(0.25f, 0.5f));
+  mesh.uv1.assign(4, Vec2(0.75f, 0.5f));
+  scene::Scene& scene = builder.scene();
+  scene.images.push_back({.name = "two",
+                          .width = 2,
+                          .height = 1,
+                          .channels = 4,
+                          .pixels = {200, 128, 64, 32, 100, 50, 150, 250}});
+  scene.textures.push_back({.image = 0});
+  return scene;
+}
+
+Surface front_of(const scene::Scene& scene) {
+  const Textures textures(scene);
+  Hit hit;
+  hit.instance = 0;
+  hit.primitive = 0;
+  hit.u = 0.25f;
+  hit.v = 0.25f;
+  return Surfaces(scene, textures).at(hit, Vec3(0, 0, -1), 0.0f, 0.0f);
+}
+
+/// Of everything something, and not twice the same.
+scene::Material rich_material() {
+  scene::Material m;
+  m.base_color = Color(0.9f, 0.8f, 0.7f);
+  m.metallic = 0.65f;
+  m.roughness = 0.6f;
+  m.emission = Color(3.0f, 2.0f, 1.0f);
+  m.ior = 1.7f;
+  m.specular = 0.55f;
+  m.specular_color = Color(0.5f, 0.45f, 0.4f);
+  m.transmission = 0.35f;
+  m.clearcoat = 0.95f;
+  m.clearcoat_roughness = 0.3f;
+  m.sheen_color = Color(0.25f, 0.2f, 0.15f);
+  m.sheen_roughness = 0.85f;
+  return m;
+}
+
+/// The members that a surface has of such a material, times what the textures say.
+struct Factors {
+  Color base_color = Color::Ones();
+  float metallic = 1.0f;
+  float roughness = 1.0f;
+  Color emission = Color::Ones();
+  float specular = 1.0f;
+  Color specular_color = Color::Ones();
+  float transmission = 1.0f;
+  float clearcoat = 1.0f;
+  float clearcoat_roughness = 1.0f;
+  Color sheen_color = Color::Ones();
+  float sheen_roughness = 1.0f;
+};
+
+void expect_product(const Surface& s, const scene::Material& m, const Factors& f) {
+  const SurfaceMaterial& seen = s.material;
+  const auto same = [](const Color& a, const Color& b) { return (a - b).abs().maxCoeff() < 1e-5f; };
+  EXPECT_TRUE(same(seen.base_color, m.base_color * f.base_color)) << seen.base_color.transpose();
+  EXPECT_NEAR(seen.metallic, m.metallic * f.metallic, 1e-5f);
+  EXPECT_NEAR(seen.roughness, m.roughness * f.roughness, 1e-5f);
+  EXPECT_TRUE(same(s.emission, m.emission * f.emission)) << s.emission.transpose();
+  EXPECT_EQ(seen.ior, m.ior);
+  EXPECT_NEAR(seen.specular, m.specular * f.specular, 1e-5f);
+  EXPECT_TRUE(same(seen.specular_color, m.specular_color * f.specular_color));
+  EXPECT_NEAR(seen.transmission, m.transmission * f.transmission, 1e-5f);
+  EXPECT_NEAR(seen.clearcoat, m.clearcoat * f.clearcoat, 1e-5f);
+  EXPECT_NEAR(seen.clearcoat_roughness, m.clearcoat_roughness * f.clearcoat_roughness, 1e-5f);
+  EXPECT_TRUE(same(seen.sheen_color, m.sheen_color * f.sheen_color));
+  EXPECT_NEAR(seen.sheen_roughness, m.sheen_roughness * f.sheen_roughness, 1e-5f);
+}
+
+TEST(Surfaces, HaveTheFactorsOfTheirMaterial) {
+  scene::Material m = rich_material();
+  const Surface thin = front_of(painted(m));
+  expect_product(thin, m, {});
+  EXPECT_TRUE(thin.material.thin_walled);
+  EXPECT_FALSE(thin.unlit);
+  m.thickness = 0.1f;
+  EXPECT_FALSE(front_of(painted(m)).material.thin_walled);
+}
+
+TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
+  for (const int set : {0, 1}) {
+    scene::Material m = rich_material();
+    for (scene::TextureSlot* slot :
+         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.specular_texture,
+          &m.specular_color_texture, &m.transmission_texture, &m.clearcoat_texture,
+          &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture}) {
+      slot->texture = 0;
+      slot->texcoord = set;
+    }
+    const scene::Scene scene = painted(m);
+    const std::uint8_t* const texel = &scene.images[0].pixels[set == 0 ? 0 : 4];
+    const auto linear = [&](int channel) { return static_cast<float>(texel[channel]) / 255.0f; };
+    const Color color(srgb_to_linear(linear(0)), srgb_to_linear(linear(1)), srgb_to_linear(linear(2)));
+    expect_product(front_of(scene), m,
+                   {.base_color = color,
+                    .metallic = linear(2),
+                    .roughness = linear(1),
+                    .emission = color,
+                    .specular = linear(3),
+                    .specular_color = color,
+                    .transmission = linear(0),
+                    .clearcoat = linear(0),
+                    .clearcoat_roughness = linear(1),
+                    .sheen_color = color,
+                    .sheen_roughness = linear(3)});
+  }
+}
+
+TEST(Surfaces, VertexColoursMultiplyTheBaseColour) {
+  const scene::Material m = rich_material();
+  scene::Scene scene = painted(m);
+  scene.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {9, 9, 9, 1}};
+  expect_product(front_of(scene), m, {.base_color = Color(0.5f, 0.25f, 0.25f)});
+}
+
+TEST(Surfaces, UnlitOnesShineInTheirBaseColourAlone) {
+  scene::Material m = rich_material();
+  m.unlit = true;
+  const Surface s = front_of(painted(m));
+  EXPECT_TRUE(s.unlit);
+  EXPECT_TRUE((s.emission == m.base_color).all());
 }
 
 }  // namespace
