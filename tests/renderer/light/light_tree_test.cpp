@@ -135,6 +135,47 @@ TEST(LightTreeTest, PrefersTheNearTheBrightAndTheFacing) {
   EXPECT_NEAR(LightTree(lights).probability(Vec3::Zero(), Vec3::UnitY(), 0), 0.5f, 1e-3f);
 }
 
+/// Second moment of a sample's light over the squared mean, 1 at best: what the choice of a light costs in
+/// noise. Mean over some points among the lights.
+double cost_of_choices(const std::vector<LightBounds>& lights) {
+  const LightTree tree(lights);
+  testing::Random random(31);
+  double cost = 0.0;
+  constexpr int kPoints = 50;
+  for (int i = 0; i < kPoints; ++i) {
+    const Vec3 p(random.uniform_float() - 0.5f, random.uniform_float() - 0.5f, random.uniform_float() - 0.5f);
+    double mean = 0.0;
+    double second = 0.0;
+    for (std::uint32_t k = 0; k < lights.size(); ++k) {
+      const LightBounds& light = lights[k];
+      const Vec3 to = light.centre - p;
+      const float along = -to.normalized().dot(light.axis);
+      const float cosine = light.cos_normals < 0.0f ? 1.0f : std::max(along, 0.0f);
+      const double sent = light.intensity * static_cast<double>(cosine / to.squaredNorm());
+      mean += sent;
+      if (sent > 0.0) second += sent * sent / static_cast<double>(tree.probability(p, Vec3::Zero(), k));
+    }
+    cost += second / (mean * mean) / kPoints;
+  }
+  return cost;
+}
+
+TEST(LightTreeTest, PartsLightsByPlaceAndDirection) {
+  // Shuffled: groups in the order of the list would cover the whole cube. Measured 2.08 (4.5 in such
+  // groups) and 4.64.
+  std::vector<LightBounds> lights = scattered(800, 17);
+  for (LightBounds& light : lights) {
+    light = {.centre = light.centre, .radius = 1e-3f, .axis = light.axis, .intensity = 1.0};
+    light.cos_normals = -1.0f;
+  }
+  EXPECT_LT(cost_of_choices(lights), 2.4) << "lamps that shine all round";
+  for (LightBounds& light : lights) {
+    light.cos_normals = 1.0f;
+    light.axis = light.axis.x() > 0.0f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  }
+  EXPECT_LT(cost_of_choices(lights), 5.2) << "panels that face one of two ways";
+}
+
 TEST(LightTreeTest, SurvivesEqualAndExtremeLights) {
   LightBounds light;
   light.intensity = 1e-20;
