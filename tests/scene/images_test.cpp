@@ -277,6 +277,13 @@ TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
   EXPECT_EQ(scene.warnings.size(), 1u);
 }
 
+TEST(Images, AMeshWithoutTextureCoordinatesIsWarnedOf) {
+  GltfBuilder file = with_image({{"uri", kRgba}});
+  EXPECT_THAT(file.load().warnings, ::testing::IsEmpty());
+  file.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+  EXPECT_THAT(file.load().warnings, ElementsAre(HasSubstr("texture coordinates")));
+}
+
 TEST(Images, OfMaterialsThatNobodyShowsAreNotDecoded) {
   GltfBuilder file = with_image({{"uri", "absent.png"}});
   file.root["meshes"][0]["primitives"][0].erase("material");

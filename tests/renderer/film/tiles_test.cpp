@@ -1,0 +1,65 @@
+#include "renderer/film/tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace gatelight::renderer {
+namespace {
+
+/// The pixels of each tile, in their order.
+std::vector<std::vector<std::pair<int, int>>> tiles_of(const PixelRect& region) {
+  const TileGrid grid(region);
+  std::vector<std::vector<std::pair<int, int>>> tiles;
+  std::vector<Pixel> pixels;
+  for (int tile = 0; tile < grid.count(); ++tile) {
+    grid.pixels(tile, pixels);
+    tiles.emplace_back();
+    for (const Pixel& p : pixels) tiles.back().emplace_back(p.x, p.y);
+  }
+  return tiles;
+}
+
+TEST(Tiles, HoldEveryPixelOfTheRegionOnce) {
+  for (const PixelRect& region :
+       {PixelRect{0, 0, 1, 1}, PixelRect{0, 0, 50, 40}, PixelRect{17, 31, 49, 80}}) {
+    std::vector<std::pair<int, int>> expected;
+    for (int x = region.x0; x < region.x1; ++x) {
+      for (int y = region.y0; y < region.y1; ++y) expected.emplace_back(x, y);
+    }
+    std::vector<std::pair<int, int>> found;
+    for (const auto& tile : tiles_of(region)) {
+      EXPECT_FALSE(tile.empty());
+      found.insert(found.end(), tile.begin(), tile.end());
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(Tiles, EachPacketOfSixteenIsASquare) {
+  for (const auto& tile : tiles_of({0, 0, 64, 32})) {
+    ASSERT_EQ(tile.size(), 256u);
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+      EXPECT_EQ(tile[i].first / 4, tile[i / 16 * 16].first / 4) << i;
+      EXPECT_EQ(tile[i].second / 4, tile[i / 16 * 16].second / 4) << i;
+    }
+  }
+}
+
+TEST(Tiles, ARegionHasThoseOfTheWholePicture) {
+  const PixelRect region{20, 5, 70, 37};
+  auto whole = tiles_of({0, 0, 80, 48});
+  for (auto& tile : whole) {
+    std::erase_if(tile, [&](const auto& p) {
+      return p.first < region.x0 || p.first >= region.x1 || p.second < region.y0 || p.second >= region.y1;
+    });
+  }
+  std::erase_if(whole, [](const auto& tile) { return tile.empty(); });
+  EXPECT_EQ(tiles_of(region), whole);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
