@@ -7,15 +7,12 @@
 
 #include <cmath>
 
-#include "renderer/cache/cached_paths_scratch.h"
-#include "tests/support/built_world.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using testing::BuiltWorld;
 using testing::Moments;
 using testing::SceneBuilder;
 
@@ -24,7 +21,7 @@ const double kSignificance = testing::sidak(1e-4, 4);
 
 /// So many paths from (0, 5, 0) straight down, below a sky of kSky.
 PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t paths) {
-  const BuiltWorld built(scene, {.constant = Color::Constant(static_cast<float>(kSky))});
+  const World world(scene, {.constant = Color::Constant(static_cast<float>(kSky))});
   RenderOptions options;
   options.cache.holds = CacheHolds::all;
   std::vector<PathStart> starts(paths);
@@ -39,7 +36,7 @@ PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t
   PathBatch batch{PointInputs{}};
   RayCounts rays;
   CachedPaths::Scratch scratch;
-  CachedPaths(built.world, options, stored).trace(starts, {}, plan, batch, {}, rays, scratch);
+  CachedPaths(world, cached_paths_options(options), stored).trace(starts, {}, plan, batch, {}, rays, scratch);
   return batch;
 }
 
