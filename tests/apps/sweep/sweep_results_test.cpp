@@ -17,6 +17,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_write.h"
+#include "renderer/surface/embree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
