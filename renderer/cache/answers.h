@@ -16,8 +16,8 @@ struct AnswerUnits {
   float greatest = std::numeric_limits<float>::max();
 };
 
-/// As many floats for each point as the network has outputs. Not finite or negative ones become zero; the
-/// result is the number of points that have one.
+/// Fills `answers`: as many floats for each point as the network has outputs. Outputs that are negative or
+/// not finite become zero; returns the number of points that have one.
 std::uint64_t ask_cache(const neural::Trainer& trainer, neural::QueryPrecision precision,
                         const AnswerUnits& units, const SurfacePoints& points, std::span<float> answers);
 

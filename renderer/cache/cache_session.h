@@ -57,7 +57,7 @@ class CacheSession {
   void return_to(const Bookmark& bookmark);
 
   /// Answers in the picture's units: radiance over reflectance (3 floats a point) or openness (1). Not finite
-  /// or negative ones become zero: says for how many points. One thread at a time.
+  /// or negative ones become zero; returns for how many points. One thread at a time.
   std::uint64_t answer(const SurfacePoints& points, std::span<float> answers) const;
 
   CacheState export_state() const;

@@ -76,7 +76,7 @@ struct RecordRequest {
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 
-/// So many points leave about as many records.
+/// The number of points that leave about so many records.
 inline std::size_t points_for(double records, double records_per_point) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(records / records_per_point)));
 }
@@ -89,9 +89,9 @@ using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<f
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
-  /// For about so many records of the steps from `step` on; the rest of it is the caller's.
+  /// Asks for about `records` records, from `step` on. The caller fills in most_records, batches and counts.
   virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
-  /// Of the answers of a cache that learns these records.
+  /// The units of the answers that a cache of these records gives.
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual void trace(const RecordRequest& request, RecordBatch& batch) = 0;
   virtual void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) = 0;

@@ -9,7 +9,7 @@
 
 namespace gatelight::renderer {
 
-/// What training has shown so far. All members throw TrainingDiverged.
+/// What training has shown so far. Both functions throw TrainingDiverged.
 struct TrainingGuard {
   double loss_average = 0.0;  ///< a slow mean
   double loss_least = 0.0;    ///< that it has had
@@ -20,11 +20,11 @@ struct TrainingGuard {
   std::uint64_t good_steps = 0;  ///< CacheState::steps when training was last as good as ever; 0: never
   friend bool operator==(const TrainingGuard&, const TrainingGuard&) = default;
 
-  /// After each step: that its loss is finite, and that losses do not grow without end.
+  /// Called after each step: refuses a loss that is not finite, and losses that grow without end.
   void look_at_loss(const neural::StepStatistics& step, std::uint64_t number);
-  /// Points of which answers are asked, at most.
+  /// The most points that are asked.
   static constexpr std::size_t kLookedAt = 1024;
-  /// Between groups, after `steps_done` steps: losses and answers must stay within what training can reach.
+  /// Called between groups, after `steps_done` steps: refuses losses and answers that no training reaches.
   /// `targets` are those of the group, `some` are points of it.
   void look_at_answers(std::span<const float> targets, const neural::QueryBatch& some,
                        const neural::Trainer& trainer, std::uint64_t steps_done);

@@ -12,14 +12,14 @@ class TriangleCounts {
  public:
   /// Counts nothing.
   TriangleCounts() = default;
-  /// starts: whose triangles count where a path began, too; null for those of records alone. Both outlive it.
+  /// Triangles of records count, and those where paths begin if `starts` is not null. Both outlive it.
   TriangleCounts(const neural::GateLayout& layout, const TrainingPoints* starts);
 
-  /// A batch that is learned after `step` steps. Each triangle once, however many records lie on it.
+  /// Counts a batch that is learned after `step` steps: each triangle once, however many records lie on it.
   void add(const RecordBatch& group, std::uint64_t batch, std::uint64_t step);
-  /// In the layout's order of triangles; empty where nothing is counted.
+  /// One number for each triangle of the layout; empty where nothing is counted.
   const std::vector<std::uint32_t>& values() const { return counts_; }
-  /// From these on, where they are of the same layout.
+  /// Goes on from these numbers if they are of the same layout.
   void restart(const std::vector<std::uint32_t>& counts);
 
  private:

@@ -29,7 +29,7 @@ class Pass {
   /// Of all runs so far.
   virtual SampleCounts counts() const = 0;
   virtual RayCounts rays() const = 0;
-  /// Adds what was asked of a cache.
+  /// Adds what all runs asked of a cache; a pass without a cache adds nothing.
   virtual void add_to(CacheStatistics&) const {}
 };
 

@@ -12,9 +12,9 @@
 
 namespace gatelight::renderer {
 
-/// Later parts refer to earlier ones, so that it stays where it was built.
+/// Later members refer to earlier ones: a world stays where it was built.
 struct World {
-  /// Builds in the caller's arena. The scene must outlive it. Throws what its parts throw.
+  /// Works in the caller's arena. The scene must outlive the world. Throws what the members throw.
   explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},
                  LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {})
       : scene(scene_in),
