@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +7,6 @@
 
 namespace gatelight::scene {
 namespace {
-
-using testing::HasSubstr;
 
 /// A triangle whose texture coordinates are read, since its material has a (missing) texture.
 struct Textured {
@@ -192,7 +189,7 @@ TEST(Accessors, TextureCoordinatesNobodyReadsAreDropped) {
 struct Damage {
   const char* pointer;  ///< into the JSON
   json value;
-  const char* says;
+  const char* names;
 };
 
 void PrintTo(const Damage& damage, std::ostream* out) {
@@ -236,11 +233,7 @@ TEST_F(DamagedFile, IsWholeBeforehand) {
 TEST_P(DamagedFile, IsRefusedInOneLine) {
   GltfBuilder file = whole();
   file.root[json::json_pointer(GetParam().pointer)] = GetParam().value;
-  const std::string message = file.refused();
-  EXPECT_THAT(message, HasSubstr("test.glb: "));
-  EXPECT_THAT(message, HasSubstr("expected"));
-  EXPECT_THAT(message, HasSubstr(GetParam().says));
-  EXPECT_EQ(message.find('\n'), std::string::npos);
+  file.expect_refused({GetParam().names});
 }
 
 const double kHuge = 1e300;
@@ -294,11 +287,11 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"/nodes/0/children", json::array({8}), "children[0]"},
         Damage{"/nodes/0/translation", json::array({1, 2}), "translation"},
         Damage{"/nodes/0/translation/1", 1e39, "translation"},
-        Damage{"/nodes/0/translation/1", "x", "translation"},
-        Damage{"/nodes/0/translation/1", 1e30, "origin"}, Damage{"/nodes/0/scale/1", 3e38, "origin"},
+        Damage{"/nodes/0/translation/1", "x", "translation"}, Damage{"/nodes/0/translation/1", 1e30, "1e+30"},
+        Damage{"/nodes/0/scale/1", 3e38, "3e+38"},
         Damage{"/nodes/0/rotation", json::array({0, 0, 0, 0}), "rotation"},
         Damage{"/nodes/0/matrix", json::array({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}), "matrix"},
-        Damage{"/scene", 1, "scene"}, Damage{"/scenes/0/nodes", json::array({0, 0}), "twice"},
+        Damage{"/scene", 1, "scene"}, Damage{"/scenes/0/nodes", json::array({0, 0}), "scenes[0].nodes"},
         Damage{"/scenes/0/nodes/0", 5, "scenes[0].nodes[0]"},
         Damage{"/cameras/0/perspective/yfov", 0, "yfov"}, Damage{"/cameras/0/perspective/yfov", 4, "yfov"},
         Damage{"/cameras/0/perspective/aspectRatio", -1, "aspectRatio"},
@@ -311,7 +304,7 @@ TEST(Accessors, NonFinitePositionsAreRefused) {
     GltfBuilder file;
     file.node({{"mesh",
                 file.mesh({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, bad, 0})}}}})}});
-    EXPECT_THAT(file.refused(), HasSubstr("position 2"));
+    file.expect_refused({"meshes[0].primitives[0]", "position 2"});
   }
 }
 
@@ -328,7 +321,7 @@ TEST(Accessors, SparseIndexBeyondTheCountIsRefused) {
                                {"indices", {{"bufferView", index_view}, {"componentType", kUnsignedByte}}},
                                {"values", {{"bufferView", value_view}}}}}});
   file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}}}})}});
-  EXPECT_THAT(file.refused(), HasSubstr("index 3, expected less than 3"));
+  file.expect_refused({"accessors[0].sparse.indices", "index 3"});
 }
 
 TEST(Accessors, ZerosWithoutDataHaveALimit) {
@@ -336,7 +329,7 @@ TEST(Accessors, ZerosWithoutDataHaveALimit) {
   const int position =
       file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3000000000}});
   file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", position}}}})}});
-  EXPECT_THAT(file.refused(), HasSubstr("without a bufferView"));
+  file.expect_refused({"accessors[0]", "3000000000"});
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
@@ -14,8 +13,6 @@
 
 namespace gatelight::scene {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int kGrid = 9;
 
@@ -159,19 +156,20 @@ TEST(Meshopt, OctahedralFilterGivesNormals) {
 TEST(Meshopt, BrokenDataAndCountsAreRefused) {
   GltfBuilder damaged = meshopt_sheet("TRIANGLES");
   damaged.bin[0] = 0x11;
-  EXPECT_THAT(damaged.refused(), HasSubstr("cannot be decoded"));
-  const auto with = [](const char* key, const json& value) {
+  damaged.expect_refused({"bufferViews[1].extensions.EXT_meshopt_compression"});
+  const auto expect_refused = [](const char* key, const json& value, tests::Names names) {
     GltfBuilder file = meshopt_sheet("TRIANGLES");
     file.root["bufferViews"][1]["extensions"]["EXT_meshopt_compression"][key] = value;
-    return file.refused();
+    names.push_back("bufferViews[1].extensions.EXT_meshopt_compression");
+    file.expect_refused(names);
   };
-  EXPECT_THAT(with("count", 80), HasSubstr("80 elements"));
-  EXPECT_THAT(with("byteStride", 10), HasSubstr("multiple of 4"));
-  EXPECT_THAT(with("byteLength", 1000000), HasSubstr("bytes at"));
-  EXPECT_THAT(with("mode", "MAGIC"), HasSubstr("ATTRIBUTES|TRIANGLES|INDICES"));
-  EXPECT_THAT(with("filter", "QUATERNION"), HasSubstr("expected 8"));
-  EXPECT_THAT(with("buffer", 1), HasSubstr("has no data"));
-  EXPECT_THAT(with("buffer", 2), HasSubstr("an index into buffers"));
+  expect_refused("count", 80, {"80"});
+  expect_refused("byteStride", 10, {"byteStride", "10", "4"});
+  expect_refused("byteLength", 1000000, {"1000000"});
+  expect_refused("mode", "MAGIC", {"mode", "MAGIC", "ATTRIBUTES", "TRIANGLES", "INDICES"});
+  expect_refused("filter", "QUATERNION", {"byteStride", "12", "8"});
+  expect_refused("buffer", 1, {"buffer 1"});
+  expect_refused("buffer", 2, {"buffer", "2"});
 }
 
 /// The sheet as Draco data, positions in 14 bits.
@@ -221,14 +219,14 @@ TEST(Draco, DecodesToThePlainMesh) {
 TEST(Draco, BrokenDataIsRefused) {
   GltfBuilder file = draco_file();
   file.bin[8] ^= 0xff;
-  EXPECT_THAT(file.refused(), HasSubstr("KHR_draco_mesh_compression"));
+  file.expect_refused({"KHR_draco_mesh_compression"});
   GltfBuilder cut = draco_file();
   cut.root["bufferViews"][0]["byteLength"] = 40;
-  EXPECT_THAT(cut.refused(), HasSubstr("cannot be decoded"));
+  cut.expect_refused({"KHR_draco_mesh_compression"});
   GltfBuilder wrong = draco_file();
   wrong.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
             ["POSITION"] = 7;
-  EXPECT_THAT(wrong.refused(), HasSubstr("POSITION is attribute 7"));
+  wrong.expect_refused({"POSITION", "7"});
 }
 
 TEST(Draco, TheSampleBoxIsAUnitCube) {

@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/gltf_builder.h"
@@ -6,10 +5,7 @@
 namespace gatelight::scene {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
+using tests::expect_messages;
 
 GltfBuilder triangle_file() {
   GltfBuilder file;
@@ -17,10 +13,11 @@ GltfBuilder triangle_file() {
   return file;
 }
 
-std::string refused_bytes(const std::vector<std::uint8_t>& bytes, const char* name = "test.glb") {
+void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::Names& names,
+                          const char* name = "test.glb") {
   const TemporaryFolder folder;
   write_bytes(folder.path() / name, bytes);
-  return refusal(folder.path() / name);
+  expect_refused(folder.path() / name, names);
 }
 
 std::vector<std::uint8_t> text_bytes(const std::string& text) {
@@ -59,8 +56,9 @@ TEST(Container, JsonWithADataUriEqualsTheBinary) {
 TEST(Container, MessagesNameTheFileFirst) {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "nowhere.glb").string();
-  EXPECT_THAT(refusal(path), AllOf(StartsWith(path + ": "), HasSubstr("does not exist")));
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("not a regular file"));
+  EXPECT_EQ(refusal(path).find(path + ": "), 0u);
+  expect_refused(path, {});
+  expect_refused(folder.path(), {});
 }
 
 TEST(Container, BrokenHeadersAreRefused) {
@@ -68,18 +66,18 @@ TEST(Container, BrokenHeadersAreRefused) {
   const auto with = [&](std::size_t offset, std::uint8_t value) {
     std::vector<std::uint8_t> bytes = whole;
     bytes[offset] = value;
-    return refused_bytes(bytes);
+    return bytes;
   };
-  EXPECT_EQ(refused_bytes(whole), "");
-  EXPECT_THAT(refused_bytes({}), HasSubstr("empty file"));
-  EXPECT_THAT(refused_bytes({'g', 'l', 'T', 'F', 2}), HasSubstr("header of 12"));
-  EXPECT_THAT(with(0, 'x'), HasSubstr("'glTF'"));
-  EXPECT_THAT(with(4, 1), HasSubstr("version 1, expected 2"));
-  EXPECT_THAT(with(11, 0x7f), HasSubstr("length"));
-  EXPECT_THAT(with(15, 0x7f), HasSubstr("chunk 0"));
-  EXPECT_THAT(with(16, 0), HasSubstr("expected JSON first"));
-  std::vector<std::uint8_t> cut(whole.begin(), whole.end() - 8);
-  EXPECT_THAT(refused_bytes(cut), HasSubstr("the size of the file"));
+  EXPECT_EQ(triangle_file().refused(), "");
+  expect_refused_bytes({}, {});
+  expect_refused_bytes({'g', 'l', 'T', 'F', 2}, {"5", "12"});
+  expect_refused_bytes(with(0, 'x'), {"glTF"});
+  expect_refused_bytes(with(4, 1), {"1", "2"});
+  const std::string size = std::to_string(whole.size());
+  expect_refused_bytes(with(11, 0x7f), {size});
+  expect_refused_bytes(with(15, 0x7f), {"chunk 0", std::to_string(whole.size() - 20)});
+  expect_refused_bytes(with(16, 0), {"JSON"});
+  expect_refused_bytes({whole.begin(), whole.end() - 8}, {size, std::to_string(whole.size() - 8)});
 }
 
 TEST(Container, BytesAfterTheEndAreIgnoredWithAWarning) {
@@ -87,23 +85,20 @@ TEST(Container, BytesAfterTheEndAreIgnoredWithAWarning) {
   bytes.resize(bytes.size() + 5);
   const TemporaryFolder folder;
   write_bytes(folder.path() / "test.glb", bytes);
-  EXPECT_THAT(load_gltf(folder.path() / "test.glb").warnings,
-              ElementsAre(HasSubstr("5 bytes after the end")));
+  expect_messages(load_gltf(folder.path() / "test.glb").warnings, {{"5"}});
 }
 
 TEST(Container, WhatIsNoGltfIsRefusedInOneLine) {
   for (const char* text :
        {"{", "[]", "null", "{}", "{\"asset\":{}}", "\xff\xfe{}", "{\"asset\":{\"version\":\"2.0\"},}",
         "{\n\"asset\":\n1e999}", "{\"asset\":{\"version\":\"2.0\\n3\"}}"}) {
-    const std::string message = refused_bytes(text_bytes(text), "test.gltf");
-    EXPECT_THAT(message, HasSubstr("test.gltf: ")) << text;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << text;
+    expect_refused_bytes(text_bytes(text), {}, "test.gltf");
   }
 }
 
 TEST(Container, DeepNestingIsRefusedNotFollowed) {
   const std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1000000, '[');
-  EXPECT_THAT(refused_bytes(text_bytes(deep), "test.gltf"), HasSubstr("nested deeper"));
+  expect_refused_bytes(text_bytes(deep), {"100"}, "test.gltf");
 }
 
 TEST(Container, NumbersMayBeWrittenWithAFraction) {
@@ -117,13 +112,13 @@ TEST(Container, NumbersMayBeWrittenWithAFraction) {
 TEST(Extensions, UnknownAndRequiredIsRefusedByName) {
   GltfBuilder file = triangle_file();
   file.root["extensionsRequired"] = {"KHR_materials_unlit", "ACME_strange"};
-  EXPECT_THAT(file.refused(), AllOf(HasSubstr("extensionsRequired"), HasSubstr("ACME_strange")));
+  file.expect_refused({"extensionsRequired", "ACME_strange"});
 }
 
 TEST(Extensions, UnknownAndUsedIsOneWarning) {
   GltfBuilder file = triangle_file();
   file.root["extensionsUsed"] = {"KHR_materials_unlit", "ACME_strange", "ACME_strange"};
-  EXPECT_THAT(file.load().warnings, ElementsAre(HasSubstr("ACME_strange")));
+  expect_messages(file.load().warnings, {{"ACME_strange"}});
 }
 
 TEST(Extensions, AllOursAreAccepted) {
@@ -149,7 +144,7 @@ TEST(Buffers, OutsideTheFolderAreRefused) {
     file.root.erase("accessors");
     file.root["meshes"] = json::array();
     file.root["nodes"][0].erase("mesh");
-    EXPECT_THAT(file.refused(), HasSubstr("buffers[0].uri")) << uri;
+    file.expect_refused({"buffers[0].uri"});
   }
 }
 
@@ -158,7 +153,7 @@ TEST(Buffers, WithoutASourceAreRefusedWhenRead) {
   file.root["buffers"] = {{{"byteLength", 1000}}};
   const TemporaryFolder folder;
   write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
-  EXPECT_THAT(refusal(folder.path() / "test.gltf"), HasSubstr("has no data"));
+  expect_refused(folder.path() / "test.gltf", {"accessors[0]", "buffer 0"});
 }
 
 }  // namespace

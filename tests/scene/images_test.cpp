@@ -8,7 +8,8 @@ namespace gatelight::scene {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
+using tests::expect_messages;
+using tests::expect_names;
 
 /// 2x2: red, half-transparent green (0, 200, 0, 128); transparent (10, 20, 30, 0), (1, 2, 3, 64).
 const char* const kRgba =
@@ -111,7 +112,7 @@ TEST(Images, DamageIsRefusedInSilence) {
     bytes[at] ^= 0x55;
     GltfBuilder file = with_bytes(bytes);
     testing::internal::CaptureStderr();
-    EXPECT_THAT(file.refused(), HasSubstr("images[0]")) << at;
+    expect_names(file.refused(), {"images[0]"});
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << at;
   }
 }
@@ -144,7 +145,7 @@ TEST(Images, AJpegThatLibjpegMakesUpIsRefused) {
   EXPECT_THAT(whole.warnings, ::testing::IsEmpty());
   std::vector<std::uint8_t> cut = kJpeg;
   cut.erase(cut.end() - kJpegScan, cut.end() - kJpegScan + 1);  // the block alone
-  EXPECT_THAT(with_bytes(cut).refused(), AllOf(HasSubstr("images[0]"), HasSubstr("premature end")));
+  with_bytes(cut).expect_refused({"images[0]"});
   EXPECT_THAT(with_bytes(cut).load({.missing_is_error = false}).images.at(0).pixels,
               ElementsAre(255, 255, 255));
   // Bytes between segments are nobody's loss.
@@ -153,16 +154,15 @@ TEST(Images, AJpegThatLibjpegMakesUpIsRefused) {
   more.insert(more.begin() + kFrame, {1, 2, 3});
   const Scene padded = with_bytes(more).load();
   EXPECT_THAT(padded.images.at(0).pixels, ::testing::Each(128));
-  EXPECT_THAT(padded.warnings, ElementsAre(HasSubstr("extraneous bytes")));
+  expect_messages(padded.warnings, {{"images[0]"}});
 }
 
 TEST(Images, AMissingFileIsAnErrorOrWhite) {
   GltfBuilder file = with_image({{"uri", "absent.png"}});
-  EXPECT_THAT(file.refused(), HasSubstr("images[0]"));
-  EXPECT_THAT(file.refused(), HasSubstr("absent.png"));
+  file.expect_refused({"images[0]", "absent.png"});
   const Scene scene = file.load({.missing_is_error = false});
   EXPECT_THAT(scene.images.at(0).pixels, ElementsAre(255, 255, 255));
-  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("absent.png")));
+  expect_messages(scene.warnings, {{"absent.png"}});
 }
 
 TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
@@ -174,9 +174,7 @@ TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
                               {{"uri", "data:,"}},
                               json::object()};
   for (const json& image : broken) {
-    const std::string message = with_image(image).refused();
-    EXPECT_THAT(message, HasSubstr("images[0]")) << image;
-    EXPECT_EQ(message.find('\n'), std::string::npos);
+    with_image(image).expect_refused({"images[0]"});
     EXPECT_EQ(with_image(image).load({.missing_is_error = false}).images.at(0).width, 1);
   }
 }
@@ -186,22 +184,19 @@ TEST(Images, PathsOutsideTheFolderAreRefused) {
   write_bytes(outer.path() / "secret.png", kGrey);
   const std::filesystem::path inner = outer.path() / "scene";
   std::filesystem::create_directory(inner);
-  const auto refused = [&](const std::string& uri) {
-    const std::filesystem::path path = inner / "test.glb";
-    write_bytes(path, with_image({{"uri", uri}}).glb());
-    return refusal(path);
+  const auto with = [&](const std::string& uri) {
+    write_bytes(inner / "test.glb", with_image({{"uri", uri}}).glb());
+    return inner / "test.glb";
   };
   for (const std::string& uri :
        {std::string("../secret.png"), std::string("%2e%2e/secret.png"), std::string("a/../../secret.png"),
         (outer.path() / "secret.png").string(), "file://" + (outer.path() / "secret.png").string(),
         std::string("http://localhost/secret.png"), std::string("secret.png%00.png"),
         std::string("..\\secret.png")}) {
-    EXPECT_THAT(refused(uri), HasSubstr("images[0].uri")) << uri;
+    expect_refused(with(uri), {"images[0].uri", uri});
   }
-  EXPECT_THAT(refused("../secret.png"), HasSubstr("leaves the folder"));
-  EXPECT_THAT(refused("http://localhost/x"), HasSubstr("scheme"));
   write_bytes(inner / "own.png", kGrey);
-  EXPECT_EQ(refused("sub/../own.png"), "");
+  EXPECT_EQ(refusal(with("sub/../own.png")), "");
 }
 
 TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
@@ -214,21 +209,19 @@ TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
   std::filesystem::create_symlink(outer.path(), inner / "up");
   std::filesystem::create_symlink("own.png", inner / "other.png");
   std::filesystem::create_symlink("none.png", inner / "dangling.png");
-  const auto refused = [&](const std::filesystem::path& folder, const std::string& uri) {
+  const auto with = [&](const std::filesystem::path& folder, const std::string& uri) {
     write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
-    return refusal(folder / "test.glb");
+    return folder / "test.glb";
   };
   for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
-    EXPECT_THAT(refused(inner, uri),
-                AllOf(HasSubstr("images[0].uri"), HasSubstr(uri),
-                      HasSubstr("is a symbolic link that leaves the folder"), HasSubstr("--allow-external")));
+    expect_refused(with(inner, uri), {"images[0].uri", uri, "--allow-external"});
   }
-  EXPECT_THAT(refused(inner, "dangling.png"), HasSubstr("does not exist"));
-  EXPECT_EQ(refused(inner, "other.png"), "");
-  EXPECT_EQ(refused(inner, "up/scene/own.png"), "");
+  expect_refused(with(inner, "dangling.png"), {"images[0]", "dangling.png"});
+  EXPECT_EQ(refusal(with(inner, "other.png")), "");
+  EXPECT_EQ(refusal(with(inner, "up/scene/own.png")), "");
   // The folder itself may be reached by a link.
   std::filesystem::create_symlink("scene", outer.path() / "scene-link");
-  EXPECT_EQ(refused(outer.path() / "scene-link", "other.png"), "");
+  EXPECT_EQ(refusal(with(outer.path() / "scene-link", "other.png")), "");
 }
 
 TEST(Images, OfOtherFoldersAreReadWhereThatIsAllowed) {
@@ -237,18 +230,19 @@ TEST(Images, OfOtherFoldersAreReadWhereThatIsAllowed) {
   const std::filesystem::path inner = outer.path() / "scene";
   std::filesystem::create_directory(inner);
   std::filesystem::create_symlink("../grey 1.png", inner / "link.png");
-  const auto refused = [&](const std::string& uri) {
+  const auto with = [&](const std::string& uri) {
     write_bytes(inner / "test.glb", with_image({{"uri", uri}}).glb());
-    return refusal(inner / "test.glb", {.allow_external = true});
+    return inner / "test.glb";
   };
   const std::string absolute = outer.path().string() + "/grey%201.png";
   for (const std::string& uri :
        {std::string("../grey 1.png"), std::string("%2e%2e/grey%201.png"), std::string("link.png"), absolute,
         "file://" + absolute, "FILE://localhost" + absolute, "file:" + absolute}) {
-    EXPECT_EQ(refused(uri), "") << uri;
+    EXPECT_EQ(refusal(with(uri), {.allow_external = true}), "") << uri;
   }
-  EXPECT_THAT(refused("http://localhost" + absolute), HasSubstr("has a scheme"));
-  EXPECT_THAT(refused("file://elsewhere" + absolute), HasSubstr("is on another machine"));
+  for (const char* host : {"http://localhost", "file://elsewhere"}) {
+    expect_refused(with(host + absolute), {"images[0].uri", host}, {.allow_external = true});
+  }
 }
 
 TEST(Images, WithTheSameBytesBehindThemAreDecodedOnce) {
@@ -274,7 +268,7 @@ TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
   file.root["textures"][0].erase("source");
   const Scene scene = file.load();
   EXPECT_FALSE(scene.materials.at(0).base_color_texture);
-  EXPECT_EQ(scene.warnings.size(), 1u);
+  expect_messages(scene.warnings, {{"textures[0]"}});
 }
 
 TEST(Images, AMeshWithoutTextureCoordinatesIsWarnedOf) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/gltf.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::scene {
@@ -38,12 +39,14 @@ inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
 
 /// What load_gltf says when it refuses; empty when it loads.
 inline std::string refusal(const std::filesystem::path& path, const LoadOptions& options = {}) {
-  try {
-    load_gltf(path, options);
-  } catch (const SceneError& e) {
-    return e.what();
-  }
-  return "";
+  return tests::refusal<SceneError>([&] { load_gltf(path, options); });
+}
+
+/// Refused with a message that has the path and all the names in it.
+inline void expect_refused(const std::filesystem::path& path, tests::Names names,
+                           const LoadOptions& options = {}, tests::Place place = tests::Place::current()) {
+  names.push_back(path.string());
+  tests::expect_message(refusal(path, options), names, place);
 }
 
 class GltfBuilder {
@@ -133,6 +136,12 @@ class GltfBuilder {
   std::string refused(const LoadOptions& options = {}) {
     const TemporaryFolder folder;
     return refusal(write(folder), options);
+  }
+
+  void expect_refused(const tests::Names& names, const LoadOptions& options = {},
+                      tests::Place place = tests::Place::current()) {
+    const TemporaryFolder folder;
+    scene::expect_refused(write(folder), names, options, place);
   }
 
  private:
