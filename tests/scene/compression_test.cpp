@@ -157,7 +157,7 @@ TEST(Meshopt, BrokenDataAndCountsAreRefused) {
   GltfBuilder damaged = meshopt_sheet("TRIANGLES");
   damaged.bin[0] = 0x11;
   damaged.expect_refused({"bufferViews[1].extensions.EXT_meshopt_compression"});
-  const auto expect_refused = [](const char* key, const json& value, tests::Names names) {
+  const auto expect_refused = [](const char* key, const json& value, tests::NameList names) {
     GltfBuilder file = meshopt_sheet("TRIANGLES");
     file.root["bufferViews"][1]["extensions"]["EXT_meshopt_compression"][key] = value;
     names.push_back("bufferViews[1].extensions.EXT_meshopt_compression");

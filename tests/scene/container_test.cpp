@@ -13,7 +13,7 @@ GltfBuilder triangle_file() {
   return file;
 }
 
-void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::Names& names,
+void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::NameList& names,
                           const char* name = "test.glb") {
   const TemporaryFolder folder;
   write_bytes(folder.path() / name, bytes);

@@ -176,7 +176,7 @@ TEST(Materials, ATexCoordSetBeyondTwoIsIgnoredWithAWarning) {
 }
 
 TEST(Materials, WrongNumbersAreRefused) {
-  const auto expect_refused = [](const json& material, const tests::Names& names) {
+  const auto expect_refused = [](const json& material, const tests::NameList& names) {
     GltfBuilder file;
     json primitive = file.triangle();
     primitive["material"] = file.add("materials", material);

@@ -251,7 +251,7 @@ TEST(Instancing, AttributesOfAnApplicationCountToo) {
     ASSERT_EQ(scene.instances.size(), count > 0 ? 2u : 1u);
     EXPECT_TRUE(world_triangle(scene, scene.instances.back(), 0)[1].isApprox(Vec3(1, 0, 0)));
     expect_messages(scene.warnings,
-                    std::vector<tests::Names>(count > 0 ? 0 : 1, {"EXT_mesh_gpu_instancing"}));
+                    std::vector<tests::NameList>(count > 0 ? 0 : 1, {"EXT_mesh_gpu_instancing"}));
   }
 }
 

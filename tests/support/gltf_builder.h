@@ -43,7 +43,7 @@ inline std::string refusal(const std::filesystem::path& path, const LoadOptions&
 }
 
 /// Refused with a message that has the path and all the names in it.
-inline void expect_refused(const std::filesystem::path& path, tests::Names names,
+inline void expect_refused(const std::filesystem::path& path, tests::NameList names,
                            const LoadOptions& options = {}, tests::Place place = tests::Place::current()) {
   names.push_back(path.string());
   tests::expect_message(refusal(path, options), names, place);
@@ -138,7 +138,7 @@ class GltfBuilder {
     return refusal(write(folder), options);
   }
 
-  void expect_refused(const tests::Names& names, const LoadOptions& options = {},
+  void expect_refused(const tests::NameList& names, const LoadOptions& options = {},
                       tests::Place place = tests::Place::current()) {
     const TemporaryFolder folder;
     scene::expect_refused(write(folder), names, options, place);

@@ -14,7 +14,7 @@
 
 namespace gatelight::tests {
 
-using Names = std::vector<std::string>;
+using NameList = std::vector<std::string>;
 using Place = std::source_location;
 
 /// Whether the name is in the text as a word of its own: "4" is not in "14".
@@ -31,7 +31,7 @@ inline bool has_name(std::string_view text, std::string_view name) {
 }
 
 /// One line that has all the names in it. For texts of libraries and machines, whose wording is not ours.
-inline void expect_names(const std::string& message, const Names& names, Place place = Place::current()) {
+inline void expect_names(const std::string& message, const NameList& names, Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()),
                                      "message: " + message);
   EXPECT_NE(message, "") << "nothing was said";
@@ -40,14 +40,15 @@ inline void expect_names(const std::string& message, const Names& names, Place p
 }
 
 /// The same, and the wording is recorded.
-inline void expect_message(const std::string& message, const Names& names, Place place = Place::current()) {
+inline void expect_message(const std::string& message, const NameList& names,
+                           Place place = Place::current()) {
   expect_names(message, names, place);
   const ::testing::TestResult* result = ::testing::UnitTest::GetInstance()->current_test_info()->result();
   ::testing::Test::RecordProperty("message" + std::to_string(result->test_property_count()), message);
 }
 
 /// As many messages as lists of names, in this order.
-inline void expect_messages(const std::vector<std::string>& messages, const std::vector<Names>& names,
+inline void expect_messages(const std::vector<std::string>& messages, const std::vector<NameList>& names,
                             Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "messages");
   ASSERT_EQ(messages.size(), names.size()) << ::testing::PrintToString(messages);
@@ -67,7 +68,7 @@ std::string refusal(const Act& act) {
 }
 
 template <typename Error, typename Act>
-void expect_refusal(const Act& act, const Names& names, Place place = Place::current()) {
+void expect_refusal(const Act& act, const NameList& names, Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "refusal");
   expect_message(refusal<Error>(act), names, place);
 }

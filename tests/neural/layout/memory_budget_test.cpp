@@ -12,6 +12,7 @@
 #include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/neural/layout/meshes.h"
+#include "tests/support/messages.h"
 
 namespace gatelight::neural {
 namespace {
@@ -23,16 +24,10 @@ constexpr std::uint64_t kMegabyte = 1000000;
 /// The fewest bytes that a refused budget's message names.
 std::uint64_t least_bytes(const SurfaceLayout& scene, GateOptions options) {
   options.memory_budget = 1;
-  try {
-    build_gate_layout(scene, options);
-  } catch (const BadConfiguration& error) {
-    std::smatch match;
-    const std::string message = error.what();
-    if (std::regex_search(message, match, std::regex("memory budget: 1 bytes, expected at least ([0-9]+)")))
-      return std::stoull(match[1]);
-    ADD_FAILURE() << message;
-  }
-  return 0;
+  const std::string message = tests::refusal<BadConfiguration>([&] { build_gate_layout(scene, options); });
+  tests::expect_message(message, {"memory budget", "1"});
+  std::smatch match;
+  return std::regex_search(message, match, std::regex("([0-9]+)$")) ? std::stoull(match[1]) : 0;
 }
 
 /// Spheres of several tessellations and sizes, some with both sides, and a floor of two large triangles.
