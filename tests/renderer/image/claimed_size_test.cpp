@@ -2,17 +2,17 @@
 
 #include "renderer/image/claimed_size.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using ::testing::HasSubstr;
+using tests::expect_message;
 
 class ClaimedSize : public ::testing::Test {
  protected:
@@ -20,12 +20,7 @@ class ClaimedSize : public ::testing::Test {
   std::string said(std::int64_t width, std::int64_t height, std::int64_t channels, std::uintmax_t bytes) {
     std::ofstream(file_).put('x');
     std::filesystem::resize_file(file_, bytes);
-    try {
-      check_claimed_size(width, height, channels, file_);
-      return "";
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
+    return tests::refusal<std::runtime_error>([&] { check_claimed_size(width, height, channels, file_); });
   }
 
   tests::TemporaryFolder folder_;
@@ -39,28 +34,28 @@ TEST_F(ClaimedSize, SmallPicturesMayClaimWhatTheyLike) {
 
 TEST_F(ClaimedSize, LargeOnesNeedBytesThatCouldHoldThem) {
   EXPECT_EQ(said(8192, 8192, 4, 16385), "");
-  EXPECT_THAT(said(8192, 8192, 4, 16000),
-              HasSubstr("8192 x 8192 pixels of 4 channels are too many for a file of 16000"));
+  expect_message(said(8192, 8192, 4, 16000), {"8192", "4", "16000"});
 }
 
 TEST_F(ClaimedSize, NothingIsMultipliedBeyondItsRange) {
   constexpr std::int64_t kHuge = std::numeric_limits<std::int64_t>::max();
-  EXPECT_THAT(said(kHuge, 2, 3, 100), HasSubstr("are too many"));
-  EXPECT_THAT(said(2, kHuge, 3, 100), HasSubstr("are too many"));
-  EXPECT_THAT(said(2, 2, kHuge, 100), HasSubstr("are too many"));
-  EXPECT_THAT(said(1 << 20, 1 << 20, 1 << 20, 100), HasSubstr("are too many"));
+  const std::string huge = std::to_string(kHuge);
+  expect_message(said(kHuge, 2, 3, 100), {huge, "2", "3"});
+  expect_message(said(2, kHuge, 3, 100), {huge, "2", "3"});
+  expect_message(said(2, 2, kHuge, 100), {huge, "2"});
+  expect_message(said(1 << 20, 1 << 20, 1 << 20, 100), {"1048576"});
 }
 
 TEST_F(ClaimedSize, ASideIsNoLongerThanThatOfOurPictures) {
   EXPECT_EQ(said(1 << 16, 2, 4, 100), "");
-  EXPECT_THAT(said((1 << 16) + 1, 2, 4, 100), HasSubstr("65537 x 2 pixels of 4 channels are too many"));
-  EXPECT_THAT(said(2, (1 << 16) + 1, 4, 100), HasSubstr("are too many"));
+  expect_message(said((1 << 16) + 1, 2, 4, 100), {"65537", "2", "4"});
+  expect_message(said(2, (1 << 16) + 1, 4, 100), {"2", "65537", "4"});
 }
 
 TEST_F(ClaimedSize, ThereIsAPixel) {
-  EXPECT_EQ(said(0, 1, 1, 1), "it has no pixels");
-  EXPECT_EQ(said(1, -1, 1, 1), "it has no pixels");
-  EXPECT_EQ(said(1, 1, 0, 1), "it has no pixels");
+  expect_message(said(0, 1, 1, 1), {"pixels"});
+  expect_message(said(1, -1, 1, 1), {"pixels"});
+  expect_message(said(1, 1, 0, 1), {"pixels"});
 }
 
 TEST_F(ClaimedSize, AFileThatIsGoneHoldsNothing) {

@@ -1,14 +1,13 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/image/image_write.h"
 #include "tests/support/file_size_limit.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using ::testing::HasSubstr;
 using tests::FileSizeLimit;
 using tests::read_file;
 using tests::TemporaryFolder;
@@ -30,17 +29,11 @@ TEST(WriteImage, AFullDiskLeavesTheOldPictureWholeAndNoHalfFile) {
   for (const char* name : {"a.exr", "a.png"}) {
     const TemporaryFolder folder;
     folder.write(name, "the old picture");
-    std::string message;
-    {
+    const std::string message = [&] {
       const FileSizeLimit limit(8192);
-      try {
-        write_image(noise(256), folder / name);
-      } catch (const OutputError& error) {
-        message = error.what();
-      }
-    }
-    EXPECT_THAT(message, HasSubstr(name));
-    EXPECT_THAT(message, HasSubstr("File too large"));
+      return tests::refusal<OutputError>([&] { write_image(noise(256), folder / name); });
+    }();
+    tests::expect_message(message, {(folder / name).string()});
     EXPECT_EQ(read_file(folder / name), "the old picture");
     EXPECT_EQ(folder.count_files(), 1u);
   }

@@ -1,16 +1,16 @@
 #include "renderer/machine/memory.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "renderer/film/memory_estimate.h"
 #include "renderer/machine/errors.h"
 #include "renderer/machine/threads.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using ::testing::HasSubstr;
 using tests::TemporaryFolder;
 
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
@@ -55,21 +55,15 @@ TEST(MemoryRoom, WhereNothingIsToldIsAllThereCanBe) {
 }
 
 TEST(RequireMemory, NamesWhatIsNeededAndWhatIsLeft) {
-  const auto refusal = [](std::size_t limit, std::size_t all, std::size_t more) -> std::string {
+  const auto refusal = [](std::size_t limit, std::size_t all, std::size_t more) {
     RenderOptions options;
     options.memory_limit_bytes = limit;
-    try {
-      require_memory("it", options, all, more);
-    } catch (const OutOfMemory& error) {
-      return error.what();
-    }
-    return "";
+    return tests::refusal<OutOfMemory>([&] { require_memory("it", options, all, more); });
   };
   EXPECT_EQ(refusal(0, 8 * kMebibyte, 4 * kMebibyte), "");
   EXPECT_EQ(refusal(8 * kMebibyte, 8 * kMebibyte, 0), "");
-  EXPECT_EQ(refusal(7 * kMebibyte, 8 * kMebibyte, 0), "it needs about 8 MiB, more than --memory-limit 7");
-  EXPECT_THAT(refusal(0, 0, std::size_t{1} << 60),
-              HasSubstr("it needs about 1099511627776 MiB, and the machine leaves "));
+  tests::expect_message(refusal(7 * kMebibyte, 8 * kMebibyte, 0), {"it", "8 MiB", "--memory-limit 7"});
+  tests::expect_names(refusal(0, 0, std::size_t{1} << 60), {"it", "1099511627776 MiB"});
 }
 
 TEST(RequireThreads, IsContentWithWhatCanBeStarted) {

@@ -6,13 +6,14 @@
 #include <limits>
 #include <map>
 
+#include "tests/support/messages.h"
+
 namespace gatelight::renderer {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using Metadata = std::map<std::string, std::string>;
+using tests::expect_message;
 
 Picture picture(std::vector<float> values, Metadata metadata = {}) {
   Picture p{.width = 1, .height = 1, .full_width = 1, .full_height = 1, .metadata = std::move(metadata)};
@@ -75,12 +76,7 @@ TEST(Merge, MetadataKeepsWhatAllHaveInCommon) {
 }
 
 std::string refusal(const Picture& a, const Picture& b) {
-  try {
-    merge(a, b);
-  } catch (const CompareError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::refusal<CompareError>([&] { merge(a, b); });
 }
 
 TEST(Merge, RefusesWhatDoesNotFitByName) {
@@ -88,17 +84,17 @@ TEST(Merge, RefusesWhatDoesNotFitByName) {
   Picture wide = a;
   wide.width = 2;
   wide.layers[0].values.resize(6);
-  EXPECT_THAT(refusal(a, wide), AllOf(HasSubstr("'a.exr' has 1x1"), HasSubstr("'b.exr' has 2x1")));
+  expect_message(refusal(a, wide), {"a.exr", "1x1", "b.exr", "2x1"});
   Picture elsewhere = a;
   elsewhere.x0 = 4;
-  EXPECT_THAT(refusal(a, elsewhere), HasSubstr("at 4,0"));
+  expect_message(refusal(a, elsewhere), {"4,0"});
   Picture more = a;
   more.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {1}});
-  EXPECT_THAT(refusal(a, more), HasSubstr("depth(Z)"));
-  EXPECT_THAT(refusal(a, picture({1, 2, 3})), HasSubstr("'b.exr' does not"));
-  EXPECT_THAT(refusal(picture({1, 2, 3}), a), HasSubstr("'a.exr' does not"));
+  expect_message(refusal(a, more), {"depth(Z)"});
+  expect_message(refusal(a, picture({1, 2, 3})), {"b.exr"});
+  expect_message(refusal(picture({1, 2, 3}), a), {"a.exr"});
   for (const char* spp : {"0", "many", "-4", "4x"}) {
-    EXPECT_THAT(refusal(a, picture({1, 2, 3}, {{"spp", spp}})), AllOf(HasSubstr("'b.exr'"), HasSubstr(spp)));
+    expect_message(refusal(a, picture({1, 2, 3}, {{"spp", spp}})), {"b.exr", spp});
   }
 }
 
@@ -106,16 +102,15 @@ TEST(Merge, RefusesPartsOfOtherPicturesAndOtherIntegrators) {
   const Picture a = picture({1, 2, 3}, {{"integrator", "path"}});
   Picture part = a;
   part.full_width = 4;
-  EXPECT_THAT(refusal(a, part), AllOf(HasSubstr("of 1x1"), HasSubstr("of 4x1")));
+  expect_message(refusal(a, part), {"1x1", "4x1"});
   const Picture other = picture({1, 2, 3}, {{"integrator", "ao"}});
-  EXPECT_THAT(refusal(a, other), AllOf(HasSubstr("'a.exr'"), HasSubstr("path"), HasSubstr("ao")));
+  expect_message(refusal(a, other), {"a.exr", "path", "ao"});
   EXPECT_EQ(refusal(a, picture({1, 2, 3})), "") << "not every program tells";
 }
 
 TEST(Merge, CountsAndSumsDoNotOverflow) {
   const Picture many = picture({1, 2, 3}, {{"spp", "18446744073709551615"}});
-  EXPECT_THAT(refusal(many, picture({1, 2, 3}, {{"spp", "1"}})),
-              AllOf(HasSubstr("'b.exr'"), HasSubstr("64 bits")));
+  expect_message(refusal(many, picture({1, 2, 3}, {{"spp", "1"}})), {"b.exr", "64"});
   Picture counted = picture({1, 2, 3});
   counted.layers.push_back({.name = "samples", .channels = {"count"}, .values = {3e38f}});
   EXPECT_THAT(merge(counted, counted).find("samples")->values,

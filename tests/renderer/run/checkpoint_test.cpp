@@ -1,33 +1,25 @@
 #include "renderer/run/checkpoint.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <functional>
 
 #include "neural/base/errors.h"
 #include "renderer/machine/atomic_file.h"
 #include "tests/support/cached_state.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
 namespace {
 
-using ::testing::AllOf;
 using testing::any_cache_state;
-using ::testing::HasSubstr;
 using testing::same_bits;
 using testing::small_model;
+using tests::expect_message;
 using tests::read_file;
+using tests::refusal;
 using tests::TemporaryFolder;
-
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const neural::CacheFileError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 CheckpointIdentity identity() {
   return {{{"seed", "1"}, {"size", "3x2"}}, {"a1", "b2", "c3", "d4", "e5"}, 5};
@@ -103,7 +95,7 @@ TEST(Checkpoint, FilmAndStatisticsComeBack) {
     EXPECT_EQ(checkpoint.progress().phase, Phase::render);
     EXPECT_EQ(checkpoint.progress().samples, 17);
     EXPECT_FALSE(checkpoint.has_cache());
-    EXPECT_THAT(refusal([&] { checkpoint.cache_setup(); }), HasSubstr("it holds no cache"));
+    expect_message(refusal<neural::CacheFileError>([&] { checkpoint.cache_setup(); }), {"cache"});
     checkpoint.expect(identity(), 17);
     Film restored = blank_film(first_hits);
     RenderStatistics back;
@@ -164,25 +156,26 @@ TEST(Checkpoint, WhatDiffersIsRefusedByName) {
   Checkpoint checkpoint(folder / "a");
   CheckpointIdentity other = identity();
   other.options[0].text = "other";
-  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }),
-              AllOf(HasSubstr("cannot read"), HasSubstr("/a'"),
-                    HasSubstr("it is of other options: seed: file 1, expected other")));
+  expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
+                 {"/a", "seed", "1", "other"});
   other = identity();
   other.scene.materials = "other";
-  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }), HasSubstr("it differs in materials"));
+  expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials"});
   other.scene.lights = "other";
-  EXPECT_THAT(refusal([&] { checkpoint.expect(other, 64); }), HasSubstr("it differs in materials, lights"));
-  EXPECT_THAT(refusal([&] { checkpoint.expect(identity(), 16); }),
-              HasSubstr("spp: file 17, expected at most 16"));
-  EXPECT_EQ(refusal([&] { checkpoint.expect(identity(), 17); }), "");
-  EXPECT_EQ(refusal([&] { checkpoint.expect(identity(), 1000); }), "") << "more samples go on";
+  expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
+                 {"materials", "lights"});
+  expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(identity(), 16); }),
+                 {"spp", "17", "16"});
+  EXPECT_EQ(refusal<neural::CacheFileError>([&] { checkpoint.expect(identity(), 17); }), "");
+  EXPECT_EQ(refusal<neural::CacheFileError>([&] { checkpoint.expect(identity(), 1000); }), "")
+      << "more samples go on";
   Film other_film({0, 0, 1, 1}, 8, 8, {});
   RenderStatistics statistics;
-  EXPECT_THAT(refusal([&] { checkpoint.restore(other_film, statistics); }),
-              HasSubstr("'film.radiance': F64 [36], expected F64 [6]"));
+  expect_message(refusal<neural::CacheFileError>([&] { checkpoint.restore(other_film, statistics); }),
+                 {"film.radiance", "F64 [36]", "F64 [6]"});
   neural::write_safetensors(folder / "b", {}, {{"format", "gatelight-cache"}});
-  EXPECT_THAT(refusal([&] { Checkpoint(folder / "b"); }),
-              HasSubstr("format: file 'gatelight-cache', expected 'gatelight-checkpoint'"));
+  expect_message(refusal<neural::CacheFileError>([&] { Checkpoint(folder / "b"); }),
+                 {"format", "gatelight-cache", "gatelight-checkpoint"});
 }
 
 // Its digest is right: somebody wrote it so.
@@ -198,8 +191,8 @@ TEST(Checkpoint, SumsThatNoPictureHasAreRefused) {
     write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, film, {});
     Checkpoint checkpoint(folder / "a");
     RenderStatistics statistics;
-    EXPECT_THAT(refusal([&] { checkpoint.restore(film, statistics); }),
-                HasSubstr("tensor 'film.radiance': element 7 is"));
+    expect_message(refusal<neural::CacheFileError>([&] { checkpoint.restore(film, statistics); }),
+                   {"film.radiance", "7"});
   }
 }
 
@@ -219,7 +212,7 @@ TEST(Checkpoint, EveryChangedByteAndEveryTruncationIsRefused) {
   const auto reading = [&](const std::string& content) {
     std::filesystem::remove(folder / "b");
     folder.write("b", content);
-    return refusal([&] {
+    return refusal<neural::CacheFileError>([&] {
       Checkpoint checkpoint(folder / "b");
       checkpoint.expect(identity(), 3);
       EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
@@ -250,12 +243,11 @@ TEST(Checkpoint, AGuardThatNoTrainingHasIsRefused) {
     state.guard = guard;
     write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, blank_film(false),
                      CheckpointCache{state, *model, options});
-    return refusal([&] { Checkpoint(folder / "a").read_cache(*model, options); });
+    return refusal<neural::CacheFileError>([&] { Checkpoint(folder / "a").read_cache(*model, options); });
   };
   EXPECT_EQ(reading(kGuard), "");
-  EXPECT_THAT(reading({.loss_average = NAN}), HasSubstr("'training_guard': element 0 is nan"));
-  EXPECT_THAT(reading({.good_steps = 1001}),
-              HasSubstr("'training_guard': element 6 is 1001, expected 0 to the 1000 steps"));
+  expect_message(reading({.loss_average = NAN}), {"training_guard", "0", "nan"});
+  expect_message(reading({.good_steps = 1001}), {"training_guard", "6", "1001", "1000"});
 }
 
 TEST(Checkpoint, AnOldOneStaysWhereTheNewOneCannotBeWritten) {

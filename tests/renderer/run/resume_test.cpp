@@ -1,6 +1,6 @@
 // Pictures that are stopped and gone on with, and caches that are saved and loaded.
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <atomic>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 #include "tests/renderer/image/kinds_of_pictures.h"
+#include "tests/support/messages.h"
 #include "tests/support/room.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,10 +25,10 @@ using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using testing::room;
+using tests::expect_message;
 using tests::read_file;
+using tests::refusal;
 using tests::TemporaryFolder;
 
 /// Stops at the n-th time that it is asked whether to; 0: never.
@@ -41,15 +42,6 @@ Result render(const scene::Scene& scene, const RenderOptions& options, int stop_
   result.picture = renderer.render(callbacks);
   result.statistics = renderer.statistics();
   return result;
-}
-
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const neural::CacheFileError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 class Resume : public ::testing::TestWithParam<Kind> {};
@@ -101,7 +93,7 @@ TEST_P(Resume, MoreSamplesGoOn) {
   // Nothing is left to do.
   expect_same(render(s, options), straight);
   options.spp = 4;
-  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("spp: file 5, expected at most 4"));
+  expect_message(refusal<neural::CacheFileError>([&] { render(s, options); }), {"spp", "5", "4"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Resume, ::testing::ValuesIn(kKinds),
@@ -137,28 +129,25 @@ TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
   const auto resuming = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions other = options;
     change(other);
-    return refusal([&] { render(s, other); });
+    return refusal<neural::CacheFileError>([&] { render(s, other); });
   };
-  EXPECT_THAT(resuming([](RenderOptions& o) { o.seed = 7; }),
-              AllOf(HasSubstr("/picture'"), HasSubstr("seed: file 0, expected 7")));
-  EXPECT_THAT(resuming([](RenderOptions& o) { o.cache.train_steps = 11; }),
-              HasSubstr("train-steps: file 8, expected 11"));
-  EXPECT_THAT(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }),
-              HasSubstr("camera: file"));
-  EXPECT_THAT(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
-              HasSubstr("integrator: file nrc, expected path"));
-  EXPECT_THAT(resuming([](RenderOptions& o) { o.environment.constant.x() = 1.0f; }),
-              HasSubstr("it is of another scene: it differs in environment"));
+  expect_message(resuming([](RenderOptions& o) { o.seed = 7; }), {"/picture", "seed", "0", "7"});
+  expect_message(resuming([](RenderOptions& o) { o.cache.train_steps = 11; }), {"train-steps", "8", "11"});
+  expect_message(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }), {"camera", "0.6"});
+  expect_message(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
+                 {"integrator", "nrc", "path"});
+  expect_message(resuming([](RenderOptions& o) { o.environment.constant.x() = 1.0f; }), {"environment"});
   if (neural::cpu::available_isas().size() > 1) {
-    EXPECT_THAT(resuming([](RenderOptions& o) { o.isa = "scalar"; }), HasSubstr("kernels: file "));
+    tests::expect_names(resuming([](RenderOptions& o) { o.isa = "scalar"; }),
+                        {"/picture", "kernels", "scalar"});
   }
   s.materials[0].base_color.x() = 0.1f;
-  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("it differs in materials"));
+  expect_message(refusal<neural::CacheFileError>([&] { render(s, options); }), {"materials"});
   s = room();
   std::string bytes = read_file(options.checkpoint.file);
   bytes[bytes.size() - 9] ^= 1;
   folder.write("picture", bytes);
-  EXPECT_THAT(refusal([&] { render(s, options); }), AllOf(HasSubstr("/picture'"), HasSubstr("damaged")));
+  expect_message(refusal<neural::CacheFileError>([&] { render(s, options); }), {"/picture"});
   options.checkpoint.file = (folder / "none" / "picture").string();
   EXPECT_THROW(render(s, options), OutputError);
 }
@@ -235,19 +224,17 @@ TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
   const auto loading = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions other = options;
     change(other);
-    return refusal([&] { render(s, other); });
+    return refusal<neural::CacheFileError>([&] { render(s, other); });
   };
-  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.holds = CacheHolds::all; }),
-              HasSubstr("cache-holds: file no-delta, expected all"));
-  EXPECT_THAT(loading([](RenderOptions& o) { o.integrator = Integrator::nao; }),
-              HasSubstr("integrator: file nrc, expected nao"));
-  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }),
-              HasSubstr("hidden width: file 16, model 32"));
-  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.gate.features = 4; }),
-              HasSubstr("features: file 8, model 4"));
-  EXPECT_THAT(loading([](RenderOptions& o) { o.cache.cache_in += "b"; }), HasSubstr("it does not exist"));
+  expect_message(loading([](RenderOptions& o) { o.cache.holds = CacheHolds::all; }),
+                 {"cache-holds", "no-delta", "all"});
+  expect_message(loading([](RenderOptions& o) { o.integrator = Integrator::nao; }),
+                 {"integrator", "nrc", "nao"});
+  expect_message(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }), {"hidden width", "16", "32"});
+  expect_message(loading([](RenderOptions& o) { o.cache.gate.features = 4; }), {"features", "8", "4"});
+  expect_message(loading([](RenderOptions& o) { o.cache.cache_in += "b"; }), {"/ab"});
   s.meshes[0].positions[0].x() += 0.1f;
-  EXPECT_THAT(refusal([&] { render(s, options); }), HasSubstr("it differs in geometry"));
+  expect_message(refusal<neural::CacheFileError>([&] { render(s, options); }), {"geometry"});
   options.cache.cache_out = (folder / "none" / "a").string();
   EXPECT_THROW(render(room(), options), OutputError);
 }

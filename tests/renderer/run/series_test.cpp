@@ -1,6 +1,6 @@
 // Many pictures of one run.
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
@@ -10,6 +10,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "tests/renderer/image/kinds_of_pictures.h"
+#include "tests/support/messages.h"
 #include "tests/support/room.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,8 +22,8 @@ using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
-using ::testing::HasSubstr;
 using testing::room;
+using tests::expect_message;
 using tests::TemporaryFolder;
 
 /// Points of a series, whichever the integrator has.
@@ -196,38 +197,35 @@ TEST(RenderSeries, ProgressRunsOnceOverTheWholeTraining) {
 }
 
 std::string refusal(const scene::Scene& scene, const RenderOptions& options, const Series& series) {
-  try {
+  return tests::refusal<BadOption>([&] {
     Renderer(scene, options).render_series(series, [](int, const Picture&, const RenderStatistics&) {
       ADD_FAILURE() << "a picture of a refused series";
     });
-  } catch (const BadOption& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(RenderSeries, WhatIsNoSeriesIsRefused) {
   const scene::Scene s = room();
   const RenderOptions path = picture_of(Integrator::path);
   const RenderOptions nrc = picture_of(Integrator::nrc);
-  EXPECT_THAT(refusal(s, path, {}), HasSubstr("without spp"));
-  EXPECT_THAT(refusal(s, nrc, {}), HasSubstr("without train_steps"));
-  EXPECT_THAT(refusal(s, path, {.spp = {1, 4, 4}}), HasSubstr("spp 1,4,4"));
-  EXPECT_THAT(refusal(s, path, {.spp = {0, 4}}), HasSubstr("at least 1"));
-  EXPECT_THAT(refusal(s, nrc, {.train_steps = {8, 4}}), HasSubstr("train_steps 8,4"));
-  EXPECT_THAT(refusal(s, nrc, {.train_steps = {-1, 4}}), HasSubstr("at least 0"));
-  EXPECT_THAT(refusal(s, path, {.train_steps = {8}}), HasSubstr("expected spp"));
-  EXPECT_THAT(refusal(s, path, {.train_steps = {8}, .spp = {8}}), HasSubstr("expected spp"));
-  EXPECT_THAT(refusal(s, nrc, {.train_steps = {8}, .spp = {8}}), HasSubstr("expected train_steps"));
+  expect_message(refusal(s, path, {}), {"spp"});
+  expect_message(refusal(s, nrc, {}), {"train_steps"});
+  expect_message(refusal(s, path, {.spp = {1, 4, 4}}), {"spp 1,4,4"});
+  expect_message(refusal(s, path, {.spp = {0, 4}}), {"spp 0,4", "1"});
+  expect_message(refusal(s, nrc, {.train_steps = {8, 4}}), {"train_steps 8,4"});
+  expect_message(refusal(s, nrc, {.train_steps = {-1, 4}}), {"train_steps -1,4", "0"});
+  expect_message(refusal(s, path, {.train_steps = {8}}), {"spp"});
+  expect_message(refusal(s, path, {.train_steps = {8}, .spp = {8}}), {"spp"});
+  expect_message(refusal(s, nrc, {.train_steps = {8}, .spp = {8}}), {"train_steps"});
   const auto with = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions changed = nrc;
     change(changed);
     return refusal(s, changed, {.train_steps = {8}});
   };
-  EXPECT_THAT(with([](RenderOptions& o) { o.time_limit_seconds = 1.0; }), HasSubstr("a time limit"));
-  EXPECT_THAT(with([](RenderOptions& o) { o.cache.train_seconds = 1.0; }), HasSubstr("limit of training"));
-  EXPECT_THAT(with([](RenderOptions& o) { o.checkpoint.file = "c"; }), HasSubstr("a checkpoint"));
-  EXPECT_THAT(with([](RenderOptions& o) { o.cache.cache_out = "c"; }), HasSubstr("a cache file"));
+  expect_message(with([](RenderOptions& o) { o.time_limit_seconds = 1.0; }), {"time limit"});
+  expect_message(with([](RenderOptions& o) { o.cache.train_seconds = 1.0; }), {"training"});
+  expect_message(with([](RenderOptions& o) { o.checkpoint.file = "c"; }), {"checkpoint"});
+  expect_message(with([](RenderOptions& o) { o.cache.cache_out = "c"; }), {"cache file"});
 }
 
 }  // namespace
