@@ -45,7 +45,7 @@ struct CacheStatistics {
   std::uint64_t unstored = 0;  ///< on surfaces without storage
   std::uint64_t training_paths = 0;
   std::uint64_t touched_nodes = 0;  ///< by the last step
-  double loss = 0.0;                ///< mean of the last steps (at most 16)
+  double loss = 0.0;                ///< mean of the last steps, at most 64
   double scout_seconds = 0.0;
   double setup_seconds = 0.0;  ///< from scouting to the first step: layout, parameters, optimiser
   double train_seconds = 0.0;  ///< the whole phase, scouting and setting up not counted
