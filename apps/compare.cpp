@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
-#include "apps/settings/render_settings.h"
+#include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -50,8 +49,8 @@ Examples:
   gatelight compare reference-a.exr test-1.exr --halves reference-b.exr test-2.exr)";
 
 enum class Map : std::uint8_t { flip, hdr_flip, relative };
-constexpr std::array<Choice<Map>, 3> kMaps{
-    {{"flip", Map::flip}, {"hdr_flip", Map::hdr_flip}, {"relative", Map::relative}}};
+constexpr renderer::Choice<Map> kMaps[] = {
+    {"flip", Map::flip}, {"hdr_flip", Map::hdr_flip}, {"relative", Map::relative}};
 
 struct CompareSettings {
   std::string reference;
@@ -67,11 +66,11 @@ struct CompareSettings {
 std::vector<Metric> choose_metrics(const std::string& list) {
   std::vector<Metric> chosen;
   if (list.empty()) {
-    for (const Choice<Metric>& choice : metric_choices()) chosen.push_back(choice.value);
+    for (const renderer::Choice<Metric>& choice : kMetrics) chosen.push_back(choice.value);
     return chosen;
   }
-  for (const std::string& word : split_list("--metric", list)) {
-    const Metric metric = parse_choice("--metric", word, metric_choices());
+  for (const std::string& word : renderer::split_list("--metric", list)) {
+    const Metric metric = renderer::parse_choice("--metric", word, kMetrics);
     if (std::find(chosen.begin(), chosen.end(), metric) == chosen.end()) chosen.push_back(metric);
   }
   return chosen;
@@ -185,41 +184,43 @@ int run_compare(const CompareSettings& settings) {
   return kDone;
 }
 
+std::vector<renderer::Option> option_table(CompareSettings& settings) {
+  constexpr renderer::RealRange kPixelsPerDegree{renderer::kMinPixelsPerDegree,
+                                                 renderer::kMaxPixelsPerDegree};
+  constexpr renderer::RealRange kStops{-100.0, 100.0};
+  using namespace renderer;
+  std::vector<Option> table = {
+      positional("REFERENCE", settings.reference, "Reference picture, .exr, .hdr or .png"),
+      positional("TEST", settings.test, "Picture to be judged"),
+      any_words("halves", settings.halves, "REF2 TEST2",
+                "Second halves of reference and test: also estimates the bias without noise"),
+      any_word("metric", settings.metrics, "LIST",
+               "Which, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)"),
+      any_word("json", settings.json, "FILE|-", "Result as JSON; - is stdout"),
+      any_word("error-map", settings.error_map, "FILE.png",
+               "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "
+               "0, violet 0.1, red 0.25, yellow 0.5, white 1 and more, green not finite"),
+      choice("map", settings.map, kMaps, "Which errors --error-map shows"),
+      number("pixels-per-degree", settings.flip.pixels_per_degree, kPixelsPerDegree, "N",
+             "For FLIP: pixels of a degree of visual angle. The default is a monitor 0.7 m wide with 3840 "
+             "pixels, seen from 0.7 m"),
+      number("exposure", settings.flip.exposure, kStops, "EV",
+             "For flip and ssim: stops by which pictures are brighter"),
+      choice("tonemap", settings.flip.tonemap, "For flip and ssim: curve of pictures")};
+  for (Option& option : table) {
+    if (option.name == "halves") option.words = 2;
+    if (option.name == "pixels-per-degree") option.default_text = "67.02";
+  }
+  return table;
+}
+
 }  // namespace
 
 Subcommand add_compare_command(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("compare", "Measure how far one picture is from another");
-  app->footer(kCompareFooter);
+  CLI::App* app =
+      add_subcommand(root, "compare", "Measure how far one picture is from another", kCompareFooter);
   const auto settings = std::make_shared<CompareSettings>();
-  app->add_option("REFERENCE", settings->reference, "Reference picture, .exr, .hdr or .png")
-      ->required()
-      ->type_name("");
-  app->add_option("TEST", settings->test, "Picture to be judged")->required()->type_name("");
-  app->add_option("--halves", settings->halves,
-                  "Second halves of reference and test: also estimates the bias without noise")
-      ->type_name("REF2 TEST2")
-      ->expected(2);
-  app->add_option("--metric", settings->metrics,
-                  "Which, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)")
-      ->type_name("LIST");
-  app->add_option("--json", settings->json, "Result as JSON; - is stdout")->type_name("FILE|-");
-  app->add_option(
-         "--error-map", settings->error_map,
-         "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "
-         "0, violet 0.1, red 0.25, yellow 0.5, white 1 and more, green not finite")
-      ->type_name("FILE.png");
-  add_choice(*app, "--map", settings->map, Choices<Map>(kMaps), "Which errors --error-map shows");
-  constexpr RealRange kPixelsPerDegree{renderer::kMinPixelsPerDegree, renderer::kMaxPixelsPerDegree};
-  add_real(
-      *app, "--pixels-per-degree", settings->flip.pixels_per_degree, kPixelsPerDegree, "N",
-      "For FLIP: pixels of a degree of visual angle. The default is a monitor 0.7 m wide with 3840 pixels, "
-      "seen from 0.7 m",
-      "67.02");
-  constexpr RealRange kStops{-100.0, 100.0};
-  add_real(*app, "--exposure", settings->flip.exposure, kStops, "EV",
-           "For flip and ssim: stops by which pictures are brighter", "0");
-  add_choice(*app, "--tonemap", settings->flip.tonemap, tonemap_choices(),
-             "For flip and ssim: curve of pictures");
+  add_flags(*app, option_table(*settings));
   return {app, [settings] { return run_compare(*settings); }};
 }
 

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/reports/cache_report_text.h"
 #include "apps/reports/device_report.h"
 #include "apps/reports/scene_report.h"
-#include "apps/settings/cache_flags.h"
-#include "apps/settings/render_flags.h"
-#include "apps/settings/render_settings.h"
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -96,18 +95,20 @@ int run_info(InfoSettings settings) {
 }  // namespace
 
 Subcommand add_info_command(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("info", "Tell what a scene holds and needs, or what this program is");
-  app->footer(kInfoFooter);
+  CLI::App* app =
+      add_subcommand(root, "info", "Tell what a scene holds and needs, or what this program is", kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little that is told here.
   settings->render.load.missing_is_error = false;
-  app->add_option("SCENE", settings->render.scene,
-                  "Scene, .gltf or .glb; without it: version, ISA, threads, Embree, Vulkan devices")
-      ->type_name("");
-  app->add_option("--json", settings->json, "The same as JSON; - is stdout")
-      ->type_name("FILE|-")
-      ->group("Output");
-  add_cache_report_flags(*app, settings->render);
+  renderer::Option scene =
+      positional("SCENE", settings->render.scene,
+                 "Scene, .gltf or .glb; without it: version, ISA, threads, Embree, Vulkan devices");
+  scene.required = false;
+  renderer::Option json =
+      renderer::any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");
+  json.group = "Output";
+  add_flags(*app, {scene, json});
+  add_flags(*app, cache_report_table(settings->render));
   return {app, [app, settings] {
             finish_flags(*app, settings->render);
             // They are of the call, not of the scene.

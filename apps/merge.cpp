@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "apps/seeds.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -92,13 +93,16 @@ int run_merge(const MergeSettings& settings) {
 }  // namespace
 
 Subcommand add_merge_command(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("merge", "Average pictures of one scene with different seeds");
-  app->footer(kMergeFooter);
+  CLI::App* app =
+      add_subcommand(root, "merge", "Average pictures of one scene with different seeds", kMergeFooter);
   const auto settings = std::make_shared<MergeSettings>();
-  app->add_option("-o,--output", settings->output, "Picture to write, 32-bit .exr")
-      ->type_name("FILE")
-      ->required();
-  app->add_option("INPUT", settings->inputs, "Pictures, .exr")->type_name("")->required();
+  renderer::Option output =
+      renderer::any_word("output", settings->output, "FILE", "Picture to write, 32-bit .exr");
+  output.letter = "-o";
+  output.required = true;
+  renderer::Option inputs = renderer::any_words("INPUT", settings->inputs, "", "Pictures, .exr");
+  inputs.positional = inputs.required = true;
+  add_flags(*app, {output, inputs});
   return {app, [settings] { return run_merge(*settings); }};
 }
 

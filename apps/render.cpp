@@ -1,10 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "apps/render_run.h"
-#include "apps/settings/cache_flags.h"
-#include "apps/settings/render_flags.h"
-#include "apps/settings/render_settings.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 
 namespace gatelight::apps {
@@ -26,10 +24,9 @@ Examples:
 }  // namespace
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command) {
-  CLI::App* app = root.add_subcommand("render", "Render a scene to EXR and PNG");
-  app->footer(kRenderFooter);
+  CLI::App* app = add_subcommand(root, "render", "Render a scene to EXR and PNG", kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
-  add_render_flags(*app, *settings);
+  add_flags(*app, option_table(*settings));
   return {app, [app, settings, command] {
             finish_flags(*app, *settings);
             return run_render(*settings, command);

@@ -9,6 +9,7 @@
 
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
+#include "apps/settings/complete_settings.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/progress.h"

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <set>
 
-#include "apps/settings/cache_choices.h"
 #include "apps/settings/flags.h"
-#include "apps/settings/render_flags.h"
-#include "apps/settings/render_settings.h"
+#include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
@@ -53,18 +50,30 @@ Examples:
   gatelight sweep -o kitchen --advise --max-time 10
   gatelight sweep kitchen.glb -o table1 --preset paper-table1 --size 960x540)";
 
-constexpr IntegerRange kReferenceSpp{2, 1 << 24};
+constexpr renderer::IntegerRange kReferenceSpp{2, 1 << 24};
+constexpr renderer::RealRange kErrors{0.0, 1.0};
+
+using renderer::any_word;
+using renderer::any_words;
+using renderer::choice;
+using renderer::number_or;
+using renderer::Option;
+using renderer::OptionGroup;
+using renderer::toggle;
 
 struct SweepCall {
   SweepWords words;
   SweepSettings settings;
 };
 
-void add_text(CLI::App& app, const char* flag, const char* unit, const char* help, const char* default_text,
-              std::optional<std::string>& value, const char* group) {
-  add_word(app, flag, unit, help, default_text, [&value](const std::string& text) {
-    value = text;
-  })->group(group);
+/// A word that is looked at with the others.
+Option kept(const char* name, const char* unit, const char* help, const char* default_text,
+            std::optional<std::string>& value) {
+  return {.name = name,
+          .unit = unit,
+          .help = help,
+          .read = [&value](const std::string& text) { value = text; },
+          .default_text = default_text};
 }
 
 const char* axis_help(const std::string& name) {
@@ -89,107 +98,102 @@ const char* axis_default(const std::string& name) {
   return "";
 }
 
-void add_axes(CLI::App& app, SweepWords& words) {
-  const char* group = "Axes";
-  add_text(app, "--train-steps", "LIST", "Training steps, all from one training",
-           "8,16,32,64,128,256,512,1024", words.train_steps, group);
+void add_axes(std::vector<Option>& table, SweepWords& words) {
+  OptionGroup axes{table, "Axes"};
+  axes.add(kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
+                words.train_steps));
   for (const AxisFlag& flag : kAxisFlags) {
-    add_word(app, flag.name, "LIST", axis_help(flag.name), axis_default(flag.name),
-             [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); })
-        ->group(group);
+    axes.add({.name = flag.name + 2,
+              .unit = "LIST",
+              .help = axis_help(flag.name),
+              .read = [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); },
+              .default_text = axis_default(flag.name)});
   }
-  app.add_option("--vary", words.vary, "Any other flag of render as an axis; may be given several times")
-      ->type_name("NAME=LIST")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(group);
-  app.add_option("--for", words.scene_flags, "A flag for one scene alone; may be given several times")
-      ->type_name("SCENE:NAME=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(group);
-  add_text(app, "--seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds, group);
-  add_text(app, "--spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp,
-           group);
-  app.add_flag("--no-plain", words.no_plain,
-               "Do not measure integrators without a cache beside those with one")
-      ->group(group);
+  axes.add(any_words("vary", words.vary, "NAME=LIST",
+                     "Any other flag of render as an axis; may be given several times"));
+  axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
+                     "A flag for one scene alone; may be given several times"));
+  axes.add(kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds));
+  axes.add(kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp));
+  axes.add(
+      toggle("no-plain", words.no_plain, "Do not measure integrators without a cache beside those with one"));
   std::vector<std::string_view> names = sweep_preset_names();
-  for (const auto& choice : preset_choices()) names.push_back(choice.name);
-  app.add_option("--preset", words.preset,
-                 "Axes and flags at once: " + fmt::format("{}", fmt::join(names, ", ")))
-      ->type_name("NAME")
-      ->group(group);
+  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
+  const std::string help = "Axes and flags at once: " + fmt::format("{}", fmt::join(names, ", "));
+  axes.add(any_word("preset", words.preset, "NAME", help.c_str()));
 }
 
-void add_reference_flags(CLI::App& app, SweepSettings& s) {
-  const char* group = "References";
-  app.add_option("--reference", s.reference_file,
-                 "Compare with this picture; for one scene and one kind of picture")
-      ->type_name("FILE")
-      ->group(group);
-  add_word(app, "--reference-spp", "N",
-           "Samples per pixel of rendered references: two halves, whose difference tells their noise", "1024",
+void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
+  OptionGroup references{table, "References"};
+  references.add(any_word("reference", s.reference_file, "FILE",
+                          "Compare with this picture; for one scene and one kind of picture"));
+  references.add(
+      {.name = "reference-spp",
+       .unit = "N",
+       .help = "Samples per pixel of rendered references: two halves, whose difference tells their noise",
+       .read =
            [&s](const std::string& text) {
-             const std::int64_t spp = parse_integer("--reference-spp", text, kReferenceSpp);
+             const std::int64_t spp = renderer::parse_integer("--reference-spp", text, kReferenceSpp);
              s.reference_spp = static_cast<int>(spp + spp % 2);
-           })
-      ->group(group);
-  app.add_option("--reference-dir", s.reference_folder, "Where they are kept (default: references in DIR)")
-      ->type_name("DIR")
-      ->group(group);
-  add_choice(app, "--hdr-flip", s.hdr_flip, on_off_choices(), "Measure HDR-FLIP of radiance, too")
-      ->group(group);
+           },
+       .default_text = "1024"});
+  references.add(any_word("reference-dir", s.reference_folder, "DIR",
+                          "Where they are kept (default: references in DIR)"));
+  references.add(choice("hdr-flip", s.hdr_flip, renderer::kOnOff, "Measure HDR-FLIP of radiance, too"));
 }
 
-void add_advice_flags(CLI::App& app, SweepSettings& s) {
-  const char* group = "Advice";
-  app.add_flag(
-         "--advise", s.advise,
-         "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR")
-      ->group(group);
-  add_word(app, "--max-error", "FLIP", "Largest mean FLIP of a picture, with every seed", "",
-           [&s](const std::string& text) {
-             s.limits.max_error = parse_real("--max-error", text, {0.0, 1.0});
-           })
-      ->group(group);
-  add_word(
-      app, "--max-time", "SECONDS", "Longest time to train and render", "",
-      [&s](const std::string& text) { s.limits.max_seconds = parse_real("--max-time", text, kPositive); })
-      ->group(group);
+void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
+  OptionGroup advice{table, "Advice"};
+  advice.add(toggle(
+      "advise", s.advise,
+      "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR"));
+  advice.add(number_or("", "max-error", s.limits.max_error, kErrors, "FLIP",
+                       "Largest mean FLIP of a picture, with every seed"));
+  advice.add(number_or("", "max-time", s.limits.max_seconds, renderer::kPositive, "SECONDS",
+                       "Longest time to train and render"));
 }
 
-void add_folder_flags(CLI::App& app, SweepSettings& s) {
-  const char* group = "Output";
-  app.add_option("-o,--output", s.folder, "Folder of the results; is made where it is not there")
-      ->type_name("DIR")
-      ->required()
-      ->group(group);
-  app.add_flag("--dry-run", s.dry_run, "Print the plan and stop")->group(group);
-  add_choice(app, "--progress", s.progress, progress_choices(),
-             "Progress on stderr; auto: a bar on a terminal")
-      ->group(group);
-  app.add_flag("--quiet", s.quiet, "Say nothing but errors")->group(group);
-  app.add_flag("--verbose", s.verbose, "Say more: all options of each run")->group(group);
+void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
+  OptionGroup output{table, "Output"};
+  Option& folder =
+      output.add(any_word("output", s.folder, "DIR", "Folder of the results; is made where it is not there"));
+  folder.letter = "-o";
+  folder.required = true;
+  output.add(toggle("dry-run", s.dry_run, "Print the plan and stop"));
+  output.add(progress_option(s.progress));
+  output.add(toggle("quiet", s.quiet, "Say nothing but errors"));
+  output.add(toggle("verbose", s.verbose, "Say more: all options of each run"));
 }
 
 /// Not in the help: they are those of render.
-void add_base_flags(CLI::App& app, SweepWords& words) {
+void add_base_flags(std::vector<Option>& table, SweepWords& words) {
+  OptionGroup base{table, ""};
   for (const std::string& name : base_flag_names()) {
-    add_word(app, name, "VALUE", "", "", [&words, name](const std::string& text) {
-      set_flag(words.base, name, text);
-    })->group("");
+    base.add({.name = name.substr(2), .unit = "VALUE", .read = [&words, name](const std::string& text) {
+                set_flag(words.base, name, text);
+              }});
   }
+}
+
+std::vector<Option> option_table(SweepCall& call) {
+  std::vector<Option> table;
+  Option scenes = any_words("SCENE", call.words.scenes, "", "Scenes, .gltf or .glb");
+  scenes.positional = true;
+  table.push_back(scenes);
+  add_folder_options(table, call.settings);
+  OptionGroup{table, "Scenes"}.add(external_option(call.words.allow_external));
+  add_axes(table, call.words);
+  add_reference_options(table, call.settings);
+  add_advice_options(table, call.settings);
+  add_base_flags(table, call.words);
+  return table;
 }
 
 /// Without a scene there is nothing that they could change.
 void refuse_flags_of_scenes(const CLI::App& app) {
   const std::set<std::string> allowed = {"--output",   "--advise", "--max-error", "--max-time",
                                          "--progress", "--quiet",  "--verbose"};
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0) continue;
-    // A flag without a place in the help tells no name.
-    const std::string name = "--" + option->get_lnames().front();
+  for (const std::string& name : given_flags(app)) {
     if (allowed.contains(name)) continue;
     throw UsageError(fmt::format(
         "{}: without SCENE it has no effect, expected SCENE with it, or only --advise, its limits and "
@@ -217,16 +221,10 @@ void check(const SweepCall& call, const CLI::App& app) {
 }  // namespace
 
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command) {
-  CLI::App* app = root.add_subcommand("sweep", "Measure error against time and steps over options");
-  app->footer(kSweepFooter);
+  CLI::App* app =
+      add_subcommand(root, "sweep", "Measure error against time and steps over options", kSweepFooter);
   const auto call = std::make_shared<SweepCall>();
-  app->add_option("SCENE", call->words.scenes, "Scenes, .gltf or .glb")->type_name("");
-  add_folder_flags(*app, call->settings);
-  add_external_flag(*app, call->words.allow_external, "Scenes");
-  add_axes(*app, call->words);
-  add_reference_flags(*app, call->settings);
-  add_advice_flags(*app, call->settings);
-  add_base_flags(*app, call->words);
+  add_flags(*app, option_table(*call));
   return {app, [call, command, app] {
             check(*call, *app);
             call->settings.request = make_request(call->words);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "apps/reports/cache_statistics.h"
-#include "apps/settings/cache_choices.h"
 #include "apps/settings/render_settings.h"
 #include "apps/terminal/text.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -74,9 +74,8 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
 std::string cache_report_text(const CacheReport& report, const renderer::RenderOptions& options) {
   const CacheStatistics& s = report.statistics.cache;
   std::string text = "\n";
-  text +=
-      row("cache", fmt::format("{}, {}, {} nodes", name_of(integrator_choices(), options.integrator),
-                               name_of(encoding_choices(), options.cache.encoding), format_integer(s.nodes)));
+  text += row("cache", fmt::format("{}, {}, {} nodes", renderer::word(options.integrator),
+                                   renderer::word(options.cache.encoding), format_integer(s.nodes)));
   text += row("cache memory",
               fmt::format("parameters {}, optimiser {}, layout {}; parameters without scouting {}",
                           format_bytes(s.parameter_bytes), format_bytes(s.optimizer_bytes),
@@ -94,8 +93,8 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
 
 ordered_json cache_report_json(const CacheReport& report, const renderer::RenderOptions& options) {
   const CacheStatistics& s = report.statistics.cache;
-  ordered_json json = {{"integrator", name_of(integrator_choices(), options.integrator)},
-                       {"encoding", name_of(encoding_choices(), options.cache.encoding)}};
+  ordered_json json = {{"integrator", renderer::word(options.integrator)},
+                       {"encoding", renderer::word(options.cache.encoding)}};
   json["memory_bytes"] = cache_memory_json(s);
   json["memory_bytes"]["parameters_without_scouting"] = report.bytes_without_scouting;
   json["inputs"] = {{"direction", s.direction_input}, {"normal", s.normal_input}, {"albedo", s.albedo_input}};

@@ -7,22 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/reports/json_numbers.h"
-#include "apps/settings/render_settings.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
 using renderer::ErrorMetrics;
-
-constexpr std::array<Choice<Metric>, 8> kMetrics{{{"mse", Metric::mse},
-                                                  {"rel_mse", Metric::rel_mse},
-                                                  {"psnr", Metric::psnr},
-                                                  {"mean", Metric::mean},
-                                                  {"max", Metric::max},
-                                                  {"ssim", Metric::ssim},
-                                                  {"flip", Metric::flip},
-                                                  {"hdr_flip", Metric::hdr_flip}}};
 
 struct Value {
   const char* key;
@@ -62,7 +53,7 @@ ordered_json ssim_json(const CompareReport& report) {
   if (!report.ssim) return nullptr;
   return {{"mean", *report.ssim},
           {"exposure", report.flip_options.exposure},
-          {"tonemap", name_of(tonemap_choices(), report.flip_options.tonemap)}};
+          {"tonemap", word(report.flip_options.tonemap)}};
 }
 
 ordered_json flip_json(const CompareReport& report, Metric metric) {
@@ -77,7 +68,7 @@ ordered_json flip_json(const CompareReport& report, Metric metric) {
                        {"pixels_per_degree", report.flip_options.pixels_per_degree}};
   if (metric == Metric::flip) {
     json["exposure"] = report.flip_options.exposure;
-    json["tonemap"] = name_of(tonemap_choices(), report.flip_options.tonemap);
+    json["tonemap"] = word(report.flip_options.tonemap);
   } else {
     json["start_exposure"] = flip.start_exposure;
     json["stop_exposure"] = flip.stop_exposure;
@@ -87,17 +78,13 @@ ordered_json flip_json(const CompareReport& report, Metric metric) {
 }
 
 std::string flip_text(const CompareReport& report, Metric metric) {
-  const std::string name = name_of(metric_choices(), metric);
+  const std::string name = renderer::name_of(kMetrics, metric);
   const renderer::FlipSummary& s = flip_of(report, metric).summary;
   return fmt::format("{:<16} {:.6g}, weighted quartiles {:.6g} {:.6g} {:.6g}, from {:.6g} to {:.6g}\n", name,
                      s.mean, s.first_quartile, s.weighted_median, s.third_quartile, s.min, s.max);
 }
 
 }  // namespace
-
-Choices<Metric> metric_choices() {
-  return kMetrics;
-}
 
 std::string compare_json(const CompareReport& report) {
   ordered_json json = {
@@ -116,7 +103,7 @@ std::string compare_json(const CompareReport& report) {
     for (const Value& value : values_of(metric)) json[value.key] = json_number(report.errors.*value.member);
     if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
     if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
-    if (is_flip(metric)) json[name_of(metric_choices(), metric)] = flip_json(report, metric);
+    if (is_flip(metric)) json[renderer::name_of(kMetrics, metric)] = flip_json(report, metric);
   }
   if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -5,15 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/values.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/flip.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
 enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, ssim, flip, hdr_flip };
 
-Choices<Metric> metric_choices();
+inline constexpr renderer::Choice<Metric> kMetrics[] = {
+    {"mse", Metric::mse},   {"rel_mse", Metric::rel_mse},  {"psnr", Metric::psnr},
+    {"mean", Metric::mean}, {"max", Metric::max},          {"ssim", Metric::ssim},
+    {"flip", Metric::flip}, {"hdr_flip", Metric::hdr_flip}};
 
 struct CompareReport {
   std::vector<std::string> references;  ///< files: one, or two halves

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/cache_recipe.h"
-#include "apps/reports/json_values.h"
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/option_table.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 
@@ -14,76 +14,51 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
+using renderer::InRecipe;
+using renderer::Option;
 
-/// JSON has no infinity.
-ordered_json number(double value) {
-  if (std::isinf(value)) return "inf";
-  return value;
-}
+/// What is new follows these: recipes of two versions differ in what is new alone.
+constexpr const char* kOrder =
+    "integrator size region spp time-limit max-depth min-depth seed sampler filter filter-width direct "
+    "mis light-selection clamp ao-distance aov nan isa eye target up camera fov environment "
+    "environment-rotation environment-scale scene-index variant missing allow-external exposure "
+    "tonemap exr preset train-steps train-time batch train-path-length samples-per-point "
+    "training-points candidates self-training self-training-vertices self-training-full "
+    "self-training-attenuation learning-rate learning-decay loss update average encoding hash-levels "
+    "hash-features hash-log2-size hash-base hash-growth features stack resolution resolution-scale "
+    "node-spacing max-resolution cluster storage feature-step cache-memory feature-precision hidden "
+    "layers bias direction-input normal-input albedo-input scout cache-holds query-at view "
+    "cache-roughness spread-threshold query-precision device cache-in cache-out threads memory-limit "
+    "output checkpoint checkpoint-every resume";
 
-ordered_json environment(const renderer::EnvironmentOptions& options) {
-  if (!options.file.empty()) return options.file;
-  if (options.none()) return "none";
-  return {options.constant.x(), options.constant.y(), options.constant.z()};
-}
+/// The value of an option. JSON has no infinity.
+struct Json {
+  bool is_short;  ///< floats have the digits that tell them from others, no more
 
-void add_camera(ordered_json& json, const renderer::CameraOptions& camera) {
-  if (camera.look_at) {
-    json["eye"] = triple(camera.look_at->eye);
-    json["target"] = triple(camera.look_at->target);
-    json["up"] = triple(camera.look_at->up);
-  } else if (!camera.name.empty()) {
-    json["camera"] = camera.name;
+  ordered_json operator()(std::monostate) const { return nullptr; }
+  ordered_json operator()(float value) const {
+    if (std::isinf(value)) return "inf";
+    return is_short ? shortest(value) : double{value};
   }
-  if (camera.fov_degrees) json["fov"] = *camera.fov_degrees;
-}
+  template <class Value>
+  ordered_json operator()(const Value& value) const {
+    return value;
+  }
+};
 
 }  // namespace
 
-ordered_json resolved_options(const RenderSettings& settings) {
-  const renderer::RenderOptions& o = settings.render;
+ordered_json resolved_options(RenderSettings settings) {
+  std::vector<Option> table = option_table(settings);
+  put_first(table, kOrder);
+  const std::set<std::string> without_effect = flags_without_effect(settings);
   ordered_json json;
-  json["integrator"] = name_of(integrator_choices(), o.integrator);
-  json["size"] = {o.width, o.height};
-  if (o.region) json["region"] = *o.region;
-  json["spp"] = o.spp;
-  json["time-limit"] = o.time_limit_seconds;
-  json["max-depth"] = o.max_depth;
-  json["min-depth"] = o.min_depth;
-  json["seed"] = o.seed;
-  json["sampler"] = name_of(sampler_choices(), o.sampler);
-  json["filter"] = name_of(filter_choices(), o.filter);
-  json["filter-width"] = o.filter_width;
-  json["direct"] = name_of(direct_choices(), o.direct);
-  json["mis"] = name_of(mis_choices(), o.mis);
-  json["light-selection"] = name_of(light_selection_choices(), o.light_selection);
-  json["clamp"] = o.clamp;
-  if (o.ao_distance >= 0.0f) json["ao-distance"] = number(o.ao_distance);
-  ordered_json aovs = ordered_json::array();
-  for (const renderer::Aov aov : o.aovs) aovs.push_back(name_of(aov_choices(), aov));
-  json["aov"] = aovs;
-  json["nan"] = name_of(nan_choices(), o.nan_policy);
-  json["isa"] = o.isa;
-  add_camera(json, o.camera);
-  json["environment"] = environment(o.environment);
-  json["environment-rotation"] = o.environment.rotation_degrees;
-  json["environment-scale"] = o.environment.scale;
-  json["scene-index"] = settings.load.scene;
-  json["variant"] = settings.load.variant;
-  json["missing"] = settings.load.missing_is_error ? "error" : "warn";
-  json["allow-external"] = settings.load.allow_external;
-  json["exposure"] = settings.image.exposure;
-  json["tonemap"] = name_of(tonemap_choices(), settings.image.tonemap);
-  json["exr"] = settings.image.exr_float ? "float" : "half";
-  if (renderer::uses_cache(o.integrator)) json.update(resolved_cache_options(settings));
-  if (settings.reproducible) return json;
-  json["threads"] = o.threads;
-  json["memory-limit"] = o.memory_limit_bytes >> 20;
-  json["output"] = settings.outputs;
-  if (!o.checkpoint.file.empty()) {
-    json["checkpoint"] = o.checkpoint.file;
-    json["checkpoint-every"] = o.checkpoint.every_seconds;
-    json["resume"] = o.checkpoint.resume;
+  for (const Option& option : table) {
+    const bool said = option.in_recipe == InRecipe::always ||
+                      (option.in_recipe == InRecipe::unless_reproducible && !settings.reproducible);
+    if (!said || without_effect.contains(option.flag())) continue;
+    const ordered_json value = std::visit(Json{option.of_cache}, option.value());
+    if (!value.is_null()) json[option.name] = value;
   }
   return json;
 }
@@ -100,7 +75,7 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
   std::map<std::string, std::string> recipe = {
       {"version", version()},
       {"scene", settings.scene},
-      {"integrator", name_of(integrator_choices(), settings.render.integrator)},
+      {"integrator", word(settings.render.integrator)},
       {"seed", std::to_string(settings.render.seed)},
       {"spp", std::to_string(statistics.spp)},
       {"isa", statistics.isa},

@@ -13,7 +13,7 @@ namespace gatelight::apps {
 
 /// Every option with the value that was used, by the name of its flag. Options that cannot change the picture
 /// (threads, progress, names of outputs) are left out where `reproducible` is set.
-nlohmann::ordered_json resolved_options(const RenderSettings& settings);
+nlohmann::ordered_json resolved_options(RenderSettings settings);
 
 /// The same as JSON text.
 std::string dump_options(const RenderSettings& settings);

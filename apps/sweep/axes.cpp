@@ -36,10 +36,11 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
   return values;
 }
 
-std::vector<int> split_integers(const std::string& flag, const std::string& text, const IntegerRange& range) {
+std::vector<int> split_integers(const std::string& flag, const std::string& text,
+                                const renderer::IntegerRange& range) {
   std::vector<int> values;
   for (const std::string& word : split_values(flag, text)) {
-    values.push_back(static_cast<int>(parse_integer(flag, word, range)));
+    values.push_back(static_cast<int>(renderer::parse_integer(flag, word, range)));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/values.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
@@ -19,7 +19,8 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
                                       bool values_are_lists = false);
 
 /// Ascending, each once.
-std::vector<int> split_integers(const std::string& flag, const std::string& text, const IntegerRange& range);
+std::vector<int> split_integers(const std::string& flag, const std::string& text,
+                                const renderer::IntegerRange& range);
 
 /// "NAME=V1,V2", the text of --vary. NAME is that of a flag of `render`, with or without its dashes. Which
 /// flags may be varied is not checked here.

@@ -11,11 +11,11 @@
 #include "apps/reports/json_file.h"
 #include "apps/reports/json_numbers.h"
 #include "apps/reports/recipe.h"
-#include "apps/settings/cache_choices.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/machine.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "renderer/settings/option.h"
 #include "renderer/settings/resolved_options.h"
 #include "scene/png_read.h"
 
@@ -95,9 +95,9 @@ void add_found(ordered_json& options, const CellPlace& place, const renderer::Re
   const auto set = [&](const char* key, const ordered_json& value) {
     if (options.contains(key)) options[key] = value;
   };
-  set("direction-input", name_of(on_off_choices(), s.cache.direction_input));
-  set("normal-input", name_of(on_off_choices(), s.cache.normal_input));
-  set("albedo-input", name_of(on_off_choices(), s.cache.albedo_input));
+  set("direction-input", renderer::name_of(renderer::kOnOff, s.cache.direction_input));
+  set("normal-input", renderer::name_of(renderer::kOnOff, s.cache.normal_input));
+  set("albedo-input", renderer::name_of(renderer::kOnOff, s.cache.albedo_input));
   set("node-spacing", found_number(s.cache.node_spacing));
 }
 
@@ -166,14 +166,14 @@ ordered_json planned_record(const CellPlace& place) {
   return {{"id", place.id},
           {"scene", place.scene.name},
           {"series", series.label},
-          {"integrator", name_of(integrator_choices(), o.integrator)},
-          {"encoding", has_cache ? ordered_json(name_of(encoding_choices(), o.cache.encoding)) : nullptr},
+          {"integrator", renderer::word(o.integrator)},
+          {"encoding", has_cache ? ordered_json(renderer::word(o.cache.encoding)) : nullptr},
           {"axes", axes},
           {"seed", place.seed},
           {"train_steps", has_cache ? ordered_json(place.point) : nullptr},
           {"spp", has_cache ? o.spp : place.point},
           {"options", resolved_options(settings)},
-          {"reference", name_of(reference_kind_choices(), series.reference)},
+          {"reference", renderer::name_of(kReferenceKinds, series.reference)},
           {"reference_id", place.reference_key},
           {"command", cell_command(series, place.scene.file, place.seed, place.point)}};
 }

@@ -4,6 +4,7 @@
 
 #include "renderer/film/camera_choice.h"
 #include "renderer/identity/deciding_options.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -43,8 +44,8 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
   }
   // FLIP looks at the picture as it is shown; threads and memory limit decide how long it takes, or whether.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
-                            settings.image.exposure, name_of(tonemap_choices(), settings.image.tonemap),
-                            o.threads, o.memory_limit_bytes, name_of(nan_choices(), o.nan_policy));
+                            settings.image.exposure, renderer::word(settings.image.tonemap), o.threads,
+                            o.memory_limit_bytes, renderer::word(o.nan_policy));
 }
 
 std::string deciding_text(const RenderSettings& settings) {

@@ -7,19 +7,18 @@
 #include <map>
 #include <set>
 
-#include "apps/settings/cache_choices.h"
-#include "apps/settings/render_words.h"
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/flags.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
 
 using renderer::Integrator;
 
-constexpr Choice<ReferenceKind> kReferenceKinds[] = {
-    {"path", ReferenceKind::path}, {"ao", ReferenceKind::ao}, {"cache", ReferenceKind::cache}};
 constexpr const char* kSameAsGate = "same-as-gate";
 
 /// Names no file: settings are read before there is a scene.
@@ -39,8 +38,7 @@ RenderSettings settle(FlagValues& flags) {
     settings = read_render_words(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
     const bool has_cache = renderer::uses_cache(o.integrator);
-    const std::set<std::string> unwanted = has_cache ? cache_flags_without_effect(o) : settings.cache_flags;
-    for (const std::string& flag : unwanted) {
+    for (const std::string& flag : flags_without_effect(settings)) {
       if (!drop_flag(flags, flag)) continue;
       dropped = true;
       // A preset's size stays: pictures are compared with each other.
@@ -63,7 +61,8 @@ std::optional<double> take_same_as_gate(FlagValues& flags) {
       throw UsageError(
           fmt::format("--cache-memory: '{}' is not {} or {}/DIVISOR", *value, kSameAsGate, kSameAsGate));
     }
-    divisor = parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), kPositive);
+    divisor =
+        renderer::parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), renderer::kPositive);
   }
   drop_flag(flags, "--cache-memory");
   return divisor;
@@ -213,10 +212,10 @@ class Planner {
   }
 
   static std::string integrator_of(const PlannedSeries& s) {
-    return name_of(integrator_choices(), s.settings.render.integrator);
+    return renderer::word(s.settings.render.integrator);
   }
   static std::string encoding_of(const PlannedSeries& s) {
-    return name_of(encoding_choices(), s.settings.render.cache.encoding);
+    return renderer::word(s.settings.render.cache.encoding);
   }
 
   const SweepRequest& request_;
@@ -231,10 +230,6 @@ std::string plural(std::size_t count, const char* what) {
 }
 
 }  // namespace
-
-Choices<ReferenceKind> reference_kind_choices() {
-  return kReferenceKinds;
-}
 
 std::size_t SweepPlan::run_count() const {
   std::size_t count = 0;
@@ -272,7 +267,7 @@ std::string plan_text(const SweepPlan& plan) {
       text += fmt::format("  {:<{}}  {}x{}, {} {}", s.label, width, o.width, o.height,
                           s.has_cache() ? "steps" : "spp", fmt::join(s.points, ","));
       if (s.has_cache()) text += fmt::format(", {} spp", o.spp);
-      text += fmt::format(", against {}\n", name_of(reference_kind_choices(), s.reference));
+      text += fmt::format(", against {}\n", renderer::name_of(kReferenceKinds, s.reference));
     }
   }
   return text + fmt::format("{} with {}: {}, {}\n", plural(plan.scenes.size(), "scene"),

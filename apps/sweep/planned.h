@@ -9,6 +9,7 @@
 
 #include "apps/settings/render_settings.h"
 #include "apps/sweep/flag_values.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
@@ -18,7 +19,8 @@ enum class ReferenceKind : std::uint8_t {
   ao,     ///< ambient occlusion
   cache,  ///< what the bare cache should answer (nrc --view cache)
 };
-Choices<ReferenceKind> reference_kind_choices();
+inline constexpr renderer::Choice<ReferenceKind> kReferenceKinds[] = {
+    {"path", ReferenceKind::path}, {"ao", ReferenceKind::ao}, {"cache", ReferenceKind::cache}};
 
 /// --cache-memory same-as-gate: as many bytes as this cache takes, divided.
 struct GateMemory {

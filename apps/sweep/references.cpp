@@ -19,6 +19,7 @@
 #include "renderer/machine/atomic_file.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/merge.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -58,7 +59,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
     if (statistics.interrupted) return std::nullopt;
     picture.metadata = {{"version", version()},
                         {"scene", cell.scene},
-                        {"integrator", name_of(integrator_choices(), options.integrator)},
+                        {"integrator", renderer::word(options.integrator)},
                         {"seed", std::to_string(seed)},
                         {"spp", std::to_string(statistics.spp)},
                         {"render_seconds", fmt::format("{:.3f}", statistics.render_seconds)}};
@@ -142,7 +143,7 @@ ordered_json reference_json(const Reference& reference, const std::string& folde
   const fs::path relative = absolute.lexically_relative(fs::absolute(folder).lexically_normal());
   const bool inside = !relative.empty() && *relative.begin() != "..";
   ordered_json json = {
-      {"id", reference.key},      {"kind", name_of(reference_kind_choices(), reference.kind)},
+      {"id", reference.key},      {"kind", renderer::name_of(kReferenceKinds, reference.kind)},
       {"spp", nullptr},           {"file", (inside ? relative : absolute).generic_string()},
       {"rel_mse_noise", nullptr}, {"seconds", nullptr}};
   if (reference.spp) json["spp"] = *reference.spp;
@@ -179,8 +180,8 @@ Reference given_reference(ReferenceKind kind, const std::string& file, const Ren
       .kind = kind, .key = neural::hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
   const auto spp = picture.metadata.find("spp");
   if (spp != picture.metadata.end()) {
-    reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
-                                                   spp->second, {1, std::int64_t{1} << 30}));
+    reference.spp = static_cast<int>(renderer::parse_integer("--reference: samples per pixel in its header",
+                                                             spp->second, {1, std::int64_t{1} << 30}));
   }
   return reference;
 }
@@ -227,7 +228,7 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
   reference.rel_mse_noise = renderer::compare_pictures({mean, reference.file}, first).rel_mse;
   reference.seconds = seconds_of(halves[0]) + seconds_of(halves[1]);
   renderer::write_image(mean, reference.file, {.exr_float = true});
-  const ordered_json json = {{"kind", name_of(reference_kind_choices(), reference.kind)},
+  const ordered_json json = {{"kind", renderer::name_of(kReferenceKinds, reference.kind)},
                              {"scene", cell.scene},
                              {"spp", *reference.spp},
                              {"rel_mse_noise", *reference.rel_mse_noise},

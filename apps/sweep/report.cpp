@@ -13,6 +13,7 @@
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
 #include "renderer/image/image_read.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -82,7 +83,7 @@ std::vector<Wanted> list_pictures(const ordered_json& results) {
 renderer::ImageWriteOptions write_options(const ordered_json& display) {
   renderer::ImageWriteOptions options;
   if (at(display, "exposure").is_number()) options.exposure = at(display, "exposure").get<float>();
-  for (const Choice<renderer::Tonemap>& choice : tonemap_choices()) {
+  for (const renderer::Choice<renderer::Tonemap>& choice : renderer::kWords<renderer::Tonemap>) {
     if (choice.name == word(display, "tonemap")) options.tonemap = choice.value;
   }
   return options;

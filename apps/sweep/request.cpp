@@ -6,8 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "apps/settings/cache_choices.h"
-#include "apps/settings/render_words.h"
+#include "apps/settings/option_table.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
@@ -15,10 +14,10 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr IntegerRange kSteps{1, std::numeric_limits<int>::max()};
-constexpr IntegerRange kSpp{1, 1 << 24};
-constexpr IntegerRange kSeeds{1, 1000};
-constexpr IntegerRange kSeed{0, 4294967295};
+constexpr renderer::IntegerRange kSteps{1, std::numeric_limits<int>::max()};
+constexpr renderer::IntegerRange kSpp{1, 1 << 24};
+constexpr renderer::IntegerRange kSeeds{1, 1000};
+constexpr renderer::IntegerRange kSeed{0, 4294967295};
 
 const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
@@ -110,7 +109,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   if (scene == request.scenes.end()) {
     std::vector<std::string_view> names;
     for (const SweepScene& s : request.scenes) names.push_back(s.name);
-    refuse_choice("--for", name, join_names(names));
+    renderer::refuse_choice("--for", name, renderer::join_names(names));
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
@@ -178,9 +177,9 @@ void add_defaults(SweepBlock& block) {
 
 void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   request.seeds = preset ? kPresetSeeds : 1;
-  if (words.seeds) request.seeds = static_cast<int>(parse_integer("--seeds", *words.seeds, kSeeds));
+  if (words.seeds) request.seeds = static_cast<int>(renderer::parse_integer("--seeds", *words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
-    request.first_seed = static_cast<std::uint32_t>(parse_integer("--seed", *seed, kSeed));
+    request.first_seed = static_cast<std::uint32_t>(renderer::parse_integer("--seed", *seed, kSeed));
   }
   const std::uint64_t last =
       std::uint64_t{request.first_seed} + static_cast<std::uint64_t>(request.seeds) - 1;
@@ -197,12 +196,13 @@ void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
 
 std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
-  for (const RenderFlag& flag : render_flags()) {
+  RenderSettings settings;
+  for (const renderer::Option& option : option_table(settings)) {
+    if (!option.has_flag() || option.positional || option.unit.empty()) continue;
+    const std::string flag = option.flag();
     const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
-                                  [&](const AxisFlag& f) { return flag.name == f.name; });
-    if (flag.takes_value && !axis && !contains(kOwnFlags, flag.name) && !contains(kNoBaseFlags, flag.name)) {
-      names.push_back(flag.name);
-    }
+                                  [&](const AxisFlag& f) { return flag == f.name; });
+    if (!axis && !contains(kOwnFlags, flag) && !contains(kNoBaseFlags, flag)) names.push_back(flag);
   }
   return names;
 }
@@ -210,7 +210,6 @@ std::vector<std::string> find_base_flags() {
 }  // namespace
 
 const std::vector<std::string>& base_flag_names() {
-  // All flags of render are made to find them.
   static const std::vector<std::string> names = find_base_flags();
   return names;
 }
@@ -224,9 +223,9 @@ SweepRequest make_request(const SweepWords& words) {
   drop_flag(base, "--seed");
   if (!words.preset.empty() && !preset) {
     std::vector<std::string_view> names = sweep_preset_names();
-    for (const auto& choice : preset_choices()) names.push_back(choice.name);
+    for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
     if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
-      refuse_choice("--preset", words.preset, join_names(names));
+      renderer::refuse_choice("--preset", words.preset, renderer::join_names(names));
     }
     base.emplace_back("--preset", words.preset);
   }

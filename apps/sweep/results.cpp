@@ -9,12 +9,12 @@
 #include <set>
 
 #include "apps/reports/json_file.h"
-#include "apps/settings/values.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/machine.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/machine/threads.h"
+#include "renderer/settings/values.h"
 #include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
@@ -95,7 +95,7 @@ ordered_json make_results(const std::vector<std::string>& command, const std::ve
 }
 
 std::string results_csv(const ordered_json& results) {
-  const std::vector<std::string> columns = split_list("columns", kColumns);
+  const std::vector<std::string> columns = renderer::split_list("columns", kColumns);
   std::vector<std::string> axes;
   for (const ordered_json& cell : results.at("cells")) {
     for (const auto& [axis, value] : cell.at("axes").items()) {

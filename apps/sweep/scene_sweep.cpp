@@ -191,7 +191,7 @@ const Picture* SceneSweep::reference_picture(std::size_t series) {
   if (found != reference_pictures_.end()) return &found->second;
   if (reference_errors_.contains(reference.key)) return nullptr;
   const bool made = reference.given || reference.rel_mse_noise;
-  const std::string kind = name_of(reference_kind_choices(), reference.kind);
+  const std::string kind = renderer::name_of(kReferenceKinds, reference.kind);
   if (!made) progress_.begin(fmt::format("{} reference {}", planned_.name, kind), true);
   try {
     std::optional<Picture> picture = make_reference(reference, scene_, series_[series].settings, callbacks());

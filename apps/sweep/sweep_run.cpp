@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "apps/settings/complete_settings.h"
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/folder_lock.h"

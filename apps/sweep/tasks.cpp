@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "apps/settings/cache_choices.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -29,9 +29,9 @@ std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<s
 
 SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
   const RenderOptions& o = series.settings.render;
-  const std::string integrator = name_of(integrator_choices(), o.integrator);
+  const std::string integrator = renderer::word(o.integrator);
   if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
-  const std::string encoding = name_of(encoding_choices(), o.cache.encoding);
+  const std::string encoding = renderer::word(o.cache.encoding);
   // Camera paths and training paths.
   const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
                       static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
@@ -39,7 +39,7 @@ SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const
 }
 
 SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
-  return {kinds_of(scene, {name_of(reference_kind_choices(), kind)}), pixels_of(cell) * spp};
+  return {kinds_of(scene, {renderer::name_of(kReferenceKinds, kind)}), pixels_of(cell) * spp};
 }
 
 std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp) {

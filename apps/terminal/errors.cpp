@@ -32,8 +32,6 @@ Failure describe_current_exception() {
     throw;
   } catch (const UsageError& error) {
     return {kUsage, error.what(), "see --help"};
-  } catch (const renderer::BadOption& error) {
-    return {kUsage, error.what(), "see --help"};
   } catch (const neural::BadConfiguration& error) {
     return {kUsage, fmt::format("the cache cannot be as asked: {}", error.what()),
             "see 'Cache' in gatelight render --help"};

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "renderer/machine/errors.h"
+
 namespace gatelight::apps {
 
 /// The codes are part of the command line's contract (see README.md).
@@ -21,9 +23,7 @@ enum ExitCode : int {
 
 /// The command line asks for something that makes no sense. The message names flag, value and what was
 /// expected.
-struct UsageError : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
+using UsageError = renderer::BadOption;
 
 /// An input file that cannot be used. The message names the file.
 struct InputError : std::runtime_error {

@@ -9,7 +9,7 @@
 #include "renderer/cache/cache_content.h"
 #include "renderer/identity/named_texts.h"
 #include "renderer/machine/atomic_file.h"
-#include "renderer/settings/option_words.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "renderer/machine/finite_float.h"
+#include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
 
@@ -58,38 +59,6 @@ struct Importer {
 
 }  // namespace
 
-const char* aov_name(Aov aov) {
-  switch (aov) {
-    case Aov::albedo:
-      return "albedo";
-    case Aov::normal:
-      return "normal";
-    case Aov::depth:
-      return "depth";
-    case Aov::position:
-      return "position";
-    case Aov::primitive_id:
-      return "primitive";
-    case Aov::instance_id:
-      return "instance";
-    case Aov::sample_count:
-      return "samples";
-    case Aov::variance:
-      return "variance";
-    case Aov::cache_answer:
-      return "cache-answer";
-    case Aov::cache_error:
-      return "cache-error";
-    case Aov::training_count:
-      return "training-count";
-    case Aov::resolution:
-      return "resolution";
-    case Aov::nearest_node:
-      return "nearest-node";
-  }
-  return "";
-}
-
 Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
     : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
   needs_first_hits_ = std::any_of(aovs_.begin(), aovs_.end(), from_first_hit);
@@ -136,7 +105,7 @@ void Film::add(int x, int y, const FirstHit& first) {
 
 Layer Film::layer(Aov aov) const {
   Layer layer;
-  layer.name = aov_name(aov);
+  layer.name = word(aov);
   layer.full_precision =
       aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
   const auto fill = [&](std::vector<std::string> channels, const auto& values, auto&& value) {

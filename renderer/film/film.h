@@ -82,7 +82,4 @@ class Film {
   std::vector<First> first_;
 };
 
-/// The name of an output variable on the command line and in files.
-const char* aov_name(Aov aov);
-
 }  // namespace gatelight::renderer

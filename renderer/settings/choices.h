@@ -1,5 +1,5 @@
 #pragma once
-// What options choose between. The words for the choices are in option_words.h.
+// What options choose between. The words for the choices are in words.h.
 
 #include <cstdint>
 

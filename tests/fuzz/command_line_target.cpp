@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "apps/command_line.h"
-#include "apps/settings/render_words.h"
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/flags.h"
 #include "apps/sweep/plan.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
-#include "renderer/machine/errors.h"
 #include "tests/fuzz/input_file.h"
 
 namespace gatelight::fuzz {
@@ -38,8 +38,6 @@ void settle(const Act& act) {
   try {
     act();
   } catch (const apps::UsageError& error) {
-    check_line(apps::one_line(error.what()));
-  } catch (const renderer::BadOption& error) {
     check_line(apps::one_line(error.what()));
   }
 }

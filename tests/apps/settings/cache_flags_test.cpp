@@ -1,7 +1,5 @@
 // The flags of a cache, read without a scene.
 
-#include "apps/settings/cache_flags.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +9,11 @@
 #include <set>
 
 #include "apps/reports/recipe.h"
+#include "apps/settings/complete_settings.h"
 #include "apps/settings/config_file.h"
+#include "apps/settings/flags.h"
 #include "apps/settings/help_format.h"
-#include "apps/settings/render_flags.h"
+#include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
 #include "tests/support/temporary_folder.h"
 
@@ -41,7 +41,7 @@ RenderSettings read(Words words) {
   accept_config_file(root);
   CLI::App* app = root.add_subcommand("render", "");
   RenderSettings settings;
-  add_render_flags(*app, settings);
+  add_flags(*app, option_table(settings));
   words.insert(words.begin(), {"render", "room.glb", "-o", "a.exr"});
   std::reverse(words.begin(), words.end());
   root.parse(words);
@@ -66,6 +66,15 @@ std::string refusal(const Words& words) {
     return error.what();
   }
   return "";
+}
+
+std::set<std::string> cache_flags() {
+  RenderSettings settings;
+  std::set<std::string> flags;
+  for (const renderer::Option& option : option_table(settings)) {
+    if (option.of_cache && option.has_flag()) flags.insert(option.flag());
+  }
+  return flags;
 }
 
 TEST(CacheFlags, EachFlagSetsItsMember) {
@@ -209,12 +218,12 @@ TEST(CacheFlags, WordsThatStandForNoNumber) {
 TEST(CacheFlags, DefaultsAreThoseOfTheRendererAndShownInTheHelp) {
   CLI::App app("");
   RenderSettings settings;
-  add_render_flags(app, settings);
+  add_flags(app, option_table(settings));
   // Each default of the help, given as a value, changes nothing.
   Words words = {"--integrator", "nrc"};
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
-    if (!settings.cache_flags.contains(name) || option->get_default_str().empty()) continue;
+    if (!cache_flags().contains(name) || option->get_default_str().empty()) continue;
     if (name.starts_with("--hash") || name == "--resolution-scale" || name == "--spread-threshold") continue;
     words.insert(words.end(), {name, option->get_default_str()});
   }
@@ -226,7 +235,7 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
   CLI::App app("");
   app.formatter(make_help_formatter());
   RenderSettings settings;
-  add_render_flags(app, settings);
+  add_flags(app, option_table(settings));
   const std::string help = app.help();
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional() || option == app.get_help_ptr()) continue;
@@ -293,16 +302,13 @@ TEST(Presets, ChooseTheIntegratorUnlessItIsGiven) {
 }
 
 TEST(CacheFlags, AreRefusedWithoutACache) {
-  CLI::App app("");
-  RenderSettings settings;
-  add_render_flags(app, settings);
-  EXPECT_GT(settings.cache_flags.size(), 40u);
+  EXPECT_GT(cache_flags().size(), 40u);
   for (const char* flag :
        {"--preset", "--cache-in", "--cache-out", "--train-steps", "--device", "--cache-memory"}) {
-    EXPECT_TRUE(settings.cache_flags.contains(flag)) << flag;
+    EXPECT_TRUE(cache_flags().contains(flag)) << flag;
   }
   for (const char* flag : {"--spp", "--integrator", "--isa", "--checkpoint"}) {
-    EXPECT_FALSE(settings.cache_flags.contains(flag)) << flag;
+    EXPECT_FALSE(cache_flags().contains(flag)) << flag;
   }
   EXPECT_THAT(refusal({"--batch", "100"}),
               AllOf(HasSubstr("--batch"), HasSubstr("'path'"), HasSubstr("nao or nrc")));
@@ -441,8 +447,14 @@ TEST(FileNames, WhatIsReadOrWrittenIsNotWrittenByAnotherFlag) {
   EXPECT_EQ(refusal({"--stats", "-"}), "");
 }
 
-TEST(CacheRecipe, CanBeGivenBackAsFlags) {
+TEST(Recipe, CanBeGivenBackAsFlags) {
   const std::vector<Words> cases = {
+      {"--size",        "64x32",      "--region",      "1,2,3,4", "--spp", "3",
+       "--seed",        "4294967295", "--aov",         "all",     "--eye", "1,-2.5,3",
+       "--target",      "0,0.1,0",    "--environment", "0.1,2,3", "--fov", "30.1",
+       "--ao-distance", "inf",        "--exposure",    "-1.5",    "--exr", "float",
+       "--scene-index", "-1",         "--missing",     "warn"},
+      {"--camera", "front", "--environment", "sky.exr", "--time-limit", "0.5", "--checkpoint", "c"},
       {"--integrator", "nrc"},
       {"--preset", "paper-nao"},
       {"--preset", "paper-nrc", "--encoding", "hashgrid", "--cache-memory", "0.1"},
@@ -453,20 +465,16 @@ TEST(CacheRecipe, CanBeGivenBackAsFlags) {
       {"--integrator", "nao", "--resolution", "fixed:3", "--stack", "adaptive,adaptive/3,2", "--average",
        "off", "--query-precision", "bf16", "--learning-rate", "0.003", "--cache-in", "i"},
   };
-  CLI::App app("");
-  RenderSettings flags;
-  add_render_flags(app, flags);
   for (const Words& words : cases) {
     RenderSettings settings = read(words);
     settings.preset.reset();
     const ordered_json options = resolved_options(settings);
-    Words again = {"--integrator", options["integrator"],
-                   "--spp",        options["spp"].dump(),
-                   "--size",       options["size"][0].dump() + "x" + options["size"][1].dump()};
-    for (const auto& [key, value] : options.items()) {
-      if (!flags.cache_flags.contains("--" + key)) continue;
-      again.insert(again.end(), {"--" + key, value.is_string() ? value.get<std::string>() : value.dump()});
+    Words again;
+    for (const renderer::Option& option : option_table(settings)) {
+      if (options.contains(option.name) && option.read && !option.text().empty())
+        again.push_back(option.flag() + "=" + option.text());
     }
+    EXPECT_GT(again.size(), 25u);
     EXPECT_EQ(resolved_options(read(again)), options);
   }
 }

@@ -1,5 +1,6 @@
 // Which cells a sweep has, without a scene.
 
+#include "apps/settings/complete_settings.h"
 #include "apps/sweep/plan.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 
 #include <set>
 
-#include "apps/settings/render_words.h"
+#include "apps/settings/flags.h"
 #include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/presets.h"

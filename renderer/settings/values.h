@@ -1,6 +1,6 @@
 #pragma once
-// Words of the command line into numbers. Each function throws UsageError, whose message names the flag, the
-// value and what was expected.
+// Words of the command line and of files into values. Each function throws BadOption, whose message names the
+// flag, the word and what was expected.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gatelight::apps {
+namespace gatelight::renderer {
 
 struct IntegerRange {
   std::int64_t min = 0;
@@ -59,27 +59,27 @@ using Choices = std::span<const Choice<Value>>;
 std::string join_names(std::span<const std::string_view> names);
 [[noreturn]] void refuse_choice(const std::string& flag, const std::string& text, const std::string& names);
 
-template <typename Value>
-std::string choice_names(Choices<Value> choices) {
+template <typename Table>
+std::string choice_names(const Table& table) {
   std::vector<std::string_view> names;
-  for (const Choice<Value>& choice : choices) names.push_back(choice.name);
+  for (const auto& choice : table) names.push_back(choice.name);
   return join_names(names);
 }
 
-template <typename Value>
-Value parse_choice(const std::string& flag, const std::string& text, Choices<Value> choices) {
-  for (const Choice<Value>& choice : choices) {
+template <typename Table>
+auto parse_choice(const std::string& flag, const std::string& text, const Table& table) {
+  for (const auto& choice : table) {
     if (choice.name == text) return choice.value;
   }
-  refuse_choice(flag, text, choice_names(choices));
+  refuse_choice(flag, text, choice_names(table));
 }
 
-template <typename Value>
-std::string name_of(Choices<Value> choices, const Value& value) {
-  for (const Choice<Value>& choice : choices) {
+template <typename Table, typename Value>
+std::string name_of(const Table& table, const Value& value) {
+  for (const auto& choice : table) {
     if (choice.value == value) return std::string(choice.name);
   }
   return "";
 }
 
-}  // namespace gatelight::apps
+}  // namespace gatelight::renderer

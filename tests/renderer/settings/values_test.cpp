@@ -1,4 +1,4 @@
-#include "apps/settings/values.h"
+#include "renderer/settings/values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "apps/terminal/errors.h"
+#include "renderer/machine/errors.h"
 
-namespace gatelight::apps {
+namespace gatelight::renderer {
 namespace {
 
 using ::testing::AllOf;
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 std::string refusal(const std::function<void()>& parse) {
   try {
     parse();
-  } catch (const UsageError& error) {
+  } catch (const BadOption& error) {
     return error.what();
   }
   return "";
@@ -107,4 +107,4 @@ TEST(Values, FloatsAreInTheRangeAsFloatsToo) {
 }
 
 }  // namespace
-}  // namespace gatelight::apps
+}  // namespace gatelight::renderer

@@ -1,4 +1,4 @@
-#include "apps/settings/values.h"
+#include "renderer/settings/values.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/terminal/errors.h"
+#include "renderer/machine/errors.h"
 
-namespace gatelight::apps {
+namespace gatelight::renderer {
 namespace {
 
 template <typename Number>
@@ -23,7 +23,7 @@ std::optional<Number> read_number(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& expected) {
-  throw UsageError(fmt::format("{}: '{}' is not {}", flag, text, expected));
+  throw BadOption(fmt::format("{}: '{}' is not {}", flag, text, expected));
 }
 
 bool inside(double value, const RealRange& range) {
@@ -155,4 +155,4 @@ void refuse_choice(const std::string& flag, const std::string& text, const std::
   refuse(flag, text, "one of " + names);
 }
 
-}  // namespace gatelight::apps
+}  // namespace gatelight::renderer

@@ -1,0 +1,206 @@
+#include "apps/settings/complete_settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "apps/settings/option_table.h"
+#include "apps/terminal/errors.h"
+#include "renderer/machine/threads.h"
+
+namespace gatelight::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace renderer;
+
+/// 16384 x 16384: beyond it the film alone needs more than 4 GiB.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+scene::Vec3 vector(const std::array<float, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+std::string text(const std::array<float, 3>& v) {
+  return fmt::format("{},{},{}", v[0], v[1], v[2]);
+}
+
+void complete_view(RenderSettings& settings) {
+  if (!settings.eye && !settings.target && !settings.up) return;
+  if (!settings.eye || !settings.target) {
+    throw UsageError(fmt::format("{} is missing: a view by hand needs --eye and --target",
+                                 settings.eye ? "--target" : "--eye"));
+  }
+  LookAt look_at{.eye = vector(*settings.eye), .target = vector(*settings.target)};
+  if (settings.up) look_at.up = vector(*settings.up);
+  // In double: the difference of two floats may overflow or vanish in their square.
+  const Eigen::Vector3d direction = look_at.target.cast<double>() - look_at.eye.cast<double>();
+  const Eigen::Vector3d up = look_at.up.cast<double>();
+  if (direction.norm() == 0.0) {
+    throw UsageError(
+        fmt::format("--target: '{}' is the place of --eye, expected another", text(*settings.target)));
+  }
+  if (up.norm() == 0.0) throw UsageError("--up: '0,0,0' is no direction, expected a vector that is not zero");
+  if (direction.normalized().cross(up.normalized()).norm() < 1e-6) {
+    throw UsageError(fmt::format("--up: '{},{},{}' is parallel to the view, expected another direction",
+                                 up.x(), up.y(), up.z()));
+  }
+  if (!settings.render.camera.name.empty()) {
+    throw UsageError(fmt::format("--camera: '{}' and --eye exclude each other, expected one of them",
+                                 settings.render.camera.name));
+  }
+  settings.render.camera.look_at = look_at;
+}
+
+void check_picture(const RenderOptions& options) {
+  const std::int64_t pixels = static_cast<std::int64_t>(options.width) * options.height;
+  if (pixels > kMaxPixels) {
+    throw UsageError(fmt::format("--size: '{}x{}' has {} pixels, expected at most {}", options.width,
+                                 options.height, pixels, kMaxPixels));
+  }
+  if (!options.region) return;
+  const auto [x0, y0, x1, y1] = *options.region;
+  if (x1 > options.width || y1 > options.height) {
+    throw UsageError(
+        fmt::format("--region: '{},{},{},{}' reaches beyond the picture, expected x1 <= {} and y1 <= {}", x0,
+                    y0, x1, y1, options.width, options.height));
+  }
+}
+
+void check_file_names(const RenderSettings& settings) {
+  FileNames names = read_files(settings);
+  for (const std::string& output : settings.outputs) names.write("--output", output);
+  names.write("--stats", settings.stats);
+  names.write("--cache-out", settings.render.cache.cache_out, "--cache-in");
+  names.write("--checkpoint", settings.render.checkpoint.file);
+}
+
+/// Empty where it has one.
+std::string why_without_effect(const Option& option, const RenderOptions& options) {
+  if (!option.of_cache) return "";
+  if (!uses_cache(options.integrator)) {
+    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
+                       word(options.integrator));
+  }
+  for (const Need& need : option.needs) {
+    if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
+  }
+  return "";
+}
+
+void refuse_without_effect(RenderSettings& settings) {
+  for (const Option& option : option_table(settings)) {
+    const std::string why = why_without_effect(option, settings.render);
+    if (!why.empty() && settings.given.contains(option.flag()))
+      throw UsageError(fmt::format("{}: {}", option.flag(), why));
+  }
+}
+
+/// What defaults and presets leave open or wrong for this encoding and integrator.
+void adapt_cache(RenderSettings& settings) {
+  CacheOptions& o = settings.render.cache;
+  if (!uses_cache(settings.render.integrator)) return;
+  // The paper's presets count steps by triangle, which a hash grid does not know.
+  if (o.encoding == neural::FeatureEncoding::hash_grid) {
+    o.training.feature_step = neural::FeatureStep::per_node;
+    o.candidates = 1;
+  }
+  if (o.view == CacheView::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
+  // One number alone is compared with itself: its loss needs no weight.
+  if (settings.render.integrator == Integrator::nao && !settings.given.contains("--loss")) {
+    o.training.loss = neural::Loss::l2;
+  }
+}
+
+/// Why a layer would be black, and what it needs; empty where it shows something.
+std::string why_black(Aov aov, const RenderOptions& o) {
+  if (aov < Aov::cache_answer) return "";
+  if (!uses_cache(o.integrator)) {
+    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
+                       word(o.integrator));
+  }
+  if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
+    return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
+  }
+  const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
+  if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid) {
+    return "the encoding 'hashgrid' knows no triangles, expected --encoding gate";
+  }
+  return "";
+}
+
+/// Of all layers those are left out that would be black, of some they are refused.
+void complete_aovs(RenderOptions& o) {
+  if (o.aovs.size() == std::size(kWords<Aov>))
+    std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o).empty(); });
+  for (const Aov aov : o.aovs) {
+    const std::string why = why_black(aov, o);
+    if (!why.empty()) throw UsageError(fmt::format("--aov: '{}' would be black: {}", word(aov), why));
+  }
+}
+
+void check_checkpoint(const RenderSettings& settings) {
+  const CheckpointOptions& checkpoint = settings.render.checkpoint;
+  if (!checkpoint.file.empty()) return;
+  if (checkpoint.resume)
+    throw UsageError("--resume: there is nothing to go on with, expected --checkpoint FILE with it");
+  if (settings.given.contains("--checkpoint-every"))
+    throw UsageError("--checkpoint-every: there is nothing to write, expected --checkpoint FILE with it");
+}
+
+void require_file(const std::string& what, const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+    throw InputError(fmt::format("cannot read {} '{}': there is no such file", what, path));
+  if (fs::is_directory(status))
+    throw InputError(fmt::format("cannot read {} '{}': it is a folder", what, path));
+}
+
+}  // namespace
+
+FileNames read_files(const RenderSettings& settings) {
+  FileNames names;
+  names.read("SCENE", settings.scene);
+  names.read("--environment", settings.render.environment.file);
+  names.read("--config", settings.config);
+  names.read("--cache-in", settings.render.cache.cache_in);
+  return names;
+}
+
+std::set<std::string> flags_without_effect(RenderSettings settings) {
+  std::set<std::string> flags;
+  for (const Option& option : option_table(settings)) {
+    if (!why_without_effect(option, settings.render).empty()) flags.insert(option.flag());
+  }
+  return flags;
+}
+
+void complete_settings(RenderSettings& settings) {
+  if (settings.quiet && settings.verbose)
+    throw UsageError("--quiet and --verbose exclude each other, expected one");
+  complete_view(settings);
+  check_picture(settings.render);
+  refuse_without_effect(settings);
+  adapt_cache(settings);
+  complete_aovs(settings.render);
+  check_checkpoint(settings);
+  check_file_names(settings);
+  if (settings.render.threads == 0) settings.render.threads = available_threads();
+}
+
+void check_files(const RenderSettings& settings) {
+  require_file("the scene", settings.scene);
+  if (!settings.render.environment.file.empty()) {
+    require_file("the environment", settings.render.environment.file);
+  }
+  for (const std::string& output : settings.outputs) check_image_output(output);
+  if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
+  const CacheOptions& cache = settings.render.cache;
+  if (!cache.cache_in.empty()) require_file("the cache", cache.cache_in);
+  if (!cache.cache_out.empty()) check_writable(cache.cache_out);
+  if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,160 @@
+#include "apps/settings/option_table.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "renderer/settings/option_table.h"
+
+namespace gatelight::apps {
+namespace {
+
+using renderer::any_word;
+using renderer::any_words;
+using renderer::CachePreset;
+using renderer::choice;
+using renderer::Choice;
+using renderer::InRecipe;
+using renderer::kWords;
+using renderer::LookAt;
+using renderer::number;
+using renderer::Option;
+using renderer::OptionGroup;
+using renderer::OptionValue;
+using renderer::toggle;
+using renderer::word;
+
+/// Beyond it 2^EV leaves the range of float.
+constexpr renderer::RealRange kStops{-100.0, 100.0};
+constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
+constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
+constexpr Choice<bool> kMissing[] = {{"error", true}, {"warn", false}};
+constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automatic},
+                                                   {"bar", ProgressMode::bar},
+                                                   {"json", ProgressMode::json},
+                                                   {"none", ProgressMode::none}};
+
+void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
+                       renderer::ImageWriteOptions& image) {
+  auto& [exr_float, exposure, tonemap] = image;
+  Option& output = group.add(
+      any_words("output", outputs, "FILE", "Picture to write, .exr or .png; may be given several times"));
+  output.letter = "-o";
+  output.required = true;
+  output.in_recipe = InRecipe::unless_reproducible;
+  group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
+  group.add(number("exposure", exposure, kStops, "EV", "Stops by which PNG files are brighter"));
+  group.add(choice("tonemap", tonemap, "Curve of PNG files"));
+}
+
+/// How the call goes, not what it makes.
+void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
+                      bool& quiet, bool& verbose) {
+  const auto add = [&](Option option) { group.add(std::move(option)).in_recipe = InRecipe::never; };
+  add(toggle(
+      "reproducible", reproducible,
+      "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
+  add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"));
+  add(progress_option(progress));
+  add(toggle("quiet", quiet, "Say nothing but errors"));
+  add(toggle("verbose", verbose, "Say more: what was loaded, the memory needed, all options"));
+}
+
+/// Part of a view by hand; what is complete is said.
+Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
+               const renderer::CameraOptions& camera, scene::Vec3 LookAt::*part, const char* help) {
+  const auto value = [&camera, part]() -> OptionValue {
+    if (!camera.look_at) return {};
+    const scene::Vec3& v = (*camera.look_at).*part;
+    return std::vector<float>{v.x(), v.y(), v.z()};
+  };
+  const auto read = [&member, flag = std::string("--") + name](const std::string& text) {
+    member = renderer::parse_triple(flag, text, renderer::kAnyFloat);
+  };
+  return {.name = name, .unit = "x,y,z", .help = help, .value = value, .read = read};
+}
+
+void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
+  auto& [scene, variant, missing_is_error, allow_external, bake_transforms] = load;  // all are baked
+  group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
+  group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
+    return load.variant;
+  };
+  group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
+  group.add(external_option(allow_external));
+}
+
+Option preset_option(std::optional<CachePreset>& preset) {
+  const auto read = [&preset](const std::string& text) {
+    preset = renderer::parse_choice("--preset", text, kWords<CachePreset>);
+  };
+  return {.name = "preset",
+          .unit = renderer::choice_names(kWords<CachePreset>),
+          .help =
+              "Values for many flags at once; flags beside it win: nrc in seconds, nrc with a final "
+              "gather, or the paper's nao and nrc (with its size and samples)",
+          .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
+          .read = read,
+          .group = "Light transport",
+          .of_cache = true,
+          .in_recipe = InRecipe::unless_reproducible};
+}
+
+}  // namespace
+
+Option external_option(bool& allowed) {
+  return toggle("allow-external", allowed,
+                "Let the scene read files outside its own folder: do so for scenes that you trust");
+}
+
+Option progress_option(ProgressMode& mode) {
+  return choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal");
+}
+
+Option positional(const char* name, std::string& member, const char* help) {
+  Option option = any_word(name, member, "", help);
+  option.positional = option.required = true;
+  option.in_recipe = InRecipe::never;
+  return option;
+}
+
+std::vector<Option> option_table(RenderSettings& settings) {
+  // --config is of all subcommands.
+  auto& [scene, outputs, render, load, image, eye, target, up, config, stats, progress, reproducible, quiet,
+         verbose, preset, given] = settings;
+  std::vector<Option> table;
+  table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
+  OptionGroup output{table, "Output"};
+  add_picture_files(output, outputs, image);
+  add_call_options(output, stats, progress, reproducible, quiet, verbose);
+  OptionGroup view{table, "Scene and view"};
+  for (Option& option : renderer::option_table(render)) {
+    const std::string name = option.name;
+    table.push_back(std::move(option));
+    if (name == "integrator") table.push_back(preset_option(preset));
+    if (name == "environment-scale") add_load_options(view, load);
+    if (name != "camera") continue;
+    const auto& camera = render.camera;
+    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Look from here, in metres (with --target)"));
+    view.add(by_hand("target", target, camera, &LookAt::target, "Look at this point, in metres"));
+    view.add(by_hand("up", up, camera, &LookAt::up, "What is up in a view by hand")).default_text = "0,1,0";
+  }
+  return table;
+}
+
+std::vector<Option> cache_report_table(RenderSettings& settings) {
+  const std::vector<Option> table = option_table(settings);
+  std::vector<Option> chosen;
+  const auto add = [&](const auto& wanted) {
+    std::copy_if(table.begin(), table.end(), std::back_inserter(chosen), wanted);
+  };
+  const auto named = [&](const std::string& name) { add([&](const Option& o) { return o.name == name; }); };
+  named("integrator");
+  named("preset");
+  named("size");
+  add([](const Option& o) { return o.group == "Scene and view"; });
+  add([](const Option& o) { return o.group.starts_with("Cache"); });
+  named("threads");
+  return chosen;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,208 @@
+#include "renderer/settings/option_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+// Structures are taken apart member by member: with one more in the struct this does not compile, and whoever
+// adds it describes it here.
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr IntegerRange kDepth{0, 65536};
+constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
+constexpr Choice<std::string_view> kIsa[] = {
+    {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
+
+std::vector<Aov> read_aovs(const std::string& text) {
+  std::vector<Aov> aovs;
+  for (const std::string& word : split_list("--aov", text)) {
+    if (word == "all") {
+      for (const Choice<Aov>& choice : kWords<Aov>) aovs.push_back(choice.value);
+    } else {
+      aovs.push_back(parse_choice("--aov", word, kWords<Aov>));
+    }
+  }
+  std::sort(aovs.begin(), aovs.end());
+  aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
+  return aovs;
+}
+
+OptionValue words_of(const std::vector<Aov>& aovs) {
+  std::vector<std::string> words;
+  for (const Aov aov : aovs) words.push_back(word(aov));
+  return words;
+}
+
+void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& checkpoint) {
+  auto& [file, every_seconds, resume] = checkpoint;
+  OptionGroup files{table, "Files"};
+  const auto add = [&](Option option) {
+    option.default_text = option.text();
+    option.value = [&checkpoint, value = option.value] {
+      return checkpoint.file.empty() ? OptionValue() : value();
+    };
+    files.add(decides_nothing(option, InRecipe::unless_reproducible));
+  };
+  add(any_word("checkpoint", file, "FILE",
+               "Keep all that is needed to go on after the program was ended in this file"));
+  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS", "Time between two writes of it"));
+  add(toggle("resume", resume,
+             "Go on with the checkpoint where it is there: the same picture as without the break"));
+}
+
+Option size_option(int& width, int& height) {
+  const auto value = [&]() -> OptionValue { return std::vector<int>{width, height}; };
+  const auto read = [&](const std::string& text) {
+    const std::array<int, 2> size = parse_size("--size", text);
+    width = size[0];
+    height = size[1];
+  };
+  return {.name = "size",
+          .unit = "WxH",
+          .help = "Size of the picture in pixels",
+          .value = value,
+          .read = read,
+          .write = [&] { return fmt::format("{}x{}", width, height); }};
+}
+
+Option region_option(std::optional<std::array<int, 4>>& region) {
+  const auto value = [&] {
+    return region ? std::vector<int>(region->begin(), region->end()) : OptionValue();
+  };
+  return {.name = "region",
+          .unit = "x0,y0,x1,y1",
+          .help = "Render this part only, in pixels; x1 and y1 are excluded",
+          .value = value,
+          .read = [&](const std::string& text) { region = parse_region("--region", text); },
+          .if_none = "all"};
+}
+
+Option aov_option(std::vector<Aov>& aovs) {
+  const char* help =
+      "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
+      "instance, samples, variance; of a cache cache-answer, cache-error, training-count, resolution, "
+      "nearest-node; or all";
+  return {.name = "aov",
+          .unit = "LIST",
+          .help = help,
+          .value = [&] { return words_of(aovs); },
+          .read = [&](const std::string& text) { aovs = read_aovs(text); }};
+}
+
+void read_environment(EnvironmentOptions& environment, const std::string& text) {
+  environment.file.clear();
+  environment.constant = scene::Color::Zero();
+  if (text == "none") return;
+  if (looks_like_triple(text)) {
+    const std::array<float, 3> rgb = parse_triple("--environment", text, kNotNegative);
+    environment.constant = {rgb[0], rgb[1], rgb[2]};
+  } else {
+    environment.file = text;
+  }
+}
+
+OptionValue environment_value(const EnvironmentOptions& environment) {
+  if (environment.none()) return "none";
+  if (!environment.file.empty()) return environment.file;
+  const scene::Color& rgb = environment.constant;
+  return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
+}
+
+/// Checkpoints know them as the chosen camera and the scene's fingerprint.
+void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment) {
+  OptionGroup view{table, "Scene and view"};
+  const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
+  auto& [name, look_at, fov_degrees] = camera;  // flags of the application set look_at
+  add(any_word("camera", name, "NAME|INDEX", "Camera of the file, by name or index (default: the first)"))
+      .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
+  // Beyond these, tangents leave single precision.
+  add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
+                "Vertical field of view; overrides the camera's"));
+  auto& [file, constant, rotation_degrees, scale] = environment;  // one flag sets file and constant
+  add({.name = "environment",
+       .unit = "FILE|r,g,b|none",
+       .help = "Light from all around: a latitude-longitude EXR or HDR, or one radiance",
+       .value = [&environment] { return environment_value(environment); },
+       .read = [&environment](const std::string& text) { read_environment(environment, text); }});
+  add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
+             "Turns the environment about +y, counter-clockwise from above"));
+  add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
+}
+
+/// What instruction sets were chosen is known to checkpoints from elsewhere.
+void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
+                         std::string& isa) {
+  OptionGroup machine{table, "Machine"};
+  machine.add(decides_nothing(
+      number("threads", threads, {0, 1024}, "N", "0: all that the machine and the control group allow"),
+      InRecipe::unless_reproducible));
+  const auto read_limit = [&](const std::string& text) {
+    memory_limit_bytes = static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
+  };
+  machine.add(decides_nothing({.name = "memory-limit",
+                               .unit = "MIB",
+                               .help = "Refuse to need more memory than this, in MiB; 0: no limit",
+                               .value = [&] { return value_of(memory_limit_bytes >> 20); },
+                               .read = read_limit},
+                              InRecipe::unless_reproducible));
+  machine.add(decides_nothing(choice("isa", isa, kIsa, "Instruction set of ray tracing and of the cache")));
+}
+
+}  // namespace
+
+std::vector<Option> option_table(RenderOptions& options) {
+  auto& [integrator, width, height, region, spp, time_limit_seconds, max_depth, min_depth, seed, threads,
+         sampler, filter, filter_width, mis, direct, light_selection, clamp, ao_distance, aovs, nan_policy,
+         memory_limit_bytes, isa, camera, environment, cache, checkpoint] = options;
+  std::vector<Option> table;
+  add_checkpoint_options(table, checkpoint);
+  add_cache_file_options(table, cache);
+
+  OptionGroup picture{table, "Picture"};
+  picture.add(size_option(width, height));
+  picture.add(region_option(region));
+  picture.add(decides_nothing(number("spp", spp, {1, 1 << 24}, "N", "Samples per pixel")));
+  picture.add(
+      decides_nothing(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+                             "Stop after the pass that reaches this time of rendering; 0: no limit")));
+  picture.add(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
+                     "Seed of all random numbers"));
+  picture.add(choice("sampler", sampler, "Kind of random numbers"));
+  picture.add(choice("filter", filter, "Pixel filter"));
+  picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
+                     "Full width of the pixel filter; 0: the filter's own"));
+  picture.add(aov_option(aovs));
+
+  add_view_options(table, camera, environment);
+
+  OptionGroup light{table, "Light transport"};
+  light.add(choice("integrator", integrator,
+                   "What a pixel is: radiance (path) or ambient occlusion (ao) by sampling alone, or what a "
+                   "cache learned of them answers (nrc, nao)"));
+  light.add(number("max-depth", max_depth, kDepth, "N",
+                   "Largest number of scattering events; 1: emission and direct light"));
+  light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
+  light.add(choice("direct", direct,
+                   "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
+  light.add(choice("mis", mis, "Heuristic of multiple importance sampling"));
+  light.add(choice("light-selection", light_selection, "How one of many lights is chosen"));
+  Option& reach = light.add(number("ao-distance", ao_distance,
+                                   {.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true},
+                                   "METRES", "Reach of ambient occlusion; inf allowed"));
+  reach.value = [&options] { return options.ao_distance < 0.0f ? OptionValue() : options.ao_distance; };
+  reach.default_text = "a tenth of the scene's diagonal";
+  reach.if_none = "auto";
+  light.add(number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off"));
+  light.add(decides_nothing(choice("nan", nan_policy, "What happens to a sample that is not finite")));
+
+  add_cache_options(table, cache);
+
+  add_machine_options(table, threads, memory_limit_bytes, isa);
+  return table;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,110 @@
+#pragma once
+// The words that stand for choices on the command line and in files: one table for each enumeration, read
+// both ways.
+
+#include <span>
+#include <string>
+
+#include "renderer/image/tonemap.h"
+#include "renderer/settings/presets.h"
+#include "renderer/settings/values.h"
+
+namespace gatelight::renderer {
+
+/// Every enumerator, in the order of the enumeration.
+template <class Enumeration>
+inline constexpr Choices<Enumeration> kWords;
+
+template <>
+inline constexpr Choice<Integrator> kWords<Integrator>[] = {
+    {"path", Integrator::path}, {"ao", Integrator::ao}, {"nao", Integrator::nao}, {"nrc", Integrator::nrc}};
+template <>
+inline constexpr Choice<MisHeuristic> kWords<MisHeuristic>[] = {{"balance", MisHeuristic::balance},
+                                                                {"power", MisHeuristic::power}};
+template <>
+inline constexpr Choice<DirectLight> kWords<DirectLight>[] = {
+    {"mis", DirectLight::mis}, {"nee", DirectLight::nee}, {"bsdf", DirectLight::bsdf}};
+template <>
+inline constexpr Choice<PixelFilter> kWords<PixelFilter>[] = {
+    {"box", PixelFilter::box},
+    {"tent", PixelFilter::tent},
+    {"gaussian", PixelFilter::gaussian},
+    {"blackman-harris", PixelFilter::blackman_harris}};
+template <>
+inline constexpr Choice<NanPolicy> kWords<NanPolicy>[] = {{"drop", NanPolicy::drop},
+                                                          {"error", NanPolicy::error}};
+template <>
+inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
+                                              {"normal", Aov::normal},
+                                              {"depth", Aov::depth},
+                                              {"position", Aov::position},
+                                              {"primitive", Aov::primitive_id},
+                                              {"instance", Aov::instance_id},
+                                              {"samples", Aov::sample_count},
+                                              {"variance", Aov::variance},
+                                              {"cache-answer", Aov::cache_answer},
+                                              {"cache-error", Aov::cache_error},
+                                              {"training-count", Aov::training_count},
+                                              {"resolution", Aov::resolution},
+                                              {"nearest-node", Aov::nearest_node}};
+template <>
+inline constexpr Choice<SamplerKind> kWords<SamplerKind>[] = {{"sobol", SamplerKind::sobol},
+                                                              {"independent", SamplerKind::independent}};
+template <>
+inline constexpr Choice<LightSelection> kWords<LightSelection>[] = {{"tree", LightSelection::tree},
+                                                                    {"power", LightSelection::power}};
+template <>
+inline constexpr Choice<CacheHolds> kWords<CacheHolds>[] = {
+    {"all", CacheHolds::all}, {"no-delta", CacheHolds::no_delta}, {"indirect", CacheHolds::indirect}};
+template <>
+inline constexpr Choice<QueryAt> kWords<QueryAt>[] = {{"primary", QueryAt::primary},
+                                                      {"gather", QueryAt::gather},
+                                                      {"spread", QueryAt::spread},
+                                                      {"none", QueryAt::none}};
+template <>
+inline constexpr Choice<CacheView> kWords<CacheView>[] = {{"final", CacheView::final},
+                                                          {"cache", CacheView::cache}};
+template <>
+inline constexpr Choice<TrainingSource> kWords<TrainingSource>[] = {{"camera", TrainingSource::camera},
+                                                                    {"surface", TrainingSource::surface}};
+template <>
+inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {{"preview", CachePreset::preview},
+                                                              {"final", CachePreset::final},
+                                                              {"paper-nao", CachePreset::paper_nao},
+                                                              {"paper-nrc", CachePreset::paper_nrc}};
+template <>
+inline constexpr Choice<Tonemap> kWords<Tonemap>[] = {{"none", Tonemap::none}, {"filmic", Tonemap::filmic}};
+template <>
+inline constexpr Choice<neural::FeatureEncoding> kWords<neural::FeatureEncoding>[] = {
+    {"none", neural::FeatureEncoding::none},
+    {"gate", neural::FeatureEncoding::gate},
+    {"hashgrid", neural::FeatureEncoding::hash_grid}};
+template <>
+inline constexpr Choice<neural::ResolutionRule> kWords<neural::ResolutionRule>[] = {
+    {"uniform", neural::ResolutionRule::uniform},
+    {"paper", neural::ResolutionRule::paper},
+    {"fixed", neural::ResolutionRule::fixed}};
+template <>
+inline constexpr Choice<neural::NodeStorage> kWords<neural::NodeStorage>[] = {
+    {"shared", neural::NodeStorage::shared}, {"per-triangle", neural::NodeStorage::per_triangle}};
+template <>
+inline constexpr Choice<neural::Loss> kWords<neural::Loss>[] = {{"l2", neural::Loss::l2},
+                                                                {"relative-l2", neural::Loss::relative_l2}};
+template <>
+inline constexpr Choice<neural::FeatureUpdate> kWords<neural::FeatureUpdate>[] = {
+    {"sparse", neural::FeatureUpdate::sparse}, {"dense", neural::FeatureUpdate::dense}};
+template <>
+inline constexpr Choice<neural::FeatureStep> kWords<neural::FeatureStep>[] = {
+    {"per-node", neural::FeatureStep::per_node}, {"per-triangle", neural::FeatureStep::per_triangle}};
+template <>
+inline constexpr Choice<neural::FeaturePrecision> kWords<neural::FeaturePrecision>[] = {
+    {"fp32", neural::FeaturePrecision::fp32},
+    {"fp16", neural::FeaturePrecision::fp16_masters},
+    {"fp16-only", neural::FeaturePrecision::fp16}};
+
+template <class Enumeration>
+std::string word(Enumeration value) {
+  return name_of(kWords<Enumeration>, value);
+}
+
+}  // namespace gatelight::renderer
