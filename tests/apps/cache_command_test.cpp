@@ -67,9 +67,7 @@ TEST_F(CacheCommand, ATrainingThatDivergesLeavesOldFilesAndExitsWith6) {
   const std::string old = folder.write("old.safetensors", "an older cache").string();
   const Output output = render({"--integrator", "nrc", "--learning-rate", "1000", "--train-steps", "32",
                                 "--cache-out", old, "-o", path("a.exr")});
-  EXPECT_EQ(output.exit_code, 6) << output.err;
-  EXPECT_THAT(output.last_error_line(),
-              AllOf(HasSubstr("cornell-box.glb: training step"), HasSubstr("lower --learning-rate")));
+  expect_failure(output, 6, {"cornell-box.glb", "--learning-rate"});
   EXPECT_EQ(read_file(old), "an older cache");
   EXPECT_EQ(folder.count_files(), 1u);
 }
@@ -84,7 +82,7 @@ TEST_F(CacheCommand, ALoadedCacheIsKeptWhereMoreTrainingDiverges) {
       render({"--integrator", "nrc", "--learning-rate", "1000", "--train-steps", "32", "--cache-in", good,
               "--cache-out", path("c.safetensors"), "-o", path("c.exr"), "--stats", path("c.json")});
   EXPECT_EQ(output.exit_code, 6) << output.err;
-  EXPECT_THAT(output.last_error_line(), HasSubstr("what was written is of its last good step"));
+  expect_message(output.last_error_line(), {"cornell-box.glb", "--learning-rate"});
   EXPECT_EQ(read_image(path("c.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
   EXPECT_TRUE(json::parse(read_file(path("c.json")))["train"].contains("diverged"));
   ASSERT_EQ(render({"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "0", "-o",
@@ -223,19 +221,21 @@ TEST_F(CacheCommand, ASavedCacheOfSomethingElseIsCode2) {
   ASSERT_EQ(render({"--integrator", "nrc", "--quiet", "-o", path("a.exr"), "--cache-out", file}).exit_code,
             0);
   const Words loading = {"--integrator", "nrc", "--quiet", "-o", path("b.exr"), "--cache-in"};
-  const auto refused = [&](const std::string& cache, const Words& more, const std::string& scene) {
+  const auto expect_refused = [&](const std::string& cache, const Words& more, const std::string& scene,
+                                  NameList names) {
     Words flags = loading;
     flags.push_back(cache);
     flags.insert(flags.end(), more.begin(), more.end());
-    const Output output = render(flags, scene);
-    EXPECT_EQ(output.exit_code, 2) << output.err;
+    names.push_back(cache);
+    expect_failure(render(flags, scene), 2, names);
     EXPECT_FALSE(std::filesystem::exists(path("b.exr")));
-    EXPECT_THAT(output.last_error_line(), HasSubstr(cache));
-    return output.last_error_line();
   };
-  EXPECT_THAT(refused(file, {}, "furnace"), HasSubstr("another scene"));
-  EXPECT_THAT(refused(file, {"--hidden", "64"}, "cornell-box"), HasSubstr("hidden width"));
-  refused(path("a.exr"), {}, "cornell-box");
+  expect_refused(file, {}, "furnace", {"geometry"});
+  expect_refused(file, {"--hidden", "64"}, "cornell-box", {"hidden width", "64"});
+  // How many bytes it has depends on what compresses it.
+  expect_failure_names(
+      render({"--integrator", "nrc", "--quiet", "-o", path("b.exr"), "--cache-in", path("a.exr")}), 2,
+      {path("a.exr")});
 }
 
 TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
@@ -246,9 +246,7 @@ TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
   process.send(SIGINT);
   const Output output = process.finish();
   EXPECT_EQ(output.exit_code, 130) << output.err;
-  EXPECT_THAT(output.last_error_line(),
-              AllOf(HasSubstr("of 2147483647 training steps"), HasSubstr("a.exr"), HasSubstr("--resume"),
-                    HasSubstr(path("c.safetensors") + "' was not written")));
+  expect_names(output.last_error_line(), {"2147483647", "a.exr", "--resume", path("c.safetensors")});
   EXPECT_FALSE(std::filesystem::exists(path("c.safetensors")));
   expect_picture(path("a.exr"));
   EXPECT_TRUE(std::filesystem::exists(path("k")));
@@ -290,25 +288,20 @@ TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
 TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
   const Output output =
       render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
-  EXPECT_EQ(output.exit_code, 1);
-  EXPECT_THAT(output.last_error_line(),
-              AllOf(HasSubstr("cache"), HasSubstr("105 bytes"), HasSubstr("at least")));
+  expect_failure(output, 1, {"cache", "105 bytes"});
 }
 
 TEST_F(CacheCommand, ATrainingThatDivergesIsCode6) {
   const Output output =
       render({"--integrator", "nrc", "--learning-rate", "1e30", "-o", path("a.png"), "--quiet"});
-  EXPECT_EQ(output.exit_code, 6);
-  EXPECT_THAT(output.last_error_line(),
-              AllOf(HasSubstr("cornell-box.glb: training step"), HasSubstr("; lower --learning-rate")));
+  expect_failure(output, 6, {"cornell-box.glb", "--learning-rate"});
   EXPECT_FALSE(std::filesystem::exists(path("a.png")));
 }
 
 TEST_F(CacheCommand, ADeviceThatIsMissingIsCode5) {
   const Output output =
       render({"--integrator", "nrc", "--device", "vulkan:99", "-o", path("a.png"), "--quiet"});
-  EXPECT_EQ(output.exit_code, 5);
-  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("vulkan:99"), HasSubstr("--device cpu")));
+  expect_failure_names(output, 5, {"vulkan:99", "--device cpu"});  // and the devices of the machine
   EXPECT_FALSE(std::filesystem::exists(path("a.png")));
 }
 

@@ -238,7 +238,7 @@ TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   const json stats = json::parse(dropped.out);
   EXPECT_GT(stats["nonfinite"]["count"], 0);
   EXPECT_THAT(keys(stats["nonfinite"]["samples"][0]), UnorderedElementsAre("x", "y", "sample", "seed"));
-  EXPECT_THAT(dropped.err, HasSubstr("not finite"));
+  EXPECT_EQ(dropped.warnings().size(), 1u) << dropped.err;
   const Picture picture = read_image(path("a.exr"));
   for (const float value : picture.layers[0].values) EXPECT_TRUE(std::isfinite(value));
 
@@ -246,9 +246,7 @@ TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   std::vector<std::string> stopping = {"render", scene, "--nan", "error"};
   stopping.insert(stopping.end(), flags.begin(), flags.end());
   const Output stopped = run_gatelight(stopping);
-  EXPECT_EQ(stopped.exit_code, 6) << stopped.err;
-  EXPECT_THAT(stopped.last_error_line(),
-              AllOf(HasSubstr("hot.gltf"), HasSubstr("pixel"), HasSubstr("--nan drop")));
+  expect_failure_names(stopped, 6, {"hot.gltf", "pixel", "--nan drop"});
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
 }
 
@@ -256,8 +254,7 @@ TEST_F(RenderCommand, AnInstructionSetThatIsMissingIsCode5) {
   const std::string best = json::parse(run_gatelight({"info", "--json", "-"}).out)["isa"];
   if (best == "avx512") GTEST_SKIP() << "this machine has them all";
   const Output output = render({"-o", path("a.exr"), "--isa", "avx512"});
-  EXPECT_EQ(output.exit_code, 5);
-  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("avx512"), HasSubstr("--isa auto")));
+  expect_failure_names(output, 5, {"avx512", "--isa auto"});  // and those of the machine
 }
 
 TEST_F(RenderCommand, ProgressLinesAreJson) {
@@ -292,9 +289,8 @@ TEST_F(RenderCommand, WarningsGoToStderrAndIntoTheStatistics) {
   scene = folder.write("warn.gltf", text);
   const Output output = render({"-o", path("a.png"), "--stats", "-"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
-  EXPECT_THAT(output.err, HasSubstr("warning"));
-  EXPECT_THAT(output.err, HasSubstr("EXT_of_another_{}_world"));
-  EXPECT_THAT(json::parse(output.out)["warnings"].dump(), HasSubstr("EXT_of_another_{}_world"));
+  expect_messages(output.warnings(), {{"EXT_of_another_{}_world"}});
+  expect_messages(json::parse(output.out)["warnings"], {{"EXT_of_another_{}_world"}});
 }
 
 TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
@@ -307,11 +303,7 @@ TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
                                            "--spp",  "1",   "--size", "8x8"};
   for (std::vector<std::string> call : {render, {"info", inner}, {"sweep", inner, "-o", path("sweep")}}) {
     const Output output = run_gatelight_inside(call);
-    EXPECT_EQ(output.exit_code, 2) << call[0];
-    EXPECT_THAT(output.last_error_line(),
-                AllOf(HasSubstr("inner/scene.gltf: buffers[0].uri: '%2e%2e/scene.bin' leaves the folder"),
-                      HasSubstr("--allow-external")))
-        << call[0];
+    expect_failure(output, 2, {"inner/scene.gltf", "buffers[0].uri", "%2e%2e/scene.bin", "--allow-external"});
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
     if (call[0] == "sweep") continue;
     call.push_back("--allow-external");

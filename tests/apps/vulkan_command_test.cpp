@@ -14,7 +14,6 @@ namespace gatelight::tests {
 namespace {
 
 using nlohmann::json;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const json& devices() {
@@ -110,8 +109,7 @@ TEST_F(VulkanCommand, ALostDeviceIsCode5AndKeepsThePictureSoFar) {
     setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
     const Output output = render(words);
     unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
-    EXPECT_EQ(output.exit_code, 5);
-    EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("was lost"), HasSubstr("--device cpu")));
+    expect_failure_names(output, 5, {"--device cpu"});
     EXPECT_EQ(std::filesystem::exists(path("a.exr")), picture) << output.err;
   }
 }
@@ -158,9 +156,7 @@ TEST(VulkanRefusals, ADeviceThatIsNotThereIsCode5AndSaysWhatIs) {
   const Output output = run_gatelight({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb",
                                        "--integrator", "nrc", "--size", "8x8", "--device", "vulkan:abacus",
                                        "-o", (folder / "a.exr").string(), "--quiet"});
-  EXPECT_EQ(output.exit_code, 5);
-  EXPECT_THAT(output.last_error_line(),
-              AllOf(HasSubstr("--device vulkan:abacus: "), HasSubstr("--device cpu")));
+  expect_failure_names(output, 5, {"--device vulkan:abacus", "--device cpu"});
   EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
 }
 

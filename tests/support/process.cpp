@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <sstream>
 #include <stdexcept>
 
 #include "apps/command_line.h"
@@ -23,10 +24,17 @@ void close_once(int& descriptor) {
 
 }  // namespace
 
-std::string Output::last_error_line() const {
-  std::string text = err;
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
+std::vector<std::string> Output::error_lines() const {
+  std::vector<std::string> lines;
+  std::istringstream text(err);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> Output::warnings() const {
+  std::vector<std::string> lines = error_lines();
+  std::erase_if(lines, [](const std::string& line) { return !line.starts_with("gatelight: warning: "); });
+  return lines;
 }
 
 Process::Process(const std::vector<std::string>& arguments, const std::function<void()>& prepare) {
@@ -124,6 +132,21 @@ Output run_gatelight_inside(const std::vector<std::string>& arguments) {
 
 Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare) {
   return Process(arguments, prepare).finish();
+}
+
+void expect_failure_names(const Output& output, int exit_code, const NameList& names, Place place) {
+  const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()),
+                                     "stderr: " + output.err);
+  EXPECT_EQ(output.exit_code, exit_code);
+  EXPECT_FALSE(output.killed);
+  EXPECT_EQ(output.error_lines().size(), 1u);
+  EXPECT_EQ(output.last_error_line().rfind("gatelight: error: ", 0), 0u);
+  expect_names(output.last_error_line(), names, place);
+}
+
+void expect_failure(const Output& output, int exit_code, const NameList& names, Place place) {
+  expect_failure_names(output, exit_code, names, place);
+  expect_message(output.last_error_line(), {}, place);
 }
 
 }  // namespace gatelight::tests

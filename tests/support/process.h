@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/messages.h"
+
 namespace gatelight::tests {
 
 struct Output {
@@ -15,7 +17,9 @@ struct Output {
   std::string out;
   std::string err;
 
-  std::string last_error_line() const;
+  std::vector<std::string> error_lines() const;
+  std::vector<std::string> warnings() const;
+  std::string last_error_line() const { return err.empty() ? "" : error_lines().back(); }
 };
 
 /// A run of gatelight that is under way.
@@ -50,5 +54,14 @@ class Process {
 Output run_gatelight_inside(const std::vector<std::string>& arguments);
 
 Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
+
+/// It ended by itself with this code, and stderr is one line, an error that has all the names in it. For
+/// errors that tell of the machine.
+void expect_failure_names(const Output& output, int exit_code, const NameList& names,
+                          Place place = Place::current());
+
+/// The same, and the wording is recorded.
+void expect_failure(const Output& output, int exit_code, const NameList& names,
+                    Place place = Place::current());
 
 }  // namespace gatelight::tests

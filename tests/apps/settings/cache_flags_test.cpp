@@ -15,6 +15,7 @@
 #include "apps/settings/help_format.h"
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
@@ -25,14 +26,13 @@ using nlohmann::ordered_json;
 using renderer::Aov;
 using renderer::CacheOptions;
 using renderer::Integrator;
-using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using tests::TemporaryFolder;
-
 using Words = std::vector<std::string>;
+using tests::expect_message;
+using tests::TemporaryFolder;
 
 /// What `gatelight render room.glb -o a.exr WORDS` is asked to do.
 RenderSettings read(Words words) {
@@ -60,12 +60,7 @@ CacheOptions read_cache(const Words& words) {
 }
 
 std::string refusal(const Words& words) {
-  try {
-    read(words);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::refusal<UsageError>([&] { read(words); });
 }
 
 std::set<std::string> cache_flags() {
@@ -297,8 +292,7 @@ TEST(Presets, AreBelowEveryFlagOfAConfigFile) {
 TEST(Presets, ChooseTheIntegratorUnlessItIsGiven) {
   EXPECT_EQ(read({"--preset", "final"}).render.integrator, Integrator::nrc);
   EXPECT_EQ(read({"--preset", "paper-nrc", "--integrator", "nao"}).render.integrator, Integrator::nao);
-  EXPECT_THAT(refusal({"--preset", "preview", "--integrator", "path"}),
-              AllOf(HasSubstr("--preset"), HasSubstr("'path'")));
+  expect_message(refusal({"--preset", "preview", "--integrator", "path"}), {"--preset", "path"});
 }
 
 TEST(CacheFlags, AreRefusedWithoutACache) {
@@ -310,12 +304,9 @@ TEST(CacheFlags, AreRefusedWithoutACache) {
   for (const char* flag : {"--spp", "--integrator", "--isa", "--checkpoint"}) {
     EXPECT_FALSE(cache_flags().contains(flag)) << flag;
   }
-  EXPECT_THAT(refusal({"--batch", "100"}),
-              AllOf(HasSubstr("--batch"), HasSubstr("'path'"), HasSubstr("nao or nrc")));
-  EXPECT_THAT(refusal({"--integrator", "ao", "--cache-in", "c"}),
-              AllOf(HasSubstr("--cache-in"), HasSubstr("'ao'")));
-  EXPECT_THAT(refusal({"--aov", "albedo,training-count"}),
-              AllOf(HasSubstr("--aov"), HasSubstr("'training-count'"), HasSubstr("'path'")));
+  expect_message(refusal({"--batch", "100"}), {"--batch", "path", "nao", "nrc"});
+  expect_message(refusal({"--integrator", "ao", "--cache-in", "c"}), {"--cache-in", "ao"});
+  expect_message(refusal({"--aov", "albedo,training-count"}), {"--aov", "training-count", "path"});
 }
 
 TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
@@ -334,15 +325,15 @@ TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
 }
 
 TEST(CacheFlags, ThoseOfAnotherEncodingOrRuleAreRefused) {
-  EXPECT_THAT(refusal(with_cache({"--hash-levels", "4"})),
-              AllOf(HasSubstr("--hash-levels"), HasSubstr("--encoding hashgrid")));
-  EXPECT_THAT(refusal(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
-              AllOf(HasSubstr("--stack"), HasSubstr("--encoding gate")));
-  EXPECT_THAT(refusal(with_cache({"--resolution-scale", "2"})), HasSubstr("--resolution paper"));
-  EXPECT_THAT(refusal(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
-              HasSubstr("--resolution uniform"));
-  EXPECT_THAT(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
-              AllOf(HasSubstr("--candidates"), HasSubstr("--encoding gate")));
+  expect_message(refusal(with_cache({"--hash-levels", "4"})), {"--hash-levels", "--encoding hashgrid"});
+  expect_message(refusal(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
+                 {"--stack", "--encoding gate"});
+  expect_message(refusal(with_cache({"--resolution-scale", "2"})),
+                 {"--resolution-scale", "--resolution paper"});
+  expect_message(refusal(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
+                 {"--node-spacing", "--resolution uniform"});
+  expect_message(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
+                 {"--candidates", "--encoding gate"});
   EXPECT_EQ(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "1"})), "");
   // A preset's values are no flags.
   const RenderSettings preset = read({"--preset", "paper-nrc", "--encoding", "hashgrid"});
@@ -369,24 +360,24 @@ TEST(CacheFlags, ThoseOfRadianceAreRefusedWithOcclusion) {
   for (Words words : cases) {
     const std::string flag = words.front();
     words.insert(words.begin(), {"--integrator", "nao"});
-    EXPECT_THAT(refusal(words), AllOf(HasSubstr(flag + ":"), HasSubstr("--integrator nrc")));
+    expect_message(refusal(words), {flag, "--integrator nrc"});
     EXPECT_FALSE(resolved_options(read({"--integrator", "nao"})).contains(flag.substr(2))) << flag;
   }
   EXPECT_EQ(refusal({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}), "");
 }
 
 TEST(CacheFlags, ThoseWithoutEffectBesideOthersAreRefused) {
-  EXPECT_THAT(refusal(with_cache({"--spread-threshold", "0.5"})),
-              AllOf(HasSubstr("--spread-threshold"), HasSubstr("--query-at spread")));
+  expect_message(refusal(with_cache({"--spread-threshold", "0.5"})),
+                 {"--spread-threshold", "--query-at spread"});
   for (const char* flag :
        {"--self-training-vertices", "--self-training-full", "--self-training-attenuation"}) {
-    EXPECT_THAT(refusal(with_cache({"--self-training", "off", flag, "1"})),
-                AllOf(HasSubstr(flag), HasSubstr("--self-training STEP")));
+    expect_message(refusal(with_cache({"--self-training", "off", flag, "1"})),
+                   {flag, "--self-training STEP"});
     EXPECT_EQ(refusal(with_cache({"--self-training", "0", flag, "1"})), "");
   }
   for (const char* place : {"gather", "spread"}) {
-    EXPECT_THAT(refusal(with_cache({"--view", "cache", "--query-at", place})),
-                AllOf(HasSubstr("--query-at"), HasSubstr("--view final")));
+    expect_message(refusal(with_cache({"--view", "cache", "--query-at", place})),
+                   {"--query-at", "--view final"});
   }
   // Where the bare answer is asked is told as it is.
   EXPECT_EQ(read_cache({"--view", "cache"}).query_at, renderer::QueryAt::primary);
@@ -402,18 +393,17 @@ TEST(CacheFlags, OcclusionHasItsOwnLossUnlessOneIsGiven) {
 }
 
 TEST(CacheFlags, LayersThatWouldBeBlackAreRefused) {
-  EXPECT_THAT(refusal({"--integrator", "nao", "--aov", "cache-error"}),
-              AllOf(HasSubstr("--aov"), HasSubstr("'cache-error'"), HasSubstr("--integrator nrc")));
+  expect_message(refusal({"--integrator", "nao", "--aov", "cache-error"}),
+                 {"--aov", "cache-error", "--integrator nrc"});
   for (const char* layer : {"training-count", "resolution", "nearest-node"}) {
-    EXPECT_THAT(refusal(with_cache({"--encoding", "hashgrid", "--aov", layer})),
-                AllOf(HasSubstr("--aov"), HasSubstr(layer), HasSubstr("--encoding gate")));
+    expect_message(refusal(with_cache({"--encoding", "hashgrid", "--aov", layer})),
+                   {"--aov", layer, "--encoding gate"});
   }
 }
 
 TEST(CheckpointFlags, NeedAFile) {
-  EXPECT_THAT(refusal({"--resume"}), AllOf(HasSubstr("--resume"), HasSubstr("--checkpoint FILE")));
-  EXPECT_THAT(refusal({"--checkpoint-every", "5"}),
-              AllOf(HasSubstr("--checkpoint-every"), HasSubstr("--checkpoint FILE")));
+  expect_message(refusal({"--resume"}), {"--resume", "--checkpoint"});
+  expect_message(refusal({"--checkpoint-every", "5"}), {"--checkpoint-every", "--checkpoint"});
   const renderer::CheckpointOptions options =
       read({"--resume", "--checkpoint-every", "5", "--checkpoint", "c.gatelight"}).render.checkpoint;
   EXPECT_EQ(options.file, "c.gatelight");
@@ -428,21 +418,22 @@ TEST(FileNames, WhatIsReadOrWrittenIsNotWrittenByAnotherFlag) {
   std::filesystem::create_directory_symlink("d", folder / "dl");
   std::filesystem::create_symlink("d/b.exr", folder / "link.exr");
   const std::string inside = (folder / "d/b.exr").string();
-  const std::vector<std::pair<Words, std::string>> cases = {
-      {{"--checkpoint", "a.exr"}, "--checkpoint: 'a.exr' is the file of --output too"},
-      {{"--stats", "./a.exr"}, "--stats: './a.exr' is the file of --output"},
-      {{"-o", "a.exr"}, "--output: 'a.exr' is named twice"},
-      {{"-o", inside, "--checkpoint", (folder / "dl/b.exr").string()}, "the file of --output"},
-      {{"-o", inside, "-o", (folder / "link.exr").string()}, "named twice"},
-      {{"--stats", "room.glb"}, "--stats: 'room.glb' is the file of SCENE"},
-      {{"--checkpoint", "room.glb"}, "--checkpoint: 'room.glb' is the file of SCENE"},
-      {{"--environment", "sky.exr", "-o", "sky.exr"}, "--output: 'sky.exr' is the file of --environment"},
-      {with_cache({"--cache-in", "c", "--stats", "c"}), "--stats: 'c' is the file of --cache-in"},
-      {with_cache({"--cache-out", "room.glb"}), "--cache-out: 'room.glb' is the file of SCENE"},
+  const std::vector<std::pair<Words, tests::NameList>> cases = {
+      {{"--checkpoint", "a.exr"}, {"--checkpoint", "a.exr", "--output"}},
+      {{"--stats", "./a.exr"}, {"--stats", "./a.exr", "--output"}},
+      {{"-o", "a.exr"}, {"--output", "a.exr"}},
+      {{"-o", inside, "--checkpoint", (folder / "dl/b.exr").string()},
+       {"--checkpoint", "dl/b.exr", "--output"}},
+      {{"-o", inside, "-o", (folder / "link.exr").string()}, {"--output", "link.exr"}},
+      {{"--stats", "room.glb"}, {"--stats", "room.glb", "SCENE"}},
+      {{"--checkpoint", "room.glb"}, {"--checkpoint", "room.glb", "SCENE"}},
+      {{"--environment", "sky.exr", "-o", "sky.exr"}, {"--output", "sky.exr", "--environment"}},
+      {with_cache({"--cache-in", "c", "--stats", "c"}), {"--stats", "c", "--cache-in"}},
+      {with_cache({"--cache-out", "room.glb"}), {"--cache-out", "room.glb", "SCENE"}},
       {with_cache({"--cache-in", "room.glb", "--cache-out", "room.glb"}),
-       "--cache-out: 'room.glb' is the file of SCENE"},
+       {"--cache-out", "room.glb", "SCENE"}},
   };
-  for (const auto& [words, expected] : cases) EXPECT_THAT(refusal(words), HasSubstr(expected));
+  for (const auto& [words, names] : cases) expect_message(refusal(words), names);
   EXPECT_EQ(refusal(with_cache({"--cache-in", "c", "--cache-out", "c"})), "") << "a cache that goes on";
   EXPECT_EQ(refusal({"--stats", "-"}), "");
 }

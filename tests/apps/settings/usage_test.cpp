@@ -12,7 +12,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 class Usage : public ::testing::Test {
@@ -28,7 +27,6 @@ class Usage : public ::testing::Test {
     Output output = run_gatelight_inside(arguments);
     EXPECT_EQ(output.out, "");
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
-    EXPECT_THAT(output.last_error_line(), StartsWith("gatelight: error: "));
     return output;
   }
 
@@ -108,109 +106,99 @@ TEST_F(Usage, AMissingOrUnknownSubcommandIsCode1) {
        {std::vector<std::string>{}, std::vector<std::string>{"frobnicate"},
         std::vector<std::string>{"--frob"}}) {
     const Output output = run_gatelight_inside(arguments);
-    EXPECT_EQ(output.exit_code, 1);
+    expect_failure(output, 1, {"--help"});
     EXPECT_EQ(output.out, "");
-    EXPECT_THAT(output.last_error_line(), HasSubstr("--help"));
   }
-  EXPECT_THAT(run_gatelight({"frobnicate"}).last_error_line(), HasSubstr("'frobnicate'"));
+  expect_failure(run_gatelight({"frobnicate"}), 1, {"frobnicate"});
 }
 
 TEST_F(Usage, UnknownFlagsAreRefusedByName) {
   for (const char* flag : {"--frob", "--check", "--ssp=4", "-z"}) {
     const Output output = refused({flag});
-    EXPECT_EQ(output.exit_code, 1) << flag;
-    EXPECT_THAT(output.last_error_line(), HasSubstr(flag));
+    expect_failure(output, 1, {flag});
   }
 }
 
 struct BadValue {
   std::vector<std::string> flags;
-  std::string flag;
-  std::string value;
-  std::string expected;
+  NameList names;
 };
 
 TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
   const std::vector<BadValue> cases = {
-      {{"--spp", "0"}, "--spp", "'0'", "from 1 to"},
-      {{"--spp", "4.5"}, "--spp", "'4.5'", "integer"},
-      {{"--spp", "99999999999"}, "--spp", "'99999999999'", "from 1 to"},
-      {{"--size", "0x10"}, "--size", "'0x10'", "from 1 to 65536"},
-      {{"--size", "65536x65536"}, "--size", "'65536x65536'", "at most"},
-      {{"--fov", "180"}, "--fov", "'180'", "at least 0.001 and at most 179.9"},
-      {{"--fov", "0"}, "--fov", "'0'", "at least 0.001"},
-      {{"--eye", "1e20,0,0", "--target", "0,0,0"}, "--eye", "1e+20", "at most 1e+12 m"},
-      {{"--clamp", "1e-41"}, "--clamp", "'1e-41'", "0, or of at least 1.18e-38"},
-      {{"--checkpoint", ""}, "--checkpoint", "''", "expected FILE"},
-      {{"--stats", ""}, "--stats", "''", "expected FILE|-"},
-      {{"--environment", ""}, "--environment", "''", "expected FILE|r,g,b|none"},
-      {{"--camera", ""}, "--camera", "''", "expected NAME|INDEX"},
-      {{"-o", ""}, "--output", "''", "expected FILE"},
-      {{"--config", ""}, "--config", "''", "expected FILE.toml"},
-      {{"--time-limit", "-1"}, "--time-limit", "'-1'", "at least 0"},
-      {{"--time-limit", "nan"}, "--time-limit", "'nan'", "at least 0"},
-      {{"--region", "0,0,961,1"}, "--region", "'0,0,961,1'", "x1 <= 960"},
-      {{"--region", "5,5,5,6"}, "--region", "'5,5,5,6'", "x0 < x1"},
-      {{"--seed", "4294967296"}, "--seed", "'4294967296'", "4294967295"},
-      {{"--max-depth", "-1"}, "--max-depth", "'-1'", "from 0"},
-      {{"--threads", "-2"}, "--threads", "'-2'", "from 0"},
-      {{"--exposure", "inf"}, "--exposure", "'inf'", "at least -100 and at most 100"},
-      {{"--clamp", "-0.5"}, "--clamp", "'-0.5'", "at least 0"},
-      {{"--ao-distance", "0"}, "--ao-distance", "'0'", "above 0, or inf"},
-      {{"--integrator", "nrc2"}, "--integrator", "'nrc2'", "path|ao"},
-      {{"--isa", "sse9"}, "--isa", "'sse9'", "auto|scalar|avx2|avx512"},
-      {{"--aov", "albedo,beauty"}, "--aov", "'beauty'", "albedo|normal"},
-      {{"--environment", "1,-2,3"}, "--environment", "'1,-2,3'", "at least 0"},
-      {{"--eye", "1,2", "--target", "0,0,0"}, "--eye", "'1,2'", "three numbers"},
-      {{"--eye", "1,2,3"}, "--target", "--eye", "missing"},
-      {{"--eye", "1,2,3", "--target", "1,2,3"}, "--target", "'1,2,3'", "another"},
-      {{"--eye", "0,1,0", "--target", "0,5,0"}, "--up", "'0,1,0'", "parallel"},
-      {{"--camera", "none such"}, "camera", "none such", "front"},
-      {{"--progress", "loud"}, "--progress", "'loud'", "auto|bar|json|none"},
-      {{"--quiet", "--verbose"}, "--quiet", "--verbose", "exclude"},
-      {{"--train-steps", "-1"}, "--train-steps", "'-1'", "from 0"},
-      {{"--train-steps", "many"}, "--train-steps", "'many'", "integer"},
-      {{"--batch", "0"}, "--batch", "'0'", "from 1"},
-      {{"--self-training", "on"}, "--self-training", "'on'", "integer"},
-      {{"--self-training-full", "1.5"}, "--self-training-full", "'1.5'", "at most 1"},
-      {{"--features", "17"}, "--features", "'17'", "from 1 to 16"},
-      {{"--stack", "adaptive,65"}, "--stack", "'65'", "from 1 to 64"},
-      {{"--stack", "1,2,3,4,5"}, "--stack", "'1,2,3,4,5'", "at most 4"},
-      {{"--stack", "adaptive,"}, "--stack", "'adaptive,'", "list"},
-      {{"--resolution", "fixed:0"}, "--resolution", "'0'", "from 1 to 64"},
-      {{"--resolution", "fixed"}, "--resolution", "'fixed'", "uniform|paper|fixed:R"},
-      {{"--node-spacing", "0"}, "--node-spacing", "'0'", "above 0"},
-      {{"--cache-memory", "-1"}, "--cache-memory", "'-1'", "at least 0"},
-      {{"--hash-log2-size", "32"}, "--hash-log2-size", "'32'", "from 3 to 31"},
-      {{"--hash-growth", "0.5"}, "--hash-growth", "'0.5'", "at least 1"},
-      {{"--hidden", "48"}, "--hidden", "'48'", "16|32|64|128"},
-      {{"--layers", "6"}, "--layers", "'6'", "from 1 to 5"},
-      {{"--bias", "yes"}, "--bias", "'yes'", "on|off"},
-      {{"--learning-rate", "nan"}, "--learning-rate", "'nan'", "at least 0"},
-      {{"--cache-roughness", "2"}, "--cache-roughness", "'2'", "at most 1"},
-      {{"--device", "gpu"}, "--device", "'gpu'", "cpu|vulkan"},
-      {{"--device", "vulkan:"}, "--device", "'vulkan:'", "vulkan:INDEX"},
-      {{"--preset", "fast"}, "--preset", "'fast'", "preview|final|paper-nao|paper-nrc"},
-      {{"--checkpoint-every", "-1"}, "--checkpoint-every", "'-1'", "at least 0"},
-      {{"--query-at", "gather"}, "--query-at", "'path'", "nao or nrc"},
-      {{"--aov", "resolution"}, "--aov", "'resolution'", "nao or nrc"},
-      {{"--resume"}, "--resume", "", "--checkpoint FILE"},
-      {{"--spp"}, "--spp", "", "required"},
-      {{"--spp", "1", "--spp", "2"}, "--spp", "2", ""},
+      {{"--spp", "0"}, {"--spp", "0", "1"}},
+      {{"--spp", "4.5"}, {"--spp", "4.5"}},
+      {{"--spp", "99999999999"}, {"--spp", "99999999999", "1"}},
+      {{"--size", "0x10"}, {"--size", "0x10", "1", "65536"}},
+      {{"--size", "65536x65536"}, {"--size", "65536x65536"}},
+      {{"--fov", "180"}, {"--fov", "180", "0.001", "179.9"}},
+      {{"--fov", "0"}, {"--fov", "0", "0.001"}},
+      {{"--eye", "1e20,0,0", "--target", "0,0,0"}, {"--eye", "1e+20", "1e+12"}},
+      {{"--clamp", "1e-41"}, {"--clamp", "1e-41", "0", "1.18e-38"}},
+      {{"--checkpoint", ""}, {"--checkpoint", "''", "FILE"}},
+      {{"--stats", ""}, {"--stats", "''", "FILE|-"}},
+      {{"--environment", ""}, {"--environment", "''", "FILE|r,g,b|none"}},
+      {{"--camera", ""}, {"--camera", "''", "NAME|INDEX"}},
+      {{"-o", ""}, {"--output", "''", "FILE"}},
+      {{"--config", ""}, {"--config", "''", "FILE.toml"}},
+      {{"--time-limit", "-1"}, {"--time-limit", "-1", "0"}},
+      {{"--time-limit", "nan"}, {"--time-limit", "nan", "0"}},
+      {{"--region", "0,0,961,1"}, {"--region", "0,0,961,1", "960"}},
+      {{"--region", "5,5,5,6"}, {"--region", "5,5,5,6"}},
+      {{"--seed", "4294967296"}, {"--seed", "4294967296", "4294967295"}},
+      {{"--max-depth", "-1"}, {"--max-depth", "-1", "0"}},
+      {{"--threads", "-2"}, {"--threads", "-2", "0"}},
+      {{"--exposure", "inf"}, {"--exposure", "inf", "-100", "100"}},
+      {{"--clamp", "-0.5"}, {"--clamp", "-0.5", "0"}},
+      {{"--ao-distance", "0"}, {"--ao-distance", "0", "inf"}},
+      {{"--integrator", "nrc2"}, {"--integrator", "nrc2", "path|ao"}},
+      {{"--isa", "sse9"}, {"--isa", "sse9", "auto|scalar|avx2|avx512"}},
+      {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
+      {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
+      {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
+      {{"--eye", "1,2,3"}, {"--target", "--eye"}},
+      {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
+      {{"--eye", "0,1,0", "--target", "0,5,0"}, {"--up", "0,1,0"}},
+      {{"--camera", "none such"}, {"camera", "none such", "front"}},
+      {{"--progress", "loud"}, {"--progress", "loud", "auto|bar|json|none"}},
+      {{"--quiet", "--verbose"}, {"--quiet", "--verbose"}},
+      {{"--train-steps", "-1"}, {"--train-steps", "-1", "0"}},
+      {{"--train-steps", "many"}, {"--train-steps", "many"}},
+      {{"--batch", "0"}, {"--batch", "0", "1"}},
+      {{"--self-training", "on"}, {"--self-training", "on"}},
+      {{"--self-training-full", "1.5"}, {"--self-training-full", "1.5", "1"}},
+      {{"--features", "17"}, {"--features", "17", "1", "16"}},
+      {{"--stack", "adaptive,65"}, {"--stack", "65", "1", "64"}},
+      {{"--stack", "1,2,3,4,5"}, {"--stack", "1,2,3,4,5", "4"}},
+      {{"--stack", "adaptive,"}, {"--stack", "adaptive,"}},
+      {{"--resolution", "fixed:0"}, {"--resolution", "0", "1", "64"}},
+      {{"--resolution", "fixed"}, {"--resolution", "fixed", "uniform|paper|fixed:R"}},
+      {{"--node-spacing", "0"}, {"--node-spacing", "0"}},
+      {{"--cache-memory", "-1"}, {"--cache-memory", "-1", "0"}},
+      {{"--hash-log2-size", "32"}, {"--hash-log2-size", "32", "3", "31"}},
+      {{"--hash-growth", "0.5"}, {"--hash-growth", "0.5", "1"}},
+      {{"--hidden", "48"}, {"--hidden", "48", "16|32|64|128"}},
+      {{"--layers", "6"}, {"--layers", "6", "1", "5"}},
+      {{"--bias", "yes"}, {"--bias", "yes", "on|off"}},
+      {{"--learning-rate", "nan"}, {"--learning-rate", "nan", "0"}},
+      {{"--cache-roughness", "2"}, {"--cache-roughness", "2", "1"}},
+      {{"--device", "gpu"}, {"--device", "gpu", "cpu|vulkan"}},
+      {{"--device", "vulkan:"}, {"--device", "vulkan:", "INDEX"}},
+      {{"--preset", "fast"}, {"--preset", "fast", "preview|final|paper-nao|paper-nrc"}},
+      {{"--checkpoint-every", "-1"}, {"--checkpoint-every", "-1", "0"}},
+      {{"--query-at", "gather"}, {"--query-at", "path", "nao", "nrc"}},
+      {{"--aov", "resolution"}, {"--aov", "resolution", "nao", "nrc"}},
+      {{"--resume"}, {"--resume", "--checkpoint", "FILE"}},
+      {{"--spp"}, {"--spp"}},
+      {{"--spp", "1", "--spp", "2"}, {"--spp", "2"}},
   };
-  for (const BadValue& bad : cases) {
-    const Output output = refused(bad.flags);
-    EXPECT_EQ(output.exit_code, 1) << output.err;
-    EXPECT_THAT(output.last_error_line(),
-                AllOf(HasSubstr(bad.flag), HasSubstr(bad.value), HasSubstr(bad.expected)));
-  }
+  for (const BadValue& bad : cases) expect_failure(refused(bad.flags), 1, bad.names);
 }
 
 TEST_F(Usage, AnOutputIsRequiredAndItsExtensionKnown) {
   EXPECT_EQ(run_gatelight({"render", scene()}).exit_code, 1);
   const Output output = run_gatelight({"render", scene(), "-o", path("a.jpg")});
-  EXPECT_EQ(output.exit_code, 1);
-  EXPECT_THAT(output.last_error_line(), AllOf(HasSubstr("a.jpg"), HasSubstr(".exr and .png")));
+  expect_failure(output, 1, {"a.jpg", ".exr", ".png"});
   EXPECT_EQ(refused({"-o", path("a.png")}).exit_code, 1);
 }
 
@@ -220,19 +208,16 @@ TEST_F(Usage, UnusableInputsAreCode2AndNamed) {
   folder.write("version.gltf", R"({"asset": {"version": "1.0"}})");
   for (const char* name : {"missing.gltf", "empty.gltf", "text.glb", "version.gltf", "."}) {
     const Output output = run_gatelight({"render", path(name), "-o", path("a.png")});
-    EXPECT_EQ(output.exit_code, 2) << output.err;
-    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+    expect_failure(output, 2, {path(name)});
     EXPECT_EQ(run_gatelight({"info", path(name)}).exit_code, 2);
   }
   folder.write("broken.exr", "this is no picture");
   for (const char* name : {"missing.exr", "broken.exr", "missing.hdr"}) {
     const Output output = refused({"--environment", path(name)});
-    EXPECT_EQ(output.exit_code, 2) << output.err;
-    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+    expect_failure(output, 2, {path(name)});
   }
   const Output cache = refused({"--integrator", "nrc", "--cache-in", path("missing.safetensors")});
-  EXPECT_EQ(cache.exit_code, 2) << cache.err;
-  EXPECT_THAT(cache.last_error_line(), HasSubstr(path("missing.safetensors")));
+  expect_failure(cache, 2, {path("missing.safetensors")});
 }
 
 TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
@@ -241,8 +226,7 @@ TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
   for (const char* name : {"missing/a.png", "file/a.png", "folder.exr"}) {
     const Output output =
         run_gatelight({"render", scene(), "-o", path(name), "--spp", "16777216", "--verbose"});
-    EXPECT_EQ(output.exit_code, 3) << output.err;
-    EXPECT_THAT(output.last_error_line(), HasSubstr(path(name)));
+    expect_failure(output, 3, {path(name)});
   }
   EXPECT_EQ(refused({"--stats", path("missing/s.json")}).exit_code, 3);
   EXPECT_EQ(refused({"--checkpoint", path("missing/c")}).exit_code, 3);
@@ -252,8 +236,7 @@ TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
 
 TEST_F(Usage, MemoryOverTheLimitIsCode4) {
   const Output output = refused({"--memory-limit", "1", "--size", "4096x4096"});
-  EXPECT_EQ(output.exit_code, 4) << output.err;
-  EXPECT_THAT(output.last_error_line(), HasSubstr("more than --memory-limit 1; raise that limit"));
+  expect_failure(output, 4, {"--memory-limit 1"});
 }
 
 TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {
@@ -273,40 +256,29 @@ TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {
 
 TEST_F(Usage, InfoChecksTheFlagsOfTheCache) {
   const Output alone = run_gatelight_inside({"info", "--integrator", "nrc"});
-  EXPECT_EQ(alone.exit_code, 1);
-  EXPECT_THAT(alone.last_error_line(), AllOf(HasSubstr("--integrator"), HasSubstr("SCENE")));
+  expect_failure(alone, 1, {"--integrator", "SCENE"});
   const Output without = run_gatelight_inside({"info", scene(), "--batch", "8"});
-  EXPECT_EQ(without.exit_code, 1);
+  expect_failure(without, 1, {"--batch", "nao", "nrc"});
   EXPECT_EQ(without.out, "");
-  EXPECT_THAT(without.last_error_line(), AllOf(HasSubstr("--batch"), HasSubstr("nao or nrc")));
   EXPECT_EQ(run_gatelight_inside({"info", scene(), "--camera", "front"}).exit_code, 0);
 }
 
 TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {
   const Output unknown = refused({"--config", folder.write("u.toml", "sppp = 3\n")});
-  EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_THAT(unknown.last_error_line(), AllOf(HasSubstr("u.toml'"), HasSubstr("sppp")));
+  expect_failure(unknown, 1, {path("u.toml"), "sppp"});
   const Output value = refused({"--config", folder.write("v.toml", "spp = -3\n")});
-  EXPECT_EQ(value.exit_code, 1);
-  EXPECT_THAT(value.last_error_line(),
-              AllOf(HasSubstr("--spp"), HasSubstr("'-3'"), HasSubstr("v.toml' sets --spp)")));
+  expect_failure(value, 1, {"--spp", "-3", path("v.toml")});
   const Output missing = refused({"--config", path("missing.toml")});
-  EXPECT_EQ(missing.exit_code, 2);
-  EXPECT_THAT(missing.last_error_line(), HasSubstr("missing.toml"));
+  expect_failure(missing, 2, {"missing.toml"});
 }
 
 TEST_F(Usage, AConfigFileIsAShortText) {
-  const auto line = [&](const std::string& config) {
-    const Output output = refused({"--config", config});
-    EXPECT_EQ(output.exit_code, 2) << output.err;
-    return output.last_error_line();
-  };
-  EXPECT_THAT(line("/dev/zero"), AllOf(HasSubstr("'/dev/zero'"), HasSubstr("more than 1 MiB")));
-  EXPECT_THAT(line(folder.write("zero.toml", std::string("spp = 2\0\n", 9))),
-              AllOf(HasSubstr("zero.toml'"), HasSubstr("a zero byte")));
+  const std::string zero = folder.write("zero.toml", std::string("spp = 2\0\n", 9));
+  expect_failure(refused({"--config", "/dev/zero"}), 2, {"/dev/zero", "1 MiB"});
+  expect_failure(refused({"--config", zero}), 2, {zero});
   // Some editors begin a text with a mark of its byte order.
   const Output marked = refused({"--config", folder.write("mark.toml", "\xEF\xBB\xBFspp = 0\n")});
-  EXPECT_THAT(marked.last_error_line(), HasSubstr("mark.toml' sets --spp)"));
+  expect_failure(marked, 1, {path("mark.toml"), "--spp"});
   const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_LT(unknown.err.size(), 1000u);
@@ -314,24 +286,22 @@ TEST_F(Usage, AConfigFileIsAShortText) {
 
 TEST_F(Usage, AFlagGivenTwiceIsNamed) {
   const Output output = refused({"--spp", "2", "--spp", "3"});
-  EXPECT_EQ(output.exit_code, 1);
-  EXPECT_THAT(output.last_error_line(), HasSubstr("--spp is given 2 times, expected once"));
+  expect_failure(output, 1, {"--spp", "2"});
 }
 
 TEST_F(Usage, AValueOfAConfigFileIsSaidToStandThere) {
   const std::string config = folder.write("c.toml", "eye = [1, 2]\nspp = 4\nbatch = 256\n");
-  const auto line = [&](std::vector<std::string> words) {
+  const auto expect_refused = [&](std::vector<std::string> words, const char* flag, bool from_file) {
     words.insert(words.begin(), {"--config", config});
     const Output output = refused(words);
-    EXPECT_EQ(output.exit_code, 1) << output.err;
-    return output.last_error_line();
+    expect_failure(output, 1, {flag});
+    EXPECT_EQ(has_name(output.err, config), from_file) << output.err;
   };
-  EXPECT_THAT(line({}), HasSubstr("c.toml' sets --eye)"));
-  EXPECT_THAT(line({"--eye", "1,2"}), AllOf(HasSubstr("--eye"), Not(HasSubstr("sets"))))
-      << "not from the file";
-  EXPECT_THAT(line({"--eye", "1,2,3", "--spp", "0"}), AllOf(HasSubstr("--spp"), Not(HasSubstr("sets"))));
-  EXPECT_THAT(line({"--eye", "1,2,3", "--target", "0,0,0"}), HasSubstr("c.toml' sets --batch)"))
-      << "of what does not go together";
+  expect_refused({}, "--eye", true);
+  expect_refused({"--eye", "1,2"}, "--eye", false);
+  expect_refused({"--eye", "1,2,3", "--spp", "0"}, "--spp", false);
+  // Of what does not go together.
+  expect_refused({"--eye", "1,2,3", "--target", "0,0,0"}, "--batch", true);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "apps/terminal/version.h"
 #include "renderer/image/image_write.h"
 #include "renderer/surface/embree.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
@@ -344,22 +345,18 @@ TEST(SweepResults, NameTheMachineAndTheVersionsOfTheirCells) {
 TEST(SweepResults, AreReadBackOrRefused) {
   const TemporaryFolder folder;
   const std::string root = folder.path().string();
-  const auto refusal = [&]() -> std::string {
-    try {
-      read_results(root);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto expect_refused = [&](tests::NameList names) {
+    names.push_back(root);
+    tests::expect_refusal<InputError>([&] { read_results(root); }, names);
   };
-  EXPECT_THAT(refusal(), HasSubstr("there is no sweep"));
+  expect_refused({});
   folder.write("results.json", "{\"a\": 1}");
-  EXPECT_THAT(refusal(), HasSubstr("no result"));
+  expect_refused({"results.json"});
   const std::string deep = std::string(500000, '[') + std::string(500000, ']');
   folder.write("results.json", R"({"schema": )" + deep + R"(, "cells": []})");
-  EXPECT_THAT(refusal(), HasSubstr("it is no result of a sweep"));
+  expect_refused({"results.json"});
   folder.write("results.json", R"({"schema": 1, "cells": []})");
-  EXPECT_THAT(refusal(), HasSubstr("schema is 1, expected 2"));
+  expect_refused({"schema", "1", "2"});
   const ordered_json results = make_results({"x"}, {});
   folder.write("results.json", results.dump());
   EXPECT_EQ(read_results(root), results);
