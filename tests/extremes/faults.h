@@ -29,19 +29,4 @@ class Faults : public ::testing::Test {
   std::string scene = folder.write("scene.gltf", tiny_scene());
 };
 
-inline int count_lines(const std::string& text) {
-  int lines = 0;
-  for (const char c : text) lines += c == '\n' ? 1 : 0;
-  return lines;
-}
-
-/// Failed with this code, by itself, and with one line that names `text`.
-inline void expect_failure(const Output& output, int code, const std::string& text) {
-  EXPECT_EQ(output.exit_code, code) << output.err;
-  EXPECT_FALSE(output.killed) << output.err;
-  EXPECT_EQ(count_lines(output.err), 1) << output.err;
-  EXPECT_THAT(output.last_error_line(), ::testing::StartsWith("gatelight: error: "));
-  EXPECT_THAT(output.last_error_line(), ::testing::HasSubstr(text));
-}
-
 }  // namespace gatelight::tests

@@ -13,7 +13,6 @@ namespace gatelight::tests {
 namespace {
 
 using ::testing::AnyOf;
-using ::testing::HasSubstr;
 using testing::tell_extreme;
 namespace fs = std::filesystem;
 
@@ -56,7 +55,7 @@ TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
         ++pictures;
       } else {
         ++refusals;
-        expect_failure(output, 4, "");
+        expect_failure_names(output, 4, {"MiB"});
         EXPECT_EQ(fs::exists(path("a.exr")), false);
       }
       fs::remove(path("a.exr"));
@@ -125,7 +124,7 @@ TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
     EXPECT_FALSE(output.killed) << mebibytes << " MiB";
     ASSERT_THAT(output.exit_code, AnyOf(0, 4)) << mebibytes << " MiB: " << output.err;
     (output.exit_code == 0 ? pictures : refusals) += 1;
-    if (output.exit_code == 4) expect_failure(output, 4, "and the control group leaves");
+    if (output.exit_code == 4) expect_failure_names(output, 4, {"MiB", "control group"});
   }
   EXPECT_GT(pictures, 0);
   EXPECT_GT(refusals, 0);
@@ -147,7 +146,8 @@ TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
   const Output output = render("thousand.exr", "1000");
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_EQ(read_file(path("one.exr")) == read_file(path("thousand.exr")), true);
-  expect_failure(run_gatelight({"render", scene, "-o", path("a.exr"), "--threads", "1025"}), 1, "--threads");
+  expect_failure(run_gatelight({"render", scene, "-o", path("a.exr"), "--threads", "1025"}), 1,
+                 {"--threads", "1025"});
   tell_extreme("threads", "--threads 1 and 1000, with a cache", "the same bytes", "more than 1024: exit 1");
 }
 
@@ -161,7 +161,7 @@ TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
                                           const rlimit limit{mebibytes << 20, mebibytes << 20};
                                           ::setrlimit(RLIMIT_AS, &limit);
                                         });
-    expect_failure(output, 4, "--threads 1000: only ");
+    expect_failure_names(output, 4, {"--threads 1000"});
     ++refusals;
   }
   tell_extreme("threads that cannot be started", "--threads 1000 within 1 to 4 GiB of address space", "",
@@ -177,11 +177,11 @@ TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
   };
   for (const char* size :
        {"0x0", "0x16", "16x0", "-1x16", "65537x1", "4294967296x4294967296", "16", "16x", "x"}) {
-    expect_failure(render(size, "0"), 1, "is not a size WxH in pixels, each from 1 to 65536");
+    expect_failure(render(size, "0"), 1, {"--size", size, "WxH", "65536"});
   }
-  expect_failure(render("65536x65536", "0"), 1, "has 4294967296 pixels, expected at most 268435456");
-  expect_failure(render("65536x4096", "1000"), 4, "more than --memory-limit 1000");
-  expect_failure(render("65536x4096", "0"), 4, "and ulimit -v leaves");
+  expect_failure(render("65536x65536", "0"), 1, {"4294967296", "268435456"});
+  expect_failure(render("65536x4096", "1000"), 4, {"--memory-limit 1000"});
+  expect_failure_names(render("65536x4096", "0"), 4, {"ulimit -v"});
   EXPECT_EQ(render("65536x1", "0").exit_code, 0);
   EXPECT_EQ(render("1x65536", "0").exit_code, 0);
   tell_extreme(

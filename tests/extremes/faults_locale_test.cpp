@@ -67,9 +67,8 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
       all.push_back(word);
     const Output output = run_gatelight_inside(all);
     EXPECT_EQ(output.exit_code, 0) << output.err;
-    const Output compared =
-        run_gatelight_inside({"compare", path(name + ".exr"), path(name + ".png"), "--json",
-                              path(name + ".compare.json")});
+    const Output compared = run_gatelight_inside(
+        {"compare", path(name + ".exr"), path(name + ".png"), "--json", path(name + ".compare.json")});
     const Output told = run_gatelight_inside({"info", scene, "--json", path(name + ".info.json")});
     EXPECT_EQ(compared.exit_code + told.exit_code, 0) << compared.err << told.err;
     std::vector<std::string> bytes;
@@ -106,7 +105,7 @@ TEST_F(CommaLocale, OfTheEnvironmentIsNotEvenLookedAt) {
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_EQ(nlohmann::json::parse(output.out)["options"]["clamp"], 1.5);
   const Output comma = run_gatelight(words({"-o", path("a.exr"), "--clamp", "1,5", "--quiet"}));
-  expect_failure(comma, 1, "--clamp: '1,5' is not a number of at least 0");
+  expect_failure(comma, 1, {"--clamp", "1,5", "0"});
   tell_extreme("LC_ALL", "a locale with a comma", "numbers are read and written with points",
                "exit 1: --clamp: '1,5' is not a number");
 }

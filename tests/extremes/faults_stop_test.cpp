@@ -8,7 +8,6 @@
 namespace gatelight::tests {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::tell_extreme;
 
 class Stopped : public Faults {
@@ -30,8 +29,7 @@ TEST_F(Stopped, ByATerminationWhileItLearnsKeepsPictureAndCheckpoint) {
   const Output output = process.finish();
   EXPECT_EQ(output.exit_code, 143) << output.err;
   EXPECT_FALSE(output.killed);
-  EXPECT_THAT(output.last_error_line(), HasSubstr("of 3000 training steps"));
-  EXPECT_THAT(output.last_error_line(), HasSubstr("--resume goes on with it"));
+  expect_names(output.last_error_line(), {"3000", "--resume"});
   EXPECT_EQ(renderer::read_image(path("killed.exr")).width, 48);
   EXPECT_EQ(folder.count_files(), 3u) << "a temporary file is left";
   EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);
@@ -56,10 +54,10 @@ TEST_F(Stopped, AndGoneOnWithInAnotherSceneIsRefused) {
   };
   EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
   const std::string kept = read_file(path("c"));
-  expect_failure(changed("[0.5, 0.5, 0.5, 1]", "[0.5, 0.25, 0.5, 1]"), 2, "it differs in materials");
-  expect_failure(changed("AACAvwAAgL8", "AACAPwAAgL8"), 2, "it differs in geometry");
-  expect_failure(changed("\"metallicFactor\": 0", "\"metallicFactor\": 1"), 2, "it differs in materials");
-  expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, "it is of other options");
+  expect_failure(changed("[0.5, 0.5, 0.5, 1]", "[0.5, 0.25, 0.5, 1]"), 2, {"materials"});
+  expect_failure(changed("AACAvwAAgL8", "AACAPwAAgL8"), 2, {"geometry"});
+  expect_failure(changed("\"metallicFactor\": 0", "\"metallicFactor\": 1"), 2, {"materials"});
+  expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, {"camera"});
   EXPECT_EQ(read_file(path("c")) == kept, true);
   EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
   tell_extreme("scene changed before --resume", "a vertex, a colour, metalness, the view",

@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using tests::expect_message;
+using tests::expect_names;
 
 std::string changed(const std::function<void(RenderOptions&, scene::Camera&)>& change,
                     Integrator integrator = Integrator::nrc) {
@@ -70,7 +70,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) { o.cache.view = CacheView::cache; }, {"view", "final", "cache"}},
       {[](O o, C) { o.cache.cache_in = "old"; }, {"cache-in", "none", "old"}},
   };
-  for (const auto& [change, names] : cases) expect_message(changed(change), names);
+  for (const auto& [change, names] : cases) expect_names(changed(change), names);
 }
 
 TEST(DecidingOptions, WhatDecidesNoBitsIsNotAmongThem) {
