@@ -17,15 +17,20 @@ namespace gatelight::tests {
 using NameList = std::vector<std::string>;
 using Place = std::source_location;
 
-/// Whether the name is in the text as a word of its own: "4" is not in "14".
+/// Whether the name is in the text as a word or number of its own: "4" is neither in "14" nor in "4.5".
 inline bool has_name(std::string_view text, std::string_view name) {
-  const auto joined = [](char a, char b) {
-    return std::isalnum(static_cast<unsigned char>(a)) && std::isalnum(static_cast<unsigned char>(b));
+  if (name.empty()) return false;
+  const auto digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i]));
   };
+  const auto goes_on = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) ||
+                               (text[i] == '.' && digit(i - 1) && digit(i + 1)));
+  };
+  const bool word_begins = std::isalnum(static_cast<unsigned char>(name.front()));
+  const bool word_ends = std::isalnum(static_cast<unsigned char>(name.back()));
   for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
-    const std::size_t end = at + name.size();
-    const bool begins = at == 0 || !joined(text[at - 1], name.front());
-    if (begins && (end == text.size() || !joined(name.back(), text[end]))) return true;
+    if (!(word_begins && goes_on(at - 1)) && !(word_ends && goes_on(at + name.size()))) return true;
   }
   return false;
 }
