@@ -37,9 +37,11 @@ def png(width, height, channels, pixels):
 
 
 class Glb:
-    """Collects a scene and writes it. Names of extensions are gathered from what is used."""
+    """Collects a scene and writes it. Names of extensions are gathered from what is used. `all_uvs` keeps the uvs of
+    meshes that no texture needs."""
 
-    def __init__(self, title, extras=None):
+    def __init__(self, title, extras=None, all_uvs=False):
+        self.all_uvs = all_uvs
         self.doc = {
             "asset": {"version": "2.0", "generator": "gatelight scripts/make-scenes", "copyright": "Apache-2.0",
                       "extras": {"title": title, **(extras or {})}},
@@ -104,7 +106,7 @@ class Glb:
 
     # Geometry
 
-    def geometry(self, mesh):
+    def geometry(self, mesh, material):
         """Accessors of a shapes.Mesh, written once however many glTF meshes use it."""
         if id(mesh) in self.geometries:
             return self.geometries[id(mesh)][0]
@@ -121,7 +123,7 @@ class Glb:
                 "bufferView": self.view(pack("h", shorts), byteStride=8, target=ARRAY_BUFFER),
                 "componentType": SHORT, "normalized": True, "count": len(mesh.normals), "type": "VEC3"})
             self.require("KHR_mesh_quantization")
-        if mesh.uvs:
+        if mesh.uvs and (self.all_uvs or "Texture" in json.dumps(self.doc["materials"][material])):
             attributes["TEXCOORD_0"] = self.append("accessors", {
                 "bufferView": self.view(pack("f", [round_float(c) for uv in mesh.uvs for c in uv]),
                                         target=ARRAY_BUFFER),
@@ -139,7 +141,7 @@ class Glb:
     def mesh(self, name, *parts):
         """A glTF mesh of (shapes.Mesh, material) pairs."""
         return self.append("meshes", {"name": name, "primitives": [
-            {**self.geometry(geometry), "material": material} for geometry, material in parts]})
+            {**self.geometry(geometry, material), "material": material} for geometry, material in parts]})
 
     # Nodes
 

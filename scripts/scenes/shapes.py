@@ -47,19 +47,9 @@ class Mesh:
         self.uvs = [(p[a] * repeats_per_metre, -p[b] * repeats_per_metre) for p in self.positions]
         return self
 
-    def box_uvs(self, repeats_per_metre=1.0):
-        """Texture coordinates by the axis that the normal is nearest to."""
-        self.uvs = []
-        for p, n in zip(self.positions, self.normals):
-            axis = max(range(3), key=lambda k: abs(n[k]))
-            u, v = {0: (p[2], p[1]), 1: (p[0], p[2]), 2: (p[0], p[1])}[axis]
-            self.uvs.append((u * repeats_per_metre, -v * repeats_per_metre))
-        return self
-
-    def without(self, *what):
-        """Without "uvs" or "normals": a material without textures needs no uvs, a flat mesh no normals."""
-        return Mesh(self.positions, self.triangles, [] if "normals" in what else self.normals,
-                    [] if "uvs" in what else self.uvs)
+    def flat(self):
+        """Without normals."""
+        return Mesh(self.positions, self.triangles, [], self.uvs)
 
     def smooth(self):
         """Normals averaged over the faces that meet at a position, weighted by area; seams are bridged."""
