@@ -1,11 +1,11 @@
-"""The paper's claims beside what was measured: the first table of RESULTS.md. Verdicts follow from the figures."""
+"""Compares the paper's claims with our measurements: the first table of RESULTS.md. Verdicts follow from the figures."""
 
 from paper_figures import ADAPTIVE_MB, TABLE1, TABLE2
 from measured_scenes import title_of
 from results_data import difference
 from results_tables import table
 
-# Times and sizes differ by more than this, or they count as the same.
+# Times and sizes with a smaller ratio count as the same.
 SAME = 1.1
 APPLICATIONS = (("nao", "occlusion"), ("nrc", "radiance"))
 
