@@ -6,7 +6,7 @@ import ornaments
 from glb import Glb
 from living_room_materials import materials
 from living_room_shell import SUN_DIRECTION, build_shell
-from shapes import rounded_box, sphere, tube
+from shapes import sphere
 
 
 def build(path):
