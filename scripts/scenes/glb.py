@@ -1,4 +1,4 @@
-"""Writes glTF 2.0 binary files: the few things that the scenes of this project need, and always the same bytes."""
+"""Writes glTF 2.0 binary files, always with the same bytes. It knows only what the scenes of this project need."""
 
 import json
 import math
@@ -10,7 +10,7 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
 def png(width, height, channels, pixels):
-    """A PNG of 8-bit samples: 1 grey, 3 RGB or 4 RGBA channels, rows from the top. sRGB is the reader's business."""
+    """A PNG of 8-bit samples: 1 grey, 3 RGB or 4 RGBA channels, rows from the top. The file names no colour space."""
     stride = width * channels
     above = bytes(stride)
     rows = []
@@ -37,8 +37,8 @@ def png(width, height, channels, pixels):
 
 
 class Glb:
-    """Collects a scene and writes it. Names of extensions are gathered from what is used. `all_uvs` keeps the uvs of
-    meshes that no texture needs."""
+    """Collects a scene and writes it, with the names of the extensions that it uses. `all_uvs` keeps uvs that no texture
+    needs."""
 
     def __init__(self, title, extras=None, all_uvs=False):
         self.all_uvs = all_uvs
@@ -65,7 +65,7 @@ class Glb:
     # Textures and materials
 
     def texture(self, name, image, wrap=None):
-        """`image` holds the bytes of a PNG; `wrap` is "clamp" or None for repeat. Gives the index of the texture."""
+        """`image` holds the bytes of a PNG; `wrap` is "clamp" or None for repeat. Returns the index of the texture."""
         view = self.view(image)
         source = self.append("images", {"name": name, "mimeType": "image/png", "bufferView": view})
         sampler = {"magFilter": 9729, "minFilter": 9987, "wrapS": 33071 if wrap else 10497,
@@ -78,7 +78,7 @@ class Glb:
     def material(self, name, base=(0.8, 0.8, 0.8), metallic=0.0, roughness=0.5, alpha=1.0, extensions=None,
                  base_texture=None, rough_texture=None, normal_texture=None, normal_scale=1.0,
                  emission=None, emission_texture=None, strength=None, mask=None, double_sided=False, extras=None):
-        """Extensions are given by their name without "KHR_materials_"."""
+        """The keys of `extensions` are names without "KHR_materials_"."""
         pbr = {"baseColorFactor": [*base, alpha], "metallicFactor": metallic, "roughnessFactor": roughness}
         material = {"name": name, "pbrMetallicRoughness": pbr}
         if base_texture is not None:
@@ -107,7 +107,7 @@ class Glb:
     # Geometry
 
     def geometry(self, mesh, material):
-        """Accessors of a shapes.Mesh, written once however many glTF meshes use it."""
+        """Accessors of a shapes.Mesh. They are written once, also if several glTF meshes use them."""
         if id(mesh) in self.geometries:
             return self.geometries[id(mesh)][0]
         floats = [round_float(v) for p in mesh.positions for v in p]

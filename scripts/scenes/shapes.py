@@ -74,7 +74,7 @@ def unit_or_up(v):
 
 
 def merge(*meshes):
-    """One mesh of several; what not all of them have is dropped."""
+    """One mesh of several. It has normals or uvs only if all of them have."""
     result = Mesh()
     for mesh in meshes:
         first = len(result.positions)
@@ -92,7 +92,7 @@ def polygon(*corners):
 
 
 def cells(columns, rows, first=0):
-    """Of a grid of vertices, row by row from `first` on: the four corners of each cell, counter-clockwise."""
+    """The corners of each cell of a grid, counter-clockwise. The vertices begin at `first`, row by row."""
     for j in range(rows):
         for a in range(first + j * (columns + 1), first + j * (columns + 1) + columns):
             yield a, a + 1, a + columns + 2, a + columns + 1
