@@ -38,20 +38,7 @@ void BareEmbree::trace_single(std::span<const renderer::Ray> rays, bool shadow) 
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   for (const renderer::Ray& r : rays) {
-    alignas(16) RTCRayHit ray{};
-    ray.ray = {r.origin.x(),
-               r.origin.y(),
-               r.origin.z(),
-               0.0f,
-               r.direction.x(),
-               r.direction.y(),
-               r.direction.z(),
-               0.0f,
-               r.t_max,
-               ~0u,
-               0,
-               0};
-    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit ray = to_embree(r.origin, r.direction, 0.0f, r.t_max);
     if (shadow) {
       rtcOccluded1(scene_, &context, &ray.ray);
     } else {

@@ -11,6 +11,16 @@
 
 namespace gatelight::bench {
 
+/// A ray that has hit nothing yet.
+inline RTCRayHit to_embree(const scene::Vec3& origin, const scene::Vec3& direction, float t_min,
+                           float t_max) {
+  RTCRayHit ray{};
+  ray.ray = {origin.x(), origin.y(), origin.z(), t_min, direction.x(), direction.y(), direction.z(), 0.0f,
+             t_max,      ~0u,        0,          0};
+  ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return ray;
+}
+
 class BareEmbree {
  public:
   explicit BareEmbree(const scene::Scene& scene);

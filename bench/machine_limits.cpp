@@ -89,27 +89,22 @@ __attribute__((target("avx512f,avx512bf16"))) float burn_bf16(std::int64_t steps
 }
 
 struct Burner {
-  Arithmetic arithmetic;
+  std::string_view name;
+  bool is_available;
   float (*burn)(std::int64_t);
   double operations;  ///< per step
 };
-constexpr std::array<Burner, 4> kBurners = {{{Arithmetic::sse2, burn_sse2, 8.0 * kChains},
-                                             {Arithmetic::avx2, burn_avx2, 16.0 * kChains},
-                                             {Arithmetic::avx512, burn_avx512, 32.0 * kWideChains},
-                                             {Arithmetic::bf16, burn_bf16, 64.0 * kWideChains}}};
 
-bool is_available(Arithmetic arithmetic) {
-  switch (arithmetic) {
-    case Arithmetic::sse2:
-      return true;
-    case Arithmetic::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case Arithmetic::avx512:
-      return __builtin_cpu_supports("avx512f");
-    case Arithmetic::bf16:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bf16");
-  }
-  return false;
+/// One entry for each Arithmetic, in its order.
+const std::array<Burner, 4>& burners() {
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool avx512 = __builtin_cpu_supports("avx512f");
+  const bool bf16 = avx512 && __builtin_cpu_supports("avx512bf16");
+  static const std::array<Burner, 4> all = {{{"sse2", true, burn_sse2, 8.0 * kChains},
+                                             {"avx2", avx2, burn_avx2, 16.0 * kChains},
+                                             {"avx512", avx512, burn_avx512, 32.0 * kWideChains},
+                                             {"bf16", bf16, burn_bf16, 64.0 * kWideChains}}};
+  return all;
 }
 
 /// Results go here, so that the compiler removes no loop.
@@ -180,40 +175,16 @@ double best_rate(int runs, Run&& run) {
   return best;
 }
 
-struct MemoryLimits {
-  double stream = 0.0;
-  double gather = 0.0;
-};
-
-const MemoryLimits& memory_limits() {
-  static const MemoryLimits limits = [] {
-    const BigBuffer buffer;
-    return MemoryLimits{best_rate(16, [&] { return run_stream(buffer); }),
-                        best_rate(30, [&] { return run_gather(buffer); })};
-  }();
-  return limits;
-}
-
 }  // namespace
 
 std::string_view arithmetic_name(Arithmetic arithmetic) {
-  switch (arithmetic) {
-    case Arithmetic::sse2:
-      return "sse2";
-    case Arithmetic::avx2:
-      return "avx2";
-    case Arithmetic::avx512:
-      return "avx512";
-    case Arithmetic::bf16:
-      return "bf16";
-  }
-  return "";
+  return burners()[static_cast<std::size_t>(arithmetic)].name;
 }
 
 std::vector<Arithmetic> available_arithmetics() {
   std::vector<Arithmetic> available;
-  for (const Burner& burner : kBurners) {
-    if (is_available(burner.arithmetic)) available.push_back(burner.arithmetic);
+  for (std::size_t i = 0; i < burners().size(); ++i) {
+    if (burners()[i].is_available) available.push_back(static_cast<Arithmetic>(i));
   }
   return available;
 }
@@ -231,7 +202,7 @@ Arithmetic arithmetic_of(neural::cpu::Isa isa) {
 }
 
 Work run_fma(Arithmetic arithmetic) {
-  const Burner& burner = kBurners[static_cast<std::size_t>(arithmetic)];
+  const Burner& burner = burners()[static_cast<std::size_t>(arithmetic)];
   constexpr std::int64_t kSteps = 500'000;
   const int threads = renderer::available_threads();
   const double seconds = seconds_of(
@@ -288,12 +259,12 @@ double fma_limit(Arithmetic arithmetic) {
   return limits[arithmetic] = best_rate(30, [&] { return run_fma(arithmetic); });
 }
 
-double stream_limit() {
-  return memory_limits().stream;
-}
-
 double gather_limit() {
-  return memory_limits().gather;
+  static const double limit = [] {
+    const BigBuffer buffer;
+    return best_rate(30, [&] { return run_gather(buffer); });
+  }();
+  return limit;
 }
 
 }  // namespace gatelight::bench

@@ -53,9 +53,8 @@ Work run_stream(const BigBuffer& buffer);
 /// The amount is reads of 64 aligned bytes at random places, prefetched 32 ahead.
 Work run_gather(const BigBuffer& buffer);
 
-/// The best of several runs, measured once in the process (0.2 s for all).
+/// The best of several runs, measured once in the process (a tenth of a second).
 double fma_limit(Arithmetic arithmetic);  ///< operations per second
-double stream_limit();                    ///< bytes per second
 double gather_limit();                    ///< reads per second
 
 }  // namespace gatelight::bench

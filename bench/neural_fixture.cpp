@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "neural/base/random.h"
-#include "neural/layout/surface_layout.h"
+#include "neural/layout/vector3.h"
 
 namespace gatelight::bench {
 
@@ -23,17 +23,10 @@ constexpr std::uint32_t kRows = NeuralSurface::kRows;
 constexpr std::uint32_t kBatches = 8;
 constexpr float kTwoPi = 2.0f * std::numbers::pi_v<float>;
 
-Float3 operator-(const Float3& a, const Float3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Float3 cross(const Float3& a, const Float3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Float3 normalize(const Float3& a) {
-  const float length = std::hypot(a[0], a[1], a[2]);
-  return {a[0] / length, a[1] / length, a[2] / length};
+Float3 normalize(const neural::Double3& a) {
+  const double scale = 1.0 / neural::length(a);
+  return {static_cast<float>(scale * a[0]), static_cast<float>(scale * a[1]),
+          static_cast<float>(scale * a[2])};
 }
 
 Float3 torus_point(std::uint32_t column, std::uint32_t row) {
@@ -73,16 +66,8 @@ struct PointRandom {
   float next() { return neural::uniform_float(key, counter++); }
 };
 
-/// A smooth radiance that a small network can partly learn: bands over the surface and a lobe over
-/// directions.
-Float3 radiance(const Float3& p, const Float3& direction, const Float3& albedo) {
-  const float bands = 0.6f + 0.4f * std::sin(3.0f * p[0]) * std::cos(2.0f * p[1] + p[2]);
-  const float lobe = std::pow(std::max(0.0f, direction[2]), 4.0f);
-  return {albedo[0] * bands + 0.3f * lobe, albedo[1] * bands + 0.3f * lobe, albedo[2] * bands + 0.2f * lobe};
-}
-
 void set_point(NeuralPoints& points, std::size_t i, std::uint32_t triangle, const Float2& b,
-               const Float3& direction) {
+               const Float3& direction, PointRandom& random) {
   const NeuralSurface& surface = neural_surface();
   const auto& corners = surface.triangles[triangle];
   const Float3 &p0 = surface.positions[corners[0]], &p1 = surface.positions[corners[1]],
@@ -90,16 +75,14 @@ void set_point(NeuralPoints& points, std::size_t i, std::uint32_t triangle, cons
   Float3 position;
   for (std::size_t axis = 0; axis < 3; ++axis)
     position[axis] = p0[axis] * (1 - b[0] - b[1]) + p1[axis] * b[0] + p2[axis] * b[1];
-  const Float3 albedo = {0.5f + 0.3f * std::sin(position[0]), 0.5f, 0.5f + 0.3f * std::cos(position[1])};
   points.surfaces[i] = neural::surface_index(0, 0);
   points.triangles[i] = triangle;
   points.barycentrics[i] = b;
   points.positions[i] = position;
   points.directions[i] = direction;
-  points.normals[i] = normalize(cross(p1 - p0, p2 - p0));
-  points.albedos[i] = albedo;
-  const Float3 target = radiance(position, direction, albedo);
-  std::copy(target.begin(), target.end(), points.targets.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  points.normals[i] = normalize(neural::area_vector({surface.positions, surface.triangles}, corners));
+  points.albedos[i] = {0.5f + 0.3f * std::sin(position[0]), 0.5f, 0.5f + 0.3f * std::cos(position[1])};
+  for (std::size_t channel = 0; channel < 3; ++channel) points.targets[3 * i + channel] = random.next();
 }
 
 /// Puts the pixel at its place in its quad. The quad's diagonal goes from corner (0,0) to (1,1).
@@ -109,11 +92,11 @@ void set_pixel(NeuralPoints& points, std::size_t i, std::uint32_t x, std::uint32
   const float u = (static_cast<float>(x % 2) + random.next()) / 2,
               v = (static_cast<float>(y % 2) + random.next()) / 2;
   const std::uint32_t quad = row * kColumns + column;
-  const Float3 direction =
-      normalize({static_cast<float>(x) / 1000 - 0.5f, static_cast<float>(y) / 1000 - 0.5f, 1.0f});
+  const Float3 direction = normalize({x / 1000.0 - 0.5, y / 1000.0 - 0.5, 1.0});
   // Corners (0,0), (1,0), (1,1) below the diagonal; (0,0), (1,1), (0,1) above.
   const bool below = u >= v;
-  set_point(points, i, 2 * quad + (below ? 0 : 1), below ? Float2{u - v, v} : Float2{u, v - u}, direction);
+  set_point(points, i, 2 * quad + (below ? 0 : 1), below ? Float2{u - v, v} : Float2{u, v - u}, direction,
+            random);
 }
 
 void set_random(NeuralPoints& points, std::size_t i, bool sorted, PointRandom& random) {
@@ -124,7 +107,7 @@ void set_random(NeuralPoints& points, std::size_t i, bool sorted, PointRandom& r
   Float2 b = {random.next(), random.next()};
   if (b[0] + b[1] > 1) b = {1 - b[0], 1 - b[1]};
   const float z = 2 * random.next() - 1, phi = kTwoPi * random.next(), r = std::sqrt(1 - z * z);
-  set_point(points, i, triangle, b, {r * std::cos(phi), r * std::sin(phi), z});
+  set_point(points, i, triangle, b, {r * std::cos(phi), r * std::sin(phi), z}, random);
 }
 
 std::uint64_t hash_grid_bytes(const NeuralCase& which) {
@@ -199,16 +182,14 @@ std::shared_ptr<const neural::Model> neural_model(const NeuralCase& which) {
 }
 
 neural::QueryBatch NeuralPoints::query_batch() const {
-  neural::QueryBatch batch;
-  batch.surfaces = surfaces;
-  batch.triangles = triangles;
-  batch.barycentrics = barycentrics;
-  batch.positions = positions;
-  batch.directions = directions;
-  batch.normals = normals;
-  batch.albedos = albedos;
-  batch.size = size();
-  return batch;
+  return {.surfaces = surfaces,
+          .triangles = triangles,
+          .barycentrics = barycentrics,
+          .positions = positions,
+          .directions = directions,
+          .normals = normals,
+          .albedos = albedos,
+          .size = size()};
 }
 
 std::string order_name(Order order) {
@@ -218,13 +199,10 @@ std::string order_name(Order order) {
 NeuralPoints make_points(Order order, std::uint32_t width, std::uint32_t height, std::uint32_t patch) {
   const std::size_t count = std::size_t{width} * height;
   NeuralPoints points;
-  points.surfaces.resize(count);
-  points.triangles.resize(count);
+  for (auto* numbers : {&points.surfaces, &points.triangles}) numbers->resize(count);
+  for (auto* vectors : {&points.positions, &points.directions, &points.normals, &points.albedos})
+    vectors->resize(count);
   points.barycentrics.resize(count);
-  points.positions.resize(count);
-  points.directions.resize(count);
-  points.normals.resize(count);
-  points.albedos.resize(count);
   points.targets.resize(3 * count);
   neural_surface();
   tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {

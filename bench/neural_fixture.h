@@ -49,7 +49,7 @@ neural::ModelConfig neural_config(const NeuralCase& which);
 /// Built at the first call, then kept. Not thread-safe.
 std::shared_ptr<const neural::Model> neural_model(const NeuralCase& which);
 
-/// Points with all inputs that any of the models reads.
+/// Points with all inputs that any of the models reads, and random targets.
 struct NeuralPoints {
   std::vector<std::uint32_t> surfaces, triangles;
   std::vector<neural::Float2> barycentrics;

@@ -37,13 +37,64 @@ inline void set_fractions(benchmark::State& state, double operations, double sec
   if (reads > 0) state.counters["fraction_of_gather"] = reads / seconds / gather_limit();
 }
 
-class Stopwatch {
+/// Runs the row. Returns the elapsed seconds of all its iterations.
+template <class Body>
+double timed_seconds(benchmark::State& state, Body&& body) {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration elapsed{};
+  for (auto _ : state) {
+    const Clock::time_point start = Clock::now();
+    body();
+    elapsed += Clock::now() - start;
+  }
+  return std::chrono::duration<double>(elapsed).count();
+}
+
+/// The records of all iterations, of one batch each.
+inline double records(const benchmark::State& state) {
+  return static_cast<double>(state.iterations()) * kBatchRecords;
+}
+
+/// The counter is a mean per iteration, in milliseconds.
+inline benchmark::Counter mean_ms(double seconds) {
+  return {1e3 * seconds, benchmark::Counter::kAvgIterations};
+}
+
+/// What the steps of a row report, added up.
+struct StepSums {
+  neural::StepStatistics step;
+  double touched = 0.0;
+
+  void add(const neural::StepStatistics& other) {
+    step.seconds += other.seconds;
+    step.seconds_network += other.seconds_network;
+    step.seconds_sort += other.seconds_sort;
+    step.seconds_update += other.seconds_update;
+    touched += static_cast<double>(other.touched_nodes);
+  }
+  void report(benchmark::State& state) const {
+    state.counters["network_ms"] = mean_ms(step.seconds_network);
+    state.counters["sort_ms"] = mean_ms(step.seconds_sort);
+    state.counters["update_ms"] = mean_ms(step.seconds_update);
+  }
+};
+
+/// The batches of training_points() with their targets.
+class TrainingBatches {
  public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  TrainingBatches(Order order, std::uint32_t outputs) : points_(training_points(order)) {
+    for (const NeuralPoints& points : points_) targets.push_back(training_targets(points, outputs));
+  }
+  std::size_t count() const { return targets.size(); }
+  /// Begins again after the last batch.
+  neural::TrainingBatch operator[](std::size_t i) const {
+    return {points_[i % count()].query_batch(), targets[i % count()]};
+  }
+
+  std::vector<std::vector<float>> targets;
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
+  const std::vector<NeuralPoints>& points_;
 };
 
 }  // namespace gatelight::bench

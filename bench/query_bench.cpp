@@ -27,14 +27,9 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
     neural::QueryOptions options;
     options.precision = precision;
     answerer.backend->query(points.query_batch(), options, out);  // warm up
-    double seconds = 0.0, answers = 0.0;
-    for (auto _ : state) {
-      const Stopwatch watch;
-      answerer.backend->query(points.query_batch(), options, out);
-      seconds += watch.seconds();
-      answers += static_cast<double>(points.size());
-      benchmark::DoNotOptimize(out.data());
-    }
+    const double seconds =
+        timed_seconds(state, [&] { answerer.backend->query(points.query_batch(), options, out); });
+    const double answers = static_cast<double>(state.iterations()) * static_cast<double>(points.size());
     set_fractions(state, answers * forward_operations(model.parameters), seconds,
                   arithmetic_in_use(precision == neural::QueryPrecision::bf16),
                   order == Order::random ? answers * model.nodes_per_point() : 0.0);

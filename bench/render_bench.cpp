@@ -3,12 +3,12 @@
 // Counters are per second on the threads of the run.
 
 #include <benchmark/benchmark.h>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <string>
@@ -21,21 +21,15 @@ namespace {
 
 using Tiles = std::vector<std::vector<renderer::CameraSample>>;
 
-constexpr std::uint64_t kSamples = std::uint64_t{kWidth} * kHeight;
+constexpr double kSamples = kWidth * kHeight;
 
+/// Runs body(i) for all i < count on that many threads.
 template <typename Body>
-void for_each_tile(const Tiles& tiles, int threads, Body&& body) {
+void for_each(std::size_t count, int threads, Body&& body) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) body(tiles[i]);
-        },
-        tbb::simple_partitioner());
-  });
+  tbb::task_arena(threads).execute(
+      [&] { tbb::parallel_for(std::size_t{0}, count, body, tbb::simple_partitioner()); });
 }
 
 struct Worker {
@@ -44,10 +38,12 @@ struct Worker {
   renderer::RayCounts rays;
 };
 
-void set_rates(benchmark::State& state, std::uint64_t samples, std::uint64_t rays) {
-  using benchmark::Counter;
-  if (samples > 0) state.counters["samples/s"] = Counter(static_cast<double>(samples), Counter::kIsRate);
+using benchmark::Counter;
+
+void set_rates(benchmark::State& state, std::uint64_t rays) {
+  state.counters["samples/s"] = Counter(kSamples, Counter::kIsIterationInvariantRate);
   state.counters["rays/s"] = Counter(static_cast<double>(rays), Counter::kIsRate);
+  state.counters["rays/sample"] = Counter(static_cast<double>(rays) / kSamples, Counter::kAvgIterations);
 }
 
 void render_path(benchmark::State& state, const SceneCase& which) {
@@ -56,18 +52,16 @@ void render_path(benchmark::State& state, const SceneCase& which) {
   const renderer::PathIntegrator integrator(w->world, path_integrator_options(w->options));
   const int threads = static_cast<int>(state.range(0));
   tbb::enumerable_thread_specific<Worker> workers;
-  std::uint64_t samples = 0;
   std::uint32_t pass = 0;
   for (auto _ : state) {
     state.PauseTiming();
     const Tiles tiles = w->tiles(pass++);
     state.ResumeTiming();
-    for_each_tile(tiles, threads, [&](const std::vector<renderer::CameraSample>& tile) {
+    for_each(tiles.size(), threads, [&](std::size_t i) {
       Worker& worker = workers.local();
-      worker.results.resize(tile.size());
-      integrator.trace(tile, worker.results, {}, worker.rays, worker.scratch);
+      worker.results.resize(tiles[i].size());
+      integrator.trace(tiles[i], worker.results, {}, worker.rays, worker.scratch);
     });
-    samples += kSamples;
   }
   std::uint64_t rays = 0;
   double embree = 0.0;
@@ -75,8 +69,7 @@ void render_path(benchmark::State& state, const SceneCase& which) {
     rays += worker.rays.camera + worker.rays.bounce + worker.rays.shadow;
     embree += worker.rays.seconds;
   }
-  set_rates(state, samples, rays);
-  state.counters["rays/sample"] = static_cast<double>(rays) / static_cast<double>(samples);
+  set_rates(state, rays);
   state.counters["Mray/s_in_embree"] = static_cast<double>(rays) / embree * threads * 1e-6;
 }
 
@@ -85,18 +78,15 @@ void render_tracing_only(benchmark::State& state, const SceneCase& which) {
   if (!w) return state.SkipWithError(kNoScene);
   const TracingOnly tracer(*w);
   std::atomic<std::uint64_t> rays{0};
-  std::uint64_t samples = 0;
   std::uint32_t pass = 0;
   for (auto _ : state) {
     state.PauseTiming();
     const Tiles tiles = w->tiles(pass++);
     state.ResumeTiming();
-    for_each_tile(tiles, static_cast<int>(state.range(0)),
-                  [&](const std::vector<renderer::CameraSample>& tile) { rays += tracer.trace(tile); });
-    samples += kSamples;
+    for_each(tiles.size(), static_cast<int>(state.range(0)),
+             [&](std::size_t i) { rays += tracer.trace(tiles[i]); });
   }
-  set_rates(state, samples, rays);
-  state.counters["rays/sample"] = static_cast<double>(rays) / static_cast<double>(samples);
+  set_rates(state, rays);
 }
 
 const renderer::RayLog& recorded(const WorldFixture& w, const std::string& name) {
@@ -122,26 +112,19 @@ void replay(benchmark::State& state, const SceneCase& which,
   const BareEmbree& bare = w->bare();
   const bool shadow = kind == &renderer::RayLog::shadow;
   const bool camera = kind == &renderer::RayLog::camera;
-  const int threads = static_cast<int>(state.range(0));
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  std::uint64_t traced = 0;
+  constexpr std::size_t kChunk = 4096;
   for (auto _ : state) {
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 4096),
-                        [&](const tbb::blocked_range<std::size_t>& range) {
-                          const std::span part(rays.data() + range.begin(), range.size());
-                          if (packets) {
-                            bare.trace_packets(part, shadow, camera);
-                          } else {
-                            bare.trace_single(part, shadow);
-                          }
-                        });
+    for_each((rays.size() + kChunk - 1) / kChunk, static_cast<int>(state.range(0)), [&](std::size_t i) {
+      const std::span chunk = std::span(rays).subspan(i * kChunk);
+      const std::span part = chunk.first(std::min(kChunk, chunk.size()));
+      if (packets) {
+        bare.trace_packets(part, shadow, camera);
+      } else {
+        bare.trace_single(part, shadow);
+      }
     });
-    traced += rays.size();
   }
-  set_rates(state, 0, traced);
+  state.counters["rays/s"] = Counter(static_cast<double>(rays.size()), Counter::kIsIterationInvariantRate);
 }
 
 const int render_registered = [] {

@@ -113,61 +113,50 @@ std::vector<Lookup> lookups(bool random, int level) {
   return result;
 }
 
-void report(benchmark::State& state, double sum, std::uint64_t count) {
-  state.SetItemsProcessed(static_cast<std::int64_t>(count));
+/// Times all lookups. `read` returns the sum of two channels.
+template <class Read>
+void time_lookups(benchmark::State& state, bool random, int level, Read&& read) {
+  const std::vector<Lookup> all = lookups(random, level);
+  float sum = 0.0f;
+  const auto pass = [&] {
+    sum = 0.0f;
+    for (const Lookup& at : all) sum += read(at);
+    benchmark::DoNotOptimize(sum);
+  };
+  pass();  // warm up
+  for (auto _ : state) pass();
+  state.SetItemsProcessed(state.iterations() * kLookups);
   // Shows that both read the same pictures.
-  state.counters["mean"] = sum / static_cast<double>(count);
+  state.counters["mean"] = static_cast<double>(sum) / (2.0 * kLookups);
 }
 
 void ours(benchmark::State& state, bool random, int level, Encoding encoding) {
   const Pictures& p = pictures();
-  const std::vector<Lookup> all = lookups(random, level);
   // The footprint is half a level above `level`, so u_level = 0 always reads `level`.
   const float footprint = std::ldexp(1.4f / kSize, level);
-  double sum = 0.0;
-  std::uint64_t count = 0;
-  for (auto _ : state) {
-    float partial = 0.0f;
-    for (const Lookup& at : all) {
-      const scene::Material& material = p.scene.materials[at.picture];
-      const renderer::Vec4 value = p.ours->lookup(
-          encoding == Encoding::srgb ? material.base_color_texture : material.metallic_roughness_texture,
-          encoding, at.uv, footprint, 0.0f);
-      partial += value.x() + value.w();
-    }
-    sum += 0.5 * static_cast<double>(partial);
-    count += all.size();
-  }
-  report(state, sum, count);
+  time_lookups(state, random, level, [&](const Lookup& at) {
+    const scene::Material& material = p.scene.materials[at.picture];
+    const renderer::Vec4 value = p.ours->lookup(
+        encoding == Encoding::srgb ? material.base_color_texture : material.metallic_roughness_texture,
+        encoding, at.uv, footprint, 0.0f);
+    return value.x() + value.w();
+  });
 }
 
 void oiio(benchmark::State& state, bool random, int level) {
   const Pictures& p = pictures();
-  const std::vector<Lookup> all = lookups(random, level);
   OIIO::TextureSystem::Perthread* thread = p.theirs->get_perthread_info();
   OIIO::TextureOpt options;
   options.swrap = options.twrap = OIIO::TextureOpt::WrapPeriodic;
   options.interpmode = OIIO::TextureOpt::InterpBilinear;
   options.mipmode = OIIO::TextureOpt::MipModeOneLevel;
   const float width = std::ldexp(1.0f / kSize, level);
-  float value[4];
-  const auto pass = [&] {
-    float partial = 0.0f;
-    for (const Lookup& at : all) {
-      p.theirs->texture(p.handles[at.picture], thread, options, at.uv.x(), at.uv.y(), width, 0.0f, 0.0f,
-                        width, 4, value);
-      partial += value[0] + value[3];
-    }
-    return partial;
-  };
-  benchmark::DoNotOptimize(pass());
-  double sum = 0.0;
-  std::uint64_t count = 0;
-  for (auto _ : state) {
-    sum += 0.5 * static_cast<double>(pass());
-    count += all.size();
-  }
-  report(state, sum, count);
+  time_lookups(state, random, level, [&](const Lookup& at) {
+    float value[4];
+    p.theirs->texture(p.handles[at.picture], thread, options, at.uv.x(), at.uv.y(), width, 0.0f, 0.0f, width,
+                      4, value);
+    return value[0] + value[3];
+  });
 }
 
 const int texture_registered = [] {

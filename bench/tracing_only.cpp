@@ -33,11 +33,7 @@ std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples
       return renderer::sampling::to_unit_float(seed);
     };
     for (int depth = 0; depth < kMaxDepth; ++depth) {
-      alignas(16) RTCRayHit ray{};
-      ray.ray = {
-          origin.x(),       origin.y(), origin.z(), 1e-4f, direction.x(), direction.y(), direction.z(), 0.0f,
-          scene::kInfinity, ~0u,        0,          0};
-      ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      RTCRayHit ray = to_embree(origin, direction, 1e-4f, scene::kInfinity);
       rtcIntersect1(scene, &context, &ray);
       ++rays;
       if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
@@ -52,17 +48,9 @@ std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples
         t_max = 0.999f;
       }
       if (to_light.dot(n) > 0.0f) {
-        alignas(16) RTCRay shadow{};
-        shadow.org_x = origin.x();
-        shadow.org_y = origin.y();
-        shadow.org_z = origin.z();
-        shadow.dir_x = to_light.x();
-        shadow.dir_y = to_light.y();
-        shadow.dir_z = to_light.z();
-        shadow.tfar = t_max;
-        shadow.mask = ~0u;
-        rtcOccluded1(scene, &context, &shadow);
-        benchmark::DoNotOptimize(shadow.tfar);
+        RTCRayHit shadow = to_embree(origin, to_light, 0.0f, t_max);
+        rtcOccluded1(scene, &context, &shadow.ray);
+        benchmark::DoNotOptimize(shadow.ray.tfar);
         ++rays;
       }
       const float u = random();

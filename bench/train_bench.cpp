@@ -20,9 +20,11 @@ struct Learner {
   TrainCase which;
   std::shared_ptr<const neural::Model> model;
   std::unique_ptr<neural::Backend> backend;
-  std::vector<std::vector<float>> targets;
+  TrainingBatches batches;
+  std::size_t steps = 0;
 
-  explicit Learner(const TrainCase& c) : which(c), model(neural_model(c.model)) {
+  explicit Learner(const TrainCase& c)
+      : which(c), model(neural_model(c.model)), batches(c.order, model->config.mlp.outputs) {
     neural::TrainingOptions options;
     options.update = c.update;
     options.precision = c.precision;
@@ -32,23 +34,18 @@ struct Learner {
       options.adam.l2_network = 0.0f;
     }
     backend = neural::cpu::make_cpu_backend(model, options);
-    for (const NeuralPoints& points : training_points(c.order))
-      targets.push_back(training_targets(points, model->config.mlp.outputs));
     if (c.denormal) {
       neural::ModelState state = backend->export_state();
       for (float& p : state.parameters) p *= 1e-19f;
       state.averages = state.parameters;
       backend->import_state(state);
-      for (std::vector<float>& batch : targets)
+      for (std::vector<float>& batch : batches.targets)
         for (float& t : batch) t *= 1e-38f;
     }
-    for (std::size_t i = 0; i < targets.size(); ++i) step(i);  // warm up: memory, threads, every batch once
+    while (steps < batches.count()) step();  // warm up: memory, threads, every batch once
   }
 
-  neural::StepStatistics step(std::size_t i) {
-    const std::size_t batch = i % targets.size();
-    return backend->train({training_points(which.order)[batch].query_batch(), targets[batch]});
-  }
+  neural::StepStatistics step() { return backend->train(batches[steps++]); }
 };
 
 void train_step(benchmark::State& state, const TrainCase& which) {
@@ -58,27 +55,15 @@ void train_step(benchmark::State& state, const TrainCase& which) {
       learner.reset();
       learner = std::make_unique<Learner>(which);
     }
-    double seconds = 0.0, network = 0.0, sort = 0.0, update = 0.0, touched = 0.0, steps = 0.0;
-    for (auto _ : state) {
-      const Stopwatch watch;
-      const neural::StepStatistics statistics = learner->step(static_cast<std::size_t>(steps));
-      seconds += watch.seconds();
-      network += statistics.seconds_network;
-      sort += statistics.seconds_sort;
-      update += statistics.seconds_update;
-      touched += static_cast<double>(statistics.touched_nodes);
-      steps += 1.0;
-    }
+    StepSums sums;
+    const double seconds = timed_seconds(state, [&] { sums.add(learner->step()); });
+    sums.report(state);
     const neural::Model& model = *learner->model;
-    const double records = steps * kBatchRecords;
     // A node is read for each of its records. The update reads two moments and the average.
-    const double reads = records * model.nodes_per_point() + 3 * touched;
-    set_fractions(state, records * training_operations(model.parameters), seconds, arithmetic_in_use(),
+    const double reads = records(state) * model.nodes_per_point() + 3 * sums.touched;
+    set_fractions(state, records(state) * training_operations(model.parameters), seconds, arithmetic_in_use(),
                   which.order != Order::coherent ? reads : 0.0);
-    state.counters["network_ms"] = 1e3 * network / steps;
-    state.counters["sort_ms"] = 1e3 * sort / steps;
-    state.counters["update_ms"] = 1e3 * update / steps;
-    state.counters["touched"] = touched / steps;
+    state.counters["touched"] = {sums.touched, benchmark::Counter::kAvgIterations};
     state.counters["feature_MB"] = static_cast<double>(learner->backend->parameter_bytes()) / 1e6;
   });
 }

@@ -37,6 +37,13 @@ double step_bytes(const neural::Model& model, double records, double touched) {
   return read + touched * (2 * 4 * vector + 8);                    // feature, two moments, average, counter
 }
 
+/// Sets the fractions of the device's limits, unless it has no timestamps.
+void set_device_fractions(benchmark::State& state, double operations, double bytes, double seconds) {
+  if (seconds == 0.0) return;
+  state.counters["fraction_of_arithmetic"] = operations / seconds / limits().operations_per_second;
+  state.counters["fraction_of_bandwidth"] = bytes / seconds / limits().bytes_per_second;
+}
+
 void limit_rows(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(limits().bytes_per_second);
   state.counters["GFLOP/s"] = limits().operations_per_second / 1e9;
@@ -47,42 +54,21 @@ void limit_rows(benchmark::State& state) {
 void train_step(benchmark::State& state, const NeuralCase& which, Order order) {
   const auto model = neural_model(which);
   const auto backend = vulkan::make_vulkan_backend(shared_machine(), model, {});
-  std::vector<std::vector<float>> targets;
-  for (const NeuralPoints& points : training_points(order))
-    targets.push_back(training_targets(points, model->config.mlp.outputs));
-  const auto batch = [&](std::size_t i) -> neural::TrainingBatch {
-    const std::size_t b = i % targets.size();
-    return {training_points(order)[b].query_batch(), targets[b]};
-  };
-  for (std::size_t i = 0; i < targets.size(); ++i) backend->train(batch(i));  // warm up
-  neural::StepStatistics sum;
-  double steps = 0.0, touched = 0.0;
-  const auto take = [&](const neural::StepStatistics& step) {
-    sum.seconds += step.seconds;
-    sum.seconds_network += step.seconds_network;
-    sum.seconds_sort += step.seconds_sort;
-    sum.seconds_update += step.seconds_update;
-    touched += static_cast<double>(step.touched_nodes);
-    steps += 1.0;
-  };
+  const TrainingBatches batches(order, model->config.mlp.outputs);
+  for (std::size_t i = 0; i < batches.count(); ++i) backend->train(batches[i]);  // warm up
+  StepSums sums;
   std::size_t started = 0, finished = 0;
   for (auto _ : state) {
-    backend->start(batch(started++));
+    backend->start(batches[started++]);
     if (started - finished <= kAhead) continue;
-    take(backend->finish());
+    sums.add(backend->finish());
     ++finished;
   }
-  for (; finished < started; ++finished) take(backend->finish());
-  const double records = steps * kBatchRecords;
-  state.counters["device_ms"] = 1e3 * sum.seconds / steps;
-  state.counters["network_ms"] = 1e3 * sum.seconds_network / steps;
-  state.counters["sort_ms"] = 1e3 * sum.seconds_sort / steps;
-  state.counters["update_ms"] = 1e3 * sum.seconds_update / steps;
-  if (sum.seconds == 0.0) return;
-  state.counters["fraction_of_arithmetic"] =
-      records * training_operations(model->parameters) / sum.seconds / limits().operations_per_second;
-  state.counters["fraction_of_bandwidth"] =
-      step_bytes(*model, records, touched) / sum.seconds / limits().bytes_per_second;
+  for (; finished < started; ++finished) sums.add(backend->finish());
+  state.counters["device_ms"] = mean_ms(sums.step.seconds);
+  sums.report(state);
+  set_device_fractions(state, records(state) * training_operations(model->parameters),
+                       step_bytes(*model, records(state), sums.touched), sums.step.seconds);
 }
 
 void query(benchmark::State& state, const NeuralCase& which, Order order, neural::QueryPrecision precision) {
@@ -94,25 +80,21 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
   options.precision = precision;
   backend->query(points.query_batch(), options, out);  // warm up
   vulkan::QuerySeconds sum;
-  double queries = 0.0;
   for (auto _ : state) {
     backend->query(points.query_batch(), options, out);
     const vulkan::QuerySeconds seconds = vulkan::last_query_seconds(*backend);
     sum.encode += seconds.encode;
     sum.network += seconds.network;
     sum.copies += seconds.copies;
-    queries += 1.0;
   }
-  state.counters["device_ms"] = 1e3 * (sum.encode + sum.network) / queries;
-  state.counters["encode_ms"] = 1e3 * sum.encode / queries;
-  state.counters["network_ms"] = 1e3 * sum.network / queries;
-  state.counters["copies_ms"] = 1e3 * sum.copies / queries;
-  if (sum.network == 0.0) return;
-  const double answers = queries * static_cast<double>(points.size());
+  state.counters["device_ms"] = mean_ms(sum.encode + sum.network);
+  state.counters["encode_ms"] = mean_ms(sum.encode);
+  state.counters["network_ms"] = mean_ms(sum.network);
+  state.counters["copies_ms"] = mean_ms(sum.copies);
+  const double answers = static_cast<double>(state.iterations()) * static_cast<double>(points.size());
   const double bytes = answers * model->nodes_per_point() * 4.0 * model->parameters.features;
-  state.counters["fraction_of_arithmetic"] = answers * forward_operations(model->parameters) /
-                                             (sum.encode + sum.network) / limits().operations_per_second;
-  state.counters["fraction_of_bandwidth"] = bytes / (sum.encode + sum.network) / limits().bytes_per_second;
+  set_device_fractions(state, answers * forward_operations(model->parameters), bytes,
+                       sum.encode + sum.network);
 }
 
 const bool vulkan_registered = [] {

@@ -11,16 +11,6 @@ namespace gatelight::bench {
 
 namespace {
 
-scene::Scene load(const SceneCase& which) {
-  scene::Scene scene = scene::load_gltf(file_of(which));
-  if (!which.sun) {
-    std::erase_if(scene.lights, [](const scene::PunctualLight& light) {
-      return light.type == scene::LightType::directional;
-    });
-  }
-  return scene;
-}
-
 renderer::RenderOptions options_of(const SceneCase& which) {
   renderer::RenderOptions options;
   options.width = kWidth;
@@ -34,7 +24,7 @@ renderer::RenderOptions options_of(const SceneCase& which) {
 }  // namespace
 
 WorldFixture::WorldFixture(const SceneCase& which)
-    : scene(load(which)),
+    : scene(scene::load_gltf(file_of(which))),
       options(options_of(which)),
       world(scene, options.environment, options.light_selection) {}
 

@@ -17,16 +17,10 @@ struct SceneCase {
   const char* file;
   const char* camera;
   scene::Color sky;
-  bool sun = true;  ///< keeps the file's directional lights
 };
 
 inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {0.65f, 0.8f, 1.0f}};
 inline const SceneCase kKitchen{"kitchen", "country-kitchen/country-kitchen.glb", "", {0.0f, 0.0f, 0.0f}};
-inline const SceneCase kBistro{
-    "bistro", "bistro-exterior/bistro-exterior.glb", "street", {0.65f, 0.8f, 1.0f}};
-/// Without sun and sky: only its lamps give light.
-inline const SceneCase kBistroNight{
-    "bistro_night", "bistro-exterior/bistro-exterior.glb", "street", {0.0f, 0.0f, 0.0f}, false};
 
 inline constexpr const char* kNoScene = "GATELIGHT_SCENES does not name a folder with this scene";
 

@@ -1,7 +1,7 @@
-"""Of scripts/check/mutate: small defects that can be put into C++ source text.
+"""Small defects that scripts/check/mutate puts into C++ source text.
 
-clang-format puts blanks around binary operators and none around those of types, templates and pointers; the patterns below
-rely on that. A defect that makes no sense does not compile, and is thrown away by the caller.
+The patterns below rely on clang-format: it puts blanks around binary operators, and none around those of types, templates
+and pointers. A defect that makes no sense does not compile, and the caller throws it away.
 """
 
 import dataclasses
@@ -12,13 +12,13 @@ COMPARISONS = {"<": ("<=", ">"), "<=": ("<", ">="), ">": (">=", "<"), ">=": (">"
 OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*=", "&&": "||", "||": "&&"}
 WORDS = {"min": "max", "max": "min"}
 PAIRS = {"(": ")", "[": "]", "{": "}"}
-# What words a message or is checked when compiling; from here to the end of the statement or of the call nothing is changed.
+# Messages and checks at compile time. Nothing changes from here to the end of the statement or of the call.
 MESSAGES = re.compile(r"\b(throw|using|static_assert|friend|goto)\b|\b(assert|fmt::format|(\w+(\.|->))?fail)\(")
 
 
 @dataclasses.dataclass(frozen=True)
 class Mutant:
-    """One defect: columns begin to end of a line become `text`."""
+    """One defect: a line and what it becomes."""
     file: str
     line: int  # from 1
     kind: str
@@ -27,7 +27,7 @@ class Mutant:
 
     @property
     def id(self):
-        """The same wherever the line moves to."""
+        """Does not depend on the number of the line."""
         text = "\n".join((self.file, self.kind, self.before.strip(), self.after.strip()))
         return hashlib.sha1(text.encode()).hexdigest()[:8]
 
@@ -38,7 +38,7 @@ def blank_out(text, begin, end):
 
 
 def without_words(text):
-    """The same text with blanks for comments, characters, the insides of strings and what the preprocessor reads."""
+    """The same text with blanks for comments, characters, the insides of strings and preprocessor lines."""
     pattern = re.compile(
         r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![\w])\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
         re.DOTALL | re.MULTILINE)
@@ -52,7 +52,7 @@ def without_words(text):
 
 
 def closing(code, begin):
-    """Where the bracket that opens at `begin` is closed; None if it is not."""
+    """The place of the bracket that closes the one at `begin`, or None."""
     depth = 0
     for i in range(begin, len(code)):
         if code[i] in "([{":
@@ -65,7 +65,7 @@ def closing(code, begin):
 
 
 def without_messages(code):
-    """Neither messages nor template heads; what comes before a message in its statement stays."""
+    """The same text with blanks for messages and template heads. What comes before a message in its statement stays."""
     for match in reversed(list(MESSAGES.finditer(code))):
         if match.group(2):
             end = closing(code, match.end() - 1) or match.end()
@@ -84,7 +84,7 @@ def without_messages(code):
 
 
 def kind_of_block(head, outer):
-    """What a brace opens: 'code', or 'names' (namespaces, classes), or 'enum'. head: the text of its statement."""
+    """The kind of block that a brace opens: 'code', 'names' (namespaces, classes) or 'enum'. head: the text before it."""
     if re.search(r"\benum\b", head):
         return "enum"
     if outer == "code" and not re.search(r"\b(struct|class|union)\s+\w*\s*$", head):
@@ -97,7 +97,7 @@ def kind_of_block(head, outer):
 
 
 def scopes_of_lines(code):
-    """For each line the kind of block that it begins in."""
+    """The kind of block in which each line begins."""
     stack, result = ["names"], []
     begin = 0
     for i, c in enumerate(code + "\n"):
@@ -113,7 +113,7 @@ def scopes_of_lines(code):
 
 
 def operand_end(code, begin):
-    """Where the operand that begins there ends: a name or number with what is called, indexed and selected."""
+    """The end of the operand that begins there: a name or number with its calls, indices and members."""
     match = re.compile(r"[-+!~]?(?:_cast<[\w:<> ]*>(?=\()|[\w:.']|->)*").match(code, begin)
     end = match.end()
     while end < len(code) and code[end] in PAIRS:
@@ -128,7 +128,7 @@ def changed_operators(code):
     for match in re.finditer(r"(?<= )([-+*/<>=!&|]{1,2})(?= |$)", code):
         sign = match.group()
         if code[match.start() - 2] == '"' or code[match.end() + 1:match.end() + 2] == '"':
-            continue  # text put together
+            continue  # concatenated text
         for other in COMPARISONS.get(sign, ()):
             yield "comparison", match.start(), match.end(), other
         if sign in OPERATORS:
@@ -138,7 +138,7 @@ def changed_operators(code):
 
 
 def other_numbers(text):
-    """Numbers in the place of one."""
+    """The numbers that can replace a number."""
     if re.fullmatch(r"\d+[uUlL]*", text):
         digits = re.match(r"\d+", text).group()
         suffix = text[len(digits):]
@@ -166,7 +166,7 @@ def dropped_factors(code):
 
 
 def may_be_swapped(first, second):
-    """Not a text with what is none, nor parts of a type."""
+    """No text with something else, and no parts of a type."""
     return (first and second and first != second and first.startswith('"') == second.startswith('"') and
             not any(argument.count("<") != argument.count(">") for argument in (first, second)))
 
@@ -191,7 +191,7 @@ def swapped_arguments(code):
 
 
 def statement_begin(code):
-    """Behind blanks, `else`, and the heads of conditions and loops that stand on the same line."""
+    """The column after blanks, `else`, and the heads of conditions and loops on the same line."""
     at = len(code) - len(code.lstrip())
     while True:
         match = re.compile(r"(\} )?else (?!\{)|(?:if|for|while) \(|case [\w:]+: |default: ").match(code, at)
@@ -227,7 +227,7 @@ def negated_conditions(code):
 
 
 def removed_exits(code, line_before):
-    """Of what a condition guards; the last return of a function stays."""
+    """Exits under a condition. The last return of a function stays."""
     match = re.search(r"\b(?:return\b[^;]*|continue|break);$", code.rstrip())
     if not match:
         return
@@ -238,7 +238,7 @@ def removed_exits(code, line_before):
 
 
 def changes(code, line_before, scope):
-    """(kind, begin, end, what stands there instead: text, or texts and columns of the line)."""
+    """(kind, begin, end, replacement: text, or texts and columns of the line)."""
     yield from changed_operators(code)
     yield from changed_constants(code)
     yield from dropped_factors(code)
@@ -251,7 +251,7 @@ def changes(code, line_before, scope):
 
 
 def initialiser_only(code):
-    """Outside functions: blanks for everything but the value of a constant or of a member."""
+    """Of a line outside functions, the value of a constant or of a member. The rest becomes blanks."""
     match = re.match(r"[^(=]* = ", code)
     return blank_out(code, 0, match.end()) if match and "= default" not in code and "= delete" not in code else ""
 

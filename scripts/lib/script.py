@@ -1,4 +1,4 @@
-"""What the scripts share: where things are, commands that are run, files that are written, refusals of one line."""
+"""Code that the scripts share: paths, commands, files, tables, and errors of one line."""
 
 import argparse
 import json
@@ -13,7 +13,7 @@ PROGRAMS = os.path.join(ROOT, "build", "release", "bin")
 
 
 class Failed(Exception):
-    """A command, or what it was to give: the text is for people."""
+    """A command failed, or did not give its result. The text is for the user."""
 
 
 def say(text):
@@ -21,7 +21,7 @@ def say(text):
 
 
 def start(main):
-    """Ends with the exit code that `main` answers, or with what failed."""
+    """Ends with the exit code that `main` returns, or with the message of what failed."""
     try:
         sys.exit(main())
     except (Failed, OSError) as failure:
@@ -29,7 +29,7 @@ def start(main):
 
 
 def run(command, environment=None, **more):
-    """What it writes to stdout. `environment` comes on top of our own."""
+    """Returns what the command writes to stdout. `environment` adds to our own."""
     done = subprocess.run(command, check=False, text=True, env={**os.environ, **(environment or {})},
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more})
     if done.returncode != 0:
@@ -52,10 +52,18 @@ def read_json(path):
 
 
 def write(path, text):
-    """All of it or nothing."""
+    """The file gets the complete text or stays as it was."""
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(text)
     os.replace(path + ".part", path)
+
+
+def print_table(rows):
+    """Rows of text in columns: the first to the left, the others to the right."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for first, *others in rows:
+        cells = [first.ljust(widths[0])] + [text.rjust(width) for text, width in zip(others, widths[1:])]
+        print("  ".join(cells).rstrip())
 
 
 def parser(description):

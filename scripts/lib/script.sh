@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What the shell scripts share. Each has a function usage(), and calls answer_help "$@" first.
+# Code that the shell scripts share. Each script has a function usage().
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 
@@ -8,7 +8,7 @@ fail() {
   exit 1
 }
 
-# Ends with the help where the first word asks for it.
+# Prints the help and ends if the first word asks for it.
 answer_help() {
   if [[ ${1:-} == --help || ${1:-} == -h ]]; then
     usage
@@ -16,8 +16,8 @@ answer_help() {
   fi
 }
 
-# build PRESET TARGETS CMAKE_OPTIONS...: in the root, which is where we are from then on. Several targets are one word.
-# JOBS=2 builds with so many at once, CMAKE_OPTIONS="..." names another compiler or launcher.
+# build PRESET TARGETS CMAKE_OPTIONS...: changes to the root, configures and builds. TARGETS is one word with blanks.
+# JOBS=2 sets the number of compilers at once, CMAKE_OPTIONS="..." adds options such as another compiler or launcher.
 jobs=${JOBS:-$(nproc)}
 read -r -a more_options <<<"${CMAKE_OPTIONS:-}"
 build() {

@@ -1,4 +1,4 @@
-"""One run of gatelight-bench or of PyTorch doing the same, and how many cores other programs took meanwhile."""
+"""Runs of gatelight-bench and of the same in PyTorch, and the cores that other programs use meanwhile."""
 
 import json
 import os
@@ -9,12 +9,12 @@ import time
 from script import run
 
 TO_SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
-# Above so many cores of other programs, times are in doubt.
+# Times are in doubt if other programs use more than this many cores.
 DISTURBING = 0.05
 
 
 def gatelight_rows(program, pattern, *flags, repetitions=1, environment=None):
-    """What the benchmarks tell: of several repetitions median, spread and the like, of one the row itself."""
+    """The rows of the benchmarks. For several repetitions they are median, spread and other aggregates."""
     if repetitions > 1:
         flags = (*flags, f"--benchmark_repetitions={repetitions}", "--benchmark_report_aggregates_only=true")
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
@@ -32,14 +32,14 @@ def seconds_of(row):
 
 
 def pytorch_rows(python, environment=None, **flags):
-    """Milliseconds by the names of pytorch_cache.py."""
+    """The milliseconds that pytorch_cache.py prints, by its names."""
     program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pytorch_cache.py")
     words = [word for name, value in flags.items() for word in (f"--{name}", str(value))]
     return json.loads(run([python, program, *words], environment).splitlines()[-1])
 
 
 class OtherPrograms:
-    """What they use from now on."""
+    """Measures the cores that they use from now on."""
 
     def __init__(self):
         self.begin, self.busy = time.monotonic(), self.busy_seconds()
@@ -52,7 +52,7 @@ class OtherPrograms:
 
     @staticmethod
     def busy_seconds():
-        """Of all cores together, less those of our finished children."""
+        """Busy seconds of all cores together, without those of our finished children."""
         try:
             with open("/proc/stat", encoding="utf-8") as file:
                 user, nice, system, _idle, _wait, irq, soft, steal = map(int, file.readline().split()[1:9])

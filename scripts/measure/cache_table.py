@@ -1,4 +1,4 @@
-"""Figures of scripts/measure/measure-cache: seconds that path tracing needs for the same error, and the tables."""
+"""The tables of scripts/measure/measure-cache, and the seconds that path tracing needs for the same error."""
 
 import csv
 import io
@@ -9,8 +9,8 @@ ERRORS = ("rel_mse_clean", "flip", "hdr_flip")
 
 
 def equal_error_seconds(points, error):
-    """Seconds for `error` on the line through (seconds, error) points, which are straight pieces on logarithmic axes, and whether
-    it lies beyond them; none where there are no two points, or an error that has no logarithm."""
+    """The seconds for `error`, and whether it lies beyond the points. The points are (seconds, error), joined by straight lines
+    on logarithmic axes. None if there are no two points, or if an error has no logarithm."""
     points = sorted((s, e) for s, e in points if s and e and s > 0 and e > 0)
     if len(points) < 2 or not error or error <= 0:
         return None, False
@@ -19,7 +19,7 @@ def equal_error_seconds(points, error):
         if e0 >= error >= e1 and e0 > e1:
             return on_piece(s0, e0, s1, e1, error), False
     (s0, e0), (s1, e1) = pieces[0] if error > points[0][1] else pieces[-1]
-    # A piece that does not fall says nothing about what lies beyond.
+    # A line that does not fall cannot be extended.
     return (on_piece(s0, e0, s1, e1, error), True) if e0 > e1 and s0 < s1 else (None, True)
 
 
@@ -34,7 +34,7 @@ def mean(rows, key):
 
 
 def baseline_points(rows, scene, kind, key):
-    """Seconds and error of the plain integrator at each of its sample counts, means over the pairs."""
+    """Seconds and error of the plain integrator at each of its sample counts: means over the pairs."""
     groups = {}
     for row in rows:
         if row["scene"] == scene and row["kind"] == kind and row["baseline"]:
@@ -43,7 +43,7 @@ def baseline_points(rows, scene, kind, key):
 
 
 def add_equal_error(rows):
-    """Into every row that is no baseline."""
+    """Adds the columns to every row. They are empty for a baseline."""
     for row in rows:
         for key in ERRORS:
             points = baseline_points(rows, row["scene"], row["kind"], key)
@@ -66,7 +66,7 @@ def as_csv(rows):
 
 
 def cell(rows, key, pattern, scale=1.0):
-    """The mean, and how far a pair is from it where they differ."""
+    """The mean, and the standard deviation if the pairs differ."""
     values = [row[key] * scale for row in rows if row.get(key) is not None]
     if not values:
         return "-"
@@ -81,7 +81,7 @@ def faster(rows, key):
     if not values:
         return "-"
     mark = "*" if any(row.get("extrapolated_" + key) for row in rows) else ""
-    # A mean of ratios: the geometric one.
+    # The geometric mean, because these are ratios.
     return f"{math.exp(statistics.fmean(map(math.log, values))):.2f}{mark}"
 
 
@@ -90,9 +90,9 @@ COLUMNS = [("run", "run", None, 1), ("spp", "spp", "{:.0f}", 1), ("steps", "step
            ("all, s", "seconds", "{:.2f}", 1), ("cache, MiB", "memory_cache", "{:.1f}", 2.0 ** -20),
            ("rel. MSE", "rel_mse_clean", "{:.5f}", 1), ("bias²", "bias_rel_mse", "{:.5f}", 1),
            ("FLIP", "flip", "{:.4f}", 1), ("HDR-FLIP", "hdr_flip", "{:.4f}", 1)]
-LEGEND = """Seconds: all but loading, building and writing. Rel. MSE: of one picture, the reference's own noise taken off. bias²: what
-of it would remain with infinitely many samples, from pairs of pictures. Times faster: seconds that the plain integrator needs
-for the same error, over those of the run; * where that lies beyond the sample counts measured."""
+LEGEND = """Seconds: without loading, building and writing. Rel. MSE: of one picture, without the noise of the reference. bias²: the part
+that would remain with infinitely many samples, from pairs of pictures. Times faster: the seconds that the plain integrator
+needs for the same error, over those of the run; * if that lies beyond the measured sample counts."""
 
 
 def as_markdown(rows):

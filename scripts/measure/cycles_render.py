@@ -1,9 +1,9 @@
-"""Renders a glTF file with Blender's Cycles, as plainly as it can be told to: run by scripts/measure/compare-cycles.
+"""Renders a glTF file with Blender's Cycles without any of its extras: run by scripts/measure/compare-cycles.
 
 blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
 
-For each of "spp" one picture is rendered, its seconds (scene sync included) are measured, and one line of JSON, with the
-prefix "cycles: ", tells them. "out" may hold a path for the last picture (EXR, 32-bit float)."""
+Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
+JSON with the prefix "cycles: ". "out" may hold a path for the last picture (EXR, 32-bit float)."""
 
 import json
 import sys
@@ -20,7 +20,7 @@ import bpy  # noqa: E402
 def main():
     job = json.loads(sys.argv[sys.argv.index("--") + 1])
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    # COMPAT: a sun of the file is as bright as its number says, without a division by 683.
+    # COMPAT: the intensity of a sun is not divided by 683.
     bpy.ops.import_scene.gltf(filepath=job["scene"], convert_lighting_mode="COMPAT")
     scene = bpy.context.scene
     set_camera(scene, job.get("camera"))
@@ -68,7 +68,7 @@ def set_sampling(scene, job):
     cycles.use_adaptive_sampling = False
     cycles.seed = job.get("seed", 0)
     cycles.time_limit = 0.0
-    # 0 bounces is direct light; every kind may use all of them, and nothing is cut off.
+    # 0 bounces is direct light only. Every kind of bounce may use all of them.
     for kind in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces"):
         setattr(cycles, kind, job["bounces"])
     cycles.transparent_max_bounces = 64

@@ -1,22 +1,22 @@
-"""The one table of the scenes that measurements are made with."""
+"""The table of the scenes that all measurements use."""
 
 import os
 from typing import NamedTuple
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SKY = (0.65, 0.8, 1.0)
-# So many times as bright are scenes in the open, by what was measured: keep them, or measure anew.
+# The brightness of the sky over scenes in the open, for each measurement. A change needs new measurements.
 BRIGHTNESS = {"cache": 2.0, "cycles": 1.0}
 
 
 class Scene(NamedTuple):
     title: str
-    file: str  # in the folder of the large scenes; in the project if it begins with data/
+    file: str  # in the folder of the large scenes, or in the project if it begins with data/
     camera: str | None = None  # None: the first
     open_air: bool = False
 
     def path(self, folder):
-        """folder: of the large scenes."""
+        """`folder` is that of the large scenes."""
         return os.path.join(ROOT if self.file.startswith("data/") else folder or "", self.file)
 
     def stem(self):
@@ -27,7 +27,7 @@ class Scene(NamedTuple):
         return [BRIGHTNESS[measured] * value for value in SKY] if self.open_air else None
 
     def flags(self, measured):
-        """Of 'gatelight render'; measured: one of BRIGHTNESS."""
+        """Flags of 'gatelight render'. `measured` is a key of BRIGHTNESS."""
         words = ["--camera", self.camera] if self.camera else []
         if self.open_air:
             words += ["--environment", ",".join(f"{value:g}" for value in SKY), "--environment-scale", f"{BRIGHTNESS[measured]:g}"]
@@ -45,7 +45,7 @@ SCENES = {
 
 
 def title_of(name):
-    """By the name that 'gatelight sweep' gives a scene."""
+    """The title by the name that 'gatelight sweep' gives a scene."""
     return next((scene.title for scene in SCENES.values() if scene.stem() == name), name)
 
 

@@ -1,11 +1,11 @@
-"""The paper's claims beside what was measured: the first table of RESULTS.md. Verdicts follow from the figures."""
+"""Compares the paper's claims with our measurements: the first table of RESULTS.md. Verdicts follow from the figures."""
 
 from paper_figures import ADAPTIVE_MB, TABLE1, TABLE2
 from measured_scenes import title_of
 from results_data import difference
 from results_tables import table
 
-# Times and sizes differ by more than this, or they count as the same.
+# Times and sizes with a smaller ratio count as the same.
 SAME = 1.1
 APPLICATIONS = (("nao", "occlusion"), ("nrc", "radiance"))
 
@@ -30,23 +30,11 @@ def verdict(good, total):
     return "holds" if good == total else "does not hold" if good == 0 else f"holds in {good} of {total}"
 
 
-def flips(result, integrator, a, b):
-    """FLIP of both rows in words, and the signs of their differences."""
+def lower_flip(result, integrator, a, b, lower=True):
+    """FLIP of both rows in words, and the verdict of: row a has the lower FLIP, or has not where `lower` is False."""
     found = list(pairs(result, integrator, a, b))
     text = "; ".join(f"{name} {x.mean('flip'):.3f} and {y.mean('flip'):.3f}" for name, x, y in found)
-    return text, [difference(x, y, "flip") for _, x, y in found]
-
-
-def lower_flip(result, integrator, a, b):
-    """Ours and verdict of: row a has the lower FLIP."""
-    text, signs = flips(result, integrator, a, b)
-    return text, verdict(signs.count(-1), len(signs))
-
-
-def no_lower_flip(result, integrator, a, b):
-    """Ours and verdict of: row a has no lower FLIP than b."""
-    text, signs = flips(result, integrator, a, b)
-    return text, verdict(len(signs) - signs.count(-1), len(signs))
+    return text, verdict(sum((difference(x, y, "flip") == -1) == lower for _, x, y in found), len(found))
 
 
 def paper_lower_flip(integrator):
@@ -70,32 +58,30 @@ def paper_times(integrator, index):
 
 def table1_claims(result):
     for integrator, word in APPLICATIONS:
-        ours, held = lower_flip(result, integrator, "gate", "hash grid")
-        yield (f"At equal memory GATE's FLIP is lower than the hash grid's ({word})", paper_lower_flip(integrator), ours, held)
+        yield (f"At equal memory GATE's FLIP is lower than the hash grid's ({word})", paper_lower_flip(integrator),
+               *lower_flip(result, integrator, "gate", "hash grid"))
     for integrator, word in APPLICATIONS:
         for column, index, what in (("kernel_ms", 0, "A training step takes the hash grid longer"),
                                     ("query_ms", 1, "Answers take the hash grid longer")):
-            ours, held = times(result, integrator, column)
-            yield f"{what} ({word}): times GATE's", paper_times(integrator, index), ours, held
+            yield f"{what} ({word}): times GATE's", paper_times(integrator, index), *times(result, integrator, column)
     for integrator, word in APPLICATIONS:
-        ours, held = times(result, integrator, "kernel_ms", "hash grid", "hash grid, sparse updates")
         yield (f"What costs the hash grid is that every entry is visited in every step ({word}): step, times one with sparse updates",
-               "not measured", ours, held)
+               "not measured", *times(result, integrator, "kernel_ms", "hash grid", "hash grid, sparse updates"))
 
 
 def table2_claims(result):
     for integrator, word in APPLICATIONS:
         paper = TABLE2[integrator]
-        ours, held = lower_flip(result, integrator, "gate", "hash grid S")
         yield (f"GATE's FLIP is lower than that of a hash grid below 1 MB ({word})",
-               f"Bistro {paper['gate'][3]:.3f} and {paper['hash grid S'][3]:.3f}", ours, held)
+               f"Bistro {paper['gate'][3]:.3f} and {paper['hash grid S'][3]:.3f}",
+               *lower_flip(result, integrator, "gate", "hash grid S"))
         for column, index, what in (("kernel_ms", 0, "A step of a hash grid below 1 MB takes longer"),
                                     ("query_ms", 1, "Answers of a hash grid below 1 MB take longer")):
-            ours, held = times(result, integrator, column, "hash grid S", "gate")
-            yield f"{what} ({word}): times GATE's", f"{paper['hash grid S'][index] / paper['gate'][index]:.2g}", ours, held
-        ours, held = lower_flip(result, integrator, "hash grid L", "hash grid S")
+            yield (f"{what} ({word}): times GATE's", f"{paper['hash grid S'][index] / paper['gate'][index]:.2g}",
+                   *times(result, integrator, column, "hash grid S", "gate"))
         yield (f"A larger hash grid errs less ({word}): FLIP of L and S",
-               f"Bistro {paper['hash grid L'][3]:.3f} and {paper['hash grid S'][3]:.3f}", ours, held)
+               f"Bistro {paper['hash grid L'][3]:.3f} and {paper['hash grid S'][3]:.3f}",
+               *lower_flip(result, integrator, "hash grid L", "hash grid S"))
 
 
 def gain(result, scene, integrator, row, first, last):
@@ -126,19 +112,19 @@ def adaptive_claims(result):
                f"Country Kitchen {ADAPTIVE_MB[0] / ADAPTIVE_MB[1]:.2f}",
                "; ".join(f"{name} {ratio:.2g}" for (name, _, _), ratio in zip(found, ratios)),
                verdict(sum(ratio > SAME for ratio in ratios), len(ratios)))
-        ours, held = no_lower_flip(result, integrator, "fixed R = 4", "adaptive, paper's rule")
-        yield f"... at similar quality ({word}): FLIP of 4 everywhere and adaptive", "no visible difference", ours, held
-        ours, held = lower_flip(result, integrator, "adaptive, uniform", "adaptive, paper's rule")
-        yield f"Our rule of uniform density errs less than the paper's ({word})", "not of the paper", ours, held
+        yield (f"... at similar quality ({word}): FLIP of 4 everywhere and adaptive", "no visible difference",
+               *lower_flip(result, integrator, "fixed R = 4", "adaptive, paper's rule", lower=False))
+        yield (f"Our rule of uniform density errs less than the paper's ({word})", "not of the paper",
+               *lower_flip(result, integrator, "adaptive, uniform", "adaptive, paper's rule"))
 
 
 def inputs_claims(result):
     for integrator, row in (("nao", "gate, normal"), ("nrc", "gate, normal and albedo")):
         word = "occlusion: normal" if integrator == "nao" else "radiance: normal and albedo"
-        ours, held = no_lower_flip(result, integrator, row, "gate")
-        yield f"GATE gains nothing from more inputs ({word}): FLIP with and without", "the same in the end", ours, held
-        ours, held = times(result, integrator, "kernel_ms", row, "gate")
-        yield f"More inputs slow a step down ({word}): times", "not printed", ours, held
+        yield (f"GATE gains nothing from more inputs ({word}): FLIP with and without", "the same in the end",
+               *lower_flip(result, integrator, row, "gate", lower=False))
+        yield (f"More inputs slow a step down ({word}): times", "not printed",
+               *times(result, integrator, "kernel_ms", row, "gate"))
 
 
 def extra_claims(result):
@@ -149,12 +135,11 @@ def extra_claims(result):
                                      (base, "storage per triangle", "Shared storage errs less than vectors of each triangle's own"),
                                      (base, "counters per node", "Step counters of triangles err less than those of nodes"),
                                      ("4 samples per point", base, "The mean of four paths a record errs less than one path")):
-            ours, held = lower_flip(result, integrator, better, worse)
-            yield f"{claim} ({word})", "stated or implied, no figure", ours, held
-        ours, held = no_lower_flip(result, integrator, base, "fp16 features")
-        yield f"Features in fp16 lose nothing visible ({word}): FLIP with fp32 and fp16", "an outlook", ours, held
-        ours, held = lower_flip(result, integrator, "clusters", "uniform, no clusters")
-        yield f"Clusters on tiny triangles err less ({word}): FLIP with and without, uniform density", "an outlook", ours, held
+            yield f"{claim} ({word})", "stated or implied, no figure", *lower_flip(result, integrator, better, worse)
+        yield (f"Features in fp16 lose nothing visible ({word}): FLIP with fp32 and fp16", "an outlook",
+               *lower_flip(result, integrator, base, "fp16 features", lower=False))
+        yield (f"Clusters on tiny triangles err less ({word}): FLIP with and without, uniform density", "an outlook",
+               *lower_flip(result, integrator, "clusters", "uniform, no clusters"))
 
 
 CLAIMS = {

@@ -1,4 +1,4 @@
-"""What the paper prints (tables 1 and 2, and the figures that name a number), for the page of results.
+"""The numbers that the paper prints (tables 1 and 2, and those in figures), for the page of results.
 
 Milliseconds are of an RX 9070 XT: a training step, and 1920x1080 answers. MB are of parameters alone. Scenes: Bistro's exterior
 and interior, a bathroom, the Country Kitchen."""

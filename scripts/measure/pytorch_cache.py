@@ -1,12 +1,11 @@
 """The cache of `train_step/nrc/gate` and `query/nrc/gate` in PyTorch, for scripts/measure/compare-pytorch. Prints one line of JSON.
 
 The same mathematics on a surface of the same size: feature vectors of 8 on the nodes of two levels (R = 2 and 1), 16 direction
-inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. All that PyTorch is
-not made for is left out of its clock: which nodes a point reads and with which weights, and the direction's
-encoding, are computed beforehand, but for the queries of "query_all", which do all that ours do; it keeps no averages and
-rejects no records. Its own choices are its fastest:
-embedding_bag with sparse gradients, queries in chunks. Features are updated by SparseAdam, which is what one would
-use, and by the same formula spelled out in tensor operations, which is faster where many nodes are touched."""
+inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. The clock leaves out
+what PyTorch is not made for: the nodes that a point reads, their weights, and the direction's encoding are computed
+beforehand. Only the queries of "query_all" do all the work that ours do. It keeps no averages and rejects no records. It uses
+the fastest functions of PyTorch: embedding_bag with sparse gradients, and queries in chunks. Features are updated by
+SparseAdam, the usual choice, and by the same formula in tensor operations, which is faster if many nodes are touched."""
 
 import argparse
 import json
@@ -34,7 +33,7 @@ def corners_and_edges(triangle):
     right, above = (column + 1) % COLUMNS, (row + 1) % ROWS
     a, b = row * COLUMNS + column, row * COLUMNS + right
     c, d = above * COLUMNS + right, above * COLUMNS + column
-    # Of the edges that begin at a vertex: to the right 3v, upwards 3v+1, the diagonal 3v+2.
+    # The edges that begin at vertex v: to the right 3v, upwards 3v+1, the diagonal 3v+2.
     lower_corners, upper_corners = np.stack([a, b, c], 1), np.stack([a, c, d], 1)
     lower_edges = np.stack([3 * b + 1, 3 * a + 2, 3 * a], 1)
     upper_edges = np.stack([3 * d, 3 * a + 1, 3 * a + 2], 1)
@@ -43,13 +42,13 @@ def corners_and_edges(triangle):
 
 
 def topology():
-    """Of each triangle the nodes of its corners and of its edges' middles at R = 2, and of its corners at R = 1."""
+    """The nodes of each triangle: of its corners and of the middles of its edges at R = 2, and of its corners at R = 1."""
     corners, edges = corners_and_edges(np.arange(2 * COLUMNS * ROWS))
     return torch.from_numpy(np.concatenate([corners, VERTICES + edges, VERTICES + EDGES + corners], 1)).to(DEVICE)
 
 
 def nodes_and_weights(table, triangle, barycentrics):
-    """[2n, 3], a point after the other: mesh colours at R = 2 on vertices and edge middles, and at R = 1 on vertices."""
+    """[2n, 3], point by point: mesh colours at R = 2 on vertices and middles of edges, and at R = 1 on vertices."""
     words = table.index_select(0, triangle)
     b1, b2 = barycentrics.unbind(1)
     weights1 = torch.stack([1 - b1 - b2, b1, b2], 1)
@@ -61,7 +60,7 @@ def nodes_and_weights(table, triangle, barycentrics):
     nodes = []
     for k in range(3):
         m, n = (k + 1) % 3, (k + 2) % 3
-        # The middle of k and the corner at hand is opposite to the third; inside, edge k's own.
+        # Near a corner: the middle of the edge from it to k, which is opposite to the third corner. Inside: that of edge k.
         middle = torch.where(corner[:, m], words[:, 3 + n], torch.where(corner[:, n], words[:, 3 + m], words[:, 3 + k]))
         nodes.append(torch.where(corner[:, k], words[:, k], middle))
     weights2 = torch.where(inside, 1 - rest, rest)
@@ -87,7 +86,7 @@ def one_blob(direction, bins=8):
 
 
 def points(table, order, size, patch):
-    """As bench/neural_fixture makes them: pixels, two a quad in each direction, or any place."""
+    """Points as in bench/neural_fixture: pixels, two per quad in each direction, or random places."""
     width, height = size
     count = width * height
     random = np.random.default_rng(1000 + patch)
@@ -115,7 +114,7 @@ def points(table, order, size, patch):
 
 
 class AdamByHand:
-    """What SparseAdam computes, with gathers and scatters of rows in place of its additions of sparse tensors."""
+    """Computes the same as SparseAdam, with gathers and scatters of rows instead of additions of sparse tensors."""
 
     def __init__(self, parameter, lr, betas, eps):
         self.parameter, self.lr, self.betas, self.eps = parameter, lr, betas, eps
@@ -170,7 +169,7 @@ class Cache:
 
     @torch.inference_mode()
     def query(self, batch, out, network, dtype, chunk, table=None):
-        """With the table also the lookups and the direction's encoding, as our queries do."""
+        """With the table it also does the lookups and the direction's encoding, as our queries do."""
         features = self.features.detach()
         for begin in range(0, len(out), chunk):
             end = begin + chunk
@@ -203,7 +202,7 @@ def median_ms(run, repetitions, warm_up):
 
 
 def check(table):
-    """What is precomputed is a mesh-colour lookup: an affine field over a triangle comes back exactly."""
+    """Checks the precomputed lookups: they must return an affine field over a triangle exactly."""
     triangle = np.repeat(np.arange(0, 2000, 7), 50)
     random = np.random.default_rng(1)
     b1, b2 = random.random((2, len(triangle)))

@@ -1,4 +1,4 @@
-"""Figures of scripts/measure/measure-paper: rows of data/results/NAME.csv, their means over the seeds, and which of two is lower."""
+"""Reads the figures of scripts/measure/measure-paper (data/results/NAME.csv) and compares their means over the seeds."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ class Group:
         return statistics.fmean(values) if values else None
 
     def median(self, column):
-        """Of times: a disturbed run is no better measurement than the others."""
+        """For times, because some run may be disturbed."""
         values = self.values(column)
         return statistics.median(values) if values else None
 
@@ -41,7 +41,7 @@ class Group:
 
 
 class Results:
-    """Of one experiment. Points are training steps, or samples of path tracing."""
+    """The figures of one experiment. Points are training steps, or samples of path tracing."""
 
     def __init__(self, folder, name):
         with open(os.path.join(folder, name + ".csv"), encoding="utf-8", newline="") as file:
@@ -71,7 +71,7 @@ class Results:
 
 
 def difference(a, b, column):
-    """-1 where a is lower, 1 where b is, 0 where two standard errors of the difference hide it; none without figures."""
+    """-1 if a is lower, 1 if b is lower, 0 if they differ by less than two standard errors; None without figures."""
     mean_a, mean_b = a.mean(column), b.mean(column)
     if mean_a is None or mean_b is None:
         return None

@@ -1,4 +1,4 @@
-"""Writes data/results/RESULTS.md of the figures beside it. SUMMARY alone does not follow from them: whoever measures anew reads it again."""
+"""Writes data/results/RESULTS.md from the figures in its folder. Only SUMMARY is written by hand: check it after new measurements."""
 
 import os
 import re

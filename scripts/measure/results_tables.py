@@ -25,13 +25,13 @@ def with_deviation(group, column):
 
 
 def table(header, rows, left=2):
-    """left: columns of words; the others are numbers."""
+    """`left` is the number of columns of words. The other columns are numbers."""
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * left + "---:|" * (len(header) - left)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
 def figures(group):
-    """Of a configuration: speed, memory, error."""
+    """Speed, memory and error of a configuration."""
     if group is None or group.mean("flip") is None:
         return ["failed"] + [""] * 6
     return [significant(group.median("kernel_ms")), significant(group.median("train_ms")), significant(group.median("query_ms")),
@@ -48,7 +48,7 @@ def without_empty_columns(header, rows):
 
 
 def configurations(results, integrator, steps=128):
-    """A line for each scene and row of the preset."""
+    """A row for each scene and each row of the preset."""
     rows = [[title_of(scene), row, *figures(results.get(scene, integrator, row, steps))]
             for scene in results.scenes() for row in results.rows(integrator) if results.get(scene, integrator, row, steps)]
     return table(*without_empty_columns(["scene", "cache", *HEADER], rows))
@@ -64,7 +64,7 @@ def over_steps(results, integrator):
 
 
 def seconds_and_errors(results):
-    """Of every point, path tracing first."""
+    """A row for every point, path tracing first."""
     rows = []
     for scene in results.scenes():
         for row in sorted(results.rows("path")) + results.rows("nrc"):

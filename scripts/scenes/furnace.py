@@ -17,7 +17,7 @@ def room(half, pieces):
                 p[(axis + 1) % 3] = -sign * half * (2 * u - 1)
                 p[(axis + 2) % 3] = half * (2 * v - 1)
                 return p
-            sides.append(surface(pieces, pieces, at).without("normals", "uvs"))
+            sides.append(surface(pieces, pieces, at).flat())
     return merge(*sides)
 
 
@@ -27,7 +27,7 @@ def build(path):
     # Neither highlight nor interpolated normals: both would make the reflectance depend on the direction.
     wall = glb.material("furnace", (ALBEDO,) * 3, roughness=1.0, emission=(EMISSION,) * 3,
                         extensions={"specular": {"specularFactor": 0.0}}, extras=numbers)
-    ball: Mesh = sphere(0.35, 24, 12).without("normals", "uvs")
+    ball: Mesh = sphere(0.35, 24, 12).flat()
     glb.place("room", room(1.0, 6), wall)
     balls = glb.mesh("ball", (ball, wall))
     glb.node("large ball", balls, at=(-0.4, -0.3, -0.35))

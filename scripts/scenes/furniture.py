@@ -134,7 +134,7 @@ def picture_frame(width, height, bar=0.055, depth=0.035):
                 x, y = (a[i] + (b[i] - a[i]) * u for i in range(2))
                 return x * (width / 2 + out), y * (height / 2 + out), (d[0] + (d[1] - d[0]) * v) * depth
             parts.append(surface(1, 1, at).flipped())
-    return merge(*parts).without("uvs")
+    return merge(*parts)
 
 
 def drape(width, height, folds, depth, columns_per_fold=10, rows=14):

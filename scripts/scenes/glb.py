@@ -1,4 +1,4 @@
-"""Writes glTF 2.0 binary files: the few things that the scenes of this project need, and always the same bytes."""
+"""Writes glTF 2.0 binary files, always with the same bytes. It knows only what the scenes of this project need."""
 
 import json
 import math
@@ -10,7 +10,7 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
 def png(width, height, channels, pixels):
-    """A PNG of 8-bit samples: 1 grey, 3 RGB or 4 RGBA channels, rows from the top. sRGB is the reader's business."""
+    """A PNG of 8-bit samples: 1 grey, 3 RGB or 4 RGBA channels, rows from the top. The file names no colour space."""
     stride = width * channels
     above = bytes(stride)
     rows = []
@@ -37,9 +37,11 @@ def png(width, height, channels, pixels):
 
 
 class Glb:
-    """Collects a scene and writes it. Names of extensions are gathered from what is used."""
+    """Collects a scene and writes it, with the names of the extensions that it uses. `all_uvs` keeps uvs that no texture
+    needs."""
 
-    def __init__(self, title, extras=None):
+    def __init__(self, title, extras=None, all_uvs=False):
+        self.all_uvs = all_uvs
         self.doc = {
             "asset": {"version": "2.0", "generator": "gatelight scripts/make-scenes", "copyright": "Apache-2.0",
                       "extras": {"title": title, **(extras or {})}},
@@ -63,7 +65,7 @@ class Glb:
     # Textures and materials
 
     def texture(self, name, image, wrap=None):
-        """`image` holds the bytes of a PNG; `wrap` is "clamp" or None for repeat. Gives the index of the texture."""
+        """`image` holds the bytes of a PNG; `wrap` is "clamp" or None for repeat. Returns the index of the texture."""
         view = self.view(image)
         source = self.append("images", {"name": name, "mimeType": "image/png", "bufferView": view})
         sampler = {"magFilter": 9729, "minFilter": 9987, "wrapS": 33071 if wrap else 10497,
@@ -76,7 +78,7 @@ class Glb:
     def material(self, name, base=(0.8, 0.8, 0.8), metallic=0.0, roughness=0.5, alpha=1.0, extensions=None,
                  base_texture=None, rough_texture=None, normal_texture=None, normal_scale=1.0,
                  emission=None, emission_texture=None, strength=None, mask=None, double_sided=False, extras=None):
-        """Extensions are given by their name without "KHR_materials_"."""
+        """The keys of `extensions` are names without "KHR_materials_"."""
         pbr = {"baseColorFactor": [*base, alpha], "metallicFactor": metallic, "roughnessFactor": roughness}
         material = {"name": name, "pbrMetallicRoughness": pbr}
         if base_texture is not None:
@@ -104,8 +106,8 @@ class Glb:
 
     # Geometry
 
-    def geometry(self, mesh):
-        """Accessors of a shapes.Mesh, written once however many glTF meshes use it."""
+    def geometry(self, mesh, material):
+        """Accessors of a shapes.Mesh. They are written once, also if several glTF meshes use them."""
         if id(mesh) in self.geometries:
             return self.geometries[id(mesh)][0]
         floats = [round_float(v) for p in mesh.positions for v in p]
@@ -121,7 +123,7 @@ class Glb:
                 "bufferView": self.view(pack("h", shorts), byteStride=8, target=ARRAY_BUFFER),
                 "componentType": SHORT, "normalized": True, "count": len(mesh.normals), "type": "VEC3"})
             self.require("KHR_mesh_quantization")
-        if mesh.uvs:
+        if mesh.uvs and (self.all_uvs or "Texture" in json.dumps(self.doc["materials"][material])):
             attributes["TEXCOORD_0"] = self.append("accessors", {
                 "bufferView": self.view(pack("f", [round_float(c) for uv in mesh.uvs for c in uv]),
                                         target=ARRAY_BUFFER),
@@ -139,7 +141,7 @@ class Glb:
     def mesh(self, name, *parts):
         """A glTF mesh of (shapes.Mesh, material) pairs."""
         return self.append("meshes", {"name": name, "primitives": [
-            {**self.geometry(geometry), "material": material} for geometry, material in parts]})
+            {**self.geometry(geometry, material), "material": material} for geometry, material in parts]})
 
     # Nodes
 

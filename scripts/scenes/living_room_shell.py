@@ -17,7 +17,7 @@ def build_shell(glb, paint):
     width, depth = RIGHT - LEFT, FRONT - BACK
     glb.place("floor", quad((LEFT - REVEAL, 0, FRONT), (width + REVEAL, 0, 0), (0, 0, -depth),
                             ((width + REVEAL) / 0.8, depth / 0.8)), paint["floor"])
-    glb.place("ceiling", quad((LEFT, HEIGHT, BACK), (width, 0, 0), (0, 0, depth)).without("uvs"), paint["ceiling"])
+    glb.place("ceiling", quad((LEFT, HEIGHT, BACK), (width, 0, 0), (0, 0, depth)), paint["ceiling"])
     glb.place("back wall", quad((LEFT, 0, BACK), (width, 0, 0), (0, HEIGHT, 0), (width / 1.2, HEIGHT / 1.2)),
               paint["teal"])
     glb.place("right wall", quad((RIGHT, 0, BACK), (0, 0, depth), (0, HEIGHT, 0), (depth / 1.2, HEIGHT / 1.2)),
@@ -25,16 +25,16 @@ def build_shell(glb, paint):
     glb.place("front wall", quad((RIGHT, 0, FRONT), (-width, 0, 0), (0, HEIGHT, 0), (width / 1.2, HEIGHT / 1.2)),
               paint["white wall"])
     glb.place("left wall", left_wall(), paint["white wall"])
-    glb.place("reveals", merge(reveal(WINDOW), reveal(DOOR)).without("uvs"), paint["white wood"])
-    glb.place("window frame", window_frame(WINDOW, 3, (0.72,)).without("uvs"), paint["white wood"])
-    glb.place("door frame", window_frame(DOOR, 2, (0.12, 0.42, 0.72)).without("uvs"), paint["white wood"])
+    glb.place("reveals", merge(reveal(WINDOW), reveal(DOOR)), paint["white wood"])
+    glb.place("window frame", window_frame(WINDOW, 3, (0.72,)), paint["white wood"])
+    glb.place("door frame", window_frame(DOOR, 2, (0.12, 0.42, 0.72)), paint["white wood"])
     z0, z1, y0, y1 = WINDOW
     glb.place("sill", rounded_box((0.30, 0.035, z1 - z0 + 0.12), 0.012, 3)
-              .moved(LEFT - 0.04, y0 - 0.017, (z0 + z1) / 2).without("uvs"), paint["white wood"])
+              .moved(LEFT - 0.04, y0 - 0.017, (z0 + z1) / 2), paint["white wood"])
     glb.place("sky", quad((LEFT - 0.75, y0 - 0.45, z1 + 0.75), (0, 0, z0 - z1 - 1.5), (0, y1 - y0 + 1.30, 0)),
               paint["sky"])
     # A window behind the viewer: the photographer's fill light.
-    glb.place("fill", quad((1.5, 0.85, FRONT - 0.01), (-2.8, 0, 0), (0, 1.55, 0)).without("uvs"), paint["fill"])
+    glb.place("fill", quad((1.5, 0.85, FRONT - 0.01), (-2.8, 0, 0), (0, 1.55, 0)), paint["fill"])
     curtains(glb, paint)
     mouldings(glb, paint)
     rug = rounded_box((2.75, 0.012, 1.83), 0.005, 1)
@@ -92,7 +92,7 @@ def window_frame(opening, panes, bars):
 
 def curtains(glb, paint):
     z0, z1, _, y1 = WINDOW
-    drape = glb.mesh("drape", (furniture.drape(0.46, y1 + 0.12, 5, 0.055).without("uvs"), paint["drape"]))
+    drape = glb.mesh("drape", (furniture.drape(0.46, y1 + 0.12, 5, 0.055), paint["drape"]))
     net = furniture.drape(0.62, y1 + 0.12, 6, 0.026, 8, 4)
     net.uvs = [(u * 6, v * 10) for u, v in net.uvs]
     lace = glb.mesh("lace curtain", (net, paint["lace"]))
@@ -100,7 +100,7 @@ def curtains(glb, paint):
                              ("lace curtain", lace, z0 + 0.22, 0.035), ("lace curtain", lace, z1 - 0.20, 0.035)):
         glb.node(name, mesh, at=(LEFT + x, 0.012, z), turn=90)
     rod = tube([(LEFT + 0.11, y1 + 0.15, z0 - 0.5), (LEFT + 0.11, y1 + 0.15, z1 + 0.5)], 0.013, 16)
-    glb.place("curtain rod", rod.without("uvs"), paint["satin brass"])
+    glb.place("curtain rod", rod, paint["satin brass"])
 
 
 def mouldings(glb, paint):
@@ -108,7 +108,7 @@ def mouldings(glb, paint):
     width = RIGHT - LEFT
 
     def skirting(length):
-        return rounded_box((length, 0.13, 0.02), 0.007, 2).moved(0, 0.065, 0.01).without("uvs")
+        return rounded_box((length, 0.13, 0.02), 0.007, 2).moved(0, 0.065, 0.01)
 
     glb.place("skirting", skirting(width), paint["teal wood"], at=(0, 0, BACK))
     glb.place("skirting", skirting(FRONT - BACK), paint["white wood"], at=(RIGHT, 0, (BACK + FRONT) / 2), turn=-90)
@@ -118,7 +118,7 @@ def mouldings(glb, paint):
     def cove(length):
         # A quarter round from the wall to the ceiling.
         return surface(1, 8, lambda u, v: (length * (u - 0.5), HEIGHT - 0.10 * (1 - math.sin(math.pi / 2 * v)),
-                                           0.10 * (1 - math.cos(math.pi / 2 * v)))).without("uvs")
+                                           0.10 * (1 - math.cos(math.pi / 2 * v))))
 
     for name, length, at, turn in (("cornice", width, (0, 0, BACK), 0),
                                    ("cornice", FRONT - BACK, (RIGHT, 0, (BACK + FRONT) / 2), -90),

@@ -64,7 +64,7 @@ def materials(glb, image):
 
 
 def build(path):
-    glb = Glb("material-grid")
+    glb = Glb("material-grid", all_uvs=True)
     image = textures(glb)
     ball = sphere(RADIUS, 48, 24)
     for row, line in enumerate(materials(glb, image)):

@@ -106,7 +106,7 @@ def plant_stalks(seed, count, height):
         middle = (0.35 * tip[0] + 0.65 * root[0], 0.62 * tip[1], 0.35 * tip[2] + 0.65 * root[2])
         tubes.append(tube(catmull_rom([root, middle, tip], 5), 0.0065, 6))
         tips.append((tip, math.degrees(heading), 8 + 34 * generator.random(), 0.27 + 0.15 * generator.random()))
-    return merge(*tubes).without("uvs"), tips
+    return merge(*tubes), tips
 
 
 def branches(seed, count=7, height=0.62):
@@ -126,4 +126,4 @@ def branches(seed, count=7, height=0.62):
                 angle = 2 * math.pi * generator.random()
                 buds.append((path[i][0] + 0.009 * math.sin(angle), path[i][1] + 0.012 * generator.random(),
                              path[i][2] + 0.009 * math.cos(angle)))
-    return merge(*twigs).without("uvs"), buds
+    return merge(*twigs), buds

@@ -1,4 +1,4 @@
-"""Procedural pictures. A picture is a list of rows; a grey one holds floats, a coloured one tuples, sRGB in [0, 1]."""
+"""Procedural pictures. A picture is a list of rows of floats (grey) or tuples (colour), sRGB in [0, 1]."""
 
 import math
 import random
@@ -7,7 +7,7 @@ from glb import png
 
 
 def encode(rows, levels=256):
-    """PNG of a picture. Fewer levels pack better, and hide nothing in a noisy texture."""
+    """PNG of a picture. Fewer levels pack better, and are not visible in a noisy texture."""
     step = 256 // levels
     flat = []
     for row in rows:
@@ -52,7 +52,7 @@ def fractal(seed, width, height, cells_x, cells_y, octaves=4, gain=0.5):
 
 
 def picture(width, height, pixel):
-    """Of what pixel(x, y) gives."""
+    """The picture of all pixel(x, y)."""
     return [[pixel(x, y) for x in range(width)] for y in range(height)]
 
 

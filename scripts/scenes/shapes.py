@@ -47,19 +47,9 @@ class Mesh:
         self.uvs = [(p[a] * repeats_per_metre, -p[b] * repeats_per_metre) for p in self.positions]
         return self
 
-    def box_uvs(self, repeats_per_metre=1.0):
-        """Texture coordinates by the axis that the normal is nearest to."""
-        self.uvs = []
-        for p, n in zip(self.positions, self.normals):
-            axis = max(range(3), key=lambda k: abs(n[k]))
-            u, v = {0: (p[2], p[1]), 1: (p[0], p[2]), 2: (p[0], p[1])}[axis]
-            self.uvs.append((u * repeats_per_metre, -v * repeats_per_metre))
-        return self
-
-    def without(self, *what):
-        """Without "uvs" or "normals": a material without textures needs no uvs, a flat mesh no normals."""
-        return Mesh(self.positions, self.triangles, [] if "normals" in what else self.normals,
-                    [] if "uvs" in what else self.uvs)
+    def flat(self):
+        """Without normals."""
+        return Mesh(self.positions, self.triangles, [], self.uvs)
 
     def smooth(self):
         """Normals averaged over the faces that meet at a position, weighted by area; seams are bridged."""
@@ -84,7 +74,7 @@ def unit_or_up(v):
 
 
 def merge(*meshes):
-    """One mesh of several; what not all of them have is dropped."""
+    """One mesh of several. It has normals or uvs only if all of them have."""
     result = Mesh()
     for mesh in meshes:
         first = len(result.positions)
@@ -102,7 +92,7 @@ def polygon(*corners):
 
 
 def cells(columns, rows, first=0):
-    """Of a grid of vertices, row by row from `first` on: the four corners of each cell, counter-clockwise."""
+    """The corners of each cell of a grid, counter-clockwise. The vertices begin at `first`, row by row."""
     for j in range(rows):
         for a in range(first + j * (columns + 1), first + j * (columns + 1) + columns):
             yield a, a + 1, a + columns + 2, a + columns + 1

@@ -37,8 +37,8 @@ def build(path):
 
     x, y, z = TEAPOT
     glb.place("teapot", tessellate(PIECES, 0.148), paint["glaze"], at=(x, y, z), turn=24)
-    glb.place("pedestal", furniture.fluted_drum(0.145, 0.90, 24).without("uvs"), paint["stone"], at=(x, 0.06, z))
-    plinth = glb.mesh("plinth", (rounded_box((0.36, 0.06, 0.36), 0.008, 3).without("uvs"), paint["stone"]))
+    glb.place("pedestal", furniture.fluted_drum(0.145, 0.90, 24), paint["stone"], at=(x, 0.06, z))
+    plinth = glb.mesh("plinth", (rounded_box((0.36, 0.06, 0.36), 0.008, 3), paint["stone"]))
     glb.node("base", plinth, at=(x, 0.03, z))
     glb.node("top", plinth, at=(x, 0.97, z))
     glb.camera("teapot", (x + 0.14, y + 0.165, z + 0.62), (x + 0.060, y + 0.088, z), 36.0)
@@ -50,8 +50,8 @@ def hall(glb, paint):
     """Floor, walls and a pitched roof with a long skylight: 30 triangles for 200 m."""
     w, l, s = WIDTH / 2, LENGTH / 2, SKYLIGHT / 2
     sill = RIDGE - (RIDGE - EAVES) * s / w
-    glb.place("floor", quad((-w, 0, l), (WIDTH, 0, 0), (0, 0, -LENGTH)).without("uvs"), paint["floor"])
-    glb.place("pitch", quad((-26, 0.004, 50), (52, 0, 0), (0, 0, -140)).without("uvs"), paint["pitch"])
+    glb.place("floor", quad((-w, 0, l), (WIDTH, 0, 0), (0, 0, -LENGTH)), paint["floor"])
+    glb.place("pitch", quad((-26, 0.004, 50), (52, 0, 0), (0, 0, -140)), paint["pitch"])
     walls = merge(
         polygon((-w, 0, l), (-w, 0, -l), (-w, EAVES, -l), (-w, EAVES, l)),
         polygon((w, 0, -l), (w, 0, l), (w, EAVES, l), (w, EAVES, -l)),
@@ -71,7 +71,7 @@ def hall(glb, paint):
     # Rafters: long thin triangles, one mesh shown in pairs.
     rise = math.degrees(math.atan2(RIDGE - EAVES, w))
     length = math.hypot(w - s, sill - EAVES)
-    rafter = glb.mesh("rafter", (rounded_box((length, 0.9, 0.45), 0.02, 1).without("uvs"), paint["steel"]))
+    rafter = glb.mesh("rafter", (rounded_box((length, 0.9, 0.45), 0.02, 1), paint["steel"]))
     half = math.radians(rise) / 2
     for k in range(13):
         for side in (-1, 1):
@@ -100,7 +100,7 @@ def box(size, at=(0, 0, 0)):
 
 def lamps(glb, paint):
     """Two rows of glowing spheres on rods."""
-    globe = glb.mesh("lamp", (sphere(0.55, 16, 8).without("uvs"), paint["lamp"]))
+    globe = glb.mesh("lamp", (sphere(0.55, 16, 8), paint["lamp"]))
     rod = glb.mesh("lamp rod", (box((0.06, 11.0, 0.06)), paint["steel"]))
     for k in range(9):
         for side in (-1, 1):
