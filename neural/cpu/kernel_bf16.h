@@ -13,56 +13,11 @@ GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
-template <uint32_t kRowStride, uint32_t kVectors, class Finish>
-GATELIGHT_ALONE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uint32_t pairs,
-                                           const uint16_t* w, uint32_t w_columns, const float* bias,
-                                           uint32_t columns, Finish&& finish, const Between& between) {
-  for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
-    for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
-      Float acc[kBlockRows][kVectors];
-#pragma GCC unroll 16
-      for (uint32_t r = 0; r < kBlockRows; ++r)
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = load(bias + c + v * kLanes);
-      const uint16_t* left = x + r0 * kRowStride;
-      const uint16_t* right = w + 2 * c;
-      for (uint32_t d = 0; d < pairs; ++d, left += 2, right += 2 * w_columns) {
-        __m512bh column[kVectors];
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) __builtin_memcpy(&column[v], right + v * 2 * kLanes, 64);
-#pragma GCC unroll 16
-        for (uint32_t r = 0; r < kBlockRows; ++r) {
-          int pair;
-          __builtin_memcpy(&pair, left + r * kRowStride, 4);
-          const __m512i both_halves = _mm512_set1_epi32(pair);
-          __m512bh a;
-          __builtin_memcpy(&a, &both_halves, sizeof a);
-#pragma GCC unroll 4
-          for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = _mm512_dpbf16_ps(acc[r][v], a, column[v]);
-        }
-      }
-#pragma GCC unroll 16
-      for (uint32_t r = 0; r < kBlockRows; ++r)
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) finish(r0 + r, c + v * kLanes, acc[r][v]);
-      between();
-    }
-  }
-}
-
 template <uint32_t kRowStride, class Finish>
 GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x, uint32_t rows,
                                     Finish&& finish, const Between& between) {
-  const uint32_t columns = layer.padded_outputs;
-  const uint32_t whole = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
-  const uint32_t pairs = (layer.inputs + 1) / 2;
-  multiply_bf16_columns<kRowStride, kBlockVectors>(x, rows, pairs, layer.forward_bf16, columns, layer.biases,
-                                                   whole, finish, between);
-  if (whole < columns)
-    multiply_bf16_columns<kRowStride, 1>(
-        x, rows, pairs, layer.forward_bf16 + 2 * whole, columns, layer.biases + whole, columns - whole,
-        [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) { finish(r, c + whole, a); },
-        between);
+  multiply<kRowStride>(x, rows, (layer.inputs + 1) / 2, layer.forward_bf16, layer.padded_outputs,
+                       layer.biases, layer.padded_outputs, finish, between);
 }
 
 // Rows of activations are stored as bf16 in the buffers of the fp32 activations.
