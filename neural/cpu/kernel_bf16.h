@@ -13,13 +13,6 @@ GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
-template <uint32_t kRowStride, class Finish>
-GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x, uint32_t rows,
-                                    Finish&& finish, const Between& between) {
-  multiply<kRowStride>(x, rows, (layer.inputs + 1) / 2, layer.forward_bf16, layer.padded_outputs,
-                       layer.biases, layer.padded_outputs, finish, between);
-}
-
 // Rows of activations are stored as bf16 in the buffers of the fp32 activations.
 GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
                                    const Between& between) {
@@ -28,27 +21,27 @@ GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b,
     for (uint32_t c = 0; c < n.input_stride; c += kLanes)
       store_bf16(x + r * n.input_stride + c, load(inputs + r * n.input_stride + c));
   uint32_t stride = n.input_stride;
+  const auto multiply_layer = [&](const KernelLayer& layer, auto&& finish) __attribute__((always_inline)) {
+    with_stride(
+        stride, [&](auto kStride) __attribute__((always_inline)) {
+          multiply<decltype(kStride)::value>(x, rows, (layer.inputs + 1) / 2, layer.forward_bf16,
+                                             layer.padded_outputs, layer.biases, layer.padded_outputs, finish,
+                                             between);
+        });
+  };
   const Float slope = broadcast(n.slope);
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l) {
     auto* y = reinterpret_cast<uint16_t*>(b.hidden[l]);
-    with_stride(
-        stride, [&](auto kStride) __attribute__((always_inline)) {
-          multiply_bf16<decltype(kStride)::value>(
-              n.layers[l], x, rows,
-              [&](uint32_t r, uint32_t c, Float a)
-                  __attribute__((always_inline)) { store_bf16(y + r * n.width + c, leaky(a, slope)); },
-              between);
+    multiply_layer(
+        n.layers[l], [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
+          store_bf16(y + r * n.width + c, leaky(a, slope));
         });
     x = y;
     stride = n.width;
   }
-  with_stride(
-      stride, [&](auto kStride) __attribute__((always_inline)) {
-        multiply_bf16<decltype(kStride)::value>(
-            n.layers[n.layer_count - 1], x, rows,
-            [&](uint32_t r, uint32_t c, Float a)
-                __attribute__((always_inline)) { store(b.outputs + r * kOutputStride + c, a); },
-            between);
+  multiply_layer(
+      n.layers[n.layer_count - 1], [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
+        store(b.outputs + r * kOutputStride + c, a);
       });
 }
 

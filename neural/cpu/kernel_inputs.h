@@ -66,19 +66,9 @@ GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
 }
 
 GATELIGHT_INLINE const float* span_of(const KernelPoints& points, KernelSource source) {
-  switch (source) {
-    case KernelSource::position:
-      return points.positions;
-    case KernelSource::direction:
-      return points.directions;
-    case KernelSource::normal:
-      return points.normals;
-    case KernelSource::albedo:
-      return points.albedos;
-    case KernelSource::roughness:
-      return points.roughnesses;
-  }
-  return nullptr;
+  const float* const spans[] = {points.positions, points.directions, points.normals, points.albedos,
+                                points.roughnesses};
+  return spans[static_cast<uint32_t>(source)];
 }
 
 // Integral of the quartic kernel 15/16 (1 - u^2)^2 from -1 to u; between 0 and 1.

@@ -306,17 +306,12 @@ GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints&
   prefetch_rows(points.normals, 3, begin, end);
   prefetch_rows(points.albedos, 3, begin, end);
   if (e.encoding != KernelEncoding::gate || e.per_triangle != 0) return;
-  const GateSurface* surfaces = e.surfaces;
-  const uint32_t* topology = e.topology;
-  const uint32_t surface_count = e.surface_count;
-  const uint32_t* point_surfaces = points.surfaces;
-  const uint32_t* point_triangles = points.triangles;
   for (uint64_t i = begin; i < end; ++i) {
-    const uint32_t surface = point_surfaces[i], triangle = point_triangles[i];
-    if (surface >= surface_count) continue;
-    const GateSurface& s = surfaces[surface];
+    const uint32_t surface = points.surfaces[i], triangle = points.triangles[i];
+    if (surface >= e.surface_count) continue;
+    const GateSurface& s = e.surfaces[surface];
     if (triangle >= s.triangle_count) continue;
-    const uint32_t* row = topology + s.topology_offset + uint64_t{triangle} * s.topology_stride;
+    const uint32_t* row = e.topology + s.topology_offset + uint64_t{triangle} * s.topology_stride;
     prefetch_far(row);
     if (s.topology_stride > 6) prefetch_far(row + s.topology_stride - 1);
   }
