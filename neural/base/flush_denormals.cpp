@@ -34,8 +34,4 @@ FlushDenormals::~FlushDenormals() {
   set_control_word((control_word() & ~kBits) | (before_ & kBits));
 }
 
-bool FlushDenormals::active() {
-  return kBits != 0 && (control_word() & kBits) == kBits;
-}
-
 }  // namespace gatelight::neural

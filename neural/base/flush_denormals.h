@@ -14,8 +14,6 @@ class FlushDenormals {
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 
-  static bool active();
-
  private:
   unsigned before_;
 };

@@ -16,7 +16,6 @@
 #include "neural/cpu/kernel_model.h"
 #include "neural/cpu/node_references.h"
 #include "neural/cpu/packed_network.h"
-#include "neural/learning/adam.h"
 #include "neural/learning/start_mean.h"
 #include "neural/model/checks.h"
 
@@ -55,7 +54,7 @@ class CpuBackend final : public Backend {
         averaged_(*model_),
         adam_table_(adam_table(options_)),
         buckets_(make_buckets(layout_.node_count)) {
-    if (options_.count_triangles || options_.feature_step == FeatureStep::per_triangle) {
+    if (options_.counts_triangles()) {
       triangle_steps_.assign(model_->gate.triangle_count, 0);
       triangle_stamps_.assign(triangle_steps_.size(), 0);
     }
@@ -198,9 +197,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
 void CpuBackend::update_network(double scale, StepStatistics& statistics) {
   network_gradient_.resize(network_.size());
   raw_.unpack_gradients(packed_gradient_.data(), network_gradient_);
-  const AdamFactors factors = adam_factors(options_.adam, steps_);
-  const auto step = static_cast<float>(factors.step), epsilon = static_cast<float>(factors.epsilon);
-  const auto rate = static_cast<float>(average_rate(options_.average, steps_));
+  const KernelAdamStep adam = adam_step(options_, steps_);
   const float beta1 = options_.adam.beta1, beta2 = options_.adam.beta2;
   const auto update = [&](std::uint64_t i, float l2) {
     const float g = network_gradient_[i] * static_cast<float>(scale) + l2 * network_[i];
@@ -210,8 +207,9 @@ void CpuBackend::update_network(double scale, StepStatistics& statistics) {
     }
     network_m_[i] = beta1 * network_m_[i] + (1.0f - beta1) * g;
     network_v_[i] = beta2 * network_v_[i] + (1.0f - beta2) * g * g;
-    network_[i] -= step * network_m_[i] / (std::sqrt(network_v_[i]) + epsilon);
-    if (options_.average.network) network_average_[i] += rate * (network_[i] - network_average_[i]);
+    network_[i] -= adam.step * network_m_[i] / (std::sqrt(network_v_[i]) + adam.epsilon);
+    if (options_.average.network)
+      network_average_[i] += adam.average_rate * (network_[i] - network_average_[i]);
   };
   for (const LayerLayout& layer : layout_.layers) {
     for (std::uint64_t i = layer.weights; i < layer.biases; ++i)

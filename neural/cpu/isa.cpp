@@ -1,10 +1,12 @@
 #include "neural/cpu/isa.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <ranges>
 #include <string>
 
 #include "neural/base/errors.h"
@@ -40,26 +42,14 @@ bool has_avx512() {
 }
 
 std::string list(std::span<const Isa> isas) {
-  std::string names;
-  for (const Isa isa : isas) {
-    if (!names.empty()) names += ", ";
-    names += isa_name(isa);
-  }
-  return names;
+  return fmt::format("{}", fmt::join(isas | std::views::transform(isa_name), ", "));
 }
 
 }  // namespace
 
 std::string_view isa_name(Isa isa) {
-  switch (isa) {
-    case Isa::scalar:
-      return "scalar";
-    case Isa::avx2:
-      return "avx2";
-    case Isa::avx512:
-      return "avx512";
-  }
-  return "";
+  constexpr std::array<std::string_view, kIsas.size()> kNames = {"scalar", "avx2", "avx512"};
+  return kNames[static_cast<std::size_t>(isa)];
 }
 
 std::optional<Isa> parse_isa(std::string_view name) {

@@ -13,58 +13,6 @@ GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
-template <uint32_t kRowStride, uint32_t kVectors, class Finish>
-GATELIGHT_ALONE void multiply_bf16_columns(const uint16_t* x, uint32_t rows, uint32_t pairs,
-                                           const uint16_t* w, uint32_t w_columns, const float* bias,
-                                           uint32_t columns, Finish&& finish, const Between& between) {
-  for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
-    for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
-      Float acc[kBlockRows][kVectors];
-#pragma GCC unroll 16
-      for (uint32_t r = 0; r < kBlockRows; ++r)
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = load(bias + c + v * kLanes);
-      const uint16_t* left = x + r0 * kRowStride;
-      const uint16_t* right = w + 2 * c;
-      for (uint32_t d = 0; d < pairs; ++d, left += 2, right += 2 * w_columns) {
-        __m512bh column[kVectors];
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) __builtin_memcpy(&column[v], right + v * 2 * kLanes, 64);
-#pragma GCC unroll 16
-        for (uint32_t r = 0; r < kBlockRows; ++r) {
-          int pair;
-          __builtin_memcpy(&pair, left + r * kRowStride, 4);
-          const __m512i both_halves = _mm512_set1_epi32(pair);
-          __m512bh a;
-          __builtin_memcpy(&a, &both_halves, sizeof a);
-#pragma GCC unroll 4
-          for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = _mm512_dpbf16_ps(acc[r][v], a, column[v]);
-        }
-      }
-#pragma GCC unroll 16
-      for (uint32_t r = 0; r < kBlockRows; ++r)
-#pragma GCC unroll 4
-        for (uint32_t v = 0; v < kVectors; ++v) finish(r0 + r, c + v * kLanes, acc[r][v]);
-      between();
-    }
-  }
-}
-
-template <uint32_t kRowStride, class Finish>
-GATELIGHT_INLINE void multiply_bf16(const KernelLayer& layer, const uint16_t* x, uint32_t rows,
-                                    Finish&& finish, const Between& between) {
-  const uint32_t columns = layer.padded_outputs;
-  const uint32_t whole = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
-  const uint32_t pairs = (layer.inputs + 1) / 2;
-  multiply_bf16_columns<kRowStride, kBlockVectors>(x, rows, pairs, layer.forward_bf16, columns, layer.biases,
-                                                   whole, finish, between);
-  if (whole < columns)
-    multiply_bf16_columns<kRowStride, 1>(
-        x, rows, pairs, layer.forward_bf16 + 2 * whole, columns, layer.biases + whole, columns - whole,
-        [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) { finish(r, c + whole, a); },
-        between);
-}
-
 // Rows of activations are stored as bf16 in the buffers of the fp32 activations.
 GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b, float* inputs, uint32_t rows,
                                    const Between& between) {
@@ -73,27 +21,27 @@ GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b,
     for (uint32_t c = 0; c < n.input_stride; c += kLanes)
       store_bf16(x + r * n.input_stride + c, load(inputs + r * n.input_stride + c));
   uint32_t stride = n.input_stride;
+  const auto multiply_layer = [&](const KernelLayer& layer, auto&& finish) __attribute__((always_inline)) {
+    with_stride(
+        stride, [&](auto kStride) __attribute__((always_inline)) {
+          multiply<decltype(kStride)::value>(x, rows, (layer.inputs + 1) / 2, layer.forward_bf16,
+                                             layer.padded_outputs, layer.biases, layer.padded_outputs, finish,
+                                             between);
+        });
+  };
   const Float slope = broadcast(n.slope);
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l) {
     auto* y = reinterpret_cast<uint16_t*>(b.hidden[l]);
-    with_stride(
-        stride, [&](auto kStride) __attribute__((always_inline)) {
-          multiply_bf16<decltype(kStride)::value>(
-              n.layers[l], x, rows,
-              [&](uint32_t r, uint32_t c, Float a)
-                  __attribute__((always_inline)) { store_bf16(y + r * n.width + c, leaky(a, slope)); },
-              between);
+    multiply_layer(
+        n.layers[l], [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
+          store_bf16(y + r * n.width + c, leaky(a, slope));
         });
     x = y;
     stride = n.width;
   }
-  with_stride(
-      stride, [&](auto kStride) __attribute__((always_inline)) {
-        multiply_bf16<decltype(kStride)::value>(
-            n.layers[n.layer_count - 1], x, rows,
-            [&](uint32_t r, uint32_t c, Float a)
-                __attribute__((always_inline)) { store(b.outputs + r * kOutputStride + c, a); },
-            between);
+  multiply_layer(
+      n.layers[n.layer_count - 1], [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
+        store(b.outputs + r * kOutputStride + c, a);
       });
 }
 

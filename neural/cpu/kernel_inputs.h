@@ -21,78 +21,68 @@ struct TileCoordinates {
 GATELIGHT_INLINE Float arctangent_unit(Float a) {
   const float coefficients[9] = {0.999999984f,   -0.333330668f, 0.199924836f,   -0.142025705f, 0.106367541f,
                                  -0.0749544544f, 0.0425876075f, -0.0160050305f, 0.0028340643f};
-  const Float z = mul(a, a);
+  const Float z = a * a;
   Float p = broadcast(coefficients[8]);
   for (int i = 7; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
-  return mul(p, a);
+  return p * a;
 }
 
 // atan2(y, x) in (-pi, pi]; 0 for (0, 0).
 GATELIGHT_INLINE Float arctangent(Float y, Float x) {
   const Float ax = absolute(x), ay = absolute(y);
   const Float longest = max(ax, ay);
-  const Float ratio = div(min(ax, ay), max(longest, broadcast(1e-37f)));
+  const Float ratio = min(ax, ay) / max(longest, broadcast(1e-37f));
   Float angle = arctangent_unit(ratio);
-  angle = select(less(ax, ay), sub(broadcast(1.57079632679f), angle), angle);
-  angle = select(less(x, zero()), sub(broadcast(3.14159265359f), angle), angle);
-  return select(less(y, zero()), sub(zero(), angle), angle);
+  angle = select(less(ax, ay), 1.57079632679f - angle, angle);
+  angle = select(less(x, zero()), 3.14159265359f - angle, angle);
+  return select(less(y, zero()), zero() - angle, angle);
 }
 
 // sin(pi x): an exact reduction of the argument, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
 GATELIGHT_INLINE Float sine_pi(Float x) {
   const float coefficients[5] = {3.14159264f, -5.16771008f, 2.55007752f, -0.598291286f, 0.0776576603f};
-  const Float turns = round(mul(x, broadcast(0.5f)));
+  const Float turns = round(x * 0.5f);
   Float r = fma(turns, broadcast(-2.0f), x);  // in [-1, 1]
   const Float magnitude = absolute(r);
-  const Float folded = min(magnitude, sub(broadcast(1.0f), magnitude));  // sin(pi r) = sin(pi (1 - r))
-  r = select(less(r, zero()), sub(zero(), folded), folded);
+  const Float folded = min(magnitude, 1.0f - magnitude);  // sin(pi r) = sin(pi (1 - r))
+  r = select(less(r, zero()), zero() - folded, folded);
   r = clamp(r, -0.5f, 0.5f);
-  const Float z = mul(r, r);
+  const Float z = r * r;
   Float p = broadcast(coefficients[4]);
   for (int i = 3; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
-  return mul(p, r);
+  return p * r;
 }
 
 // Replaces directions by theta / pi, measured from the z axis, and phi / 2 pi in [0, 1).
 GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
-    const Float theta = arctangent(sqrt(fma(x, x, mul(y, y))), z);
-    Float phi = mul(arctangent(y, x), broadcast(0.159154943092f));
-    phi = select(less(phi, zero()), add(phi, broadcast(1.0f)), phi);
-    store(tile.lanes[0] + s, mul(theta, broadcast(0.318309886184f)));
+    const Float theta = arctangent(sqrt(fma(x, x, y * y)), z);
+    Float phi = arctangent(y, x) * 0.159154943092f;
+    phi = select(less(phi, zero()), phi + 1.0f, phi);
+    store(tile.lanes[0] + s, theta * 0.318309886184f);
     store(tile.lanes[1] + s, phi);
   }
 }
 
 GATELIGHT_INLINE const float* span_of(const KernelPoints& points, KernelSource source) {
-  switch (source) {
-    case KernelSource::position:
-      return points.positions;
-    case KernelSource::direction:
-      return points.directions;
-    case KernelSource::normal:
-      return points.normals;
-    case KernelSource::albedo:
-      return points.albedos;
-    case KernelSource::roughness:
-      return points.roughnesses;
-  }
-  return nullptr;
+  const float* const spans[] = {points.positions, points.directions, points.normals, points.albedos,
+                                points.roughnesses};
+  return spans[static_cast<uint32_t>(source)];
 }
 
 // Integral of the quartic kernel 15/16 (1 - u^2)^2 from -1 to u; between 0 and 1.
 GATELIGHT_INLINE Float quartic_primitive(Float u) {
   u = clamp(u, -1.0f, 1.0f);
-  const Float z = mul(u, u);
+  const Float z = u * u;
   const Float p = fma(fma(z, broadcast(0.2f), broadcast(-2.0f / 3.0f)), z, broadcast(1.0f));
-  return fma(mul(u, broadcast(15.0f / 16.0f)), p, broadcast(0.5f));
+  return fma(u * (15.0f / 16.0f), p, broadcast(0.5f));
 }
 
 // The part of a kernel of radius 1/size inside a bin whose centre has this distance from the kernel's.
 GATELIGHT_INLINE Float bin_share(Float distance, float size) {
-  return sub(quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f))),
-             quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f))));
+  return quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f))) -
+         quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f)));
 }
 
 // One-blob (Mueller et al. 2019, 2021): each bin holds the part of a quartic kernel of radius 1/size around
@@ -104,23 +94,20 @@ GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordin
   const Int bins = broadcast_int(a.size);
   const uint32_t log2_size = static_cast<uint32_t>(__builtin_ctz(a.size));
   for (uint32_t first_bin = 0; first_bin < a.inputs; first_bin += kLanes) {
-    const Int lane = add_int(lane_numbers(), broadcast_int(first_bin));
-    const Int coordinate = shift_right(lane, log2_size);
-    const Float center = mul(add(to_float(and_int(lane, sub_int(bins, broadcast_int(1)))), broadcast(0.5f)),
-                             broadcast(1.0f / size));
-    const Float wrap =
-        wraps ? select(equal_int(coordinate, broadcast_int(1)), broadcast(1.0f), zero()) : zero();
+    const Int lane = lane_numbers() + first_bin;
+    const Int coordinate = lane >> log2_size;
+    const Float center = (to_float(lane & (bins - 1u)) + 0.5f) * (1.0f / size);
+    const Float wrap = wraps ? select(equal(coordinate, broadcast_int(1)), broadcast(1.0f), zero()) : zero();
     const uint32_t count = a.inputs - first_bin;
     float* row = inputs + a.first_input + first_bin;
-    const Int picked = and_int(coordinate, broadcast_int(3));
+    const Int picked = coordinate & 3u;
     for (uint32_t s = 0; s < kTile; ++s, row += stride) {
-      Float distance = sub(center, pick4(tile.rows[s], picked));
-      distance = sub(distance, mul(wrap, round(distance)));
+      Float distance = center - pick4(tile.rows[s], picked);
+      distance -= wrap * round(distance);
       Float share = bin_share(distance, size);
       // With two bins on a circle the kernel reaches a bin from both sides.
       if (wraps && a.size == 2)
-        share =
-            fma(wrap, add(bin_share(add(distance, wrap), size), bin_share(sub(distance, wrap), size)), share);
+        share = fma(wrap, bin_share(distance + wrap, size) + bin_share(distance - wrap, size), share);
       if (count >= kLanes) {
         store(row, share);
       } else {
@@ -137,11 +124,11 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
     float scale = 1.0f;
     for (uint32_t i = 0; i < a.size; ++i, scale *= 2.0f) {
       for (uint32_t s = 0; s < kTile; s += kLanes) {
-        const Float x = mul(load(tile.lanes[c] + s), broadcast(scale));
+        const Float x = load(tile.lanes[c] + s) * scale;
         store(sines, sine_pi(x));
         // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
-        const Float reduced = fma(round(mul(x, broadcast(0.5f))), broadcast(-2.0f), x);
-        store(cosines, sine_pi(add(reduced, broadcast(0.5f))));
+        const Float reduced = fma(round(x * 0.5f), broadcast(-2.0f), x);
+        store(cosines, sine_pi(reduced + 0.5f));
         float* column = inputs + s * stride + a.first_input + 2 * (c * a.size + i);
         for (uint32_t l = 0; l < kLanes; ++l) {
           column[l * stride] = sines[l];
@@ -177,7 +164,7 @@ GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints
       for (uint32_t c = 0; c < width; ++c) {
         Float x = select(usable, float_of(columns[c]), zero());
         if (a.source == KernelSource::position)
-          x = clamp(mul(sub(x, broadcast(e.bounds_min[c])), broadcast(e.inverse_extent)), 0.0f, 1.0f);
+          x = clamp((x - e.bounds_min[c]) * e.inverse_extent, 0.0f, 1.0f);
         store(tile.lanes[c] + s, x);
       }
     }

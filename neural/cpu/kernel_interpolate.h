@@ -23,7 +23,7 @@ GATELIGHT_ALONE void interpolate_rows(const Element* features, uint64_t feature_
             using V = typename Short<decltype(part)::value>::Type;
             V z = load_short<V>(features + node[0] * feature_stride + at) * weight[0];
             for (uint32_t n = 1; n < kNodes; ++n)
-              z += load_short<V>(features + node[n * kTile] * feature_stride + at) * weight[n * kTile];
+              z = z + load_short<V>(features + node[n * kTile] * feature_stride + at) * weight[n * kTile];
             store_short(row + at, z);
           });
     }

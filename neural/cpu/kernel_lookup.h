@@ -37,31 +37,31 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
   Int i[3];
   Float w[3];
   for (int c = 0; c < 3; ++c) {
-    const Float scaled = mul(b[c], scale);
+    const Float scaled = b[c] * scale;
     const Float whole = floor(scaled);
     i[c] = to_int(whole);
-    w[c] = sub(scaled, whole);
+    w[c] = scaled - whole;
   }
   const Int one = broadcast_int(1);
-  Int rest = sub_int(resolution, add_int(i[0], add_int(i[1], i[2])));
+  Int rest = resolution - (i[0] + i[1] + i[2]);
   // Rounding can leave all three fractions just below one. The point is then on the next node.
-  const Mask three = equal_int(rest, broadcast_int(3));
-  for (int c = 0; c < 3; ++c) i[c] = add_int(i[c], select_int(three, one, broadcast_int(0)));
-  rest = select_int(three, broadcast_int(0), rest);
-  const Mask upright = equal_int(rest, one);
-  const Mask inverted = equal_int(rest, broadcast_int(2));
+  const Mask three = equal(rest, broadcast_int(3));
+  for (int c = 0; c < 3; ++c) i[c] += select(three, one, broadcast_int(0));
+  rest = select(three, broadcast_int(0), rest);
+  const Mask upright = equal(rest, one);
+  const Mask inverted = equal(rest, broadcast_int(2));
   const Mask inside = either(upright, inverted);
 
   // In an upright triangle node c is i + e_c with weight w_c, in an inverted one i + 1 - e_c with 1 - w_c.
   // Else the point is on node i.
-  for (int c = 0; c < 3; ++c) w[c] = select(inverted, sub(broadcast(1.0f), w[c]), w[c]);
-  const Float inverse = div(broadcast(1.0f), max(add(w[0], add(w[1], w[2])), broadcast(1e-30f)));
+  for (int c = 0; c < 3; ++c) w[c] = select(inverted, 1.0f - w[c], w[c]);
+  const Float inverse = 1.0f / max(w[0] + (w[1] + w[2]), broadcast(1e-30f));
   VirtualTriangle t;
-  const Int own = select_int(upright, one, broadcast_int(0));
-  const Int other = select_int(inverted, one, broadcast_int(0));
+  const Int own = select(upright, one, broadcast_int(0));
+  const Int other = select(inverted, one, broadcast_int(0));
   for (int n = 0; n < 3; ++n) {
-    for (int c = 0; c < 3; ++c) t.node[n][c] = add_int(i[c], n == c ? own : other);
-    t.weight[n] = select(inside, mul(w[n], inverse), broadcast(n == 0 ? 1.0f : 0.0f));
+    for (int c = 0; c < 3; ++c) t.node[n][c] = i[c] + (n == c ? own : other);
+    t.weight[n] = select(inside, w[n] * inverse, broadcast(n == 0 ? 1.0f : 0.0f));
   }
   return t;
 }
@@ -87,12 +87,11 @@ GATELIGHT_INLINE LaneBases lane_bases(const GateSurfaceLevel& level) {
 
 // `at` is the offset of the level's first word.
 GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int at) {
-  return {gather_int(&levels->resolution, at), gather_int(&levels->vertex_base, at),
-          gather_int(&levels->corners, at)};
+  return {gather(&levels->resolution, at), gather(&levels->vertex_base, at), gather(&levels->corners, at)};
 }
 
 GATELIGHT_INLINE LaneBases gather_bases(const GateSurfaceLevel* levels, Int at) {
-  return {gather_int(&levels->edge_base, at), gather_int(&levels->interior_base, at)};
+  return {gather(&levels->edge_base, at), gather(&levels->interior_base, at)};
 }
 
 // Index of the node with integer barycentrics a (gate_tables.h). Only nodes on edges use `edges`.
@@ -100,44 +99,43 @@ GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, cons
                                  const Int (&corners)[3], const Int (&edges)[3], Int triangle) {
   const Int none = broadcast_int(0);
   const Int one = broadcast_int(1);
-  const Int last = sub_int(level.resolution, one);  // R - 1
+  const Int last = level.resolution - one;  // R - 1
   Mask at_zero[3], at_corner[3];
   for (int c = 0; c < 3; ++c) {
-    at_zero[c] = equal_int(a[c], none);
-    at_corner[c] = equal_int(a[c], level.resolution);
+    at_zero[c] = equal(a[c], none);
+    at_corner[c] = equal(a[c], level.resolution);
   }
   const Mask vertex = either(at_corner[0], either(at_corner[1], at_corner[2]));
   const Mask edge = either(at_zero[0], either(at_zero[1], at_zero[2]));
-  Int node = add_int(level.vertex_base,
-                     select_int(at_corner[0], corners[0], select_int(at_corner[1], corners[1], corners[2])));
+  Int node =
+      level.vertex_base + select(at_corner[0], corners[0], select(at_corner[1], corners[1], corners[2]));
   if (all(vertex)) return node;
 
   // The edge is opposite to the corner whose coordinate is zero. Steps from its lower corner equal the
   // coordinate of its higher corner.
-  const Mask swap0 = less_unsigned(corners[1], corners[2]);
-  const Mask swap1 = less_unsigned(corners[2], corners[0]);
-  const Mask swap2 = less_unsigned(corners[0], corners[1]);
-  const Int steps0 = select_int(swap0, a[2], a[1]);
-  const Int steps1 = select_int(swap1, a[0], a[2]);
-  const Int steps2 = select_int(swap2, a[1], a[0]);
-  const Int steps = select_int(at_zero[0], steps0, select_int(at_zero[1], steps1, steps2));
-  const Int number = select_int(at_zero[0], edges[0], select_int(at_zero[1], edges[1], edges[2]));
-  const Int edge_node = add_int(bases.edge, add_int(mul_int(number, last), sub_int(steps, one)));
+  const Mask swap0 = less(corners[1], corners[2]);
+  const Mask swap1 = less(corners[2], corners[0]);
+  const Mask swap2 = less(corners[0], corners[1]);
+  const Int steps0 = select(swap0, a[2], a[1]);
+  const Int steps1 = select(swap1, a[0], a[2]);
+  const Int steps2 = select(swap2, a[1], a[0]);
+  const Int steps = select(at_zero[0], steps0, select(at_zero[1], steps1, steps2));
+  const Int number = select(at_zero[0], edges[0], select(at_zero[1], edges[1], edges[2]));
+  const Int edge_node = bases.edge + number * last + steps - one;
 
-  const Int row = sub_int(a[0], one);
-  const Int interior_count = half_int(mul_int(last, sub_int(last, one)));
-  const Int before = half_int(mul_int(row, sub_int(add_int(last, last), a[0])));
-  const Int interior_node = add_int(
-      bases.interior, add_int(mul_int(triangle, interior_count), add_int(before, sub_int(a[1], one))));
-  return select_int(vertex, node, select_int(edge, edge_node, interior_node));
+  const Int row = a[0] - one;
+  const Int interior_count = (last * (last - one)) >> 1;
+  const Int before = (row * (last + last - a[0])) >> 1;
+  const Int interior_node = bases.interior + triangle * interior_count + before + a[1] - one;
+  return select(vertex, node, select(edge, edge_node, interior_node));
 }
 
 GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, Int triangle) {
   const Int r = level.resolution;
   const Int one = broadcast_int(1);
-  const Int count = half_int(mul_int(add_int(r, one), add_int(r, broadcast_int(2))));
-  const Int before = half_int(mul_int(a[0], sub_int(add_int(add_int(r, r), broadcast_int(3)), a[0])));
-  return add_int(level.vertex_base, add_int(mul_int(triangle, count), add_int(before, a[1])));
+  const Int count = ((r + one) * (r + 2u)) >> 1;
+  const Int before = (a[0] * (r + r + 3u - a[0])) >> 1;
+  return level.vertex_base + triangle * count + before + a[1];
 }
 
 // Writes nodes and weights [slot][kTile]. Points without storage get weight 0, and their `valid` becomes 0.
@@ -148,11 +146,11 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
   const uint32_t* words = &e.surfaces->topology_offset;
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
-    Int surface = load_int(points.surfaces + s);
-    Mask stored = less_unsigned(surface, broadcast_int(e.surface_count));
-    surface = select_int(stored, surface, broadcast_int(0));
+    Int surface = load(points.surfaces + s);
+    Mask stored = less(surface, broadcast_int(e.surface_count));
+    surface = select(stored, surface, broadcast_int(0));
     const uint32_t leader = first_lane(surface);
-    const bool same = all(equal_int(surface, broadcast_int(leader)));
+    const bool same = all(equal(surface, broadcast_int(leader)));
 
     Int offset, stride, count;
     if (same) {
@@ -161,21 +159,21 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
       stride = broadcast_int(one.topology_stride);
       count = broadcast_int(one.triangle_count);
     } else {
-      const Int at = mul_int(surface, broadcast_int(4));
-      offset = gather_int(words, at);
-      stride = gather_int(words, add_int(at, broadcast_int(1)));
-      count = gather_int(words, add_int(at, broadcast_int(2)));
+      const Int at = surface * 4u;
+      offset = gather(words, at);
+      stride = gather(words, at + 1u);
+      count = gather(words, at + 2u);
     }
-    Int triangle = load_int(points.triangles + s);
-    stored = both(stored, less_unsigned(triangle, count));
+    Int triangle = load(points.triangles + s);
+    stored = both(stored, less(triangle, count));
 
     Float b[3];
     load_pairs(points.barycentrics + 2 * s, b[1], b[2]);
-    b[0] = sub(sub(broadcast(1.0f), b[1]), b[2]);
+    b[0] = 1.0f - b[1] - b[2];
     // Points far outside the triangle stay finite, so that every resulting node exists.
     for (Float& x : b) x = min(max(x, zero()), broadcast(1e30f));
-    const Float inverse = div(broadcast(1.0f), add(b[0], add(b[1], b[2])));
-    for (Float& x : b) x = mul(x, inverse);
+    const Float inverse = 1.0f / (b[0] + (b[1] + b[2]));
+    for (Float& x : b) x *= inverse;
 
     Int corners[3], edges[3];
     Int corners_read = broadcast_int(0);  // the row's word that `corners` was read from
@@ -183,7 +181,7 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
     bool edges_read = false;
     alignas(64) uint32_t places[kLanes];
     const auto read_row = [&](Int first, Int(&three)[3]) __attribute__((always_inline)) {
-      store_int(places, add_int(row, first));
+      store(places, row + first);
       Int columns[4];
       load_columns4(
           [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i]; }, columns);
@@ -191,24 +189,23 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
     };
     for (uint32_t l = 0; l < e.levels; ++l) {
       const GateSurfaceLevel& one = e.surface_levels[leader * e.levels + l];
-      const Int at = mul_int(add_int(mul_int(surface, broadcast_int(e.levels)), broadcast_int(l)),
-                             broadcast_int(kLevelWords));
+      const Int at = (surface * e.levels + l) * kLevelWords;
       const LaneLevel level = same ? lane_level(one) : gather_level(e.surface_levels, at);
       if (l == 0) {
-        stored = both(stored, less_unsigned(broadcast_int(0), level.resolution));
-        triangle = select_int(stored, triangle, broadcast_int(0));
-        row = select_int(stored, add_int(offset, mul_int(triangle, stride)), broadcast_int(0));
+        stored = both(stored, less(broadcast_int(0), level.resolution));
+        triangle = select(stored, triangle, broadcast_int(0));
+        row = select(stored, offset + triangle * stride, broadcast_int(0));
       }
-      if (e.per_triangle == 0 && (l == 0 || !all(equal_int(level.corners, corners_read)))) {
+      if (e.per_triangle == 0 && (l == 0 || !all(equal(level.corners, corners_read)))) {
         read_row(level.corners, corners);
         corners_read = level.corners;
       }
       // If all lanes have R = 1, the nodes are the corners.
-      if (e.per_triangle == 0 && all(equal_int(level.resolution, broadcast_int(1)))) {
+      if (e.per_triangle == 0 && all(equal(level.resolution, broadcast_int(1)))) {
         for (uint32_t n = 0; n < 3; ++n) {
-          const Int node = add_int(level.vertex_base, corners[n]);
-          store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
-          store(weights + (3 * l + n) * kTile + s, select(stored, mul(valid, b[n]), zero()));
+          const Int node = level.vertex_base + corners[n];
+          store(nodes + (3 * l + n) * kTile + s, select(stored, node, broadcast_int(0)));
+          store(weights + (3 * l + n) * kTile + s, select(stored, valid * b[n], zero()));
         }
         continue;
       }
@@ -221,18 +218,18 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
       if (e.per_triangle == 0) {
         // Lanes with R = 1 get the same values as above, so that a point's bits do not depend on its
         // neighbours.
-        const Mask plain = equal_int(level.resolution, broadcast_int(1));
+        const Mask plain = equal(level.resolution, broadcast_int(1));
         for (uint32_t n = 0; n < 3; ++n) {
           t.weight[n] = select(plain, b[n], t.weight[n]);
           for (uint32_t c = 0; c < 3; ++c)
-            t.node[n][c] = select_int(plain, broadcast_int(n == c ? 1 : 0), t.node[n][c]);
+            t.node[n][c] = select(plain, broadcast_int(n == c ? 1 : 0), t.node[n][c]);
         }
       }
       for (uint32_t n = 0; n < 3; ++n) {
         const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
                                              : shared_node(t.node[n], level, bases, corners, edges, triangle);
-        const Float weight = mul(valid, t.weight[n]);
-        store_int(nodes + (3 * l + n) * kTile + s, select_int(stored, node, broadcast_int(0)));
+        const Float weight = valid * t.weight[n];
+        store(nodes + (3 * l + n) * kTile + s, select(stored, node, broadcast_int(0)));
         store(weights + (3 * l + n) * kTile + s, select(stored, weight, zero()));
       }
     }
@@ -249,10 +246,9 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
 // half of the product with 2^(32+shift) / (entries / 8), rounded up, which is exact (Granlund, Montgomery
 // 1994).
 GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
-  if ((level.entries & (level.entries - 1)) == 0) return and_int(number, broadcast_int(level.entries - 1));
-  const Int quotient =
-      shift_right(multiply_high(shift_right(number, 3), broadcast_int(level.multiplier)), level.shift);
-  return sub_int(number, mul_int(quotient, broadcast_int(level.entries)));
+  if ((level.entries & (level.entries - 1)) == 0) return number & (level.entries - 1);
+  const Int quotient = multiply_high(number >> 3, broadcast_int(level.multiplier)) >> level.shift;
+  return number - quotient * level.entries;
 }
 
 // The grid of instant-ngp: points lie at x scale + 0.5 and have eight corners with trilinear weights.
@@ -260,11 +256,11 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
                                       float* weights) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
-    const Int triples = add_int(lane_numbers(), add_int(lane_numbers(), lane_numbers()));
+    const Int triples = lane_numbers() * 3u;
+    const auto* positions = reinterpret_cast<const uint32_t*>(points.positions + 3 * s);
     Float x[3];
     for (uint32_t c = 0; c < 3; ++c) {
-      x[c] = mul(sub(gather(points.positions + 3 * s + c, triples), broadcast(e.bounds_min[c])),
-                 broadcast(e.inverse_extent));
+      x[c] = (float_of(gather(positions + c, triples)) - e.bounds_min[c]) * e.inverse_extent;
       x[c] = clamp(x[c], 0.0f, 1.0f);
     }
     for (uint32_t l = 0; l < e.levels; ++l) {
@@ -274,22 +270,22 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
       for (uint32_t c = 0; c < 3; ++c) {
         const Float scaled = fma(x[c], broadcast(level.scale), broadcast(0.5f));
         const Float whole = floor(scaled);
-        w[c][1] = sub(scaled, whole);
-        w[c][0] = sub(broadcast(1.0f), w[c][1]);
+        w[c][1] = scaled - whole;
+        w[c][0] = 1.0f - w[c][1];
         const Int cell = to_int(whole);
-        const Int next = add_int(cell, broadcast_int(1));
+        const Int next = cell + 1u;
         const uint32_t factors[2][3] = {{1u, 2654435761u, 805459861u},
                                         {1u, level.resolution, level.resolution * level.resolution}};
         const Int factor = broadcast_int(factors[level.dense][c]);
-        low[c][0] = mul_int(cell, factor);
-        low[c][1] = mul_int(next, factor);
+        low[c][0] = cell * factor;
+        low[c][1] = next * factor;
       }
       for (uint32_t k = 0; k < 8; ++k) {
         const Int a = low[0][k & 1], b = low[1][k >> 1 & 1], c = low[2][k >> 2];
-        const Int number = level.dense != 0 ? add_int(a, add_int(b, c)) : xor_int(a, xor_int(b, c));
-        const Int node = add_int(broadcast_int(level.first_node), modulo(number, level));
-        const Float weight = mul(mul(w[0][k & 1], w[1][k >> 1 & 1]), mul(w[2][k >> 2], valid));
-        store_int(nodes + (8 * l + k) * kTile + s, node);
+        const Int number = level.dense != 0 ? a + b + c : a ^ b ^ c;
+        const Int node = level.first_node + modulo(number, level);
+        const Float weight = w[0][k & 1] * w[1][k >> 1 & 1] * (w[2][k >> 2] * valid);
+        store(nodes + (8 * l + k) * kTile + s, node);
         store(weights + (8 * l + k) * kTile + s, weight);
       }
     }
@@ -310,17 +306,12 @@ GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints&
   prefetch_rows(points.normals, 3, begin, end);
   prefetch_rows(points.albedos, 3, begin, end);
   if (e.encoding != KernelEncoding::gate || e.per_triangle != 0) return;
-  const GateSurface* surfaces = e.surfaces;
-  const uint32_t* topology = e.topology;
-  const uint32_t surface_count = e.surface_count;
-  const uint32_t* point_surfaces = points.surfaces;
-  const uint32_t* point_triangles = points.triangles;
   for (uint64_t i = begin; i < end; ++i) {
-    const uint32_t surface = point_surfaces[i], triangle = point_triangles[i];
-    if (surface >= surface_count) continue;
-    const GateSurface& s = surfaces[surface];
+    const uint32_t surface = points.surfaces[i], triangle = points.triangles[i];
+    if (surface >= e.surface_count) continue;
+    const GateSurface& s = e.surfaces[surface];
     if (triangle >= s.triangle_count) continue;
-    const uint32_t* row = topology + s.topology_offset + uint64_t{triangle} * s.topology_stride;
+    const uint32_t* row = e.topology + s.topology_offset + uint64_t{triangle} * s.topology_stride;
     prefetch_far(row);
     if (s.topology_stride > 6) prefetch_far(row + s.topology_stride - 1);
   }

@@ -111,9 +111,8 @@ GATELIGHT_INLINE double loss_of(uint32_t outputs, bool relative, float max_targe
                                 uint32_t& clipped) {
   if constexpr (kOutputs == 1 || kOutputs == 3) {
     if (count == kTile && plain(targets, kOutputs, max_target, valid, count)) {
-      constexpr uint32_t kMost = kTile - 1;
-      const double total = loss_plain_rows<kOutputs>(relative, targets, kMost - (kOutputs == 1 ? 2 : 0), y);
-      constexpr uint32_t kFrom = kMost - (kOutputs == 1 ? 2 : 0);
+      constexpr uint32_t kFrom = kTile - (kOutputs == 1 ? 3 : 1);
+      const double total = loss_plain_rows<kOutputs>(relative, targets, kFrom, y);
       return total + loss_rows<kOutputs>(outputs, relative, max_target, targets + kFrom * kOutputs,
                                          valid + kFrom, kTile - kFrom, kTile - kFrom,
                                          y + kFrom * kOutputStride, clipped);

@@ -37,7 +37,7 @@ struct TileBuffers {
 };
 
 GATELIGHT_INLINE Float leaky(Float a, Float slope) {
-  return max(a, mul(a, slope));
+  return max(a, a * slope);
 }
 
 // y = activation(x W + b).
@@ -84,7 +84,7 @@ GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* 
       even = fma(repeat4<2>(h), w[4 * v + 2], even);
       odd = fma(repeat4<3>(h), w[4 * v + 3], odd);
     }
-    store_sum4(y + r * kOutputStride, add(even, odd));
+    store_sum4(y + r * kOutputStride, even + odd);
   }
 }
 
@@ -169,9 +169,9 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
         const Float active = load(at);
 #pragma GCC unroll 4
         for (uint32_t o = 0; o < 4; ++o) g[o][v] = fma(y[o], active, g[o][v]);
-        const Float below = fma(y[0], w[0][v], mul(y[1], w[1][v]));
-        const Float other = fma(y[2], w[2][v], mul(y[3], w[3][v]));
-        store(at, mul(add(below, other), select(less(zero(), active), one, leak)));
+        const Float below = fma(y[0], w[0][v], y[1] * w[1][v]);
+        const Float other = fma(y[2], w[2][v], y[3] * w[3][v]);
+        store(at, (below + other) * select(less(zero(), active), one, leak));
       }
     }
 #pragma GCC unroll 4
@@ -182,10 +182,10 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
   }
   Float even = load_first4(bias_gradients), odd = zero();
   for (uint32_t r = 0; r < rows; r += 2) {
-    even = add(even, load_first4(d + r * kOutputStride));
-    odd = add(odd, load_first4(d + (r + 1) * kOutputStride));
+    even += load_first4(d + r * kOutputStride);
+    odd += load_first4(d + (r + 1) * kOutputStride);
   }
-  store_partial(bias_gradients, add(even, odd), 4);
+  store_partial(bias_gradients, even + odd, 4);
 }
 
 #endif
@@ -209,7 +209,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
         d, rows, layer.outputs, layer.backward, layer.padded_inputs, nullptr, width,
         [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
           float* at = h + r * width + c;
-          store(at, mul(a, select(less(zero(), load(at)), one, slope)));
+          store(at, a * select(less(zero(), load(at)), one, slope));
         },
         between);
   };

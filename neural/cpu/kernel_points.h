@@ -12,11 +12,11 @@ GATELIGHT_INLINE bool all_finite(const float* p, uint32_t count) {
   uint32_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     const Float x = load(p + i);
-    total = add(total, sub(x, x));
+    total += x - x;
   }
   if (i < count) {
     const Float x = load_partial(p + i, count - i);
-    total = add(total, sub(x, x));
+    total += x - x;
   }
   return all(equal(total, zero()));
 }

@@ -35,10 +35,37 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, 
   }
 }
 
-// Computes y = x w (+ bias) for `rows` rows, a multiple of kBlockRows. Calls finish(row, column, value) to
-// store a vector and between_blocks() after each block.
-template <uint32_t kRowStride, uint32_t kVectors, class Finish>
-GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint32_t depth, const float* w,
+#if defined(GATELIGHT_ISA_BF16)
+
+// The same with pairs of bf16 numbers along the depth; their products are summed in fp32 (vdpbf16ps).
+template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride>
+GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const uint16_t* x, uint32_t depth_stride,
+                                 const uint16_t* w, uint32_t w_stride, uint32_t depth) {
+  for (uint32_t d = 0; d < depth; ++d, x += depth_stride, w += w_stride) {
+    __m512bh column[kVectors];
+#pragma GCC unroll 4
+    for (uint32_t v = 0; v < kVectors; ++v) __builtin_memcpy(&column[v], w + v * 2 * kLanes, 64);
+#pragma GCC unroll 16
+    for (uint32_t r = 0; r < kRows; ++r) {
+      uint32_t pair;
+      __builtin_memcpy(&pair, x + r * kRowStride, 4);
+      const auto a = __builtin_bit_cast(__m512bh, broadcast_int(pair));
+#pragma GCC unroll 4
+      for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = _mm512_dpbf16_ps(acc[r][v], a, column[v]);
+    }
+  }
+}
+
+#endif
+
+// Number of elements, floats or bf16 numbers, that fill a float's place along the depth.
+template <class Element>
+constexpr uint32_t kPack = sizeof(float) / sizeof(Element);
+
+// Computes y = x w (+ bias) for `rows` rows, a multiple of kBlockRows; `depth` counts packs. Calls
+// finish(row, column, value) to store a vector and between_blocks() after each block.
+template <uint32_t kRowStride, uint32_t kVectors, class Element, class Finish>
+GATELIGHT_ALONE void multiply_block_columns(const Element* x, uint32_t rows, uint32_t depth, const Element* w,
                                             uint32_t w_stride, const float* bias, uint32_t columns,
                                             Finish&& finish, const Between& between_blocks) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
@@ -51,7 +78,8 @@ GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint3
       for (uint32_t r = 0; r < kBlockRows; ++r)
 #pragma GCC unroll 4
         for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = start[v];
-      accumulate<kBlockRows, kVectors, kRowStride>(acc, x + r0 * kRowStride, 1, w + c, w_stride, depth);
+      accumulate<kBlockRows, kVectors, kRowStride>(acc, x + r0 * kRowStride, kPack<Element>,
+                                                   w + kPack<Element> * c, kPack<Element> * w_stride, depth);
 #pragma GCC unroll 16
       for (uint32_t r = 0; r < kBlockRows; ++r)
 #pragma GCC unroll 4
@@ -62,8 +90,8 @@ GATELIGHT_ALONE void multiply_block_columns(const float* x, uint32_t rows, uint3
 }
 
 // `columns` is a multiple of 16. The last columns use one vector per row if two do not fit.
-template <uint32_t kRowStride, class Finish>
-GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, const float* w,
+template <uint32_t kRowStride, class Element, class Finish>
+GATELIGHT_INLINE void multiply(const Element* x, uint32_t rows, uint32_t depth, const Element* w,
                                uint32_t w_stride, const float* bias, uint32_t columns, Finish&& finish,
                                const Between& between_blocks) {
   const uint32_t pairs = columns / (kBlockVectors * kLanes) * (kBlockVectors * kLanes);
@@ -71,7 +99,8 @@ GATELIGHT_INLINE void multiply(const float* x, uint32_t rows, uint32_t depth, co
                                                     between_blocks);
   if (pairs < columns)
     multiply_block_columns<kRowStride, 1>(
-        x, rows, depth, w + pairs, w_stride, bias != nullptr ? bias + pairs : nullptr, columns - pairs,
+        x, rows, depth, w + kPack<Element> * pairs, w_stride, bias != nullptr ? bias + pairs : nullptr,
+        columns - pairs,
         [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) { finish(r, c + pairs, a); },
         between_blocks);
 }
@@ -91,9 +120,8 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
 #pragma GCC unroll 4
     for (uint32_t v = 0; v < kVectors; ++v) total[v] = load(sums + v * kLanes);
     accumulate<kRows, kVectors, 1>(
-        acc, x, x_stride, d, d_stride, samples, [&](uint32_t v, Float column) __attribute__((always_inline)) {
-          total[v] = add(total[v], column);
-        });
+        acc, x, x_stride, d, d_stride,
+        samples, [&](uint32_t v, Float column) __attribute__((always_inline)) { total[v] += column; });
 #pragma GCC unroll 4
     for (uint32_t v = 0; v < kVectors; ++v) store(sums + v * kLanes, total[v]);
   } else {

@@ -4,6 +4,10 @@
 
 #include "neural/cpu/simd.h"
 
+#if defined(GATELIGHT_ISA_SCALAR)
+#include "neural/base/half.h"
+#endif
+
 namespace {
 
 typedef float Float8 __attribute__((vector_size(32)));
@@ -30,12 +34,6 @@ GATELIGHT_INLINE Float2 operator*(Float2 a, float b) {
 }
 GATELIGHT_INLINE Float2 operator+(Float2 a, float b) {
   return {a.v + b};
-}
-GATELIGHT_INLINE Float2& operator+=(Float2& a, Float2 b) {
-  return a = a + b;
-}
-GATELIGHT_INLINE Float2& operator-=(Float2& a, Float2 b) {
-  return a = a - b;
 }
 
 template <uint32_t kCount>
@@ -99,41 +97,15 @@ GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
 
 #if defined(GATELIGHT_ISA_SCALAR)
 
-GATELIGHT_INLINE float float_of_half(uint16_t half) {
-  const uint32_t sign = static_cast<uint32_t>(half & 0x8000u) << 16;
-  const uint32_t magnitude = half & 0x7fffu;
-  // Halves here are finite. Subnormal halves are converted with the difference of two normal floats, so
-  // flushing of denormals has no effect.
-  const uint32_t shifted = (magnitude << 13) + (magnitude < 0x400u ? 113u << 23 : 112u << 23);
-  float value;
-  __builtin_memcpy(&value, &shifted, 4);
-  if (magnitude < 0x400u) value -= 0x1p-14f;
-  return sign != 0 ? -value : value;
-}
-GATELIGHT_INLINE uint16_t half_of_float(float value) {
-  uint32_t word;
-  __builtin_memcpy(&word, &value, 4);
-  const uint32_t sign = (word >> 16) & 0x8000u;
-  const uint32_t magnitude = word & 0x7fffffffu;
-  if (magnitude < 0x38800000u) {
-    float shifted;
-    __builtin_memcpy(&shifted, &magnitude, 4);
-    shifted += 0.5f;
-    __builtin_memcpy(&word, &shifted, 4);
-    return static_cast<uint16_t>(sign | (word - 0x3f000000u));
-  }
-  const uint32_t odd = magnitude >> 13 & 1u;
-  return static_cast<uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
-}
 template <class V>
 GATELIGHT_INLINE V load_short(const uint16_t* p) {
   float lanes[kShort<V>];
-  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = float_of_half(p[i]);
+  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = gatelight::neural::half_to_float(p[i]);
   return load_short<V>(lanes);
 }
 template <class V>
 GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
-  for (uint32_t i = 0; i < kShort<V>; ++i) p[i] = half_of_float(lane_of(v, i));
+  for (uint32_t i = 0; i < kShort<V>; ++i) p[i] = gatelight::neural::float_to_half(lane_of(v, i));
 }
 template <class V>
 GATELIGHT_INLINE V sqrt_short(V v) {
@@ -146,24 +118,21 @@ GATELIGHT_INLINE V sqrt_short(V v) {
 
 template <class V>
 GATELIGHT_INLINE V load_short(const uint16_t* p) {
-  V v;
   if constexpr (sizeof(V) == 32) {
-    const __m256 x = _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-    __builtin_memcpy(&v, &x, sizeof v);
+    return (V)_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
   } else {
     long long word = 0;
     __builtin_memcpy(&word, p, 2 * kShort<V>);
     const __m128 x = _mm_cvtph_ps(_mm_cvtsi64_si128(word));
+    V v;
     __builtin_memcpy(&v, &x, sizeof v);
+    return v;
   }
-  return v;
 }
 template <class V>
 GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
   if constexpr (sizeof(V) == 32) {
-    __m256 x;
-    __builtin_memcpy(&x, &v, sizeof v);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtps_ph(x, _MM_FROUND_TO_NEAREST_INT));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtps_ph((__m256)v, _MM_FROUND_TO_NEAREST_INT));
   } else {
     __m128 x = _mm_setzero_ps();
     __builtin_memcpy(&x, &v, sizeof v);
@@ -174,17 +143,14 @@ GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
 template <class V>
 GATELIGHT_INLINE V sqrt_short(V v) {
   if constexpr (sizeof(V) == 32) {
-    __m256 x;
-    __builtin_memcpy(&x, &v, sizeof v);
-    x = _mm256_sqrt_ps(x);
-    __builtin_memcpy(&v, &x, sizeof v);
+    return (V)_mm256_sqrt_ps((__m256)v);
   } else {
     __m128 x = _mm_setzero_ps();
     __builtin_memcpy(&x, &v, sizeof v);
     x = _mm_sqrt_ps(x);
     __builtin_memcpy(&v, &x, sizeof v);
+    return v;
   }
-  return v;
 }
 
 #endif

@@ -70,7 +70,7 @@ void train(const KernelTraining& t) {
     statistics.rejected += take_points(e, t.points, t.targets, n.outputs, begin, count, tile);
     statistics.unstored += lookup(e, tile, nodes, weights);
     Float accepted = zero();
-    for (uint32_t s = 0; s < kTile; s += kLanes) accepted = add(accepted, load(tile.valid + s));
+    for (uint32_t s = 0; s < kTile; s += kLanes) accepted += load(tile.valid + s);
     statistics.accepted += static_cast<uint32_t>(sum(accepted));
     if (uint8_t* flags = t.accepted; flags != nullptr)
       for (uint32_t s = 0; s < count; ++s) flags[begin + s] = tile.valid[s] != 0.0f ? 1 : 0;

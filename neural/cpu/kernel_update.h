@@ -54,7 +54,7 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
           const uint64_t index = node * u.feature_stride + at;
           V p = u.features_fp32 != nullptr ? load_short<V>(u.features_fp32 + index)
                                            : load_short<V>(u.features_fp16 + index);
-          p -= m * step.step / (sqrt_short<V>(v) + step.epsilon);
+          p = p - m * step.step / (sqrt_short<V>(v) + step.epsilon);
           if (u.features_fp16 != nullptr) {
             p = clamp_to_half(p);
             store_short(u.features_fp16 + index, p);
@@ -66,7 +66,7 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
           if (u.averages != nullptr || u.averages_fp16 != nullptr) {
             V a = u.averages != nullptr ? load_short<V>(u.averages + index)
                                         : load_short<V>(u.averages_fp16 + index);
-            a += (p - a) * step.average_rate;
+            a = a + (p - a) * step.average_rate;
             if (u.averages != nullptr) store_short(u.averages + index, a);
             if (u.averages_fp16 != nullptr) store_short(u.averages_fp16 + index, a);
           }

@@ -40,6 +40,7 @@ enum class KernelEncoding : uint32_t { none, gate, hash_grid };
 enum class KernelSource : uint32_t { position, direction, normal, albedo, roughness };
 enum class KernelTransform : uint32_t { identity, one_blob, spherical_one_blob, frequency };
 
+// Compute shaders read these words, too.
 struct KernelAuxiliary {
   KernelSource source;
   KernelTransform transform;
@@ -73,15 +74,15 @@ struct KernelEncoder {
 struct KernelLayer {
   uint32_t inputs, outputs;
   uint32_t padded_inputs, padded_outputs;
-  const float* forward;
-  const float* backward;         // in layer 0 for feature inputs only
-  const float* biases;           // padded; zeros without biases
-  const uint16_t* forward_bf16;  // [inputs / 2][padded outputs][2], with inputs padded to an even number
-  const float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without bf16
+  float* forward;
+  float* backward;         // in layer 0 for feature inputs only
+  float* biases;           // padded; zeros without biases
+  uint16_t* forward_bf16;  // [inputs / 2][padded outputs][2], with inputs padded to an even number
+  float* forward_rounded;  // `forward` rounded to bf16, for instruction sets without bf16
   // For a last layer with up to four outputs, else null: [input / 16][input % 4][16]. Lane 4 g + o has the
   // weight of output o for input 4 g + (input % 4) of 16.
-  const float* forward_groups;
-  const float* forward_groups_rounded;
+  float* forward_groups;
+  float* forward_groups_rounded;
   uint64_t gradient;  // offset in a chunk's gradient: [inputs][padded outputs]; last layer [outputs][padded
                       // inputs]
   uint64_t bias_gradient;  // offset: padded outputs

@@ -56,27 +56,19 @@ PackedNetwork::PackedNetwork(const Model& model) : model_(&model) {
   std::uint16_t* h = halves_.data();
   for (std::uint32_t l = 0; l < kernel_.layer_count; ++l) {
     KernelLayer& layer = kernel_.layers[l];
-    Targets& to = targets_[l];
     const std::uint64_t forward = std::uint64_t{layer.inputs} * layer.padded_outputs;
-    to.forward = f;
-    to.rounded = f + forward;
-    to.backward = to.rounded + forward;
-    to.biases = to.backward + std::uint64_t{layer.outputs} * layer.padded_inputs;
-    to.halves = h;
-    f = to.biases + layer.padded_outputs;
+    layer.forward = f;
+    layer.forward_rounded = f + forward;
+    layer.backward = layer.forward_rounded + forward;
+    layer.biases = layer.backward + std::uint64_t{layer.outputs} * layer.padded_inputs;
+    layer.forward_bf16 = h;
+    f = layer.biases + layer.padded_outputs;
     if (l + 1 == kernel_.layer_count && layer.outputs <= 4) {
-      to.groups = f;
-      to.groups_rounded = f + 4 * std::uint64_t{layer.inputs};
+      layer.forward_groups = f;
+      layer.forward_groups_rounded = f + 4 * std::uint64_t{layer.inputs};
       f += 8 * std::uint64_t{layer.inputs};
     }
-    layer.forward_groups = to.groups;
-    layer.forward_groups_rounded = to.groups_rounded;
     h += std::uint64_t{layer.inputs + 1} / 2 * 2 * layer.padded_outputs;
-    layer.forward = to.forward;
-    layer.forward_rounded = to.rounded;
-    layer.backward = to.backward;
-    layer.biases = to.biases;
-    layer.forward_bf16 = to.halves;
   }
 }
 
@@ -86,25 +78,24 @@ void PackedNetwork::pack(std::span<const float> network) {
     const KernelLayer& layer = kernel_.layers[l];
     const float* weights = network.data() + (layout.layers[l].weights - layout.network);
     const float* biases = network.data() + (layout.layers[l].biases - layout.network);
-    const Targets& to = targets_[l];
     const std::uint32_t backward_inputs = l == 0 ? layout.feature_inputs : layer.inputs;
     for (std::uint32_t o = 0; o < layer.outputs; ++o)
       for (std::uint32_t i = 0; i < layer.inputs; ++i) {
         const float w = weights[std::uint64_t{o} * layer.inputs + i];
         const std::uint16_t half = to_bf16(w);
-        to.forward[std::uint64_t{i} * layer.padded_outputs + o] = w;
-        to.rounded[std::uint64_t{i} * layer.padded_outputs + o] =
+        layer.forward[std::uint64_t{i} * layer.padded_outputs + o] = w;
+        layer.forward_rounded[std::uint64_t{i} * layer.padded_outputs + o] =
             std::bit_cast<float>(std::uint32_t{half} << 16);
-        to.halves[(std::uint64_t{i / 2} * layer.padded_outputs + o) * 2 + i % 2] = half;
-        if (to.groups != nullptr) {
+        layer.forward_bf16[(std::uint64_t{i / 2} * layer.padded_outputs + o) * 2 + i % 2] = half;
+        if (layer.forward_groups != nullptr) {
           const std::uint32_t at = (i / 16 * 4 + i % 4) * 16 + i % 16 / 4 * 4 + o;
-          to.groups[at] = w;
-          to.groups_rounded[at] = std::bit_cast<float>(std::uint32_t{half} << 16);
+          layer.forward_groups[at] = w;
+          layer.forward_groups_rounded[at] = std::bit_cast<float>(std::uint32_t{half} << 16);
         }
-        if (i < backward_inputs) to.backward[std::uint64_t{o} * layer.padded_inputs + i] = w;
+        if (i < backward_inputs) layer.backward[std::uint64_t{o} * layer.padded_inputs + i] = w;
       }
     if (layout.biases)
-      for (std::uint32_t o = 0; o < layer.outputs; ++o) to.biases[o] = biases[o];
+      for (std::uint32_t o = 0; o < layer.outputs; ++o) layer.biases[o] = biases[o];
   }
 }
 

@@ -26,19 +26,7 @@ class PackedNetwork {
   void unpack_gradients(const float* packed, std::span<float> network) const;
 
  private:
-  // Writable pointers to the arrays of kernel_.
-  struct Targets {
-    float* forward = nullptr;
-    float* rounded = nullptr;
-    float* backward = nullptr;
-    float* biases = nullptr;
-    float* groups = nullptr;
-    float* groups_rounded = nullptr;
-    std::uint16_t* halves = nullptr;
-  };
-
   const Model* model_;
-  Targets targets_[kMaxKernelLayers];
   KernelNetwork kernel_ = {};
   std::uint64_t gradient_size_ = 0;
   HugeBuffer<float> floats_;

@@ -52,38 +52,35 @@ std::vector<Part> parts(const ParameterLayout& layout) {
   return parts;
 }
 
-/// The arrays over all parameters. Their kind determines the valid values, so that a damaged file cannot
-/// introduce NaN.
-enum class ArrayKind : std::uint8_t { parameters, averages, first_moments, second_moments };
-
+/// The arrays over all parameters.
 struct Array {
-  ArrayKind kind;
   const char* prefix;
   std::vector<float> ModelState::*values;
 };
 
-constexpr Array kArrays[] = {{ArrayKind::parameters, "", &ModelState::parameters},
-                             {ArrayKind::averages, "average.", &ModelState::averages},
-                             {ArrayKind::first_moments, "first_moment.", &ModelState::first_moments},
-                             {ArrayKind::second_moments, "second_moment.", &ModelState::second_moments}};
+constexpr Array kArrays[] = {{"", &ModelState::parameters},
+                             {"average.", &ModelState::averages},
+                             {"first_moment.", &ModelState::first_moments},
+                             {"second_moment.", &ModelState::second_moments}};
 
 std::string tensor_name(const Array& array, const Part& part) {
   return fmt::format("{}{}", array.prefix, part.name);
 }
 
 /// The same conditions as in check_state_numbers().
-bool is_sound(ArrayKind kind, float value) {
-  return std::isfinite(value) && (kind != ArrayKind::second_moments || value >= 0.0f);
+bool is_sound(const Array& array, float value) {
+  return std::isfinite(value) && (array.values != &ModelState::second_moments || value >= 0.0f);
 }
 
 /// Averages are left out if they are not kept: they equal the parameters then.
 bool is_stored(const Array& array, const Part& part, const TrainingOptions& options) {
-  if (array.kind != ArrayKind::averages) return true;
+  if (array.values != &ModelState::averages) return true;
   return part.features ? options.average.features : options.average.network;
 }
 
 bool is_half(const Array& array, const Part& part, const TrainingOptions& options) {
-  return part.features && array.kind == ArrayKind::parameters && options.precision == FeaturePrecision::fp16;
+  return part.features && array.values == &ModelState::parameters &&
+         options.precision == FeaturePrecision::fp16;
 }
 
 template <class T>
@@ -141,11 +138,11 @@ void read_values(SafetensorsReader& file, const Array& array, const Part& part, 
     file.read(name, TensorType::f32, part.shape, std::as_writable_bytes(out));
   }
   const auto bad =
-      std::find_if_not(out.begin(), out.end(), [&](float value) { return is_sound(array.kind, value); });
+      std::find_if_not(out.begin(), out.end(), [&](float value) { return is_sound(array, value); });
   if (bad != out.end())
     file.fail(fmt::format(
         "tensor '{}': element {} is {}, expected {}", name, bad - out.begin(), *bad,
-        array.kind == ArrayKind::second_moments ? "a finite number from 0 on" : "a finite number"));
+        array.values == &ModelState::second_moments ? "a finite number from 0 on" : "a finite number"));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cstring>
@@ -33,15 +32,15 @@ constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 20;
 /// The levels are the header, a tensor's entry and its shape. Deeper nesting could overflow the stack of code
 /// that prints it.
 constexpr int kMaxHeaderDepth = 3;
-constexpr std::array<std::pair<TensorType, std::string_view>, 5> kTypeNames = {{{TensorType::f16, "F16"},
-                                                                                {TensorType::f32, "F32"},
-                                                                                {TensorType::f64, "F64"},
-                                                                                {TensorType::u32, "U32"},
-                                                                                {TensorType::u64, "U64"}}};
+/// Names and bytes of the types, in the order of TensorType.
+struct TypeTraits {
+  std::string_view name;
+  std::size_t bytes;
+};
+constexpr TypeTraits kTypes[] = {{"F16", 2}, {"F32", 4}, {"F64", 8}, {"U32", 4}, {"U64", 8}};
 
 std::string_view type_name(TensorType type) {
-  return std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const auto& t) { return t.first == type; })
-      ->second;
+  return kTypes[static_cast<std::size_t>(type)].name;
 }
 
 /// Computes the bytes of a tensor. Returns false if the number does not fit 64 bits.
@@ -92,17 +91,7 @@ bool read_unsigned_array(const json& value, std::vector<std::uint64_t>& out) {
 }  // namespace
 
 std::size_t element_bytes(TensorType type) {
-  switch (type) {
-    case TensorType::f16:
-      return 2;
-    case TensorType::f32:
-    case TensorType::u32:
-      return 4;
-    case TensorType::f64:
-    case TensorType::u64:
-      return 8;
-  }
-  return 0;
+  return kTypes[static_cast<std::size_t>(type)].bytes;
 }
 
 void write_safetensors(const ByteSink& sink, const fs::path& path, std::span<const TensorView> tensors,
@@ -192,11 +181,11 @@ void SafetensorsReader::parse_header(const std::string& header, std::uint64_t da
         !value.contains("data_offsets"))
       fail(fmt::format("tensor '{}': expected dtype, shape and data_offsets", name));
     const json& word = value["dtype"];
-    const auto type = std::find_if(kTypeNames.begin(), kTypeNames.end(),
-                                   [&](const auto& t) { return word.is_string() && word == t.second; });
-    if (type == kTypeNames.end())
+    const auto* const type =
+        std::ranges::find_if(kTypes, [&](const TypeTraits& t) { return word.is_string() && word == t.name; });
+    if (type == std::ranges::end(kTypes))
       fail(fmt::format("tensor '{}': dtype {}, expected F16, F32, F64, U32 or U64", name, word.dump()));
-    entry.type = type->first;
+    entry.type = static_cast<TensorType>(type - kTypes);
     if (!read_unsigned_array(value["shape"], entry.shape))
       fail(fmt::format("tensor '{}': shape {}, expected a list of whole numbers", name,
                        value["shape"].dump()));

@@ -21,8 +21,7 @@ namespace {
 constexpr std::size_t kNotFound = std::numeric_limits<std::size_t>::max();
 
 void require_positive(const char* what, float value) {
-  if (!(value > 0.0f) || !std::isfinite(value))
-    throw BadConfiguration(fmt::format("{}: {}, expected a positive number", what, value));
+  require(value > 0.0f && std::isfinite(value), what, value, "a positive number");
 }
 
 /// The first bad index below count, or kNotFound.

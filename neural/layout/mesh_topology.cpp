@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <atomic>
 
 #include "neural/layout/prefix_sum.h"
@@ -43,10 +42,7 @@ void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<
     // An edge from a vertex to itself is listed once, by the condition above.
     if (triangle[previous] > vertex) edges.push_back({triangle[previous], first_slot + next});
   }
-  if (edges.size() > kLongList)
-    tbb::parallel_sort(edges.begin(), edges.end());
-  else
-    std::sort(edges.begin(), edges.end());
+  tbb::parallel_sort(edges.begin(), edges.end());
 }
 
 }  // namespace
@@ -80,29 +76,27 @@ void add_edges(MeshTopology& topology) {
   add_corners(topology);
   const std::size_t vertex_count = topology.vertices.size();
   std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // after the sum: the number of edges before vertex v
-  const Range vertices(0, vertex_count, kGrain);
-  tbb::parallel_for(vertices, [&](const Range& range) {
-    std::vector<HalfEdge> edges;
-    for (std::size_t v = range.begin(); v != range.end(); ++v) {
-      list_edges(topology, static_cast<std::uint32_t>(v), edges);
-      std::uint32_t count = 0;
-      for (std::size_t e = 0; e < edges.size(); ++e)
-        if (e == 0 || edges[e].high != edges[e - 1].high) ++count;
-      ends[v + 1] = count;
-    }
+  const auto for_vertices = [&](const auto& body) {
+    tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
+      std::vector<HalfEdge> edges;
+      for (std::size_t v = range.begin(); v != range.end(); ++v) {
+        list_edges(topology, static_cast<std::uint32_t>(v), edges);
+        body(v, edges);
+      }
+    });
+  };
+  for_vertices([&](std::size_t v, const std::vector<HalfEdge>& edges) {
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (e == 0 || edges[e].high != edges[e - 1].high) ++ends[v + 1];
   });
   inclusive_prefix_sum(ends);
   topology.edge_count = ends.back();
   topology.triangle_edges.resize(topology.triangles.size());
-  tbb::parallel_for(vertices, [&](const Range& range) {
-    std::vector<HalfEdge> edges;
-    for (std::size_t v = range.begin(); v != range.end(); ++v) {
-      list_edges(topology, static_cast<std::uint32_t>(v), edges);
-      std::uint32_t number = ends[v];
-      for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (e > 0 && edges[e].high != edges[e - 1].high) ++number;
-        topology.triangle_edges[edges[e].slot / 3][edges[e].slot % 3] = number;
-      }
+  for_vertices([&](std::size_t v, const std::vector<HalfEdge>& edges) {
+    std::uint32_t number = ends[v];
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (e > 0 && edges[e].high != edges[e - 1].high) ++number;
+      topology.triangle_edges[edges[e].slot / 3][edges[e].slot % 3] = number;
     }
   });
 }

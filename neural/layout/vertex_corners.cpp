@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <atomic>
 
 #include "neural/layout/prefix_sum.h"
@@ -35,12 +34,7 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
   // The order of the scatter depends on the threads, so the lists are sorted.
   tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
-      const auto first = result.corners.begin() + offsets[v];
-      const auto last = result.corners.begin() + offsets[v + 1];
-      if (last - first > std::ptrdiff_t{kLongList})
-        tbb::parallel_sort(first, last);
-      else
-        std::sort(first, last);
+      tbb::parallel_sort(result.corners.begin() + offsets[v], result.corners.begin() + offsets[v + 1]);
     }
   });
   return result;

@@ -11,8 +11,6 @@ namespace gatelight::neural {
 
 /// Triangles or vertices per task, at least.
 inline constexpr std::size_t kGrain = 8192;
-/// Longer lists of corners or edges are sorted in parallel.
-inline constexpr std::size_t kLongList = 65536;
 
 using TriangleCorners = std::array<std::uint32_t, 3>;
 

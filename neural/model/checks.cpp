@@ -17,10 +17,6 @@ void check_size(const char* what, std::uint64_t size, std::uint64_t expected) {
   if (size != expected) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, size, expected));
 }
 
-void check_span(const char* what, std::size_t size, std::size_t points, bool required) {
-  if (required || size != 0) check_size(what, size, points);
-}
-
 void check_numbers(const char* what, const std::vector<float>& values, float least, const char* expected) {
   const auto bad =
       std::find_if(values.begin(), values.end(), [&](float x) { return !(std::isfinite(x) && x >= least); });
@@ -32,21 +28,19 @@ void check_numbers(const char* what, const std::vector<float>& values, float lea
 }  // namespace
 
 void check_batch(const Model& model, const QueryBatch& batch) {
-  const ModelConfig& config = model.config;
-  const bool gate = config.encoding == FeatureEncoding::gate;
-  check_span("surfaces of the batch", batch.surfaces.size(), batch.size, gate);
-  check_span("triangles of the batch", batch.triangles.size(), batch.size, gate);
-  check_span("barycentrics of the batch", batch.barycentrics.size(), batch.size, gate);
-  check_span("positions of the batch", batch.positions.size(), batch.size,
-             uses_input(config, InputSource::position));
-  check_span("directions of the batch", batch.directions.size(), batch.size,
-             uses_input(config, InputSource::direction));
-  check_span("normals of the batch", batch.normals.size(), batch.size,
-             uses_input(config, InputSource::normal));
-  check_span("albedos of the batch", batch.albedos.size(), batch.size,
-             uses_input(config, InputSource::albedo));
-  check_span("roughnesses of the batch", batch.roughnesses.size(), batch.size,
-             uses_input(config, InputSource::roughness));
+  const auto check = [&](const char* what, const auto& span, bool required) {
+    if (required || !span.empty()) check_size(what, span.size(), batch.size);
+  };
+  const auto uses = [&](InputSource source) { return uses_input(model.config, source); };
+  const bool gate = model.config.encoding == FeatureEncoding::gate;
+  check("surfaces of the batch", batch.surfaces, gate);
+  check("triangles of the batch", batch.triangles, gate);
+  check("barycentrics of the batch", batch.barycentrics, gate);
+  check("positions of the batch", batch.positions, uses(InputSource::position));
+  check("directions of the batch", batch.directions, uses(InputSource::direction));
+  check("normals of the batch", batch.normals, uses(InputSource::normal));
+  check("albedos of the batch", batch.albedos, uses(InputSource::albedo));
+  check("roughnesses of the batch", batch.roughnesses, uses(InputSource::roughness));
 }
 
 void check_batch(const Model& model, const TrainingBatch& batch) {
@@ -77,24 +71,21 @@ void check_options(const Model& model, const TrainingOptions& options) {
           options.average.ramp, "more than 0");
   require(std::isfinite(options.max_target) && options.max_target > 0, "greatest target", options.max_target,
           "more than 0");
-  if (model.config.encoding != FeatureEncoding::gate &&
-      (options.count_triangles || options.feature_step == FeatureStep::per_triangle))
+  if (model.config.encoding != FeatureEncoding::gate && options.counts_triangles())
     throw BadConfiguration("steps are to be counted per triangle, expected an encoding on triangles (gate)");
 }
 
 void check_state(const Model& model, const TrainingOptions& options, const ModelState& state) {
   const ParameterLayout& layout = model.parameters;
   const bool sparse = options.update == FeatureUpdate::sparse;
-  const bool triangles = options.count_triangles || options.feature_step == FeatureStep::per_triangle;
   check_size("parameters of the state", state.parameters.size(), layout.count);
   check_size("averages of the state", state.averages.size(), layout.count);
   check_size("first moments of the state", state.first_moments.size(), layout.count);
   check_size("second moments of the state", state.second_moments.size(), layout.count);
   check_size("node steps of the state", state.node_steps.size(), sparse ? layout.node_count : 0);
   check_size("triangle steps of the state", state.triangle_steps.size(),
-             triangles ? model.gate.triangle_count : 0);
-  if (state.steps >> 63 != 0)
-    throw BadConfiguration(fmt::format("steps of the state: {}, expected less than 2^63", state.steps));
+             options.counts_triangles() ? model.gate.triangle_count : 0);
+  require(state.steps >> 63 == 0, "steps of the state", state.steps, "less than 2^63");
 }
 
 void check_state_numbers(const ModelState& state) {

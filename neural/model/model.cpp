@@ -19,8 +19,7 @@ void check_mlp(const MlpOptions& mlp) {
   require(mlp.hidden_layers >= 1 && mlp.hidden_layers < kMaxLayers, "hidden layers", mlp.hidden_layers,
           "1 to 5");
   require(mlp.outputs >= 1 && mlp.outputs <= 16, "outputs", mlp.outputs, "1 to 16");
-  if (!(mlp.leaky_slope >= 0.0f && mlp.leaky_slope <= 1.0f))
-    throw BadConfiguration(fmt::format("leaky slope: {}, expected 0 to 1", mlp.leaky_slope));
+  require(mlp.leaky_slope >= 0.0f && mlp.leaky_slope <= 1.0f, "leaky slope", mlp.leaky_slope, "0 to 1");
 }
 
 void check_auxiliary(const AuxiliaryInput& input) {
@@ -67,15 +66,8 @@ bool uses_input(const ModelConfig& config, InputSource source) {
 }
 
 std::uint32_t Model::levels() const {
-  switch (config.encoding) {
-    case FeatureEncoding::gate:
-      return gate.stack;
-    case FeatureEncoding::hash_grid:
-      return static_cast<std::uint32_t>(hash_grid.levels.size());
-    case FeatureEncoding::none:
-      break;
-  }
-  return 0;
+  if (config.encoding == FeatureEncoding::gate) return gate.stack;
+  return static_cast<std::uint32_t>(hash_grid.levels.size());
 }
 
 std::uint32_t Model::nodes_per_level() const {

@@ -1,12 +1,15 @@
 #include "neural/model/model_description.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
+#include <ranges>
 #include <span>
 #include <type_traits>
 
@@ -25,89 +28,44 @@ ordered_json number(float value) {
   return std::isfinite(value) ? ordered_json::parse(text) : ordered_json(text);
 }
 
+/// The word of an enumerator; `words` are in the order of the enumeration.
+template <class Enumeration>
+const char* word(Enumeration value, std::initializer_list<const char*> words) {
+  return words.begin()[static_cast<std::size_t>(value)];
+}
+
 const char* name(FeatureEncoding encoding) {
-  switch (encoding) {
-    case FeatureEncoding::none:
-      return "none";
-    case FeatureEncoding::gate:
-      return "gate";
-    case FeatureEncoding::hash_grid:
-      return "hash_grid";
-  }
-  return "";
+  return word(encoding, {"none", "gate", "hash_grid"});
 }
 
 const char* name(InputSource source) {
-  switch (source) {
-    case InputSource::position:
-      return "position";
-    case InputSource::direction:
-      return "direction";
-    case InputSource::normal:
-      return "normal";
-    case InputSource::albedo:
-      return "albedo";
-    case InputSource::roughness:
-      return "roughness";
-  }
-  return "";
+  return word(source, {"position", "direction", "normal", "albedo", "roughness"});
 }
 
 const char* name(InputEncoding encoding) {
-  switch (encoding) {
-    case InputEncoding::identity:
-      return "identity";
-    case InputEncoding::one_blob:
-      return "one_blob";
-    case InputEncoding::frequency:
-      return "frequency";
-  }
-  return "";
+  return word(encoding, {"identity", "one_blob", "frequency"});
 }
 
 const char* name(ResolutionRule rule) {
-  switch (rule) {
-    case ResolutionRule::uniform:
-      return "uniform";
-    case ResolutionRule::paper:
-      return "paper";
-    case ResolutionRule::fixed:
-      return "fixed";
-  }
-  return "";
+  return word(rule, {"uniform", "paper", "fixed"});
 }
 
 const char* name(FeaturePrecision precision) {
-  switch (precision) {
-    case FeaturePrecision::fp32:
-      return "fp32";
-    case FeaturePrecision::fp16_masters:
-      return "fp16_masters";
-    case FeaturePrecision::fp16:
-      return "fp16";
-  }
-  return "";
+  return word(precision, {"fp32", "fp16_masters", "fp16"});
 }
 
 /// "direction one_blob 4, albedo identity"
 std::string inputs_text(std::span<const AuxiliaryInput> inputs) {
-  std::string text;
-  for (const AuxiliaryInput& input : inputs) {
-    if (!text.empty()) text += ", ";
-    text += fmt::format("{} {}", name(input.source), name(input.encoding));
-    if (input.encoding != InputEncoding::identity) text += fmt::format(" {}", input.size);
-  }
-  return text;
+  const auto text = [](const AuxiliaryInput& input) {
+    const std::string words = fmt::format("{} {}", name(input.source), name(input.encoding));
+    return input.encoding == InputEncoding::identity ? words : fmt::format("{} {}", words, input.size);
+  };
+  return fmt::format("{}", fmt::join(inputs | std::views::transform(text), ", "));
 }
 
 /// "adaptive, adaptive/4, 1"
 std::string stack_text(std::span<const std::uint32_t> stack) {
-  std::string text;
-  for (const std::uint32_t resolution : stack) {
-    if (!text.empty()) text += ", ";
-    text += level_text(resolution);
-  }
-  return text;
+  return fmt::format("{}", fmt::join(stack | std::views::transform(level_text), ", "));
 }
 
 class Digest {
@@ -205,7 +163,7 @@ ordered_json describe_arrays(const TrainingOptions& options) {
   ordered_json out;
   out["feature_precision"] = name(options.precision);
   out["feature_update"] = options.update == FeatureUpdate::sparse ? "sparse" : "dense";
-  out["triangle_counts"] = options.count_triangles || options.feature_step == FeatureStep::per_triangle;
+  out["triangle_counts"] = options.counts_triangles();
   out["average_of_network"] = options.average.network;
   out["average_of_features"] = options.average.features;
   return out;

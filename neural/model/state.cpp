@@ -38,8 +38,7 @@ ModelState initial_state(const Model& model, const TrainingOptions& options) {
   state.first_moments.assign(layout.count, 0.0f);
   state.second_moments.assign(layout.count, 0.0f);
   if (options.update == FeatureUpdate::sparse) state.node_steps.assign(layout.node_count, 0);
-  if (options.count_triangles || options.feature_step == FeatureStep::per_triangle)
-    state.triangle_steps.assign(model.gate.triangle_count, 0);
+  if (options.counts_triangles()) state.triangle_steps.assign(model.gate.triangle_count, 0);
   return state;
 }
 

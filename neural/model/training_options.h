@@ -65,6 +65,8 @@ struct TrainingOptions {
   /// Count how often each triangle is trained, for the choice of training points. Implied by per_triangle.
   bool count_triangles = false;
   std::uint64_t seed = 1;
+
+  bool counts_triangles() const { return count_triangles || feature_step == FeatureStep::per_triangle; }
 };
 
 }  // namespace gatelight::neural

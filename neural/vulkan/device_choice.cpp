@@ -59,19 +59,8 @@ std::size_t choose_named(std::span<const DeviceFacts> devices, std::string_view 
 }  // namespace
 
 std::string_view kind_name(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::discrete:
-      return "discrete";
-    case DeviceKind::integrated:
-      return "integrated";
-    case DeviceKind::virtual_gpu:
-      return "virtual";
-    case DeviceKind::software:
-      return "software";
-    case DeviceKind::other:
-      break;
-  }
-  return "other";
+  constexpr std::string_view kNames[] = {"discrete", "integrated", "virtual", "software", "other"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string refusal(const DeviceFacts& d) {

@@ -50,9 +50,8 @@ std::uint64_t feature_bytes(const Model& model, const TrainingOptions& options) 
   const std::uint64_t halves = options.precision != FeaturePrecision::fp32 ? half_stride(features) : 0;
   const std::uint64_t copies = options.average.features ? 2 : 1;
   const std::uint64_t steps = options.update == FeatureUpdate::sparse ? 1 : 0;
-  const bool triangles = options.count_triangles || options.feature_step == FeatureStep::per_triangle;
   return 4 * (model.parameters.node_count * (copies * (floats + halves) + 2 * features + steps) +
-              (triangles ? 2 * std::uint64_t{model.gate.triangle_count} : 0));
+              (options.counts_triangles() ? 2 * std::uint64_t{model.gate.triangle_count} : 0));
 }
 
 FeatureStore::FeatureStore(const Device& device, Transfer& transfer, const Model& model,
@@ -72,7 +71,7 @@ FeatureStore::FeatureStore(const Device& device, Transfer& transfer, const Model
   if (options.average.features && halves) average_halves_ = make(nodes_, half_stride(features));
   moments_ = make(nodes_, 2 * features);
   if (options.update == FeatureUpdate::sparse) node_steps_ = make(nodes_, 1);
-  if (options.count_triangles || options.feature_step == FeatureStep::per_triangle) {
+  if (options.counts_triangles()) {
     triangle_steps_ = make(triangles_, 1);
     triangle_stamps_ = make(triangles_, 1);
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "neural/base/errors.h"
 
@@ -66,19 +65,10 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
 }
 
 DeviceKind kind_of(vk::PhysicalDeviceType type) {
-  switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu:
-      return DeviceKind::discrete;
-    case vk::PhysicalDeviceType::eIntegratedGpu:
-      return DeviceKind::integrated;
-    case vk::PhysicalDeviceType::eVirtualGpu:
-      return DeviceKind::virtual_gpu;
-    case vk::PhysicalDeviceType::eCpu:
-      return DeviceKind::software;
-    case vk::PhysicalDeviceType::eOther:
-      break;
-  }
-  return DeviceKind::other;
+  using enum DeviceKind;
+  constexpr DeviceKind kKinds[] = {other, integrated, discrete, virtual_gpu, software};  // Vulkan's order
+  const auto number = static_cast<std::size_t>(type);
+  return number < std::size(kKinds) ? kKinds[number] : other;
 }
 
 }  // namespace

@@ -50,6 +50,13 @@ class Bench {
     return seconds_between(machine_.device(), submission_, 0, 1);
   }
 
+  /// The least of four measurements.
+  double least_seconds(Shader shader, std::uint32_t argument, std::uint32_t repetitions) {
+    double least = seconds(shader, argument, repetitions);
+    for (int i = 0; i < 3; ++i) least = std::min(least, seconds(shader, argument, repetitions));
+    return least;
+  }
+
  private:
   Machine& machine_;
   Transfer transfer_;
@@ -66,19 +73,15 @@ MeasuredLimits measure_limits(Machine& machine, std::uint64_t bytes) {
     Bench bench(machine, bytes);
     std::uint32_t rounds = 16;
     while (bench.seconds(Shader::limit_fma, rounds, 1) < kLongEnough && rounds < kMostRounds) rounds *= 2;
-    double least = bench.seconds(Shader::limit_fma, rounds, 1);
-    for (int i = 0; i < 3; ++i) least = std::min(least, bench.seconds(Shader::limit_fma, rounds, 1));
-    limits.operations_per_second =
-        static_cast<double>(kGroups * kWorkgroupThreads * kOperationsARound) * rounds / least;
+    limits.operations_per_second = static_cast<double>(kGroups * kWorkgroupThreads * kOperationsARound) *
+                                   rounds / bench.least_seconds(Shader::limit_fma, rounds, 1);
 
     const auto vectors = static_cast<std::uint32_t>(bytes / 16);
     std::uint32_t repetitions = 1;
     while (bench.seconds(Shader::limit_read, vectors, repetitions) < kLongEnough && repetitions < 4096)
       repetitions *= 2;
-    least = bench.seconds(Shader::limit_read, vectors, repetitions);
-    for (int i = 0; i < 3; ++i)
-      least = std::min(least, bench.seconds(Shader::limit_read, vectors, repetitions));
-    limits.bytes_per_second = static_cast<double>(bytes) * repetitions / least;
+    limits.bytes_per_second = static_cast<double>(bytes) * repetitions /
+                              bench.least_seconds(Shader::limit_read, vectors, repetitions);
     return limits;
   });
 }

@@ -8,6 +8,7 @@
 
 #include "neural/base/errors.h"
 #include "neural/cpu/adam_table.h"
+#include "neural/cpu/kernel_model.h"
 
 namespace gatelight::neural::vulkan {
 
@@ -22,20 +23,6 @@ Buffer upload(const Device& device, Transfer& transfer, const std::vector<T>& va
   Buffer buffer(device, bytes.size(), BufferUse::device);
   transfer.write(buffer, bytes);
   return buffer;
-}
-
-// The numbers of the transforms in shaders/inputs.glsl.
-std::uint32_t transform_of(const AuxiliaryInput& input) {
-  const bool spherical = input.source == InputSource::direction || input.source == InputSource::normal;
-  switch (input.encoding) {
-    case InputEncoding::identity:
-      return 0;
-    case InputEncoding::one_blob:
-      return spherical ? 2 : 1;
-    case InputEncoding::frequency:
-      break;
-  }
-  return 3;
 }
 
 // The result is finite, so that its product with a step count is not NaN.
@@ -60,8 +47,8 @@ AdamBlock adam_block(const TrainingOptions& options) {
 }
 
 std::uint32_t sources_of(const ModelConfig& config) {
-  std::uint32_t sources = config.encoding == FeatureEncoding::gate ? 1u << kBarycentricsSource : 0u;
-  for (std::uint32_t source = 0; source < kBarycentricsSource; ++source)
+  std::uint32_t sources = config.encoding == FeatureEncoding::gate ? 1u << glsl::kBarycentricsSource : 0u;
+  for (std::uint32_t source = 0; source < glsl::kBarycentricsSource; ++source)
     if (uses_input(config, static_cast<InputSource>(source))) sources |= 1u << source;
   return sources;
 }
@@ -104,16 +91,10 @@ void ModelTables::describe(ModelBlock& block) const {
   block.max_target = options_.max_target;
   std::ranges::copy(model_.hash_grid.bounds_min, block.bounds_min);
   std::ranges::copy(model_.hash_grid.levels, block.hash_levels);
-  std::uint32_t first = parameters.feature_inputs;
-  for (const AuxiliaryInput& input : model_.config.auxiliary) {
-    block.auxiliary[block.auxiliary_count++] = {static_cast<std::uint32_t>(input.source),
-                                                transform_of(input),
-                                                coordinate_count(input),
-                                                input.size,
-                                                first,
-                                                input_count(input)};
-    first += input_count(input);
-  }
+  const cpu::KernelEncoder encoder = cpu::kernel_encoder(model_);
+  block.auxiliary_count = encoder.auxiliary_count;
+  for (std::uint32_t i = 0; i < block.auxiliary_count; ++i)
+    block.auxiliary[i] = std::bit_cast<AuxiliaryBlock>(encoder.auxiliary[i]);
   block.adam = adam_block(options_);
 }
 

@@ -28,7 +28,7 @@ std::uint32_t record_sort(std::uint32_t node_count, std::uint32_t blocks, Comman
 void record_runs(std::uint32_t sorted, std::uint32_t blocks, Commands& commands) {
   commands.dispatch(Shader::mark_count, {}, blocks, sorted);
   commands.barrier();
-  commands.dispatch(Shader::scan, {}, 2, blocks, kPieces);
+  commands.dispatch(Shader::scan, {}, 2, blocks, glsl::kPieces);
   commands.barrier();
   commands.dispatch(Shader::mark_write, {}, blocks, sorted);
   commands.barrier();

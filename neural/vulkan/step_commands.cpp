@@ -80,7 +80,8 @@ void record_updates(const StepPlan& plan, Commands& commands) {
 }  // namespace
 
 void record_training_pack(const Model& model, Commands& commands) {
-  commands.dispatch(Shader::pack_network, {}, groups_for(model.parameters.network_count()), kPackBackward);
+  commands.dispatch(Shader::pack_network, {}, groups_for(model.parameters.network_count()),
+                    glsl::kPackBackward);
 }
 
 void record_step(const StepPlan& plan, const Submission& step, std::uint64_t upload_bytes,

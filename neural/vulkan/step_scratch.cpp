@@ -59,52 +59,33 @@ std::uint64_t most_records(const Model& model, std::uint64_t longest_buffer) {
 
 void StepScratch::reserve(const Device& device, const Model& model, std::uint64_t records,
                           std::uint32_t tile) {
-  if (records <= capacity_) return;
+  if (records <= capacity()) return;
   const ParameterLayout& layout = model.parameters;
   const StepCut cut = cut_step(model, records, tile);
   const std::uint64_t references = cut.references;
   const std::uint64_t nodes = std::min<std::uint64_t>(references, layout.node_count);
-  const auto words = [&](Buffer& buffer, std::uint64_t count) {
-    vulkan::reserve(device, buffer, 4 * count, BufferUse::device);
+  auto buffer = buffers_.begin();
+  const auto words = [&](Address& address, std::uint64_t count) {
+    vulkan::reserve(device, *buffer, 4 * count, BufferUse::device);
+    address = (buffer++)->address();
   };
-  capacity_ = 0;  // in case an allocation below throws
-  words(inputs_, records * layout.inputs);
-  words(status_, records);
-  words(record_triangles_, records);
-  for (Buffer& keys : keys_) words(keys, references);
-  for (Buffer& values : values_) words(values, references);
-  words(weights_, references);
-  words(feature_gradients_, records * layout.feature_inputs);
-  words(losses_, cut.tiles);
-  words(partials_, std::uint64_t{cut.groups} * layout.network_count());
-  words(counts_, kDigits * cut.blocks);
-  words(piece_starts_, references + 1);
-  words(piece_sums_, references * layout.features);
-  words(piece_steps_, references);
-  words(nodes_, nodes);
-  words(node_pieces_, nodes + 1);
-  capacity_ = records;
-}
-
-void StepScratch::describe(BatchBlock& block) const {
-  block.inputs = inputs_.address();
-  block.status = status_.address();
-  block.record_triangles = record_triangles_.address();
-  for (std::size_t i = 0; i < 2; ++i) {
-    block.keys[i] = keys_[i].address();
-    block.values[i] = values_[i].address();
-  }
-  block.weights = weights_.address();
-  block.feature_gradients = feature_gradients_.address();
-  block.losses = losses_.address();
-  block.partials = partials_.address();
-  block.counts = counts_.address();
-  block.piece_starts = piece_starts_.address();
-  block.piece_sums = piece_sums_.address();
-  block.piece_steps = piece_steps_.address();
-  block.nodes = nodes_.address();
-  block.node_pieces = node_pieces_.address();
-  block.capacity = static_cast<std::uint32_t>(capacity_);
+  block_.capacity = 0;  // in case an allocation below throws
+  words(block_.inputs, records * layout.inputs);
+  words(block_.status, records);
+  words(block_.record_triangles, records);
+  for (Address& keys : block_.keys) words(keys, references);
+  for (Address& values : block_.values) words(values, references);
+  words(block_.weights, references);
+  words(block_.feature_gradients, records * layout.feature_inputs);
+  words(block_.losses, cut.tiles);
+  words(block_.partials, std::uint64_t{cut.groups} * layout.network_count());
+  words(block_.counts, kDigits * cut.blocks);
+  words(block_.piece_starts, references + 1);
+  words(block_.piece_sums, references * layout.features);
+  words(block_.piece_steps, references);
+  words(block_.nodes, nodes);
+  words(block_.node_pieces, nodes + 1);
+  block_.capacity = cut.size;
 }
 
 }  // namespace gatelight::neural::vulkan

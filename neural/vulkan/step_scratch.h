@@ -1,6 +1,8 @@
 #pragma once
 // The division of a step's work, and its arrays besides the batch and the state.
 
+#include <array>
+
 #include "neural/vulkan/blocks.h"
 #include "neural/vulkan/buffer.h"
 
@@ -28,13 +30,13 @@ class StepScratch {
  public:
   /// Allocates for batches of this many records; growing loses the contents.
   void reserve(const Device& device, const Model& model, std::uint64_t records, std::uint32_t tile);
-  std::uint64_t capacity() const { return capacity_; }
-  void describe(BatchBlock& block) const;
+  std::uint64_t capacity() const { return block_.capacity; }
+  /// The addresses of the arrays and the capacity.
+  const BatchBlock& block() const { return block_; }
 
  private:
-  std::uint64_t capacity_ = 0;
-  Buffer inputs_, status_, record_triangles_, keys_[2], values_[2], weights_, feature_gradients_, losses_,
-      partials_, counts_, piece_starts_, piece_sums_, piece_steps_, nodes_, node_pieces_;
+  BatchBlock block_;
+  std::array<Buffer, 17> buffers_;
 };
 
 }  // namespace gatelight::neural::vulkan

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <span>
 
-#include "neural/vulkan/buffer.h"
+#include "neural/vulkan/submission.h"
 
 namespace gatelight::neural::vulkan {
 
 class Transfer {
  public:
-  explicit Transfer(const Device& device);
+  explicit Transfer(const Device& device) : device_(device), work_(device) {}
 
   /// The copies run after everything submitted before.
   void write(const Buffer& to, std::span<const std::byte> bytes);
@@ -22,10 +22,7 @@ class Transfer {
   void submit(Record&& record);
 
   const Device& device_;
-  vk::raii::CommandPool pool_;
-  vk::raii::CommandBuffers commands_;
-  vk::raii::Fence fence_;
-  Buffer upload_, readback_;
+  Submission work_;
 };
 
 }  // namespace gatelight::neural::vulkan

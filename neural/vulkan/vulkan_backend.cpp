@@ -107,8 +107,8 @@ VulkanBackend::VulkanBackend(std::shared_ptr<Machine> machine, std::shared_ptr<c
   const Device& device = machine_->device();
   for (std::size_t i = 0; i < kSteps; ++i) {
     Submission& step = steps_.emplace_back(device);
-    step.result = Buffer(device, 4 * kStatisticsWords, BufferUse::device);
-    step.readback = Buffer(device, 4 * kStatisticsWords, BufferUse::readback);
+    step.result = Buffer(device, 4 * glsl::kStatisticsWords, BufferUse::device);
+    step.readback = Buffer(device, 4 * glsl::kStatisticsWords, BufferUse::readback);
   }
   for (std::size_t i = 0; i < kChunks; ++i) chunks_.emplace_back(device);
   describe_model();
@@ -173,8 +173,7 @@ void VulkanBackend::submit_step(Submission& step, const TrainingBatch& batch) {
   reserve(device, step.staging, bytes, BufferUse::upload);
   reserve(device, step.batch, bytes, BufferUse::device);
   const StepPlan plan{*model_, options_, features_, cut_step(*model_, records, tile_), tile_, may_be_first_};
-  BatchBlock block;
-  scratch_.describe(block);
+  BatchBlock block = scratch_.block();
   block.read = features_.readable(false);
   block.statistics = step.result.address();
   block.forward = network_.forward();
@@ -201,18 +200,18 @@ StepStatistics VulkanBackend::collect(Submission& step) {
   step.under_way = false;
   wait_for(machine_->device(), step.fence);
   machine_->check();
-  std::array<std::uint32_t, kStatisticsWords> words;
+  std::array<std::uint32_t, glsl::kStatisticsWords> words;
   std::memcpy(words.data(), step.readback.mapped(), sizeof(words));
   StepStatistics statistics;
-  statistics.records = words[kAccepted];
-  statistics.rejected = words[kRejected];
-  statistics.unstored = words[kUnstored];
-  statistics.clipped = words[kClipped];
-  statistics.skipped_updates = words[kSkipped];
-  statistics.touched_nodes = words[kTouched];
+  statistics.records = words[glsl::kAccepted];
+  statistics.rejected = words[glsl::kRejected];
+  statistics.unstored = words[glsl::kUnstored];
+  statistics.clipped = words[glsl::kClipped];
+  statistics.skipped_updates = words[glsl::kSkipped];
+  statistics.touched_nodes = words[glsl::kTouched];
   if (statistics.records > 0) {
     may_be_first_ = false;
-    statistics.loss = static_cast<double>(std::bit_cast<float>(words[kLoss])) /
+    statistics.loss = static_cast<double>(std::bit_cast<float>(words[glsl::kLoss])) /
                       (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
   }
   const Device& device = machine_->device();
@@ -287,8 +286,9 @@ void VulkanBackend::ask(Submission& chunk, const QueryBatch& batch, const QueryO
   commands.stamp(chunk.stamps, 1);
   std::vector<std::uint32_t> constants = network_constants(*model_);
   if (to_pack)
-    commands.dispatch(Shader::pack_network, {}, groups_for(model_->parameters.network_count()),
-                      (to_pack->averaged ? kPackAveraged : 0u) | (to_pack->rounded ? kPackRounded : 0u));
+    commands.dispatch(
+        Shader::pack_network, {}, groups_for(model_->parameters.network_count()),
+        (to_pack->averaged ? glsl::kPackAveraged : 0u) | (to_pack->rounded ? glsl::kPackRounded : 0u));
   commands.dispatch(Shader::encode,
                     std::array{static_cast<std::uint32_t>(model_->config.encoding),
                                features_.halves() ? 1u : 0u, 0u, std::max(model_->parameters.features, 1u)},

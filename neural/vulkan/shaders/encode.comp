@@ -17,7 +17,7 @@ layout(constant_id = 3) const uint kFeatures = 1;
 
 const uint kGate = 1;
 const uint kHashGrid = 2;
-const uint kPosition = 0, kDirection = 1, kNormal = 2, kAlbedo = 3, kRoughness = 4, kBarycentrics = 5;
+const uint kPosition = 0, kDirection = 1, kNormal = 2, kAlbedo = 3, kRoughness = 4;
 
 // Counts a workgroup's records by status, so that each workgroup needs only one global addition per status.
 shared uint status_counts[3];
@@ -51,7 +51,7 @@ bool finite3(vec3 v) {
 bool all_finite() {
   for (uint source = kPosition; source <= kRoughness; ++source)
     if (reads(source) && !finite3(source_values(source))) return false;
-  if (reads(kBarycentrics) && !finite3(vec3(barycentrics(), 0.0))) return false;
+  if (reads(kBarycentricsSource) && !finite3(vec3(barycentrics(), 0.0))) return false;
   if (kTraining)
     for (uint o = 0u; o < model.outputs; ++o)
       if (!finite(batch.targets.at[record * model.outputs + o])) return false;

@@ -41,6 +41,13 @@ uint flat_biases(uint layer) {
   return flat_weights(layer) + layer_inputs(layer) * layer_outputs(layer);
 }
 
+// The layer of a parameter.
+uint layer_of(uint p) {
+  uint layer = kHidden;
+  while (layer > 0u && flat_weights(layer) > p) --layer;
+  return layer;
+}
+
 // Packed forward, in floats: [input][outputs to eights], then a row of biases.
 uint forward_weights(uint layer) {
   return layer == 0u ? 0u : kWidth * (kInputs + 1u) + (layer - 1u) * kWidth * (kWidth + 1u);
@@ -57,4 +64,10 @@ uint backward_weights(uint layer) {
 
 uint backward_row(uint layer) {
   return layer == 0u ? to_eights(kFeatureInputs) : kWidth;
+}
+
+// Rounds to bf16, to nearest even; values that are not finite stay so.
+float to_bf16(float x) {
+  const uint bits = floatBitsToUint(x);
+  return finite(x) ? uintBitsToFloat(bits + 0x7fffu + (bits >> 16 & 1u) & 0xffff0000u) : x;
 }

@@ -5,11 +5,11 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
+#include "scan.glsl"
 
 layout(local_size_x = kThreads) in;
 
 shared float sums[kThreads];
-shared uint counts[kThreads];
 
 bool is_accepted(uint record) {
   return batch.status.at[record] == kStatusAccepted;
@@ -23,15 +23,8 @@ uint count_up_to(uint o, uint bits) {
     const uint magnitude = floatBitsToUint(batch.targets.at[record * model.outputs + o]) & 0x7fffffffu;
     if (magnitude != 0u && magnitude <= bits) ++count;
   }
-  counts[gl_LocalInvocationIndex] = count;
-  barrier();
-  for (uint half_size = kThreads / 2u; half_size > 0u; half_size /= 2u) {
-    if (gl_LocalInvocationIndex < half_size)
-      counts[gl_LocalInvocationIndex] += counts[gl_LocalInvocationIndex + half_size];
-    barrier();
-  }
-  const uint all = counts[0];
-  barrier();
+  uint all;
+  sum_before(count, all);
   return all;
 }
 

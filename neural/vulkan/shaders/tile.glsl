@@ -7,12 +7,6 @@ uint row_place(uint row, uint r) {
   return row * kStride + r;
 }
 
-// Rounds to bf16, to nearest even; values that are not finite stay so.
-float to_bf16(float x) {
-  const uint bits = floatBitsToUint(x);
-  return finite(x) ? uintBitsToFloat(bits + 0x7fffu + (bits >> 16 & 1u) & 0xffff0000u) : x;
-}
-
 void load_inputs(uint first, uint row, bool rounded) {
   for (uint item = gl_LocalInvocationIndex; item < kTile * kInputs; item += kThreads) {
     const uint r = item % kTile, i = item / kTile, record = first + r;

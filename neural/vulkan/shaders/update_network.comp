@@ -15,15 +15,9 @@ const uint kColumns = kThreads / kSlices;
 
 shared float slice_sums[kThreads];
 
-bool is_weight(uint p) {
-  uint layer = kHidden;
-  while (layer > 0u && flat_weights(layer) > p) --layer;
-  return p < flat_biases(layer);
-}
-
 void update(uint p, float sum) {
   const float before = model.parameters.at[p];
-  const float g = sum * gradient_scale() + (is_weight(p) ? model.adam.l2_network * before : 0.0);
+  const float g = sum * gradient_scale() + (p < flat_biases(layer_of(p)) ? model.adam.l2_network * before : 0.0);
   if (!finite(g * g)) {
     atomicAdd(batch.statistics.at[kSkipped], 1u);
     return;

@@ -51,7 +51,7 @@ class Bench {
     gradients = make(records * model.parameters.feature_inputs);
     losses = make(cut.tiles);
     partials = make(cut.groups * parameters);
-    statistics = make(kStatisticsWords);
+    statistics = make(glsl::kStatisticsWords);
     transfer_.fill(statistics, 0);
     upload(batch);
   }
@@ -141,9 +141,9 @@ TEST_F(VulkanShaders, EncodeFindsTheReferencesNodesAndInputs) {
     const auto status = bench.read<std::uint32_t>(bench.status, batch.size());
     const auto keys = bench.read<std::uint32_t>(bench.keys, batch.size() * slots);
     const auto weights = bench.read<float>(bench.weights, batch.size() * slots);
-    const auto counts = bench.read<std::uint32_t>(bench.statistics, kStatisticsWords);
-    EXPECT_EQ(counts[kRejected], batch.count(Fate::rejected));
-    EXPECT_EQ(counts[kUnstored], batch.count(Fate::unstored));
+    const auto counts = bench.read<std::uint32_t>(bench.statistics, glsl::kStatisticsWords);
+    EXPECT_EQ(counts[glsl::kRejected], batch.count(Fate::rejected));
+    EXPECT_EQ(counts[glsl::kUnstored], batch.count(Fate::unstored));
     const std::vector<double> parameters = widen(state.parameters);
     std::vector<float> got, expected;
     for (std::size_t r = 0; r < batch.size(); ++r) {
@@ -217,7 +217,7 @@ TEST_F(VulkanShaders, TrainNetworkFindsTheReferencesGradients) {
                  std::max(model.parameters.features, 1u)},
                 groups_for(batch.size()));  // for the records' status
       bench.write(bench.inputs, inputs);
-      bench.run(Shader::pack_network, {}, groups_for(model.parameters.network_count()), kPackBackward);
+      bench.run(Shader::pack_network, {}, groups_for(model.parameters.network_count()), glsl::kPackBackward);
       Constants constants = network_constants(model);
       constants.insert(constants.end(),
                        {bench.tile, std::bit_cast<std::uint32_t>(model.config.mlp.leaky_slope),

@@ -58,7 +58,7 @@ Sorted sort_on_device(const Words& keys, std::uint32_t nodes) {
   const Buffer key_arrays[2] = {make(references), make(references)};
   const Buffer value_arrays[2] = {make(references), make(references)};
   const Buffer counts = make(16 * blocks), piece_starts = make(references + 1), node_list = make(references),
-               node_pieces = make(references + 1), statistics = make(kStatisticsWords);
+               node_pieces = make(references + 1), statistics = make(glsl::kStatisticsWords);
   ModelBlock model;
   model.node_count = nodes;
   BatchBlock batch;
@@ -91,10 +91,10 @@ Sorted sort_on_device(const Words& keys, std::uint32_t nodes) {
     transfer.read(from, std::as_writable_bytes(std::span(result)));
     return result;
   };
-  const Words counters = get(statistics, kStatisticsWords);
+  const Words counters = get(statistics, glsl::kStatisticsWords);
   return {get(key_arrays[sorted], references), get(value_arrays[sorted], references),
-          get(piece_starts, counters[kPieces] + 1), get(node_list, counters[kTouched]),
-          get(node_pieces, counters[kTouched] + 1)};
+          get(piece_starts, counters[glsl::kPieces] + 1), get(node_list, counters[glsl::kTouched]),
+          get(node_pieces, counters[glsl::kTouched] + 1)};
 }
 
 void expect_sorted(const Words& keys, std::uint32_t nodes) {
