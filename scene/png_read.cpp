@@ -7,10 +7,10 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <span>
 #include <stdexcept>
-#include <string>
-
-#include "scene/png_chunks.h"
+#include <string_view>
+#include <utility>
 
 namespace gatelight::scene {
 
@@ -22,7 +22,7 @@ struct PngReader::Decoder {
   char message[256] = "";
 
   Decoder() {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](png_structp, png_const_charp) {});
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
       png_destroy_read_struct(&png, nullptr, nullptr);
@@ -39,6 +39,11 @@ struct PngReader::Decoder {
     png_longjmp(png, 1);
   }
 
+  /// A transparency with a wrong checksum is the only damage to the pixels of which libpng merely warns.
+  static void on_warning(png_structp png, png_const_charp message) {
+    if (std::string_view(message) == "tRNS: CRC error") on_error(png, message);
+  }
+
   static void on_read(png_structp png, png_bytep target, std::size_t count) {
     auto* self = static_cast<Decoder*>(png_get_io_ptr(png));
     if (count > self->rest.size()) png_error(png, "the data ends early");
@@ -51,6 +56,8 @@ struct PngReader::Decoder {
     png_set_read_fn(png, this, on_read);
     // The caller decides which sizes are too large.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    // Skips every chunk that does not define pixels: glTF ignores colour profiles and gamma.
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png, info);
     // Expands palettes to RGB, transparent colours to alpha, and fewer bits to 8.
     png_set_expand(png);
@@ -86,11 +93,8 @@ int channels_of(int color_type, bool transparent_color) {
 
 }  // namespace
 
-PngReader::PngReader(std::span<const std::uint8_t> file) {
-  std::string problem;
-  file_ = essential_png(file, problem);
-  if (file_.empty()) throw std::runtime_error(problem);
-  decoder_ = std::make_unique<Decoder>();
+PngReader::PngReader(std::vector<std::uint8_t> file)
+    : file_(std::move(file)), decoder_(std::make_unique<Decoder>()) {
   decoder_->rest = file_;
   if (!decoder_->read_header()) throw std::runtime_error(decoder_->message);
   const png_const_structp png = decoder_->png;
@@ -129,7 +133,7 @@ PngReader open_png(const std::filesystem::path& path) {
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
     throw std::runtime_error("its bytes cannot be read");
   }
-  return PngReader(bytes);
+  return PngReader(std::move(bytes));
 }
 
 }  // namespace gatelight::scene

@@ -51,7 +51,7 @@ std::size_t checked_size(const Document& document, Bytes bytes, std::string_view
 }
 
 Image decode_png(const Document& document, Bytes bytes, std::string_view where) try {
-  PngReader reader(bytes);
+  PngReader reader({bytes.begin(), bytes.end()});
   checked_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
   return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
 } catch (const SceneError&) {
