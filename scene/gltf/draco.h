@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "scene/gltf/accessors.h"
-#include "scene/gltf/tinygltf.h"
 
 namespace gatelight::scene::gltf {
 
 class DracoPrimitive {
  public:
   /// Decodes the primitive. Throws SceneError.
-  DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where);
+  DracoPrimitive(const Document& document, const json& extension, std::string where);
   ~DracoPrimitive();
 
   std::size_t vertex_count() const;
@@ -32,7 +31,7 @@ class DracoPrimitive {
   int attribute_id(const std::string& semantic) const;
 
   const Document& document_;
-  const tinygltf::Value& extension_;
+  const json& extension_;
   std::string where_;
   std::unique_ptr<Decoded> decoded_;
 };

@@ -95,30 +95,32 @@ Image decode(const Document& document, Bytes bytes, std::string_view where, Warn
   throw image_error(document, where, "neither PNG nor JPEG data");
 }
 
-Image read(const Document& document, const ImageSource& source, const std::string& where,
+Image read(const Document& document, const json& source, const std::string& where, const std::string& name,
            Warnings& warnings) {
-  if (!source.uri.empty()) {
-    const OwnedBytes bytes = document.read(source.uri, where + ".uri");
-    return decode(document, bytes.bytes(), where + " (" + source.name + ")", warnings);
+  const std::string named = fmt::format("{} ({})", where, name);
+  if (const std::string uri = source.value("uri", ""); !uri.empty()) {
+    return decode(document, document.read(uri, where + ".uri").bytes(), named, warnings);
   }
-  if (source.buffer_view < 0) throw image_error(document, where, "neither uri nor bufferView");
-  return decode(document, document.view(source.buffer_view, where), where + " (" + source.name + ")",
-                warnings);
+  if (!source.contains("bufferView")) throw image_error(document, where, "neither uri nor bufferView");
+  return decode(document, document.view(source["bufferView"], where), named, warnings);
 }
 
 }  // namespace
 
 Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings) {
-  const ImageSource& source = document.images()[static_cast<std::size_t>(index)];
+  const json& source = document.item("images", index);
+  const std::string where = fmt::format("images[{}]", index);
+  std::string name = source.value("name", uri_name(source.value("uri", "")));
+  if (name.empty()) name = where;
   Image image;
   try {
-    image = read(document, source, fmt::format("images[{}]", index), warnings);
+    image = read(document, source, where, name, warnings);
   } catch (const SceneError& e) {
     if (missing_is_error) throw;
     warnings.add(fmt::format("{}; white instead", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};
   }
-  image.name = source.name;
+  image.name = std::move(name);
   return image;
 }
 
