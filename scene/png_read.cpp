@@ -106,25 +106,23 @@ PngReader::PngReader(std::vector<std::uint8_t> file)
 
 PngReader::~PngReader() = default;
 
-std::size_t PngReader::row_values() const {
-  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
-}
-
-void PngReader::read_rows(std::uint8_t* pixels, int bits) {
-  const std::size_t row_bytes = row_values() * static_cast<std::size_t>(bits / 8);
-  if (!decoder_->read_rows(pixels, row_bytes, height_, bits)) throw std::runtime_error(decoder_->message);
+template <typename Value>
+std::vector<Value> PngReader::read() {
+  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+  std::vector<Value> pixels(row * static_cast<std::size_t>(height_));
+  auto* bytes = reinterpret_cast<std::uint8_t*>(pixels.data());
+  if (!decoder_->read_rows(bytes, row * sizeof(Value), height_, 8 * static_cast<int>(sizeof(Value)))) {
+    throw std::runtime_error(decoder_->message);
+  }
+  return pixels;
 }
 
 std::vector<std::uint8_t> PngReader::read_8() {
-  std::vector<std::uint8_t> pixels(row_values() * static_cast<std::size_t>(height_));
-  read_rows(pixels.data(), 8);
-  return pixels;
+  return read<std::uint8_t>();
 }
 
 std::vector<std::uint16_t> PngReader::read_16() {
-  std::vector<std::uint16_t> pixels(row_values() * static_cast<std::size_t>(height_));
-  read_rows(reinterpret_cast<std::uint8_t*>(pixels.data()), 16);
-  return pixels;
+  return read<std::uint16_t>();
 }
 
 PngReader open_png(const std::filesystem::path& path) {

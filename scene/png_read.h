@@ -32,8 +32,8 @@ class PngReader {
  private:
   struct Decoder;
 
-  std::size_t row_values() const;
-  void read_rows(std::uint8_t* pixels, int bits);
+  template <typename Value>
+  std::vector<Value> read();
 
   std::vector<std::uint8_t> file_;
   std::unique_ptr<Decoder> decoder_;
