@@ -49,9 +49,7 @@ class Textures {
   };
   struct Lookup {
     const Pyramid* pyramid[2] = {nullptr, nullptr};  ///< by Encoding; null where no material needs it
-    scene::Wrap wrap_s = scene::Wrap::repeat;
-    scene::Wrap wrap_t = scene::Wrap::repeat;
-    bool nearest = false;
+    scene::Texture texture;
   };
 
   std::vector<std::unique_ptr<Pyramid>> pyramids_;
