@@ -75,9 +75,6 @@ inline Vec2 sample_concentric_disk(const Vec2& u) {
   const Vec2 cs = cos_sin_octant(0.25f * scene::kPi * (a.x() / a.y()));
   return {a.y() * cs.y(), a.y() * cs.x()};
 }
-inline float pdf_concentric_disk() {
-  return scene::kInvPi;
-}
 
 /// The pdf is cos / pi. The cosine of a sample may be 0, and then its pdf is 0.
 inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
