@@ -12,11 +12,6 @@ namespace {
 /// A shorter half vector has no reliable direction: wo and wi are opposite, both in the surface plane.
 constexpr float kMinHalf2 = 1e-10f;
 
-/// The reflectance of clearcoat, which has ior 1.5.
-float coat_fresnel(float cos_h) {
-  return 0.04f + 0.96f * schlick_weight(cos_h);
-}
-
 }  // namespace
 
 Bsdf::Facet Bsdf::facet(float cos_h) const {
