@@ -29,7 +29,6 @@ class Film {
   Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
 
   const PixelRect& rect() const { return rect_; }
-  bool has_aovs() const { return !aovs_.empty(); }
   /// Whether some requested output variable comes from the primary hit.
   bool needs_first_hits() const { return needs_first_hits_; }
 
