@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/image/srgb.h"
-#include "renderer/metrics/flip/shown.h"
+#include "renderer/metrics/flip/planes.h"
 
 namespace gatelight::renderer {
 namespace {

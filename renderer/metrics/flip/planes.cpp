@@ -1,4 +1,4 @@
-#include "renderer/metrics/flip/shown.h"
+#include "renderer/metrics/flip/planes.h"
 
 #include <fmt/format.h>
 
