@@ -7,10 +7,6 @@
 
 namespace gatelight::scene::gltf {
 
-struct DracoPrimitive::Decoded {
-  std::unique_ptr<draco::Mesh> mesh;
-};
-
 namespace {
 
 /// The type of glTF, or 0 for one that glTF does not have.
@@ -53,8 +49,7 @@ bool read_rows(const draco::PointAttribute& attribute, Selection selection, std:
 DracoPrimitive::DracoPrimitive(const Document& document, const json& extension, std::string where)
     : document_(document),
       extension_(extension),
-      where_(std::move(where) + ".extensions.KHR_draco_mesh_compression"),
-      decoded_(std::make_unique<Decoded>()) {
+      where_(std::move(where) + ".extensions.KHR_draco_mesh_compression") {
   const Bytes bytes = document.view(extension["bufferView"], where_);
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -62,7 +57,7 @@ DracoPrimitive::DracoPrimitive(const Document& document, const json& extension, 
   try {
     auto result = draco::Decoder().DecodeMeshFromBuffer(&buffer);
     if (result.ok()) {
-      decoded_->mesh = std::move(result).value();
+      mesh_ = std::move(result).value();
     } else {
       error = result.status().error_msg_string();
     }
@@ -70,29 +65,23 @@ DracoPrimitive::DracoPrimitive(const Document& document, const json& extension, 
     // Wrong counts in damaged data lead to failed allocations.
     error = e.what();
   }
-  if (!decoded_->mesh)
-    document.fail(where_, fmt::format("cannot be decoded ({}), expected a Draco mesh", error));
+  if (!mesh_) document.fail(where_, fmt::format("cannot be decoded ({}), expected a Draco mesh", error));
 }
 
 DracoPrimitive::~DracoPrimitive() = default;
 
 std::size_t DracoPrimitive::vertex_count() const {
-  return decoded_->mesh->num_points();
+  return mesh_->num_points();
 }
 
 bool DracoPrimitive::has(const std::string& semantic) const {
   return extension_["attributes"].contains(semantic);
 }
 
-int DracoPrimitive::attribute_id(const std::string& semantic) const {
-  return extension_["attributes"].value(semantic, -1);
-}
-
 void DracoPrimitive::read_floats(const std::string& semantic, Selection selection, int width, bool normalized,
                                  float* out) const {
-  const int id = attribute_id(semantic);
-  const draco::PointAttribute* attribute =
-      decoded_->mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+  const int id = extension_["attributes"].value(semantic, -1);
+  const draco::PointAttribute* attribute = mesh_->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
   if (!attribute)
     document_.fail(where_, fmt::format("{} is attribute {}, expected one of the data", semantic, id));
   const std::size_t rows = selection.empty() ? vertex_count() : selection.size();
@@ -103,9 +92,9 @@ void DracoPrimitive::read_floats(const std::string& semantic, Selection selectio
 }
 
 void DracoPrimitive::read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const {
-  out.resize(decoded_->mesh->num_faces());
+  out.resize(mesh_->num_faces());
   for (std::uint32_t i = 0; i < out.size(); ++i) {
-    const draco::Mesh::Face& face = decoded_->mesh->face(draco::FaceIndex(i));
+    const draco::Mesh::Face& face = mesh_->face(draco::FaceIndex(i));
     out[i] = {face[0].value(), face[1].value(), face[2].value()};
   }
 }

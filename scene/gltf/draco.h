@@ -9,6 +9,10 @@
 
 #include "scene/gltf/accessors.h"
 
+namespace draco {
+class Mesh;
+}
+
 namespace gatelight::scene::gltf {
 
 class DracoPrimitive {
@@ -26,14 +30,10 @@ class DracoPrimitive {
   void read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const;
 
  private:
-  struct Decoded;
-
-  int attribute_id(const std::string& semantic) const;
-
   const Document& document_;
   const json& extension_;
   std::string where_;
-  std::unique_ptr<Decoded> decoded_;
+  std::unique_ptr<draco::Mesh> mesh_;
 };
 
 }  // namespace gatelight::scene::gltf

@@ -19,15 +19,9 @@ constexpr int kMaxSide = 32768;
 constexpr std::size_t kMaxRatio = 2048;
 constexpr std::size_t kSmall = std::size_t{1} << 20;
 
-enum class Format { png, jpeg, other };
-
 /// glTF allows two formats. The bytes decide, since MIME types and file names are often wrong.
-Format format_of(Bytes bytes) {
-  constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  constexpr std::uint8_t kJpeg[] = {0xff, 0xd8, 0xff};
-  if (bytes.size() > 8 && std::equal(std::begin(kPng), std::end(kPng), bytes.begin())) return Format::png;
-  if (bytes.size() > 3 && std::equal(std::begin(kJpeg), std::end(kJpeg), bytes.begin())) return Format::jpeg;
-  return Format::other;
+bool starts_with(Bytes bytes, std::initializer_list<std::uint8_t> magic) {
+  return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
 SceneError image_error(const Document& document, std::string_view where, std::string_view what) {
@@ -84,14 +78,9 @@ Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where,
 }
 
 Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
-  switch (format_of(bytes)) {
-    case Format::png:
-      return decode_png(document, bytes, where);
-    case Format::jpeg:
-      return decode_jpeg(document, bytes, where, warnings);
-    case Format::other:
-      break;
-  }
+  if (starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}))
+    return decode_png(document, bytes, where);
+  if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
   throw image_error(document, where, "neither PNG nor JPEG data");
 }
 
