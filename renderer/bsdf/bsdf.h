@@ -62,9 +62,6 @@ struct BsdfSample {
 
 class Bsdf {
  public:
-  /// Below this perceptual roughness a specular lobe is a delta.
-  static constexpr float kDeltaRoughness = renderer::kDeltaRoughness;
-
   /// `ng` is the geometric normal on the side of wo. `ns` is the shading normal, with dot(ns, ng) > 0; the
   /// constructor bends it towards ng until the mirror direction of wo is above the surface. `nc` is the
   /// shading normal of the clearcoat. `front` says that wo is on the front side of the triangle, which is

@@ -61,10 +61,9 @@ struct Importer {
 
 Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
     : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
-  needs_first_hits_ = std::any_of(aovs_.begin(), aovs_.end(), from_first_hit);
   const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   radiance_.resize(pixels);
-  if (needs_first_hits_) first_.resize(pixels);
+  if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
 }
 
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {

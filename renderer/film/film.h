@@ -30,7 +30,7 @@ class Film {
 
   const PixelRect& rect() const { return rect_; }
   /// Whether some requested output variable comes from the primary hit.
-  bool needs_first_hits() const { return needs_first_hits_; }
+  bool needs_first_hits() const { return !first_.empty(); }
 
   void add(int x, int y, const Color& radiance);
   void add(int x, int y, const FirstHit& first);
@@ -76,7 +76,6 @@ class Film {
   int full_width_;
   int full_height_;
   std::vector<Aov> aovs_;
-  bool needs_first_hits_ = false;
   std::vector<Radiance> radiance_;
   std::vector<First> first_;
 };

@@ -11,7 +11,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_
     const scene::Material& m = scene.material_of(scene.instances[i]);
     if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
     const bool smooth =
-        m.roughness == 0.0f || (m.roughness < Bsdf::kDeltaRoughness && !m.metallic_roughness_texture);
+        m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
   }
