@@ -149,7 +149,7 @@ void Bsdf::add_layers(const Vec3& wi, BsdfValue& result) const {
     if (cos_i > 0.0f) {
       const float sin2_h = ns_.cross(h).squaredNorm() / h2;
       result.value += sheen_color_ * (sheen_.value(sin2_h, ggx_.cos_o, cos_i) * cos_i);
-      result.pdf += p_sheen_ * (0.5f * kInvPi);
+      result.pdf += p_sheen_ * pdf_uniform_hemisphere();
     }
   }
 }

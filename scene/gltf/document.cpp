@@ -83,6 +83,7 @@ Document::Document(const std::filesystem::path& path, bool allow_external, Warni
   check_extensions(root_, file_, warnings);
   load_buffers();
   check_views();
+  root_.erase("buffers");  // their data URIs may be as large as the file
   decoded_.resize(list("bufferViews").size());
 }
 
