@@ -134,13 +134,14 @@ float texels_from(float coordinate, int size) {
 }  // namespace
 
 Textures::Textures(const scene::Scene& scene) {
-  lookups_.resize(scene.textures.size());
-  // For each image, the encodings that some material reads.
-  std::vector<std::array<bool, 2>> needed(scene.images.size(), {false, false});
+  pyramids_.resize(scene.images.size());
+  // A pyramid for each image and encoding that some material reads.
   const auto need = [&](const scene::TextureSlot& slot, Encoding encoding) {
-    if (!slot) return;
-    const int image = scene.textures[static_cast<std::size_t>(slot.texture)].image;
-    if (image >= 0) needed[static_cast<std::size_t>(image)][static_cast<std::size_t>(encoding)] = true;
+    const int image = slot ? scene.textures[static_cast<std::size_t>(slot.texture)].image : -1;
+    if (image < 0) return;
+    const scene::Image& source = scene.images[static_cast<std::size_t>(image)];
+    auto& pyramid = pyramids_[static_cast<std::size_t>(image)][static_cast<std::size_t>(encoding)];
+    if (!pyramid && source.width > 0 && source.height > 0) pyramid = std::make_unique<Pyramid>();
   };
   for (const scene::Material& m : scene.materials) {
     need(m.base_color_texture, Encoding::srgb);
@@ -155,27 +156,12 @@ Textures::Textures(const scene::Scene& scene) {
     }
   }
 
-  struct Job {
-    std::size_t image;
-    Encoding encoding;
-    Pyramid* pyramid;
-  };
-  std::vector<Job> jobs;
-  std::vector<std::array<const Pyramid*, 2>> by_image(scene.images.size(), {nullptr, nullptr});
-  for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    if (scene.images[i].width <= 0 || scene.images[i].height <= 0) continue;
-    for (std::size_t e = 0; e < 2; ++e) {
-      if (!needed[i][e]) continue;
-      pyramids_.push_back(std::make_unique<Pyramid>());
-      by_image[i][e] = pyramids_.back().get();
-      jobs.push_back({i, static_cast<Encoding>(e), pyramids_.back().get()});
-    }
-  }
-
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-    const scene::Image& image = scene.images[jobs[j].image];
-    Pyramid& pyramid = *jobs[j].pyramid;
-    FloatLevel level = to_float(image, jobs[j].encoding);
+  tbb::parallel_for(std::size_t{0}, 2 * pyramids_.size(), [&](std::size_t i) {
+    if (!pyramids_[i / 2][i % 2]) return;
+    Pyramid& pyramid = *pyramids_[i / 2][i % 2];
+    const scene::Image& image = scene.images[i / 2];
+    const auto encoding = static_cast<Encoding>(i % 2);
+    FloatLevel level = to_float(image, encoding);
     int width = image.width;
     int height = image.height;
     std::size_t total = 0;
@@ -192,7 +178,7 @@ Textures::Textures(const scene::Scene& scene) {
           const std::size_t texel =
               static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
           pyramid.texels[offset + block_index(width, x, y)] =
-              offset == 0 ? pack(texel_of(image, texel)) : pack(level[texel], jobs[j].encoding);
+              offset == 0 ? pack(texel_of(image, texel)) : pack(level[texel], encoding);
         }
       }
       offset += stored_texels(width, height);
@@ -209,12 +195,13 @@ Textures::Textures(const scene::Scene& scene) {
     pyramid.mean = level[0];
   });
 
-  for (std::size_t t = 0; t < scene.textures.size(); ++t) {
-    Lookup& lookup = lookups_[t];
-    lookup.texture = scene.textures[t];
-    if (lookup.texture.image < 0) continue;
-    const auto& pyramids = by_image[static_cast<std::size_t>(lookup.texture.image)];
-    std::copy(pyramids.begin(), pyramids.end(), lookup.pyramid);
+  for (const scene::Texture& texture : scene.textures) {
+    Lookup& lookup = lookups_.emplace_back();
+    lookup.texture = texture;
+    if (texture.image < 0) continue;
+    const auto& pyramids = pyramids_[static_cast<std::size_t>(texture.image)];
+    lookup.pyramid[0] = pyramids[0].get();
+    lookup.pyramid[1] = pyramids[1].get();
   }
 }
 
@@ -284,7 +271,11 @@ Vec4 Textures::mean(const scene::TextureSlot& slot, Encoding encoding) const {
 
 std::size_t Textures::bytes() const {
   std::size_t total = 0;
-  for (const auto& pyramid : pyramids_) total += pyramid->texels.size() * sizeof(std::uint32_t);
+  for (const auto& encodings : pyramids_) {
+    for (const auto& pyramid : encodings) {
+      if (pyramid) total += pyramid->texels.size() * sizeof(std::uint32_t);
+    }
+  }
   return total;
 }
 

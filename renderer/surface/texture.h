@@ -1,6 +1,7 @@
 #pragma once
 // Filtered texture lookups from mip pyramids, which are built once from the scene's decoded images.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -52,8 +53,8 @@ class Textures {
     scene::Texture texture;
   };
 
-  std::vector<std::unique_ptr<Pyramid>> pyramids_;
-  std::vector<Lookup> lookups_;  ///< one for each texture of the scene
+  std::vector<std::array<std::unique_ptr<Pyramid>, 2>> pyramids_;  ///< by image and Encoding
+  std::vector<Lookup> lookups_;                                    ///< one for each texture of the scene
 };
 
 }  // namespace gatelight::renderer
