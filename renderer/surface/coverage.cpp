@@ -4,29 +4,16 @@
 #include "renderer/surface/interpolate.h"
 
 namespace gatelight::renderer {
-
-Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_(scene), textures_(textures) {
-  flags_.resize(scene.instances.size(), 0);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const scene::Material& m = scene.material_of(scene.instances[i]);
-    if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
-    const bool smooth =
-        m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
-    const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
-    if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
-  }
-}
-
 namespace {
 
 /// Reads textures at a hit, at the finest level.
-struct Reader {
+struct FinestLevel {
   const Textures& textures;
   const scene::Mesh& mesh;
   const Corners& corners;
   Vec3 weights;
 
-  Reader(const Textures& all, const scene::Mesh& hit_mesh, const Hit& hit)
+  FinestLevel(const Textures& all, const scene::Mesh& hit_mesh, const Hit& hit)
       : textures(all),
         mesh(hit_mesh),
         corners(mesh.triangles[hit.primitive]),
@@ -44,10 +31,22 @@ struct Reader {
 
 }  // namespace
 
+Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_(scene), textures_(textures) {
+  flags_.resize(scene.instances.size(), 0);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const scene::Material& m = scene.material_of(scene.instances[i]);
+    if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
+    const bool smooth =
+        m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
+    const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
+    if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
+  }
+}
+
 float Coverage::alpha(const Hit& hit) const {
   const scene::Instance& instance = scene_.instances[hit.instance];
   const scene::Material& m = scene_.material_of(instance);
-  const Reader read(textures_, scene_.mesh_of(instance), hit);
+  const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
   return m.base_alpha * read(m.base_color_texture, Encoding::srgb).w() * read.vertex_color().w();
 }
 
@@ -63,7 +62,7 @@ Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const 
   if (!(flags_[hit.instance] & kPane)) return Color::Zero();
   const scene::Instance& instance = scene_.instances[hit.instance];
   const scene::Material& m = scene_.material_of(instance);
-  const Reader read(textures_, scene_.mesh_of(instance), hit);
+  const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
   SurfaceMaterial s;
   s.roughness = m.roughness;
   s.base_color = m.base_color * read(m.base_color_texture, Encoding::srgb).head<3>().array() *
