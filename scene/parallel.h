@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -18,10 +17,7 @@ template <typename Body>
 void parallel_for(std::size_t count, const Body& body) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> failed{false};
-  std::mutex mutex;
-  std::exception_ptr error;
-  std::size_t error_index = count;
-
+  std::vector<std::exception_ptr> errors(count);
   const auto work = [&] {
     while (!failed.load(std::memory_order_relaxed)) {
       const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
@@ -29,12 +25,8 @@ void parallel_for(std::size_t count, const Body& body) {
       try {
         body(i);
       } catch (...) {
-        const std::lock_guard lock(mutex);
+        errors[i] = std::current_exception();
         failed = true;
-        if (i < error_index) {
-          error_index = i;
-          error = std::current_exception();
-        }
       }
     }
   };
@@ -44,7 +36,9 @@ void parallel_for(std::size_t count, const Body& body) {
   for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(work);
   work();
   helpers.clear();
-  if (error) std::rethrow_exception(error);
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
 }
 
 }  // namespace gatelight::scene

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <span>
 #include <stdexcept>
-#include <string>
-
-#include "scene/png_chunks.h"
+#include <string_view>
+#include <utility>
 
 namespace gatelight::scene {
 
@@ -22,7 +22,7 @@ struct PngReader::Decoder {
   char message[256] = "";
 
   Decoder() {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](png_structp, png_const_charp) {});
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
       png_destroy_read_struct(&png, nullptr, nullptr);
@@ -39,6 +39,11 @@ struct PngReader::Decoder {
     png_longjmp(png, 1);
   }
 
+  /// A transparency with a wrong checksum is the only damage to the pixels of which libpng merely warns.
+  static void on_warning(png_structp png, png_const_charp message) {
+    if (std::string_view(message) == "tRNS: CRC error") on_error(png, message);
+  }
+
   static void on_read(png_structp png, png_bytep target, std::size_t count) {
     auto* self = static_cast<Decoder*>(png_get_io_ptr(png));
     if (count > self->rest.size()) png_error(png, "the data ends early");
@@ -51,6 +56,8 @@ struct PngReader::Decoder {
     png_set_read_fn(png, this, on_read);
     // The caller decides which sizes are too large.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    // Skips every chunk that does not define pixels: glTF ignores colour profiles and gamma.
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png, info);
     // Expands palettes to RGB, transparent colours to alpha, and fewer bits to 8.
     png_set_expand(png);
@@ -86,11 +93,8 @@ int channels_of(int color_type, bool transparent_color) {
 
 }  // namespace
 
-PngReader::PngReader(std::span<const std::uint8_t> file) {
-  std::string problem;
-  file_ = essential_png(file, problem);
-  if (file_.empty()) throw std::runtime_error(problem);
-  decoder_ = std::make_unique<Decoder>();
+PngReader::PngReader(std::vector<std::uint8_t> file)
+    : file_(std::move(file)), decoder_(std::make_unique<Decoder>()) {
   decoder_->rest = file_;
   if (!decoder_->read_header()) throw std::runtime_error(decoder_->message);
   const png_const_structp png = decoder_->png;
@@ -102,25 +106,23 @@ PngReader::PngReader(std::span<const std::uint8_t> file) {
 
 PngReader::~PngReader() = default;
 
-std::size_t PngReader::row_values() const {
-  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
-}
-
-void PngReader::read_rows(std::uint8_t* pixels, int bits) {
-  const std::size_t row_bytes = row_values() * static_cast<std::size_t>(bits / 8);
-  if (!decoder_->read_rows(pixels, row_bytes, height_, bits)) throw std::runtime_error(decoder_->message);
+template <typename Value>
+std::vector<Value> PngReader::read() {
+  const std::size_t row = static_cast<std::size_t>(width_) * static_cast<std::size_t>(channels_);
+  std::vector<Value> pixels(row * static_cast<std::size_t>(height_));
+  auto* bytes = reinterpret_cast<std::uint8_t*>(pixels.data());
+  if (!decoder_->read_rows(bytes, row * sizeof(Value), height_, 8 * static_cast<int>(sizeof(Value)))) {
+    throw std::runtime_error(decoder_->message);
+  }
+  return pixels;
 }
 
 std::vector<std::uint8_t> PngReader::read_8() {
-  std::vector<std::uint8_t> pixels(row_values() * static_cast<std::size_t>(height_));
-  read_rows(pixels.data(), 8);
-  return pixels;
+  return read<std::uint8_t>();
 }
 
 std::vector<std::uint16_t> PngReader::read_16() {
-  std::vector<std::uint16_t> pixels(row_values() * static_cast<std::size_t>(height_));
-  read_rows(reinterpret_cast<std::uint8_t*>(pixels.data()), 16);
-  return pixels;
+  return read<std::uint16_t>();
 }
 
 PngReader open_png(const std::filesystem::path& path) {
@@ -129,7 +131,7 @@ PngReader open_png(const std::filesystem::path& path) {
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
     throw std::runtime_error("its bytes cannot be read");
   }
-  return PngReader(bytes);
+  return PngReader(std::move(bytes));
 }
 
 }  // namespace gatelight::scene

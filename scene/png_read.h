@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace gatelight::scene {
@@ -14,9 +13,8 @@ namespace gatelight::scene {
 /// The values are those of the file: no gamma, no colour profile, no multiplication by alpha.
 class PngReader {
  public:
-  /// Checks all chunks and reads the header. Copies the parts of `file` that it needs. Throws
-  /// std::runtime_error with a one-line message for damaged data.
-  explicit PngReader(std::span<const std::uint8_t> file);
+  /// Reads the header. Throws std::runtime_error with a one-line message for damaged data.
+  explicit PngReader(std::vector<std::uint8_t> file);
   ~PngReader();
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
@@ -26,7 +24,7 @@ class PngReader {
   int channels() const { return channels_; }  ///< 1 to 4
 
   /// Returns width * height * channels values, rows from the top; 16 bits are rounded to 8. Call either
-  /// read_8() or read_16(), once. Throws std::runtime_error.
+  /// read_8() or read_16(), once. Throws std::runtime_error for damaged data, also behind the pixels.
   std::vector<std::uint8_t> read_8();
   /// The same with 16 bits; 8 bits are scaled, so that 255 becomes 65535.
   std::vector<std::uint16_t> read_16();
@@ -34,8 +32,8 @@ class PngReader {
  private:
   struct Decoder;
 
-  std::size_t row_values() const;
-  void read_rows(std::uint8_t* pixels, int bits);
+  template <typename Value>
+  std::vector<Value> read();
 
   std::vector<std::uint8_t> file_;
   std::unique_ptr<Decoder> decoder_;

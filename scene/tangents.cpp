@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
+#include <utility>
 
 namespace gatelight::scene {
 namespace {
@@ -11,45 +14,32 @@ struct Frame {
   bool mirrored = false;        ///< u and v turn clockwise on the front
 };
 
-/// Appends copies of vertices, with all their attributes.
-template <typename Rows>
-void append(Rows& v, const std::vector<std::uint32_t>& copies) {
-  if (v.empty()) return;
-  Rows grown;
-  grown.reserve(v.size() + copies.size());
-  grown.insert(grown.end(), v.begin(), v.end());
-  for (const std::uint32_t i : copies) grown.push_back(v[i]);
-  v = std::move(grown);
-}
-
-void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& copies) {
-  append(mesh.positions, copies);
-  append(mesh.normals, copies);
-  append(mesh.uv0, copies);
-  append(mesh.uv1, copies);
-  append(mesh.colors, copies);
-}
-
-template <typename Rows>
-void gather(Rows& v, const Mesh& mesh) {
-  if (v.empty()) return;
-  Rows out;
-  out.reserve(mesh.triangles.size() * 3);
-  for (const auto& t : mesh.triangles) {
-    for (const std::uint32_t i : t) out.push_back(v[i]);
-  }
-  v = std::move(out);
+/// Replaces the vertices by those with these indices, with all their attributes.
+void select_vertices(Mesh& mesh, const std::vector<std::uint32_t>& indices) {
+  const auto select = [&](auto& rows) {
+    if (rows.empty()) return;
+    std::remove_reference_t<decltype(rows)> selected;
+    selected.reserve(indices.size());
+    for (const std::uint32_t i : indices) selected.push_back(rows[i]);
+    rows = std::move(selected);
+  };
+  select(mesh.positions);
+  select(mesh.normals);
+  select(mesh.uv0);
+  select(mesh.uv1);
+  select(mesh.colors);
 }
 
 void unshare_vertices(Mesh& mesh) {
-  gather(mesh.positions, mesh);
-  gather(mesh.uv0, mesh);
-  gather(mesh.uv1, mesh);
-  gather(mesh.colors, mesh);
-  std::uint32_t next = 0;
+  std::vector<std::uint32_t> corners;
+  corners.reserve(mesh.triangles.size() * 3);
   for (auto& t : mesh.triangles) {
-    for (std::uint32_t& i : t) i = next++;
+    for (std::uint32_t& i : t) {
+      corners.push_back(i);
+      i = static_cast<std::uint32_t>(corners.size() - 1);
+    }
   }
+  select_vertices(mesh, corners);
 }
 
 Frame triangle_frame(const Mesh& mesh, const std::vector<Vec2>& uv, const TextureSlot& slot,
@@ -89,22 +79,23 @@ std::vector<char> split_mirrored(Mesh& mesh, const std::vector<Frame>& frames) {
     if (frames[f].tangent.isZero()) continue;
     for (const std::uint32_t i : mesh.triangles[f]) side[i] |= frames[f].mirrored ? kMirrored : kPlain;
   }
-  std::vector<std::uint32_t> copies;
-  std::vector<std::uint32_t> copy_of(mesh.positions.size(), 0);
+  std::vector<std::uint32_t> kept(side.size());
+  std::iota(kept.begin(), kept.end(), 0u);
+  std::vector<std::uint32_t> copy_of(side.size(), 0);
   for (std::uint32_t i = 0; i < side.size(); ++i) {
     if (side[i] != (kPlain | kMirrored)) continue;
-    copy_of[i] = static_cast<std::uint32_t>(mesh.positions.size() + copies.size());
-    copies.push_back(i);
+    side[i] = kPlain;
+    copy_of[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(i);
   }
-  if (copies.empty()) return side;
+  if (kept.size() == side.size()) return side;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     if (!frames[f].mirrored || frames[f].tangent.isZero()) continue;
     for (std::uint32_t& i : mesh.triangles[f]) {
       if (copy_of[i] != 0) i = copy_of[i];
     }
   }
-  append_vertices(mesh, copies);
-  for (const std::uint32_t i : copies) side[i] = kPlain;
+  select_vertices(mesh, kept);
   side.resize(mesh.positions.size(), kMirrored);
   return side;
 }

@@ -147,7 +147,7 @@ bool names_its_files(const ordered_json& record, const std::string& id) {
 /// Whether all of it is there: a run that a power failure ended may leave half of one.
 bool is_whole_png(const std::filesystem::path& path) {
   try {
-    scene::open_png(path);
+    scene::open_png(path).read_8();
     return true;
   } catch (const std::runtime_error&) {
     return false;

@@ -14,8 +14,6 @@ constexpr float kMinCosine = 1e-5f;
 /// vector of a refraction would suffer from cancellation, and the microfacet model loses most of the light
 /// there.
 constexpr float kMinRoughIorStep = 0.02f;
-/// Clearcoat has ior 1.5.
-constexpr float kCoatF0 = 0.04f;
 
 /// Bends n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
 /// and the lifted mirror direction, so wo is above its horizon too.

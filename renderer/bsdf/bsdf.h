@@ -62,9 +62,6 @@ struct BsdfSample {
 
 class Bsdf {
  public:
-  /// Below this perceptual roughness a specular lobe is a delta.
-  static constexpr float kDeltaRoughness = renderer::kDeltaRoughness;
-
   /// `ng` is the geometric normal on the side of wo. `ns` is the shading normal, with dot(ns, ng) > 0; the
   /// constructor bends it towards ng until the mirror direction of wo is above the surface. `nc` is the
   /// shading normal of the clearcoat. `front` says that wo is on the front side of the triangle, which is
@@ -89,9 +86,9 @@ class Bsdf {
 
   /// Whether some lobe is narrower than this perceptual roughness. Deltas always are, so 0 means deltas
   /// alone. Microfacets and clearcoat are if their roughness is smaller.
-  bool has_narrow(float roughness) const;
+  bool has_narrow(float roughness) const { return has(roughness, true); }
   /// Whether some lobe is not narrower.
-  bool has_wide(float roughness) const;
+  bool has_wide(float roughness) const { return has(roughness, false); }
   /// Two surfaces with the wide and with the narrow lobes. Their values and albedos add up to those of this
   /// surface. Each lobe keeps its value, between the same layers. Each part samples its own lobes alone, and
   /// transmits only if one of them does. A part without lobes is black.
@@ -121,6 +118,7 @@ class Bsdf {
   /// Scales the probabilities of the lobes to the sum one, and sets is_delta_.
   void normalize_chances();
 
+  bool has(float roughness, bool narrow) const;
   Bsdf part(float roughness, bool narrow) const;
   /// The part of albedo_ of each kind of lobe. Microfacets have the rest.
   Color diffuse_albedo() const;

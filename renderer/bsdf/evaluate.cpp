@@ -12,11 +12,6 @@ namespace {
 /// A shorter half vector has no reliable direction: wo and wi are opposite, both in the surface plane.
 constexpr float kMinHalf2 = 1e-10f;
 
-/// The reflectance of clearcoat, which has ior 1.5.
-float coat_fresnel(float cos_h) {
-  return 0.04f + 0.96f * schlick_weight(cos_h);
-}
-
 }  // namespace
 
 Bsdf::Facet Bsdf::facet(float cos_h) const {
@@ -154,7 +149,7 @@ void Bsdf::add_layers(const Vec3& wi, BsdfValue& result) const {
     if (cos_i > 0.0f) {
       const float sin2_h = ns_.cross(h).squaredNorm() / h2;
       result.value += sheen_color_ * (sheen_.value(sin2_h, ggx_.cos_o, cos_i) * cos_i);
-      result.pdf += p_sheen_ * (0.5f * kInvPi);
+      result.pdf += p_sheen_ * pdf_uniform_hemisphere();
     }
   }
 }

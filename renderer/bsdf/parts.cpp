@@ -18,16 +18,11 @@ bool is_narrow(const GgxLobe& lobe, float roughness) {
 
 }  // namespace
 
-bool Bsdf::has_narrow(float roughness) const {
+bool Bsdf::has(float roughness, bool narrow) const {
   const float microfacets = p_microfacet_ + p_loss_reflect_ + p_loss_transmit_;
-  return p_clear_ > 0.0f || (microfacets > 0.0f && is_narrow(ggx_, roughness)) ||
-         (p_coat_ > 0.0f && is_narrow(coat_, roughness));
-}
-
-bool Bsdf::has_wide(float roughness) const {
-  const float microfacets = p_microfacet_ + p_loss_reflect_ + p_loss_transmit_;
-  return p_diffuse_ > 0.0f || p_sheen_ > 0.0f || (microfacets > 0.0f && !is_narrow(ggx_, roughness)) ||
-         (p_coat_ > 0.0f && !is_narrow(coat_, roughness));
+  return (narrow ? p_clear_ > 0.0f : p_diffuse_ > 0.0f || p_sheen_ > 0.0f) ||
+         (microfacets > 0.0f && is_narrow(ggx_, roughness) == narrow) ||
+         (p_coat_ > 0.0f && is_narrow(coat_, roughness) == narrow);
 }
 
 Color Bsdf::diffuse_albedo() const {
@@ -66,7 +61,7 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   if (!keeps_glass) result.glass_ = Glass::none;
   result.albedo_ = keeps_facets ? Color(albedo_ - apart) : apart;
   // A remainder from rounding is not light.
-  if (!(narrow ? has_narrow(roughness) : has_wide(roughness))) result.albedo_.setZero();
+  if (!has(roughness, narrow)) result.albedo_.setZero();
   result.normalize_chances();
   return result;
 }

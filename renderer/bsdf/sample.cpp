@@ -20,6 +20,10 @@ Vec3 refracted(const Vec3& wo, const Vec3& n, float cos_o, float cos_t, float et
   return wi / wi.norm();
 }
 
+BsdfSample delta_sample(const Vec3& wi, const Color& weight, float pdf, bool transmitted) {
+  return {.wi = wi, .weight = weight, .pdf = pdf, .delta = true, .transmitted = transmitted, .spread = 0.0f};
+}
+
 /// A visible normal of a lobe, in world space.
 Vec3 sample_half(const GgxLobe& lobe, const Vec3& normal, const Vec3& wo, const Vec2& u) {
   const Basis basis(normal);
@@ -46,29 +50,15 @@ BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
   if (takes(p_loss_reflect_)) return finish(Basis(ns_).to_world(loss_lobe_.sample(u)), ns_, 1.0f);
   if (takes(p_loss_transmit_)) return finish(-Basis(ns_).to_world(loss_lobe_.sample(u)), -ns_, 1.0f);
   if (takes(p_sheen_)) return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
-  if (takes(p_clear_)) {
-    BsdfSample sample;
-    sample.wi = -wo_;
-    sample.pdf = p_clear_;
-    sample.weight = glass_tint_ * (base_scale_ / p_clear_);
-    sample.delta = true;
-    sample.transmitted = true;
-    sample.spread = 0.0f;
-    return sample;
-  }
+  if (takes(p_clear_)) return delta_sample(-wo_, glass_tint_ * (base_scale_ / p_clear_), p_clear_, true);
   if (p_coat_ > 0.0f) {
     if (!coat_.delta) {
       return finish(mirror(wo_, sample_half(coat_, nc_, wo_, u)), nc_, std::sqrt(coat_.alpha2));
     }
-    BsdfSample sample;
-    sample.wi = mirror(wo_, nc_);
-    if (!(sample.wi.dot(ng_) > 0.0f)) return BsdfSample{};
-    const float fresnel = 0.04f + 0.96f * schlick_weight(coat_.cos_o);
-    sample.weight.setConstant(coat_weight_ * fresnel / p_coat_);
-    sample.pdf = p_coat_;
-    sample.delta = true;
-    sample.spread = 0.0f;
-    return sample;
+    const Vec3 wi = mirror(wo_, nc_);
+    if (!(wi.dot(ng_) > 0.0f)) return {};
+    const float reflected = coat_weight_ * coat_fresnel(coat_.cos_o);
+    return delta_sample(wi, Color::Constant(reflected / p_coat_), p_coat_, false);
   }
   if (p_microfacet_ > 0.0f) return sample_microfacet(1.0f - 0x1p-24f, u);
   return {};
@@ -94,27 +84,20 @@ BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
 }
 
 BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
-  BsdfSample sample;
-  sample.delta = true;
-  sample.spread = 0.0f;
-  sample.transmitted = transmitted;
   if (!transmitted) {
-    sample.wi = mirror(wo_, ns_);
-    if (!(sample.wi.dot(ng_) > 0.0f)) return {};
-    sample.pdf = p_microfacet_ * half.probability_reflect;
+    const Vec3 wi = mirror(wo_, ns_);
+    if (!(wi.dot(ng_) > 0.0f)) return {};
+    const float pdf = p_microfacet_ * half.probability_reflect;
     const Color reflected = f0_ + (f90_ - f0_) * half.schlick + half.reflected;
-    sample.weight = reflected * (base_scale_ / sample.pdf);
-    return sample;
+    return delta_sample(wi, reflected * (base_scale_ / pdf), pdf, false);
   }
-  sample.pdf = p_microfacet_ * (1.0f - half.probability_reflect);
-  if (glass_ == Glass::thin) {
-    sample.wi = -wo_;
-  } else {
-    sample.wi = refracted(wo_, ns_, ggx_.cos_o, half.cos_t, eta_);
-    sample.radiance_scale = 1.0f / (eta_ * eta_);
-  }
-  if (!(sample.wi.dot(ng_) < 0.0f) || !(sample.pdf > 0.0f)) return {};
-  sample.weight = half.transmitted * (base_scale_ * sample.radiance_scale / sample.pdf);
+  const bool thin = glass_ == Glass::thin;
+  const Vec3 wi = thin ? Vec3(-wo_) : refracted(wo_, ns_, ggx_.cos_o, half.cos_t, eta_);
+  const float pdf = p_microfacet_ * (1.0f - half.probability_reflect);
+  if (!(wi.dot(ng_) < 0.0f) || !(pdf > 0.0f)) return {};
+  const float scale = thin ? 1.0f : 1.0f / (eta_ * eta_);
+  BsdfSample sample = delta_sample(wi, half.transmitted * (base_scale_ * scale / pdf), pdf, true);
+  sample.radiance_scale = scale;
   return sample;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "renderer/cache/scene_layout.h"
-#include "renderer/film/first_hit.h"
+#include "renderer/film/camera_sample.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -11,11 +11,11 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Eyes and orthographic pictures further from the origin are refused: rays end before squares of distances
-/// leave single precision.
+/// In metres. Eyes farther from the origin and larger orthographic pictures are refused: the squares of their
+/// distances would leave single precision.
 constexpr float kFurthest = 1e12f;
 
-/// In double: the square of a float may overflow or vanish.
+/// Computed in double, because the square of a float may overflow or become zero.
 scene::Affine look_at(const LookAt& view) {
   using Eigen::Vector3d;
   const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
@@ -24,7 +24,7 @@ scene::Affine look_at(const LookAt& view) {
   const Vector3d back = z.normalized();
   const Vector3d up = view.up.cast<double>();
   Vector3d x = up.cross(back);
-  // Straight up or down: any right vector will do.
+  // For a view along `up`, any perpendicular vector can be the right one.
   if (!(x.squaredNorm() > 1e-12 * up.squaredNorm())) x = back.unitOrthogonal();
   x.normalize();
   scene::Affine transform = scene::Affine::Identity();
@@ -35,7 +35,8 @@ scene::Affine look_at(const LookAt& view) {
   return transform;
 }
 
-/// Three quarters from the front and a little from above, the bounding sphere just inside the picture.
+/// A camera in front of the scene, a little to the right and above. The bounding sphere just fits the
+/// picture.
 scene::Camera frame_scene(const scene::Scene& scene, float fov, float aspect) {
   scene::Camera camera;
   camera.name = "auto";
@@ -60,7 +61,7 @@ std::string names_of(const scene::Scene& scene) {
   return text;
 }
 
-/// The camera's own word for its place and size: a flag or a file.
+/// Throws BadOption for a camera that is too far away or shows too much. `named` describes it in the message.
 void require_near(const scene::Camera& camera, float aspect, const std::string& named) {
   const scene::Vec3 eye = camera.transform.translation();
   if (!(eye.cwiseAbs().maxCoeff() <= kFurthest)) {
@@ -82,23 +83,19 @@ scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& option
     camera.transform = look_at(*options.look_at);
     camera.transform.translation() -= scene.origin;
   } else if (!options.name.empty()) {
-    const scene::Camera* found = nullptr;
-    for (const scene::Camera& c : scene.cameras) {
-      if (c.name == options.name) {
-        found = &c;
-        break;
-      }
-    }
-    std::size_t index = 0;
+    const auto& cameras = scene.cameras;
+    std::size_t index = static_cast<std::size_t>(
+        std::find_if(cameras.begin(), cameras.end(), [&](const auto& c) { return c.name == options.name; }) -
+        cameras.begin());
     const char* end = options.name.data() + options.name.size();
-    if (!found && std::from_chars(options.name.data(), end, index).ptr == end &&
-        index < scene.cameras.size()) {
-      found = &scene.cameras[index];
-    }
-    if (!found)
+    const bool known =
+        index < cameras.size() ||
+        (std::from_chars(options.name.data(), end, index).ptr == end && index < cameras.size());
+    if (!known) {
       throw BadOption(
           fmt::format("--camera {}: no such camera in {}; {}", options.name, scene.path, names_of(scene)));
-    camera = *found;
+    }
+    camera = cameras[index];
   } else if (!scene.cameras.empty()) {
     camera = scene.cameras.front();
   } else {

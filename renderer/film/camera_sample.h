@@ -6,7 +6,7 @@
 
 #include "renderer/film/camera.h"
 #include "renderer/sampling/sampler.h"
-#include "renderer/surface/ray.h"
+#include "renderer/surface/surface.h"
 
 namespace gatelight::renderer {
 
@@ -40,6 +40,19 @@ struct FirstHit {
   float training_count = 0.0f;
   float resolution = 0.0f;
 };
+
+/// The position is in the file's coordinates. `origin` is the scene's origin.
+inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& origin) {
+  FirstHit first;
+  first.hit = true;
+  first.albedo = surface.material.base_color;
+  first.normal = surface.shading_normal;
+  first.position = origin + surface.position;
+  first.depth = hit.t;
+  first.instance = hit.instance;
+  first.primitive = hit.primitive;
+  return first;
+}
 
 struct SampleResult {
   Color radiance{0.0f, 0.0f, 0.0f};

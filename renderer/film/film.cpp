@@ -61,10 +61,9 @@ struct Importer {
 
 Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
     : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
-  needs_first_hits_ = std::any_of(aovs_.begin(), aovs_.end(), from_first_hit);
   const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   radiance_.resize(pixels);
-  if (needs_first_hits_) first_.resize(pixels);
+  if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
 }
 
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
@@ -116,24 +115,29 @@ Layer Film::layer(Aov aov) const {
       for (std::size_t i = 0; i < n; ++i) layer.values.push_back(finite_float(value(p, i)));
     }
   };
-  const auto over_hits = [](double sum, const First& p) { return p.hits > 0 ? sum / p.hits : 0.0; };
-  const auto over_asked = [](double sum, const First& p) { return p.asked > 0 ? sum / p.asked : 0.0; };
+  // The means of first hits. The background counts as black where samples are counted, as in the beauty
+  // layer, so edges stay soft.
+  const auto fill_vector = [&](std::vector<std::string> channels, std::array<double, 3> First::*sum,
+                               std::uint32_t First::*count) {
+    fill(std::move(channels), first_,
+         [&](const First& p, std::size_t i) { return p.*count > 0 ? (p.*sum)[i] / p.*count : 0.0; });
+  };
+  const auto fill_number = [&](const char* channel, double First::*sum, std::uint32_t First::*count) {
+    fill({channel}, first_,
+         [&](const First& p, std::size_t) { return p.*count > 0 ? p.*sum / p.*count : 0.0; });
+  };
   switch (aov) {
     case Aov::albedo:
-      // The background counts as black, as in the beauty layer, so edges stay soft.
-      fill({"R", "G", "B"}, first_,
-           [](const First& p, std::size_t i) { return p.count > 0 ? p.albedo[i] / p.count : 0.0; });
+      fill_vector({"R", "G", "B"}, &First::albedo, &First::count);
       break;
     case Aov::normal:
-      fill({"X", "Y", "Z"}, first_,
-           [](const First& p, std::size_t i) { return p.count > 0 ? p.normal[i] / p.count : 0.0; });
+      fill_vector({"X", "Y", "Z"}, &First::normal, &First::count);
       break;
     case Aov::depth:
-      fill({"Z"}, first_, [&](const First& p, std::size_t) { return over_hits(p.depth, p); });
+      fill_number("Z", &First::depth, &First::hits);
       break;
     case Aov::position:
-      fill({"X", "Y", "Z"}, first_,
-           [&](const First& p, std::size_t i) { return over_hits(p.position[i], p); });
+      fill_vector({"X", "Y", "Z"}, &First::position, &First::hits);
       break;
     case Aov::primitive_id:
       fill({"id"}, first_, [](const First& p, std::size_t) { return p.primitive; });
@@ -142,21 +146,19 @@ Layer Film::layer(Aov aov) const {
       fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
       break;
     case Aov::cache_answer:
-      fill({"R", "G", "B"}, first_,
-           [](const First& p, std::size_t i) { return p.count > 0 ? p.answer[i] / p.count : 0.0; });
+      fill_vector({"R", "G", "B"}, &First::answer, &First::count);
       break;
     case Aov::nearest_node:
-      fill({"R", "G", "B"}, first_,
-           [](const First& p, std::size_t i) { return p.count > 0 ? p.node[i] / p.count : 0.0; });
+      fill_vector({"R", "G", "B"}, &First::node, &First::count);
       break;
     case Aov::cache_error:
-      fill({"error"}, first_, [&](const First& p, std::size_t) { return over_asked(p.error, p); });
+      fill_number("error", &First::error, &First::asked);
       break;
     case Aov::training_count:
-      fill({"count"}, first_, [&](const First& p, std::size_t) { return over_asked(p.training_count, p); });
+      fill_number("count", &First::training_count, &First::asked);
       break;
     case Aov::resolution:
-      fill({"R"}, first_, [&](const First& p, std::size_t) { return over_asked(p.resolution, p); });
+      fill_number("R", &First::resolution, &First::asked);
       break;
     case Aov::sample_count:
       fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
@@ -175,15 +177,13 @@ Layer Film::layer(Aov aov) const {
 }
 
 Picture Film::resolve() const {
-  Picture picture;
-  picture.width = rect_.width();
-  picture.height = rect_.height();
-  picture.x0 = rect_.x0;
-  picture.y0 = rect_.y0;
-  picture.full_width = full_width_;
-  picture.full_height = full_height_;
-  Layer beauty;
-  beauty.channels = {"R", "G", "B"};
+  Picture picture{.width = rect_.width(),
+                  .height = rect_.height(),
+                  .x0 = rect_.x0,
+                  .y0 = rect_.y0,
+                  .full_width = full_width_,
+                  .full_height = full_height_};
+  Layer beauty{.channels = {"R", "G", "B"}};
   beauty.values.reserve(radiance_.size() * 3);
   for (const Radiance& p : radiance_) {
     for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? finite_float(sum / p.count) : 0.0f);

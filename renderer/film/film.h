@@ -29,9 +29,8 @@ class Film {
   Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
 
   const PixelRect& rect() const { return rect_; }
-  bool has_aovs() const { return !aovs_.empty(); }
   /// Whether some requested output variable comes from the primary hit.
-  bool needs_first_hits() const { return needs_first_hits_; }
+  bool needs_first_hits() const { return !first_.empty(); }
 
   void add(int x, int y, const Color& radiance);
   void add(int x, int y, const FirstHit& first);
@@ -77,7 +76,6 @@ class Film {
   int full_width_;
   int full_height_;
   std::vector<Aov> aovs_;
-  bool needs_first_hits_ = false;
   std::vector<Radiance> radiance_;
   std::vector<First> first_;
 };

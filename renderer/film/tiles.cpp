@@ -3,21 +3,15 @@
 namespace gatelight::renderer {
 namespace {
 
-struct TileOrder {
-  std::array<std::uint8_t, kTile * kTile> x{};
-  std::array<std::uint8_t, kTile * kTile> y{};
-};
-constexpr TileOrder kTileOrder = [] {
-  TileOrder order;
-  for (std::size_t i = 0; i < kTile * kTile; ++i) {
-    std::size_t x = 0;
-    std::size_t y = 0;
-    for (std::size_t bit = 0; bit < 4; ++bit) {
-      x |= (i >> (2 * bit) & 1u) << bit;
-      y |= (i >> (2 * bit + 1) & 1u) << bit;
+/// The places of a tile's pixels in Morton order.
+constexpr std::array<Pixel, kTile* kTile> kTileOrder = [] {
+  std::array<Pixel, kTile * kTile> order{};
+  for (int i = 0; i < kTile * kTile; ++i) {
+    Pixel& p = order[static_cast<std::size_t>(i)];
+    for (int bit = 0; bit < 4; ++bit) {
+      p.x |= (i >> (2 * bit) & 1) << bit;
+      p.y |= (i >> (2 * bit + 1) & 1) << bit;
     }
-    order.x[i] = static_cast<std::uint8_t>(x);
-    order.y[i] = static_cast<std::uint8_t>(y);
   }
   return order;
 }();
@@ -35,8 +29,8 @@ void TileGrid::pixels(int tile, std::vector<Pixel>& result) const {
   result.clear();
   const int left = (first_column_ + tile % columns_) * kTile;
   const int top = (first_row_ + tile / columns_) * kTile;
-  for (std::size_t i = 0; i < kTile * kTile; ++i) {
-    const Pixel p{left + kTileOrder.x[i], top + kTileOrder.y[i]};
+  for (const Pixel& place : kTileOrder) {
+    const Pixel p{left + place.x, top + place.y};
     if (p.x < region_.x0 || p.x >= region_.x1 || p.y < region_.y0 || p.y >= region_.y1) continue;
     result.push_back(p);
   }

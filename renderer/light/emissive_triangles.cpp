@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "renderer/surface/interpolate.h"
 #include "renderer/surface/rounding.h"
 #include "scene/triangle_normal.h"
 
@@ -20,26 +21,10 @@ namespace {
 constexpr float kTextureFloor = 0.02f;
 constexpr float kCoverageFloor = 0.05f;
 
-/// Interpolates a vertex attribute. `weights` are for the three corners in the file's order.
-template <typename T>
-T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& t, const Vec3& weights) {
-  return weights[0] * values[t[0]] + weights[1] * values[t[1]] + weights[2] * values[t[2]];
-}
-
 Vec3 corner_weights(const EmissiveTriangle& triangle, const Vec2& barycentrics) {
   const float b0 = 1.0f - barycentrics.x() - barycentrics.y();
   return triangle.mirrored ? Vec3(b0, barycentrics.y(), barycentrics.x())
                            : Vec3(b0, barycentrics.x(), barycentrics.y());
-}
-
-const std::vector<Vec2>& uv_set(const scene::Mesh& mesh, const scene::TextureSlot& slot) {
-  return slot.texcoord == 0 ? mesh.uv0 : mesh.uv1;
-}
-
-Vec2 uv_at(const scene::Mesh& mesh, const scene::TextureSlot& slot, const std::array<std::uint32_t, 3>& t,
-           const Vec3& weights) {
-  const std::vector<Vec2>& uv = uv_set(mesh, slot);
-  return uv.empty() ? Vec2(Vec2::Zero()) : interpolate(uv, t, weights);
 }
 
 /// The width in uv units of a quarter of the triangle, which one of four lookups represents.

@@ -11,7 +11,6 @@
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/image_read.h"
-#include "renderer/light/environment_picture.h"
 #include "renderer/sampling/warp.h"
 
 namespace gatelight::renderer {
@@ -66,7 +65,7 @@ void check_full_size(const Picture& picture, const std::string& file) {
   }
 }
 
-std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options, std::string& warning) {
+EnvironmentPicture load(const EnvironmentOptions& options, std::string& warning) {
   Picture picture = read_image(options.file);
   const Layer& layer = picture.layers.front();
   const auto color = color_channels(layer);
@@ -97,8 +96,7 @@ std::unique_ptr<const EnvironmentPicture> load(const EnvironmentOptions& options
     }
   }
   warning = repaired.warning(options.file);
-  return std::make_unique<const EnvironmentPicture>(picture.full_width, picture.full_height,
-                                                    std::move(texels));
+  return {picture.full_width, picture.full_height, std::move(texels)};
 }
 
 }  // namespace
@@ -122,13 +120,6 @@ Environment::Environment(const EnvironmentOptions& options) {
   }
 }
 
-Environment::~Environment() = default;
-Environment::Environment(Environment&&) noexcept = default;
-
-Color Environment::radiance(const Vec3& direction) const {
-  return picture_ ? picture_->radiance(to_picture(direction)) : mean_;
-}
-
 Color Environment::radiance(const Vec3& direction, float cone_angle) const {
   return picture_ ? picture_->radiance(to_picture(direction), cone_angle) : mean_;
 }
@@ -144,10 +135,6 @@ EnvironmentSample Environment::sample(const Vec2& u) const {
 float Environment::pdf(const Vec3& direction) const {
   if (black()) return 0.0f;
   return picture_ ? picture_->pdf(to_picture(direction)) : pdf_uniform_sphere();
-}
-
-std::size_t Environment::bytes() const {
-  return picture_ ? picture_->bytes() : 0;
 }
 
 }  // namespace gatelight::renderer

@@ -1,22 +1,13 @@
 #pragma once
 // Light from infinitely far away: a constant, or a latitude-longitude picture with importance sampling.
 
-#include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "renderer/light/environment_sample.h"
+#include "renderer/light/environment_picture.h"
 #include "renderer/settings/environment_options.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
-
-using scene::Color;
-using scene::Vec2;
-using scene::Vec3;
-
-class EnvironmentPicture;
 
 /// The centre of the picture is in the direction -z, +x is to its right, and +y is up (the convention of most
 /// viewers). Infinite values become the largest finite value of the picture, at least 65504 (the largest
@@ -25,12 +16,9 @@ class Environment {
  public:
   /// Throws std::runtime_error that names the file when it cannot be read.
   explicit Environment(const EnvironmentOptions& options);
-  ~Environment();
-  Environment(Environment&&) noexcept;
 
-  Color radiance(const Vec3& direction) const;
-  /// The same, filtered for a ray cone with this full angle in radians.
-  Color radiance(const Vec3& direction, float cone_angle) const;
+  /// Filtered for a ray cone with this full angle in radians; 0 means no filter.
+  Color radiance(const Vec3& direction, float cone_angle = 0.0f) const;
   /// A constant environment is sampled uniformly over the sphere, a picture by its luminance.
   EnvironmentSample sample(const Vec2& u) const;
   float pdf(const Vec3& direction) const;
@@ -38,8 +26,8 @@ class Environment {
   Color mean() const { return mean_; }
   bool black() const { return (mean_ == 0.0f).all(); }
   /// Whether the radiance is the same in all directions. Then sampling by the receiver's cosine is better.
-  bool constant() const { return picture_ == nullptr; }
-  std::size_t bytes() const;
+  bool constant() const { return !picture_; }
+  std::size_t bytes() const { return picture_ ? picture_->bytes() : 0; }
   /// One line that counts the values of the picture that are negative or not finite; empty if there are none.
   const std::string& warning() const { return warning_; }
 
@@ -51,7 +39,7 @@ class Environment {
     return {cos_ * picture.x() + sin_ * picture.z(), picture.y(), cos_ * picture.z() - sin_ * picture.x()};
   }
 
-  std::unique_ptr<const EnvironmentPicture> picture_;
+  std::optional<EnvironmentPicture> picture_;
   std::string warning_;
   Color mean_{0.0f, 0.0f, 0.0f};
   float cos_ = 1.0f;  ///< cosine and sine of the rotation

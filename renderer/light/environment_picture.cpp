@@ -162,10 +162,6 @@ void EnvironmentPicture::build_density() {
   for (float& d : density_) d = sum > 0.0 ? static_cast<float>(static_cast<double>(d) / sum) : 0.0f;
 }
 
-Color EnvironmentPicture::radiance(const Vec3& direction) const {
-  return bilinear(levels_.front(), direction_to_uv(direction));
-}
-
 Color EnvironmentPicture::radiance(const Vec3& direction, float cone_angle) const {
   const Vec2 uv = direction_to_uv(direction);
   const float texels = cone_angle * static_cast<float>(levels_.front().height) * scene::kInvPi;

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "renderer/light/environment_sample.h"
+#include "scene/math.h"
 
 namespace gatelight::renderer {
 
@@ -19,13 +19,19 @@ using scene::Color;
 using scene::Vec2;
 using scene::Vec3;
 
+struct EnvironmentSample {
+  Vec3 wi = Vec3::Zero();
+  Color radiance{0.0f, 0.0f, 0.0f};
+  float pdf = 0.0f;  ///< per solid angle; 0 means no sample
+};
+
 class EnvironmentPicture {
  public:
   /// The first row is the top. Values are finite and not negative. Directions are in the picture's own frame.
   EnvironmentPicture(int width, int height, std::vector<Color> texels);
 
-  Color radiance(const Vec3& direction) const;
-  Color radiance(const Vec3& direction, float cone_angle) const;
+  /// Filtered for a ray cone with this full angle in radians; 0 reads the finest level.
+  Color radiance(const Vec3& direction, float cone_angle = 0.0f) const;
   EnvironmentSample sample(const Vec2& u) const;
   float pdf(const Vec3& direction) const;
   Color mean() const { return mean_; }

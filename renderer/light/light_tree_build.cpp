@@ -11,6 +11,15 @@ namespace {
 using scene::Box;
 using scene::kPi;
 
+Box box_of(const LightBounds& light) {
+  return {Vec3(light.centre.array() - light.radius), Vec3(light.centre.array() + light.radius)};
+}
+
+/// The light's axis; of the two of a two-sided light the one on the side of `towards`.
+Vec3 axis_towards(const LightBounds& light, const Vec3& towards) {
+  return light.two_sided && light.axis.dot(towards) < 0.0f ? Vec3(-light.axis) : light.axis;
+}
+
 /// A summary of a group of lights that is cheap to merge, for comparing splits. The spread of the normals is
 /// estimated from the length of their mean, which is (1 + cos t) / 2 for a uniform cap of half angle t.
 struct Summary {
@@ -22,9 +31,8 @@ struct Summary {
   bool all_directions = false;
 
   void add(const LightBounds& light, const Vec3& towards) {
-    box.extend(Vec3(light.centre.array() - light.radius));
-    box.extend(Vec3(light.centre.array() + light.radius));
-    axes += light.two_sided && light.axis.dot(towards) < 0.0f ? Vec3(-light.axis) : light.axis;
+    box.extend(box_of(light));
+    axes += axis_towards(light, towards);
     intensity += light.intensity;
     cos_emission = std::min(cos_emission, light.cos_emission);
     ++count;
@@ -64,7 +72,6 @@ struct LightTree::Builder {
   struct Group {
     std::size_t begin = 0;
     std::size_t end = 0;
-    float cost = 0.0f;
     std::size_t size() const { return end - begin; }
   };
 
@@ -84,9 +91,8 @@ struct LightTree::Builder {
     b.cos_emission = 1.0f;
     for (std::size_t i = group.begin; i < group.end; ++i) {
       const LightBounds& light = at(i);
-      box.extend(Vec3(light.centre.array() - light.radius));
-      box.extend(Vec3(light.centre.array() + light.radius));
-      axes += light.two_sided && light.axis.dot(axes) < 0.0f ? Vec3(-light.axis) : light.axis;
+      box.extend(box_of(light));
+      axes += axis_towards(light, axes);
       b.intensity += light.intensity;
       b.two_sided |= light.two_sided;
       b.cos_emission = std::min(b.cos_emission, light.cos_emission);
@@ -125,7 +131,7 @@ struct LightTree::Builder {
     Vec3 towards = Vec3::Zero();
     for (std::size_t i = group.begin; i < group.end; ++i) {
       centres.extend(at(i).centre);
-      towards += at(i).two_sided && at(i).axis.dot(towards) < 0.0f ? Vec3(-at(i).axis) : at(i).axis;
+      towards += axis_towards(at(i), towards);
     }
     const Vec3 extent = centres.sizes();
     const int bins = group.size() > 32 ? kMaxBins : 6;

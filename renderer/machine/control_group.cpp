@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 namespace gatelight::renderer {
 namespace {
@@ -21,14 +20,6 @@ double tightest(const fs::path& mount, const std::string& group, const ReadLimit
   }
 }
 
-bool lists(const std::string& controllers, const std::string& controller) {
-  std::istringstream names(controllers);
-  for (std::string name; std::getline(names, name, ',');) {
-    if (name == controller) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 double tightest_limit(const fs::path& root, const std::string& controller, const ReadLimit& v2,
@@ -45,7 +36,7 @@ double tightest_limit(const fs::path& root, const std::string& controller, const
     const std::string group = line.substr(second + 1);
     if (controllers.empty()) {
       limit = std::min(limit, tightest(mount, group, v2));
-    } else if (lists(controllers, controller)) {
+    } else if (("," + controllers + ",").find("," + controller + ",") != std::string::npos) {
       limit = std::min(limit, tightest(mount / controller, group, v1));
       limit = std::min(limit, tightest(mount / controllers, group, v1));
     }

@@ -1,6 +1,7 @@
 #include "renderer/metrics/flip.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include "renderer/image/srgb.h"
 #include "renderer/machine/errors.h"
@@ -8,8 +9,7 @@
 #include "renderer/metrics/flip/exposures.h"
 #include "renderer/metrics/flip/filters.h"
 #include "renderer/metrics/flip/ldr.h"
-#include "renderer/metrics/flip/shown.h"
-#include "renderer/metrics/flip/summary.h"
+#include "renderer/metrics/flip/planes.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -28,14 +28,37 @@ flip::Filters make_checked_filters(const FlipOptions& options) {
   return flip::make_filters(ppd);
 }
 
+/// The error at which the running sum of the sorted errors exceeds `part` of their total `sum`.
+double weighted_quantile(const std::vector<float>& sorted, double part, double sum) {
+  double running = 0.0;
+  for (const float error : sorted) {
+    running += static_cast<double>(error);
+    if (running > part * sum) return static_cast<double>(error);
+  }
+  return 0.0;
+}
+
 FlipResult make_result(const Plane& errors) {
   FlipResult result{.width = static_cast<int>(errors.cols()), .height = static_cast<int>(errors.rows())};
   result.errors.assign(errors.data(), errors.data() + errors.size());
-  result.summary = flip::summarize(result.errors);
+  result.summary = summarize(result.errors);
   return result;
 }
 
 }  // namespace
+
+FlipSummary summarize(std::span<const float> errors) {
+  std::vector<float> sorted(errors.begin(), errors.end());
+  tbb::parallel_sort(sorted.begin(), sorted.end());
+  double sum = 0.0;
+  for (const float error : sorted) sum += static_cast<double>(error);
+  return {.mean = sum / static_cast<double>(sorted.size()),
+          .weighted_median = weighted_quantile(sorted, 0.5, sum),
+          .first_quartile = weighted_quantile(sorted, 0.25, sum),
+          .third_quartile = weighted_quantile(sorted, 0.75, sum),
+          .min = static_cast<double>(sorted.front()),
+          .max = static_cast<double>(sorted.back())};
+}
 
 FlipResult ldr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options) {
   require_comparable(reference, test);

@@ -8,11 +8,11 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/image/tonemap.h"
 #include "renderer/metrics/beauty.h"
-#include "renderer/metrics/flip/summary.h"
 
 namespace gatelight::renderer {
 
@@ -27,6 +27,17 @@ struct FlipOptions {
 
 inline constexpr double kMinPixelsPerDegree = 1.0;
 inline constexpr double kMaxPixelsPerDegree = 1000.0;
+
+/// Statistics of the errors of all pixels. The quartiles are weighted: for example, the errors up to
+/// `first_quartile` make a quarter of the sum of all errors. All are zero where there is no error.
+struct FlipSummary {
+  double mean = 0.0;
+  double weighted_median = 0.0;
+  double first_quartile = 0.0;
+  double third_quartile = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+};
 
 struct FlipResult {
   int width = 0;
@@ -55,6 +66,9 @@ FlipResult hdr_flip(const NamedPicture& reference, const NamedPicture& test, con
 /// that is done. Returns nothing when go_on returns false.
 std::optional<FlipResult> hdr_flip(const NamedPicture& reference, const NamedPicture& test,
                                    const FlipOptions& options, const std::function<bool(double)>& go_on);
+
+/// `errors` is not empty; all values are in [0, 1].
+FlipSummary summarize(std::span<const float> errors);
 
 /// The errors in the published colours (magma), from black (0) over violet, red and orange to pale yellow
 /// (1). A PNG shows these colours when it is written without exposure and curve.

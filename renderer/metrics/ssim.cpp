@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/image/srgb.h"
-#include "renderer/metrics/flip/shown.h"
+#include "renderer/metrics/flip/planes.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -55,12 +55,11 @@ GreyPlane read_grey(const NamedPicture& named, const SsimOptions& options) {
 struct Moments {
   GreyPlane reference, test, reference_square, test_square, difference_square;
 
-  Moments(Index rows, Index columns)
-      : reference(rows, columns),
-        test(rows, columns),
-        reference_square(rows, columns),
-        test_square(rows, columns),
-        difference_square(rows, columns) {}
+  Moments(Index rows, Index columns) {
+    for (GreyPlane* plane : {&reference, &test, &reference_square, &test_square, &difference_square}) {
+      plane->resize(rows, columns);
+    }
+  }
 };
 
 Row filter_x(const Row& row, const Weights& weights) {

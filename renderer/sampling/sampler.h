@@ -67,11 +67,36 @@ inline float to_unit_float(std::uint32_t x) {
 class Sampler {
  public:
   Sampler() = default;
-  Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample);
+  Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample)
+      : index_(kind == SamplerKind::sobol ? sampling::reverse_bits(sample) : sample), kind_(kind) {
+    const std::uint64_t pixel = sampling::mix_bits((std::uint64_t{y} << 32) | x);
+    key_ = static_cast<std::uint32_t>(sampling::mix_bits(pixel + seed) >> 32);
+  }
 
   /// Uniform in [0, 1). Use a dimension for one purpose, either as a number or as a pair.
-  float get_1d(std::uint32_t dimension) const;
-  Vec2 get_2d(std::uint32_t dimension) const;
+  float get_1d(std::uint32_t dimension) const {
+    using namespace sampling;
+    if (kind_ == SamplerKind::independent) {
+      return to_unit_float(static_cast<std::uint32_t>(independent_bits(dimension) >> 32));
+    }
+    const std::uint64_t hash = dimension_hash(dimension);
+    const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
+    return to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32))));
+  }
+  Vec2 get_2d(std::uint32_t dimension) const {
+    using namespace sampling;
+    if (kind_ == SamplerKind::independent) {
+      const std::uint64_t bits = independent_bits(dimension);
+      return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)),
+              to_unit_float(static_cast<std::uint32_t>(bits))};
+    }
+    const std::uint64_t hash = dimension_hash(dimension);
+    const auto second_hash = static_cast<std::uint32_t>((hash * 0xd1342543de82ef95u) >> 32);
+    const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
+    // The first Sobol dimension is the index itself with reversed bits.
+    return {to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32)))),
+            to_unit_float(reverse_bits(permute_upward(sobol_second_reversed(index), second_hash)))};
+  }
 
  private:
   std::uint64_t dimension_hash(std::uint32_t dimension) const {
@@ -85,37 +110,5 @@ class Sampler {
   std::uint32_t index_ = 0;  ///< number of the sample; for Sobol points with reversed bits
   SamplerKind kind_ = SamplerKind::sobol;
 };
-
-inline Sampler::Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y,
-                        std::uint32_t sample)
-    : index_(kind == SamplerKind::sobol ? sampling::reverse_bits(sample) : sample), kind_(kind) {
-  const std::uint64_t pixel = sampling::mix_bits((std::uint64_t{y} << 32) | x);
-  key_ = static_cast<std::uint32_t>(sampling::mix_bits(pixel + seed) >> 32);
-}
-
-inline float Sampler::get_1d(std::uint32_t dimension) const {
-  using namespace sampling;
-  if (kind_ == SamplerKind::independent) {
-    return to_unit_float(static_cast<std::uint32_t>(independent_bits(dimension) >> 32));
-  }
-  const std::uint64_t hash = dimension_hash(dimension);
-  const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
-  return to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32))));
-}
-
-inline Vec2 Sampler::get_2d(std::uint32_t dimension) const {
-  using namespace sampling;
-  if (kind_ == SamplerKind::independent) {
-    const std::uint64_t bits = independent_bits(dimension);
-    return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)),
-            to_unit_float(static_cast<std::uint32_t>(bits))};
-  }
-  const std::uint64_t hash = dimension_hash(dimension);
-  const auto second_hash = static_cast<std::uint32_t>((hash * 0xd1342543de82ef95u) >> 32);
-  const std::uint32_t index = reverse_bits(permute_upward(index_, static_cast<std::uint32_t>(hash)));
-  // The first Sobol dimension is the index itself with reversed bits.
-  return {to_unit_float(reverse_bits(permute_upward(index, static_cast<std::uint32_t>(hash >> 32)))),
-          to_unit_float(reverse_bits(permute_upward(sobol_second_reversed(index), second_hash)))};
-}
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,6 @@
 #pragma once
 // Maps from the unit square to the shapes that light transport integrates over, with their pdfs. The maps are
-// continuous or nearly so, which keeps stratified samples stratified. Hemispheres and cones have the axis +z.
+// continuous or nearly so, which keeps stratified samples stratified. Hemispheres have the axis +z.
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +33,6 @@ struct Basis {
 
   Vec3 to_world(const Vec3& local) const {
     return local.x() * tangent + local.y() * bitangent + local.z() * normal;
-  }
-  Vec3 to_local(const Vec3& world) const {
-    return {tangent.dot(world), bitangent.dot(world), normal.dot(world)};
   }
 };
 
@@ -75,9 +72,6 @@ inline Vec2 sample_concentric_disk(const Vec2& u) {
   const Vec2 cs = cos_sin_octant(0.25f * scene::kPi * (a.x() / a.y()));
   return {a.y() * cs.y(), a.y() * cs.x()};
 }
-inline float pdf_concentric_disk() {
-  return scene::kInvPi;
-}
 
 /// The pdf is cos / pi. The cosine of a sample may be 0, and then its pdf is 0.
 inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
@@ -105,17 +99,6 @@ inline Vec3 sample_uniform_hemisphere(const Vec2& u) {
 }
 inline float pdf_uniform_hemisphere() {
   return kInvTwoPi;
-}
-
-/// Uniform within a cone. The parameter is 1 - cos of the half angle, which stays precise for narrow cones.
-inline Vec3 sample_uniform_cone(const Vec2& u, float one_minus_cos_max) {
-  const float one_minus_cos = u.x() * one_minus_cos_max;
-  const float r = std::sqrt(std::max(0.0f, one_minus_cos * (2.0f - one_minus_cos)));
-  const Vec2 cs = cos_sin_turn(u.y());
-  return {r * cs.x(), r * cs.y(), 1.0f - one_minus_cos};
-}
-inline float pdf_uniform_cone(float one_minus_cos_max) {
-  return kInvTwoPi / one_minus_cos_max;
 }
 
 /// Barycentric weights of the first and second corner, uniform by area; the pdf is 1 / area. Heitz 2019, "A

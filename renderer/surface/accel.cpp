@@ -28,13 +28,20 @@ struct Lane {
 /// Embree passes its context to the filters, so the lanes are stored behind it.
 struct Context {
   RTCIntersectContext embree;
-  const Coverage* coverage = nullptr;
+  const Coverage* coverage;
   Lane lanes[kPacket];
+
+  Context(const Coverage& surfaces, RTCIntersectContextFlags flags) : coverage(&surfaces) {
+    rtcInitIntersectContext(&embree);
+    embree.flags = flags;
+  }
+  bool lets_pass(const Hit& hit, const Lane& lane) const {
+    return coverage->tests_alpha(hit.instance) && !coverage->is_there(hit, lane.seed);
+  }
 };
 
-std::uint32_t instance_of(RTCHitN* hit, unsigned n, unsigned i) {
-  const unsigned instance = RTCHitN_instID(hit, n, i, 0);
-  return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(hit, n, i);
+std::uint32_t instance_of(unsigned instance, unsigned geometry) {
+  return instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry;
 }
 
 Hit candidate(const RTCFilterFunctionNArguments* args, unsigned i) {
@@ -42,7 +49,7 @@ Hit candidate(const RTCFilterFunctionNArguments* args, unsigned i) {
   hit.t = RTCRayN_tfar(args->ray, args->N, i);
   hit.u = RTCHitN_u(args->hit, args->N, i);
   hit.v = RTCHitN_v(args->hit, args->N, i);
-  hit.instance = instance_of(args->hit, args->N, i);
+  hit.instance = instance_of(RTCHitN_instID(args->hit, args->N, i, 0), RTCHitN_geomID(args->hit, args->N, i));
   hit.primitive = RTCHitN_primID(args->hit, args->N, i);
   return hit;
 }
@@ -52,10 +59,7 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
-    const Hit hit = candidate(args, i);
-    if (context.coverage->tests_alpha(hit.instance) && !context.coverage->is_there(hit, lane.seed)) {
-      args->valid[i] = 0;
-    }
+    if (context.lets_pass(candidate(args, i), lane)) args->valid[i] = 0;
   }
 }
 
@@ -65,7 +69,7 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] != -1) continue;
     Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
     const Hit hit = candidate(args, i);
-    if (context.coverage->tests_alpha(hit.instance) && !context.coverage->is_there(hit, lane.seed)) {
+    if (context.lets_pass(hit, lane)) {
       args->valid[i] = 0;
       continue;
     }
@@ -81,7 +85,22 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-void set_lane(RTCRay16& packet, unsigned i, const Ray& ray) {
+/// Calls trace(first, count, valid) for packets of the rays. Before it, set(lane, ray) fills each lane; lanes
+/// without a ray of their own repeat the last ray.
+template <typename Set, typename Trace>
+void for_each_packet(std::span<const Ray> rays, const Set& set, const Trace& trace) {
+  alignas(64) int valid[kPacket];
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const unsigned count = static_cast<unsigned>(std::min<std::size_t>(kPacket, rays.size() - first));
+    for (unsigned i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      set(i, rays[first + std::min(i, count - 1)]);
+    }
+    trace(first, count, valid);
+  }
+}
+
+void set_ray(RTCRay16& packet, unsigned i, const Ray& ray) {
   packet.org_x[i] = ray.origin.x();
   packet.org_y[i] = ray.origin.y();
   packet.org_z[i] = ray.origin.z();
@@ -246,23 +265,16 @@ std::size_t Accel::bytes() const {
 }
 
 void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
-  Context context;
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags =
-      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  context.coverage = &coverage_;
+  Context context(coverage_,
+                  coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[kPacket];
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    const unsigned count = static_cast<unsigned>(std::min<std::size_t>(kPacket, rays.size() - first));
-    for (unsigned i = 0; i < kPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      const Ray& ray = rays[first + std::min(i, count - 1)];
-      set_lane(packet.ray, i, ray);
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      if (state_->any_filter) context.lanes[i].seed = ray.seed;
-    }
+  const auto set = [&](unsigned i, const Ray& ray) {
+    set_ray(packet.ray, i, ray);
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    if (state_->any_filter) context.lanes[i].seed = ray.seed;
+  };
+  for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
     rtcIntersect16(valid, state_->top, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       Hit& hit = hits[first + i];
@@ -270,33 +282,24 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
       hit.u = packet.hit.u[i];
       hit.v = packet.hit.v[i];
       hit.primitive = packet.hit.primID[i];
-      hit.instance =
-          packet.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID ? packet.hit.instID[0][i] : packet.hit.geomID[i];
+      hit.instance = instance_of(packet.hit.instID[0][i], packet.hit.geomID[i]);
     }
-  }
+  });
 }
 
 void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
-  Context context;
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  context.coverage = &coverage_;
+  Context context(coverage_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   alignas(64) RTCRay16 packet;
-  alignas(64) int valid[kPacket];
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    const unsigned count = static_cast<unsigned>(std::min<std::size_t>(kPacket, rays.size() - first));
-    for (unsigned i = 0; i < kPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      const Ray& ray = rays[first + std::min(i, count - 1)];
-      set_lane(packet, i, ray);
-      if (state_->any_filter) {
-        Lane& lane = context.lanes[i];
-        lane.seed = ray.seed;
-        lane.direction = ray.direction;
-        lane.transmittance = Color::Ones();
-        lane.panes = 0;
-      }
-    }
+  const auto set = [&](unsigned i, const Ray& ray) {
+    set_ray(packet, i, ray);
+    if (!state_->any_filter) return;
+    Lane& lane = context.lanes[i];
+    lane.seed = ray.seed;
+    lane.direction = ray.direction;
+    lane.transmittance = Color::Ones();
+    lane.panes = 0;
+  };
+  for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
     rtcOccluded16(valid, state_->top, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
@@ -304,7 +307,7 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
                           : state_->any_filter ? context.lanes[i].transmittance
                                                : Color(1.0f, 1.0f, 1.0f);
     }
-  }
+  });
 }
 
 }  // namespace gatelight::renderer

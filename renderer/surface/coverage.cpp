@@ -1,20 +1,33 @@
 #include "renderer/surface/coverage.h"
 
 #include "renderer/bsdf/bsdf.h"
+#include "renderer/surface/interpolate.h"
 
 namespace gatelight::renderer {
-
 namespace {
 
-template <typename T>
-T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corner, float u, float v) {
-  return values[corner[0]] * (1.0f - u - v) + values[corner[1]] * u + values[corner[2]] * v;
-}
+/// Reads textures at a hit, at the finest level.
+struct FinestLevel {
+  const Textures& textures;
+  const scene::Mesh& mesh;
+  const Corners& corners;
+  Vec3 weights;
 
-Vec2 texcoord(const scene::Mesh& mesh, const scene::TextureSlot& slot, const Hit& hit) {
-  const std::vector<Vec2>& uv = slot.texcoord == 1 ? mesh.uv1 : mesh.uv0;
-  return uv.empty() ? Vec2(0.0f, 0.0f) : interpolate(uv, mesh.triangles[hit.primitive], hit.u, hit.v);
-}
+  FinestLevel(const Textures& all, const scene::Mesh& hit_mesh, const Hit& hit)
+      : textures(all),
+        mesh(hit_mesh),
+        corners(mesh.triangles[hit.primitive]),
+        weights(1.0f - hit.u - hit.v, hit.u, hit.v) {}
+
+  /// One where there is no texture.
+  Vec4 operator()(const scene::TextureSlot& slot, Encoding encoding) const {
+    if (!slot) return Vec4::Ones();
+    return textures.lookup(slot, encoding, uv_at(mesh, slot, corners, weights), 0.0f, 0.0f);
+  }
+  Vec4 vertex_color() const {
+    return mesh.colors.empty() ? Vec4(Vec4::Ones()) : interpolate(mesh.colors, corners, weights);
+  }
+};
 
 }  // namespace
 
@@ -24,7 +37,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_
     const scene::Material& m = scene.material_of(scene.instances[i]);
     if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
     const bool smooth =
-        m.roughness == 0.0f || (m.roughness < Bsdf::kDeltaRoughness && !m.metallic_roughness_texture);
+        m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
   }
@@ -32,18 +45,9 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_
 
 float Coverage::alpha(const Hit& hit) const {
   const scene::Instance& instance = scene_.instances[hit.instance];
-  const scene::Mesh& mesh = scene_.mesh_of(instance);
   const scene::Material& m = scene_.material_of(instance);
-  float alpha = m.base_alpha;
-  if (m.base_color_texture) {
-    alpha *= textures_
-                 .lookup(m.base_color_texture, Encoding::srgb, texcoord(mesh, m.base_color_texture, hit),
-                         0.0f, 0.0f)
-                 .w();
-  }
-  if (!mesh.colors.empty())
-    alpha *= interpolate(mesh.colors, mesh.triangles[hit.primitive], hit.u, hit.v).w();
-  return alpha;
+  const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
+  return m.base_alpha * read(m.base_color_texture, Encoding::srgb).w() * read.vertex_color().w();
 }
 
 bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
@@ -57,38 +61,17 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
 Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const {
   if (!(flags_[hit.instance] & kPane)) return Color::Zero();
   const scene::Instance& instance = scene_.instances[hit.instance];
-  const scene::Mesh& mesh = scene_.mesh_of(instance);
   const scene::Material& m = scene_.material_of(instance);
+  const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
   SurfaceMaterial s;
   s.roughness = m.roughness;
-  s.base_color = m.base_color;
+  s.base_color = m.base_color * read(m.base_color_texture, Encoding::srgb).head<3>().array() *
+                 read.vertex_color().head<3>().array();
   s.ior = m.ior;
   s.specular = m.specular;
   s.specular_color = m.specular_color;
-  s.metallic = m.metallic;
-  s.transmission = m.transmission;
-  if (m.base_color_texture) {
-    s.base_color *= textures_
-                        .lookup(m.base_color_texture, Encoding::srgb,
-                                texcoord(mesh, m.base_color_texture, hit), 0.0f, 0.0f)
-                        .head<3>()
-                        .array();
-  }
-  if (!mesh.colors.empty()) {
-    s.base_color *= interpolate(mesh.colors, mesh.triangles[hit.primitive], hit.u, hit.v).head<3>().array();
-  }
-  if (m.metallic_roughness_texture) {
-    s.metallic *= textures_
-                      .lookup(m.metallic_roughness_texture, Encoding::linear,
-                              texcoord(mesh, m.metallic_roughness_texture, hit), 0.0f, 0.0f)
-                      .z();
-  }
-  if (m.transmission_texture) {
-    s.transmission *= textures_
-                          .lookup(m.transmission_texture, Encoding::linear,
-                                  texcoord(mesh, m.transmission_texture, hit), 0.0f, 0.0f)
-                          .x();
-  }
+  s.metallic = m.metallic * read(m.metallic_roughness_texture, Encoding::linear).z();
+  s.transmission = m.transmission * read(m.transmission_texture, Encoding::linear).x();
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);
   const bool front = n.dot(direction) < 0.0f;
   const Vec3 facing = front ? n : Vec3(-n);

@@ -1,21 +1,14 @@
 #include "renderer/surface/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "renderer/surface/interpolate.h"
 #include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
 
 namespace {
-
-using Corners = std::array<std::uint32_t, 3>;
-
-template <typename T>
-T interpolate(const std::vector<T>& values, const Corners& c, const Vec3& b) {
-  return values[c[0]] * b.x() + values[c[1]] * b.y() + values[c[2]] * b.z();
-}
 
 /// Reads the textures of one material at one point.
 class Reader {

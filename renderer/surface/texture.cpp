@@ -33,18 +33,31 @@ std::size_t block_index(int width, int x, int y) {
 /// Linear RGBA of the level that is being built, in row-major order.
 using FloatLevel = std::vector<Vec4>;
 
+using Rgba8 = std::array<std::uint8_t, 4>;
+
+/// A pixel of the file, with grey and alpha expanded.
+Rgba8 texel_of(const scene::Image& image, std::size_t texel) {
+  const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
+  switch (image.channels) {
+    case 1:
+      return {p[0], p[0], p[0], 255};
+    case 2:
+      return {p[0], p[0], p[0], p[1]};
+    case 3:
+      return {p[0], p[1], p[2], 255};
+    default:
+      return {p[0], p[1], p[2], p[3]};
+  }
+}
+
 FloatLevel to_float(const scene::Image& image, Encoding encoding) {
   FloatLevel level(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  const int channels = image.channels;
   const auto color = [&](std::uint8_t byte) {
     return encoding == Encoding::srgb ? kSrgbToLinear[byte] : static_cast<float>(byte) * (1.0f / 255.0f);
   };
   for (std::size_t i = 0; i < level.size(); ++i) {
-    const std::uint8_t* p = image.pixels.data() + i * static_cast<std::size_t>(channels);
-    const bool grey = channels < 3;
-    const float r = color(p[0]);
-    const float alpha = channels == 2 ? p[1] / 255.0f : channels == 4 ? p[3] / 255.0f : 1.0f;
-    level[i] = Vec4(r, grey ? r : color(p[1]), grey ? r : color(p[2]), alpha);
+    const Rgba8 p = texel_of(image, i);
+    level[i] = Vec4(color(p[0]), color(p[1]), color(p[2]), p[3] / 255.0f);
   }
   return level;
 }
@@ -57,6 +70,11 @@ FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) 
   const int other = along_x ? height : width;
   const float ratio = static_cast<float>(length) / static_cast<float>(half);
   FloatLevel result(static_cast<std::size_t>(half) * static_cast<std::size_t>(other));
+  const auto index = [&](int along, int across, int row) {
+    const int x = along_x ? along : across;
+    const int y = along_x ? across : along;
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(row) + static_cast<std::size_t>(x);
+  };
   for (int i = 0; i < half; ++i) {
     const float begin = static_cast<float>(i) * ratio;
     const float end = begin + ratio;
@@ -67,36 +85,25 @@ FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) 
       for (int k = first; k <= last; ++k) {
         const float weight =
             std::min(end, static_cast<float>(k + 1)) - std::max(begin, static_cast<float>(k));
-        sum += weight * source[along_x ? static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
-                                             static_cast<std::size_t>(k)
-                                       : static_cast<std::size_t>(k) * static_cast<std::size_t>(width) +
-                                             static_cast<std::size_t>(j)];
+        sum += weight * source[index(k, j, width)];
       }
-      result[along_x
-                 ? static_cast<std::size_t>(j) * static_cast<std::size_t>(half) + static_cast<std::size_t>(i)
-                 : static_cast<std::size_t>(i) * static_cast<std::size_t>(width) +
-                       static_cast<std::size_t>(j)] = sum / ratio;
+      result[index(i, j, along_x ? half : width)] = sum / ratio;
     }
   }
   return result;
 }
 
-/// Packs a texel of the finest level, which keeps the file's bytes.
-std::uint32_t pack_source(const scene::Image& image, std::size_t texel) {
-  const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
-  const bool grey = image.channels < 3;
-  const std::uint32_t alpha = image.channels == 2 ? p[1] : image.channels == 4 ? p[3] : 255u;
-  return p[0] | std::uint32_t{grey ? p[0] : p[1]} << 8 | std::uint32_t{grey ? p[0] : p[2]} << 16 |
-         alpha << 24;
+std::uint32_t pack(const Rgba8& c) {
+  return c[0] | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 | std::uint32_t{c[3]} << 24;
 }
 
 std::uint32_t pack(const Vec4& c, Encoding encoding) {
   const auto byte = [](float x) {
     const float level = std::clamp(x, 0.0f, 1.0f) * 255.0f;
-    return static_cast<std::uint32_t>(level + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
+    return static_cast<std::uint8_t>(level + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
   };
   const auto color = [&](float x) { return encoding == Encoding::srgb ? byte(linear_to_srgb(x)) : byte(x); };
-  return color(c.x()) | color(c.y()) << 8 | color(c.z()) << 16 | byte(c.w()) << 24;
+  return pack({color(c.x()), color(c.y()), color(c.z()), byte(c.w())});
 }
 
 /// Maps any integer coordinate to [0, size - 1].
@@ -127,13 +134,14 @@ float texels_from(float coordinate, int size) {
 }  // namespace
 
 Textures::Textures(const scene::Scene& scene) {
-  lookups_.resize(scene.textures.size());
-  // For each image, the encodings that some material reads.
-  std::vector<std::array<bool, 2>> needed(scene.images.size(), {false, false});
+  pyramids_.resize(scene.images.size());
+  // A pyramid for each image and encoding that some material reads.
   const auto need = [&](const scene::TextureSlot& slot, Encoding encoding) {
-    if (!slot) return;
-    const int image = scene.textures[static_cast<std::size_t>(slot.texture)].image;
-    if (image >= 0) needed[static_cast<std::size_t>(image)][static_cast<std::size_t>(encoding)] = true;
+    const int image = slot ? scene.textures[static_cast<std::size_t>(slot.texture)].image : -1;
+    if (image < 0) return;
+    const scene::Image& source = scene.images[static_cast<std::size_t>(image)];
+    auto& pyramid = pyramids_[static_cast<std::size_t>(image)][static_cast<std::size_t>(encoding)];
+    if (!pyramid && source.width > 0 && source.height > 0) pyramid = std::make_unique<Pyramid>();
   };
   for (const scene::Material& m : scene.materials) {
     need(m.base_color_texture, Encoding::srgb);
@@ -148,27 +156,12 @@ Textures::Textures(const scene::Scene& scene) {
     }
   }
 
-  struct Job {
-    std::size_t image;
-    Encoding encoding;
-    Pyramid* pyramid;
-  };
-  std::vector<Job> jobs;
-  std::vector<std::array<const Pyramid*, 2>> by_image(scene.images.size(), {nullptr, nullptr});
-  for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    if (scene.images[i].width <= 0 || scene.images[i].height <= 0) continue;
-    for (std::size_t e = 0; e < 2; ++e) {
-      if (!needed[i][e]) continue;
-      pyramids_.push_back(std::make_unique<Pyramid>());
-      by_image[i][e] = pyramids_.back().get();
-      jobs.push_back({i, static_cast<Encoding>(e), pyramids_.back().get()});
-    }
-  }
-
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-    const scene::Image& image = scene.images[jobs[j].image];
-    Pyramid& pyramid = *jobs[j].pyramid;
-    FloatLevel level = to_float(image, jobs[j].encoding);
+  tbb::parallel_for(std::size_t{0}, 2 * pyramids_.size(), [&](std::size_t i) {
+    if (!pyramids_[i / 2][i % 2]) return;
+    Pyramid& pyramid = *pyramids_[i / 2][i % 2];
+    const scene::Image& image = scene.images[i / 2];
+    const auto encoding = static_cast<Encoding>(i % 2);
+    FloatLevel level = to_float(image, encoding);
     int width = image.width;
     int height = image.height;
     std::size_t total = 0;
@@ -185,7 +178,7 @@ Textures::Textures(const scene::Scene& scene) {
           const std::size_t texel =
               static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
           pyramid.texels[offset + block_index(width, x, y)] =
-              offset == 0 ? pack_source(image, texel) : pack(level[texel], jobs[j].encoding);
+              offset == 0 ? pack(texel_of(image, texel)) : pack(level[texel], encoding);
         }
       }
       offset += stored_texels(width, height);
@@ -202,16 +195,13 @@ Textures::Textures(const scene::Scene& scene) {
     pyramid.mean = level[0];
   });
 
-  for (std::size_t t = 0; t < scene.textures.size(); ++t) {
-    const scene::Texture& texture = scene.textures[t];
-    Lookup& lookup = lookups_[t];
-    lookup.wrap_s = texture.wrap_s;
-    lookup.wrap_t = texture.wrap_t;
-    lookup.nearest = texture.nearest;
-    if (texture.image >= 0) {
-      lookup.pyramid[0] = by_image[static_cast<std::size_t>(texture.image)][0];
-      lookup.pyramid[1] = by_image[static_cast<std::size_t>(texture.image)][1];
-    }
+  for (const scene::Texture& texture : scene.textures) {
+    Lookup& lookup = lookups_.emplace_back();
+    lookup.texture = texture;
+    if (texture.image < 0) continue;
+    const auto& pyramids = pyramids_[static_cast<std::size_t>(texture.image)];
+    lookup.pyramid[0] = pyramids[0].get();
+    lookup.pyramid[1] = pyramids[1].get();
   }
 }
 
@@ -253,19 +243,19 @@ Vec4 Textures::lookup(const scene::TextureSlot& slot, Encoding encoding, const V
 
   const float x = texels_from(st.x(), level.width);
   const float y = texels_from(st.y(), level.height);
-  if (lookup.nearest && index == 0) {
-    const int ix = wrap(static_cast<int>(std::floor(x)), level.width, lookup.wrap_s);
-    const int iy = wrap(static_cast<int>(std::floor(y)), level.height, lookup.wrap_t);
+  if (lookup.texture.nearest && index == 0) {
+    const int ix = wrap(static_cast<int>(std::floor(x)), level.width, lookup.texture.wrap_s);
+    const int iy = wrap(static_cast<int>(std::floor(y)), level.height, lookup.texture.wrap_t);
     return decode(texels[block_index(level.width, ix, iy)]);
   }
   const float fx = std::floor(x - 0.5f);
   const float fy = std::floor(y - 0.5f);
   const float wx = x - 0.5f - fx;
   const float wy = y - 0.5f - fy;
-  const int x0 = wrap(static_cast<int>(fx), level.width, lookup.wrap_s);
-  const int x1 = wrap(static_cast<int>(fx) + 1, level.width, lookup.wrap_s);
-  const int y0 = wrap(static_cast<int>(fy), level.height, lookup.wrap_t);
-  const int y1 = wrap(static_cast<int>(fy) + 1, level.height, lookup.wrap_t);
+  const int x0 = wrap(static_cast<int>(fx), level.width, lookup.texture.wrap_s);
+  const int x1 = wrap(static_cast<int>(fx) + 1, level.width, lookup.texture.wrap_s);
+  const int y0 = wrap(static_cast<int>(fy), level.height, lookup.texture.wrap_t);
+  const int y1 = wrap(static_cast<int>(fy) + 1, level.height, lookup.texture.wrap_t);
   const Vec4 top = decode(texels[block_index(level.width, x0, y0)]) * (1.0f - wx) +
                    decode(texels[block_index(level.width, x1, y0)]) * wx;
   const Vec4 bottom = decode(texels[block_index(level.width, x0, y1)]) * (1.0f - wx) +
@@ -281,7 +271,11 @@ Vec4 Textures::mean(const scene::TextureSlot& slot, Encoding encoding) const {
 
 std::size_t Textures::bytes() const {
   std::size_t total = 0;
-  for (const auto& pyramid : pyramids_) total += pyramid->texels.size() * sizeof(std::uint32_t);
+  for (const auto& encodings : pyramids_) {
+    for (const auto& pyramid : encodings) {
+      if (pyramid) total += pyramid->texels.size() * sizeof(std::uint32_t);
+    }
+  }
   return total;
 }
 

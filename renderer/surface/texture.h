@@ -1,6 +1,7 @@
 #pragma once
 // Filtered texture lookups from mip pyramids, which are built once from the scene's decoded images.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -49,13 +50,11 @@ class Textures {
   };
   struct Lookup {
     const Pyramid* pyramid[2] = {nullptr, nullptr};  ///< by Encoding; null where no material needs it
-    scene::Wrap wrap_s = scene::Wrap::repeat;
-    scene::Wrap wrap_t = scene::Wrap::repeat;
-    bool nearest = false;
+    scene::Texture texture;
   };
 
-  std::vector<std::unique_ptr<Pyramid>> pyramids_;
-  std::vector<Lookup> lookups_;  ///< one for each texture of the scene
+  std::vector<std::array<std::unique_ptr<Pyramid>, 2>> pyramids_;  ///< by image and Encoding
+  std::vector<Lookup> lookups_;                                    ///< one for each texture of the scene
 };
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,6 @@
 #include "renderer/transport/ao_integrator.h"
 
-#include "renderer/film/first_hit.h"
+#include "renderer/film/camera_sample.h"
 #include "renderer/transport/waves.h"
 
 namespace gatelight::renderer {

@@ -1,6 +1,6 @@
 #include "renderer/transport/path_integrator.h"
 
-#include "renderer/film/first_hit.h"
+#include "renderer/film/camera_sample.h"
 
 namespace gatelight::renderer {
 

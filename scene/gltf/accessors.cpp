@@ -14,8 +14,29 @@ namespace {
 /// An accessor without data stands for zeros. This bound keeps one line of JSON from filling the memory.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 20;
 
-std::size_t component_size(int type) {
-  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
+int component_count(std::string_view type) {
+  if (type == "SCALAR") return 1;
+  const int side = type.back() - '0';
+  return type.starts_with("MAT") ? side * side : side;
+}
+
+/// Calls use(value) with a value of the component type.
+template <typename Use>
+auto with_type(int type, const Use& use) {
+  switch (type) {
+    case kByte:
+      return use(std::int8_t{});
+    case kUnsignedByte:
+      return use(std::uint8_t{});
+    case kShort:
+      return use(std::int16_t{});
+    case kUnsignedShort:
+      return use(std::uint16_t{});
+    case kUnsignedInt:
+      return use(std::uint32_t{});
+    default:
+      return use(float{});
+  }
 }
 
 /// Equations of the glTF specification, section 3.6.2.2; KHR_mesh_quantization uses the same.
@@ -32,203 +53,166 @@ float to_float(const std::uint8_t* bytes, bool normalized) {
   }
 }
 
-template <typename T>
-void convert(const std::uint8_t* base, std::size_t stride, Selection selection, std::size_t count,
-             int components, int width, bool normalized, float* out) {
-  const int n = std::min(components, width);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* element = base + (selection.empty() ? i : selection[i]) * stride;
-    for (int c = 0; c < n; ++c) {
-      out[c] = to_float<T>(element + static_cast<std::size_t>(c) * sizeof(T), normalized);
-    }
-    out += width;
-  }
-}
-
 void convert(int type, const std::uint8_t* base, std::size_t stride, Selection selection, std::size_t count,
              int components, int width, bool normalized, float* out) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return convert<std::int8_t>(base, stride, selection, count, components, width, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return convert<std::uint8_t>(base, stride, selection, count, components, width, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return convert<std::int16_t>(base, stride, selection, count, components, width, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return convert<std::uint16_t>(base, stride, selection, count, components, width, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return convert<std::uint32_t>(base, stride, selection, count, components, width, normalized, out);
-    default:
-      return convert<float>(base, stride, selection, count, components, width, normalized, out);
-  }
-}
-
-template <typename T>
-void copy_indices(const std::uint8_t* base, std::size_t stride, std::size_t count, std::uint32_t* out) {
-  if (sizeof(T) == 4 && stride == 4) {
-    std::memcpy(out, base, count * 4);
-    return;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    T value;
-    std::memcpy(&value, base + i * stride, sizeof(T));
-    out[i] = value;
-  }
+  const int n = std::min(components, width);
+  with_type(type, [&](auto component) {
+    using T = decltype(component);
+    float* row = out;
+    for (std::size_t i = 0; i < count; ++i, row += width) {
+      const std::uint8_t* element = base + (selection.empty() ? i : selection[i]) * stride;
+      for (int c = 0; c < n; ++c) {
+        row[c] = to_float<T>(element + static_cast<std::size_t>(c) * sizeof(T), normalized);
+      }
+    }
+  });
 }
 
 void copy_indices(int type, const std::uint8_t* base, std::size_t stride, std::size_t count,
                   std::uint32_t* out) {
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) copy_indices<std::uint8_t>(base, stride, count, out);
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) copy_indices<std::uint16_t>(base, stride, count, out);
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) copy_indices<std::uint32_t>(base, stride, count, out);
-}
-
-bool is_index_type(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  if (type == kUnsignedInt && stride == 4) {
+    std::memcpy(out, base, count * 4);
+    return;
+  }
+  with_type(type, [&](auto value) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(&value, base + i * stride, sizeof value);
+      out[i] = static_cast<std::uint32_t>(value);
+    }
+  });
 }
 
 }  // namespace
 
+std::size_t component_size(int type) {
+  return with_type(type, [](auto value) { return sizeof value; });
+}
+
+void to_floats(int type, const std::uint8_t* element, int count, bool normalized, float* out) {
+  convert(type, element, 0, {}, 1, count, count, normalized, out);
+}
+
 AccessorReader::AccessorReader(const Document& document, int accessor)
     : document_(document),
-      accessor_(document.model().accessors[static_cast<std::size_t>(accessor)]),
+      accessor_(document.item("accessors", accessor)),
       where_(fmt::format("accessors[{}]", accessor)),
-      components_(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor_.type))),
-      element_size_(static_cast<std::size_t>(components_) * component_size(accessor_.componentType)),
-      stride_(element_size_) {
-  if (!document.is_view(accessor_.bufferView)) {
-    if (accessor_.count > kMaxZeros) {
-      document.fail(where_, fmt::format("count {} without a bufferView, expected at most {}", accessor_.count,
-                                        kMaxZeros));
+      type_(accessor_["componentType"]),
+      components_(component_count(accessor_["type"].get_ref<const std::string&>())),
+      count_(accessor_["count"]),
+      element_size_(static_cast<std::size_t>(components_) * component_size(type_)),
+      stride_(element_size_),
+      place_(accessor_) {
+  if (place_.view < 0) {
+    if (count_ > kMaxZeros) {
+      document.fail(where_,
+                    fmt::format("count {} without a bufferView, expected at most {}", count_, kMaxZeros));
     }
   } else {
-    if (document.view_stride(accessor_.bufferView) != 0) stride_ = document.view_stride(accessor_.bufferView);
+    stride_ = document.item("bufferViews", place_.view).value("byteStride", element_size_);
     if (stride_ < element_size_) {
       document.fail(where_, fmt::format("byteStride {}, expected at least {}", stride_, element_size_));
     }
-    check_range(accessor_.bufferView, accessor_.byteOffset, accessor_.count, stride_, element_size_, where_);
+    check_range(place_, count_, stride_, element_size_, where_);
   }
-  if (!accessor_.sparse.isSparse) return;
-  const auto& sparse = accessor_.sparse;
-  const std::size_t entries = static_cast<std::size_t>(sparse.count);
-  if (entries > accessor_.count) {
-    document.fail(where_ + ".sparse", fmt::format("count {}, expected at most {}", entries, accessor_.count));
+  if (!accessor_.contains("sparse")) return;
+  const json& sparse = accessor_["sparse"];
+  sparse_count_ = sparse["count"];
+  sparse_indices_ = Place(sparse["indices"]);
+  sparse_values_ = Place(sparse["values"]);
+  index_type_ = sparse["indices"]["componentType"];
+  if (sparse_count_ > count_) {
+    document.fail(where_ + ".sparse", fmt::format("count {}, expected at most {}", sparse_count_, count_));
   }
-  const std::size_t index_size = component_size(sparse.indices.componentType);
-  check_range(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), entries,
-              index_size, index_size, where_ + ".sparse.indices");
-  check_range(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), entries,
-              element_size_, element_size_, where_ + ".sparse.values");
+  const std::size_t index_size = component_size(index_type_);
+  check_range(sparse_indices_, sparse_count_, index_size, index_size, where_ + ".sparse.indices");
+  check_range(sparse_values_, sparse_count_, element_size_, element_size_, where_ + ".sparse.values");
 }
 
-void AccessorReader::check_range(int view, std::size_t offset, std::size_t count, std::size_t stride,
+void AccessorReader::check_range(const Place& place, std::size_t count, std::size_t stride,
                                  std::size_t element, std::string_view where) const {
-  const std::size_t size = document_.view_size(view);
-  const bool fits =
-      offset <= size && element <= size - offset && (count - 1) <= (size - offset - element) / stride;
+  const std::size_t size = document_.item("bufferViews", place.view)["byteLength"];
+  const bool fits = place.offset <= size && element <= size - place.offset &&
+                    (count - 1) <= (size - place.offset - element) / stride;
   if (!fits) {
     document_.fail(where,
                    fmt::format("{} elements of {} bytes at {}, stride {}, expected to fit the {} bytes of "
                                "bufferViews[{}]",
-                               count, element, offset, stride, size, view));
+                               count, element, place.offset, stride, size, place.view));
   }
 }
 
 void AccessorReader::expect_attribute(std::string_view semantic,
                                       std::initializer_list<int> components) const {
   const bool fits = std::find(components.begin(), components.end(), components_) != components.end() &&
-                    (accessor_.type <= TINYGLTF_TYPE_VEC4 || accessor_.type == TINYGLTF_TYPE_SCALAR) &&
-                    accessor_.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+                    !accessor_["type"].get_ref<const std::string&>().starts_with("MAT") &&
+                    type_ != kUnsignedInt;
   if (fits) return;
   std::string wanted;
   for (const int n : components) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", n);
   document_.fail(where_, fmt::format("{} components of type {} for {}, expected {} (not of type 5125)",
-                                     components_, accessor_.componentType, semantic, wanted));
+                                     components_, type_, semantic, wanted));
+}
+
+template <typename Write>
+void AccessorReader::for_each_sparse(const Write& write) const {
+  if (sparse_count_ == 0) return;
+  std::vector<std::uint32_t> indices(sparse_count_);
+  copy_indices(index_type_, data(sparse_indices_), component_size(index_type_), sparse_count_,
+               indices.data());
+  const std::uint8_t* element = data(sparse_values_);
+  for (const std::uint32_t index : indices) {
+    if (index >= count_) {
+      document_.fail(where_ + ".sparse.indices",
+                     fmt::format("index {}, expected less than {}", index, count_));
+    }
+    write(index, element);
+    element += element_size_;
+  }
 }
 
 void AccessorReader::read_floats(Selection selection, int width, float* out, bool force_normalized) const {
-  const bool normalized = accessor_.normalized || force_normalized;
-  const std::size_t rows = selection.empty() ? count() : selection.size();
-  const bool has_view = document_.is_view(accessor_.bufferView);
-  if (accessor_.sparse.isSparse) {
+  const bool normalized = force_normalized || accessor_.value("normalized", false);
+  const std::size_t rows = selection.empty() ? count_ : selection.size();
+  if (sparse_count_ > 0) {
     // Sparse accessors are rare and small: the whole accessor is assembled, then the selection is read from
     // it.
-    std::vector<float> all(count() * static_cast<std::size_t>(components_), 0.0f);
-    if (has_view) {
-      convert(accessor_.componentType,
-              document_.view(accessor_.bufferView, where_).data() + accessor_.byteOffset, stride_, {},
-              count(), components_, components_, normalized, all.data());
+    const std::size_t row = static_cast<std::size_t>(components_);
+    std::vector<float> all(count_ * row, 0.0f);
+    if (place_.view >= 0) {
+      convert(type_, data(place_), stride_, {}, count_, components_, components_, normalized, all.data());
     }
-    apply_sparse(all.data(), normalized);
-    convert<float>(reinterpret_cast<const std::uint8_t*>(all.data()),
-                   static_cast<std::size_t>(components_) * sizeof(float), selection, rows, components_, width,
-                   false, out);
-  } else if (has_view) {
-    convert(accessor_.componentType,
-            document_.view(accessor_.bufferView, where_).data() + accessor_.byteOffset, stride_, selection,
-            rows, components_, width, normalized, out);
+    for_each_sparse([&](std::uint32_t index, const std::uint8_t* element) {
+      to_floats(type_, element, components_, normalized, all.data() + index * row);
+    });
+    convert(kFloat, reinterpret_cast<const std::uint8_t*>(all.data()), row * sizeof(float), selection, rows,
+            components_, width, false, out);
+  } else if (place_.view >= 0) {
+    convert(type_, data(place_), stride_, selection, rows, components_, width, normalized, out);
   } else {
     for (std::size_t i = 0; i < rows; ++i)
       std::fill_n(out + i * static_cast<std::size_t>(width), std::min(components_, width), 0.0f);
   }
 }
 
-void AccessorReader::apply_sparse(float* rows, bool normalized) const {
-  const auto& sparse = accessor_.sparse;
-  const std::size_t entries = static_cast<std::size_t>(sparse.count);
-  std::vector<std::uint32_t> places(entries);
-  const std::size_t index_size = component_size(sparse.indices.componentType);
-  copy_indices(sparse.indices.componentType,
-               document_.view(sparse.indices.bufferView, where_).data() + sparse.indices.byteOffset,
-               index_size, entries, places.data());
-  const std::uint8_t* values =
-      document_.view(sparse.values.bufferView, where_).data() + sparse.values.byteOffset;
-  for (std::size_t i = 0; i < entries; ++i) {
-    if (places[i] >= count()) {
-      document_.fail(where_ + ".sparse.indices",
-                     fmt::format("index {}, expected less than {}", places[i], count()));
-    }
-    convert(accessor_.componentType, values + i * element_size_, element_size_, {}, 1, components_,
-            components_, normalized, rows + places[i] * static_cast<std::size_t>(components_));
-  }
-}
-
 void AccessorReader::read_indices(std::uint32_t* out) const {
-  if (accessor_.type != TINYGLTF_TYPE_SCALAR || !is_index_type(accessor_.componentType)) {
+  const bool fits = type_ == kUnsignedByte || type_ == kUnsignedShort || type_ == kUnsignedInt;
+  if (components_ != 1 || !fits) {
     document_.fail(where_,
                    fmt::format("{} components of type {} for indices, expected 1 of 5121, 5123 or 5125",
-                               components_, accessor_.componentType));
+                               components_, type_));
   }
-  if (document_.is_view(accessor_.bufferView)) {
-    copy_indices(accessor_.componentType,
-                 document_.view(accessor_.bufferView, where_).data() + accessor_.byteOffset, stride_, count(),
-                 out);
+  if (place_.view >= 0) {
+    copy_indices(type_, data(place_), stride_, count_, out);
   } else {
-    std::fill_n(out, count(), 0u);
+    std::fill_n(out, count_, 0u);
   }
-  if (!accessor_.sparse.isSparse) return;
-  const auto& sparse = accessor_.sparse;
-  const std::size_t entries = static_cast<std::size_t>(sparse.count);
-  std::vector<std::uint32_t> places(entries);
-  std::vector<std::uint32_t> values(entries);
-  copy_indices(sparse.indices.componentType,
-               document_.view(sparse.indices.bufferView, where_).data() + sparse.indices.byteOffset,
-               component_size(sparse.indices.componentType), entries, places.data());
-  copy_indices(accessor_.componentType,
-               document_.view(sparse.values.bufferView, where_).data() + sparse.values.byteOffset,
-               element_size_, entries, values.data());
-  for (std::size_t i = 0; i < entries; ++i) {
-    if (places[i] >= count()) {
-      document_.fail(where_ + ".sparse.indices",
-                     fmt::format("index {}, expected less than {}", places[i], count()));
-    }
-    out[places[i]] = values[i];
-  }
+  for_each_sparse([&](std::uint32_t index, const std::uint8_t* element) {
+    copy_indices(type_, element, element_size_, 1, out + index);
+  });
 }
 
 void check_accessors(const Document& document) {
-  for (std::size_t i = 0; i < document.model().accessors.size(); ++i)
+  for (std::size_t i = 0; i < document.list("accessors").size(); ++i)
     AccessorReader(document, static_cast<int>(i));
 }
 

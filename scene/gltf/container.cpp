@@ -87,10 +87,7 @@ OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, s
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) fail(fmt::format("cannot be read ({}), expected a readable file", error.message()));
 
-  struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
-  const std::unique_ptr<std::FILE, Close> stream(std::fopen(path.c_str(), "rb"));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!stream) fail(fmt::format("cannot be opened ({}), expected a readable file", std::strerror(errno)));
   OwnedBytes bytes(size);
   if (std::fread(bytes.data.get(), 1, bytes.size, stream.get()) != bytes.size) {

@@ -2,17 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "scene/gltf/extensions.h"
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/schema.h"
-#include "scene/gltf/uri.h"
 
 namespace gatelight::scene::gltf {
 namespace {
-
-using nlohmann::json;
 
 /// JSON libraries recurse. No valid glTF is nested this deep.
 constexpr int kMaxDepth = 100;
@@ -74,102 +69,68 @@ void check_version(const json& asset, std::string_view file) {
   }
 }
 
-std::vector<ImageSource> read_images(const json& root) {
-  std::vector<ImageSource> images;
-  const auto list = root.find("images");
-  if (list == root.end()) return images;
-  for (const json& image : *list) {
-    ImageSource source;
-    source.uri = image.value("uri", "");
-    source.buffer_view = image.value("bufferView", -1);
-    source.name = image.value("name", source.uri.empty() ? "" : uri_name(source.uri));
-    if (source.name.empty()) source.name = fmt::format("images[{}]", images.size());
-    images.push_back(std::move(source));
-  }
-  return images;
-}
-
-/// Removes what tinygltf need not see or cannot handle.
-void strip(json& root) {
-  for (const char* key : {"buffers", "images", "animations", "extras"}) root.erase(key);
-  if (!root.contains("accessors")) return;
-  json& views = root["bufferViews"];
-  const std::size_t none = views.size();
-  bool used = false;
-  for (json& accessor : root["accessors"]) {
-    accessor.erase("min");
-    accessor.erase("max");
-    if (accessor.contains("bufferView")) continue;
-    accessor["bufferView"] = none;
-    used = true;
-  }
-  if (used) views.push_back({{"buffer", 0}, {"byteLength", 1}});
-}
-
 }  // namespace
-
-struct Document::Json {
-  json root;
-};
 
 Document::Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings)
     : file_(path.string()),
       uris_{path.parent_path(), allow_external},
       container_(open_container(path, warnings)),
+      root_(parse_json(container_.json, file_)),
       read_bytes_(container_.file.size) {
-  Json document{parse_json(container_.json, file_)};
-  json& root = document.root;
-  check_schema(root, file_);
-  check_version(root["asset"], file_);
-  images_ = read_images(root);
-  view_count_ = root.contains("bufferViews") ? root["bufferViews"].size() : 0;
-
-  const json buffers = root.value("buffers", json::array());
-  strip(root);
-  const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
-  tinygltf::TinyGLTF parser;
-  std::string error;
-  std::string ignored;
-  bool parsed = false;
-  try {
-    parsed = parser.LoadASCIIFromString(&model_, &error, &ignored, text.c_str(),
-                                        static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE);
-  } catch (const std::exception& e) {
-    error = e.what();
-  }
-  if (!parsed) fail("JSON", fmt::format("{}, expected glTF 2.0", one_line(error)));
-
-  check_extensions(model_, file_, warnings);
-  root = json{{"buffers", buffers}};
-  load_buffers(document);
+  check_schema(root_, file_);
+  check_version(root_["asset"], file_);
+  check_descriptions();
+  check_extensions(root_, file_, warnings);
+  load_buffers();
   check_views();
-  decoded_.resize(view_count_);
+  root_.erase("buffers");  // their data URIs may be as large as the file
+  decoded_.resize(list("bufferViews").size());
 }
 
-void Document::load_buffers(const Json& document) {
-  const json& list = document.root["buffers"];
-  for (std::size_t i = 0; i < list.size(); ++i) {
+const json& Document::list(const char* name) const {
+  static const json kNone = json::array();
+  const auto found = root_.find(name);
+  return found == root_.end() ? kNone : *found;
+}
+
+/// The members that a type demands, which the schema's table cannot express.
+void Document::check_descriptions() const {
+  const auto require = [&](const json& object, const std::string& member, const std::string& where) {
+    if (!object.contains(member)) fail(where, fmt::format("no {}, expected one", member));
+  };
+  for (std::size_t i = 0; i < list("cameras").size(); ++i) {
+    const json& camera = list("cameras")[i];
+    require(camera, camera["type"], fmt::format("cameras[{}]", i));
+  }
+  const json* lights = find_extension(root_, "KHR_lights_punctual");
+  for (std::size_t i = 0; lights && i < (*lights)["lights"].size(); ++i) {
+    const json& light = (*lights)["lights"][i];
+    if (light["type"] != "spot") continue;
+    require(light, "spot", fmt::format("extensions.KHR_lights_punctual.lights[{}]", i));
+  }
+}
+
+void Document::load_buffers() {
+  for (const json& source : list("buffers")) {
+    const std::size_t i = buffers_.size();
     const std::string where = fmt::format("buffers[{}]", i);
+    const std::size_t length = source["byteLength"];
     Buffer buffer;
-    buffer.length = list[i]["byteLength"].get<std::size_t>();
-    const bool has_uri = list[i].contains("uri");
-    if (has_uri) {
-      buffer.storage = read(list[i]["uri"].get_ref<const std::string&>(), where + ".uri");
+    if (source.contains("uri")) {
+      buffer.storage = read(source["uri"].get_ref<const std::string&>(), where + ".uri");
       read_bytes_ += buffer.storage.size;
       buffer.bytes = buffer.storage.bytes();
-      buffer.present = true;
     } else if (i == 0 && container_.has_binary) {
       buffer.bytes = container_.binary;
-      buffer.present = true;
+    } else {
+      // A placeholder for data that an extension decompresses; range() refuses to read it.
+      buffers_.emplace_back();
+      continue;
     }
-    // A buffer without a source is a placeholder for data that an extension decompresses; range() refuses to
-    // read it.
-    if (buffer.present) {
-      if (buffer.bytes.size() < buffer.length) {
-        fail(where, fmt::format("{} bytes, expected {} (byteLength)", buffer.bytes.size(), buffer.length));
-      }
-      buffer.bytes = buffer.bytes.first(buffer.length);
+    if (buffer.bytes.size() < length) {
+      fail(where, fmt::format("{} bytes, expected {} (byteLength)", buffer.bytes.size(), length));
     }
+    buffer.bytes = buffer.bytes.first(length);
     buffers_.push_back(std::move(buffer));
   }
 }
@@ -188,43 +149,47 @@ void Document::claim(std::size_t bytes, std::string_view where) const {
 }
 
 void Document::check_views() const {
-  for (std::size_t i = 0; i < view_count_; ++i) {
-    const tinygltf::BufferView& view = model_.bufferViews[i];
-    const std::size_t length = buffers_[static_cast<std::size_t>(view.buffer)].length;
-    if (view.byteOffset > length || view.byteLength > length - view.byteOffset) {
-      fail(fmt::format("bufferViews[{}]", i),
-           fmt::format("{} bytes at {}, expected at most {} (buffer {})", view.byteLength, view.byteOffset,
-                       length, view.buffer));
+  for (std::size_t i = 0; i < list("bufferViews").size(); ++i) {
+    const json& view = list("bufferViews")[i];
+    const std::string where = fmt::format("bufferViews[{}]", i);
+    const std::size_t stride = view.value("byteStride", std::size_t{0});
+    if (stride % 4 != 0) fail(where, fmt::format("byteStride {}, expected a multiple of 4", stride));
+    const int buffer = view["buffer"];
+    const std::size_t offset = view.value("byteOffset", std::size_t{0});
+    const std::size_t size = view["byteLength"];
+    const std::size_t length = item("buffers", buffer)["byteLength"];
+    if (offset > length || size > length - offset) {
+      fail(where,
+           fmt::format("{} bytes at {}, expected at most {} (buffer {})", size, offset, length, buffer));
     }
   }
 }
 
-Bytes Document::range(int buffer, std::size_t offset, std::size_t length, std::string_view where) const {
-  const Buffer& source = buffers_[static_cast<std::size_t>(buffer)];
-  if (!source.present)
+Bytes Document::range(const json& place, std::string_view where) const {
+  const int buffer = place["buffer"];
+  const std::size_t offset = place.value("byteOffset", std::size_t{0});
+  const std::size_t length = place["byteLength"];
+  const Bytes source = buffers_[static_cast<std::size_t>(buffer)].bytes;
+  if (source.empty()) {
     fail(where, fmt::format("buffer {} has no data, expected a uri or a BIN chunk", buffer));
-  if (offset > source.bytes.size() || length > source.bytes.size() - offset) {
-    fail(where, fmt::format("{} bytes at {}, expected at most {} (buffer {})", length, offset,
-                            source.bytes.size(), buffer));
   }
-  return source.bytes.subspan(offset, length);
+  if (offset > source.size() || length > source.size() - offset) {
+    fail(where, fmt::format("{} bytes at {}, expected at most {} (buffer {})", length, offset, source.size(),
+                            buffer));
+  }
+  return source.subspan(offset, length);
 }
 
 Bytes Document::view(int index, std::string_view where) const {
-  const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
-  const tinygltf::Value* meshopt = find_extension(view.extensions, "EXT_meshopt_compression");
-  if (!meshopt) return range(view.buffer, view.byteOffset, view.byteLength, where);
+  const json& view = item("bufferViews", index);
+  const json* meshopt = find_extension(view, "EXT_meshopt_compression");
+  if (!meshopt) return range(view, where);
 
   const std::lock_guard lock(mutex_);
   OwnedBytes& decoded = decoded_[static_cast<std::size_t>(index)];
   if (decoded.size == 0) {
     const std::string place = fmt::format("bufferViews[{}].extensions.EXT_meshopt_compression", index);
-    const auto member = [&](const char* name) {
-      return static_cast<std::size_t>(number_or(*meshopt, name, 0.0));
-    };
-    const Bytes source =
-        range(integer_or(*meshopt, "buffer", 0), member("byteOffset"), member("byteLength"), place);
-    decoded = decode_meshopt(source, *meshopt, view.byteLength, file_, place);
+    decoded = decode_meshopt(range(*meshopt, place), *meshopt, view["byteLength"], file_, place);
   }
   return decoded.bytes();
 }

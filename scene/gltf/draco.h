@@ -8,14 +8,17 @@
 #include <vector>
 
 #include "scene/gltf/accessors.h"
-#include "scene/gltf/tinygltf.h"
+
+namespace draco {
+class Mesh;
+}
 
 namespace gatelight::scene::gltf {
 
 class DracoPrimitive {
  public:
   /// Decodes the primitive. Throws SceneError.
-  DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where);
+  DracoPrimitive(const Document& document, const json& extension, std::string where);
   ~DracoPrimitive();
 
   std::size_t vertex_count() const;
@@ -27,14 +30,10 @@ class DracoPrimitive {
   void read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const;
 
  private:
-  struct Decoded;
-
-  int attribute_id(const std::string& semantic) const;
-
   const Document& document_;
-  const tinygltf::Value& extension_;
+  const json& extension_;
   std::string where_;
-  std::unique_ptr<Decoded> decoded_;
+  std::unique_ptr<draco::Mesh> mesh_;
 };
 
 }  // namespace gatelight::scene::gltf

@@ -1,5 +1,7 @@
 #include "scene/gltf/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gatelight::scene::gltf {
@@ -16,14 +18,7 @@ std::string one_line(std::string_view text) {
 }
 
 SceneError make_error(std::string_view file, std::string_view where, std::string_view what) {
-  std::string message(file);
-  message += ": ";
-  if (!where.empty()) {
-    message += where;
-    message += ": ";
-  }
-  message += what;
-  return SceneError(one_line(message));
+  return SceneError(one_line(fmt::format("{}: {}{}{}", file, where, where.empty() ? "" : ": ", what)));
 }
 
 void Warnings::add(std::string_view text) {

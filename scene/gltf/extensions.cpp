@@ -21,41 +21,25 @@ bool is_supported(std::string_view name) {
 
 }  // namespace
 
-void check_extensions(const tinygltf::Model& model, std::string_view file, Warnings& warnings) {
-  for (const std::string& name : model.extensionsRequired) {
+void check_extensions(const json& root, std::string_view file, Warnings& warnings) {
+  for (const std::string name : root.value("extensionsRequired", json::array())) {
     if (!is_supported(name)) {
       throw make_error(file, "extensionsRequired",
                        fmt::format("{} is not supported, expected only supported extensions", name));
     }
   }
-  for (const std::string& name : model.extensionsUsed) {
+  for (const std::string name : root.value("extensionsUsed", json::array())) {
     if (!is_supported(name)) {
       warnings.add(fmt::format("extensionsUsed: {} is not supported and ignored", name));
     }
   }
 }
 
-const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const std::string& name) {
-  const auto found = extensions.find(name);
-  return found == extensions.end() || !found->second.IsObject() ? nullptr : &found->second;
-}
-
-double number_or(const tinygltf::Value& object, const std::string& name, double fallback) {
-  if (!object.Has(name)) return fallback;
-  const tinygltf::Value& value = object.Get(name);
-  return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
-}
-
-int integer_or(const tinygltf::Value& object, const std::string& name, int fallback) {
-  if (!object.Has(name)) return fallback;
-  const tinygltf::Value& value = object.Get(name);
-  return value.IsNumber() ? value.GetNumberAsInt() : fallback;
-}
-
-std::string text_or(const tinygltf::Value& object, const std::string& name, const std::string& fallback) {
-  if (!object.Has(name)) return fallback;
-  const tinygltf::Value& value = object.Get(name);
-  return value.IsString() ? value.Get<std::string>() : fallback;
+const json* find_extension(const json& object, const char* name) {
+  const auto extensions = object.find("extensions");
+  if (extensions == object.end()) return nullptr;
+  const auto found = extensions->find(name);
+  return found == extensions->end() ? nullptr : &*found;
 }
 
 }  // namespace gatelight::scene::gltf

@@ -19,15 +19,9 @@ constexpr int kMaxSide = 32768;
 constexpr std::size_t kMaxRatio = 2048;
 constexpr std::size_t kSmall = std::size_t{1} << 20;
 
-enum class Format { png, jpeg, other };
-
 /// glTF allows two formats. The bytes decide, since MIME types and file names are often wrong.
-Format format_of(Bytes bytes) {
-  constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  constexpr std::uint8_t kJpeg[] = {0xff, 0xd8, 0xff};
-  if (bytes.size() > 8 && std::equal(std::begin(kPng), std::end(kPng), bytes.begin())) return Format::png;
-  if (bytes.size() > 3 && std::equal(std::begin(kJpeg), std::end(kJpeg), bytes.begin())) return Format::jpeg;
-  return Format::other;
+bool starts_with(Bytes bytes, std::initializer_list<std::uint8_t> magic) {
+  return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
 SceneError image_error(const Document& document, std::string_view where, std::string_view what) {
@@ -51,7 +45,7 @@ std::size_t checked_size(const Document& document, Bytes bytes, std::string_view
 }
 
 Image decode_png(const Document& document, Bytes bytes, std::string_view where) try {
-  PngReader reader(bytes);
+  PngReader reader({bytes.begin(), bytes.end()});
   checked_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
   return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
 } catch (const SceneError&) {
@@ -84,41 +78,38 @@ Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where,
 }
 
 Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
-  switch (format_of(bytes)) {
-    case Format::png:
-      return decode_png(document, bytes, where);
-    case Format::jpeg:
-      return decode_jpeg(document, bytes, where, warnings);
-    case Format::other:
-      break;
-  }
+  if (starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}))
+    return decode_png(document, bytes, where);
+  if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
   throw image_error(document, where, "neither PNG nor JPEG data");
 }
 
-Image read(const Document& document, const ImageSource& source, const std::string& where,
+Image read(const Document& document, const json& source, const std::string& where, const std::string& name,
            Warnings& warnings) {
-  if (!source.uri.empty()) {
-    const OwnedBytes bytes = document.read(source.uri, where + ".uri");
-    return decode(document, bytes.bytes(), where + " (" + source.name + ")", warnings);
+  const std::string named = fmt::format("{} ({})", where, name);
+  if (const std::string uri = source.value("uri", ""); !uri.empty()) {
+    return decode(document, document.read(uri, where + ".uri").bytes(), named, warnings);
   }
-  if (source.buffer_view < 0) throw image_error(document, where, "neither uri nor bufferView");
-  return decode(document, document.view(source.buffer_view, where), where + " (" + source.name + ")",
-                warnings);
+  if (!source.contains("bufferView")) throw image_error(document, where, "neither uri nor bufferView");
+  return decode(document, document.view(source["bufferView"], where), named, warnings);
 }
 
 }  // namespace
 
 Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings) {
-  const ImageSource& source = document.images()[static_cast<std::size_t>(index)];
+  const json& source = document.item("images", index);
+  const std::string where = fmt::format("images[{}]", index);
+  std::string name = source.value("name", uri_name(source.value("uri", "")));
+  if (name.empty()) name = where;
   Image image;
   try {
-    image = read(document, source, fmt::format("images[{}]", index), warnings);
+    image = read(document, source, where, name, warnings);
   } catch (const SceneError& e) {
     if (missing_is_error) throw;
     warnings.add(fmt::format("{}; white instead", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};
   }
-  image.name = source.name;
+  image.name = std::move(name);
   return image;
 }
 

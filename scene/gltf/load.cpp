@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "scene/bake.h"
-#include "scene/bounds.h"
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/extensions.h"
@@ -18,6 +17,7 @@
 #include "scene/gltf/materials.h"
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/primitives.h"
+#include "scene/gltf/triangles.h"
 #include "scene/parallel.h"
 
 namespace gatelight::scene {
@@ -79,12 +79,8 @@ class Loader {
   };
 
   void read_variants() {
-    const tinygltf::Value* extension = find_extension(document_.model().extensions, "KHR_materials_variants");
-    if (extension) {
-      const tinygltf::Value& list = extension->Get("variants");
-      for (std::size_t i = 0; i < list.ArrayLen(); ++i) {
-        scene_.variants.push_back(text_or(list.Get(static_cast<int>(i)), "name", ""));
-      }
+    if (const json* extension = find_extension(document_.root(), "KHR_materials_variants")) {
+      for (const json& variant : (*extension)["variants"]) scene_.variants.push_back(variant["name"]);
     }
     if (options_.variant.empty()) return;
     const auto found = std::find(scene_.variants.begin(), scene_.variants.end(), options_.variant);
@@ -98,39 +94,37 @@ class Loader {
     variant_ = static_cast<int>(found - scene_.variants.begin());
   }
 
-  int material_of(const tinygltf::Primitive& primitive) const {
-    const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_materials_variants");
-    if (variant_ < 0 || !extension) return primitive.material;
-    const tinygltf::Value& mappings = extension->Get("mappings");
-    for (std::size_t i = 0; i < mappings.ArrayLen(); ++i) {
-      const tinygltf::Value& mapping = mappings.Get(static_cast<int>(i));
-      const tinygltf::Value& variants = mapping.Get("variants");
-      for (std::size_t k = 0; k < variants.ArrayLen(); ++k) {
-        if (variants.Get(static_cast<int>(k)).GetNumberAsInt() == variant_) {
-          return integer_or(mapping, "material", primitive.material);
-        }
+  int material_of(const json& primitive) const {
+    const json* extension = find_extension(primitive, "KHR_materials_variants");
+    if (variant_ >= 0 && extension) {
+      for (const json& mapping : (*extension)["mappings"]) {
+        const json& variants = mapping["variants"];
+        if (std::find(variants.begin(), variants.end(), variant_) != variants.end())
+          return mapping["material"];
       }
     }
-    return primitive.material;
+    return primitive.value("material", -1);
   }
 
   /// The file's first image with the same URI and buffer view, so that equal images are decoded once.
   int first_alike(int image) {
-    const ImageSource& source = document_.images()[static_cast<std::size_t>(image)];
-    if (source.uri.empty() && source.buffer_view < 0) return image;
-    return alike_.try_emplace({source.uri, source.buffer_view}, image).first->second;
+    const json& source = document_.item("images", image);
+    const std::string uri = source.value("uri", "");
+    const int view = source.value("bufferView", -1);
+    if (uri.empty() && view < 0) return image;
+    return alike_.try_emplace({uri, view}, image).first->second;
   }
 
   /// Loads the materials and textures, and numbers the images, of the placed meshes only.
   void load_materials(const std::vector<Placement>& placements) {
     Numbering materials;
     Numbering textures;
-    first_part_.assign(document_.model().meshes.size(), -1);
+    first_part_.assign(document_.list("meshes").size(), -1);
     for (const Placement& placement : placements) {
       int& first = first_part_[static_cast<std::size_t>(placement.mesh)];
       if (first >= 0) continue;
       first = static_cast<int>(parts_.size());
-      const auto& primitives = document_.model().meshes[static_cast<std::size_t>(placement.mesh)].primitives;
+      const json& primitives = document_.item("meshes", placement.mesh)["primitives"];
       for (std::size_t i = 0; i < primitives.size(); ++i) {
         parts_.push_back(
             {placement.mesh, static_cast<int>(i), materials.number_of(material_of(primitives[i]))});
@@ -153,17 +147,17 @@ class Loader {
   /// Memory of a primitive according to its accessors; 0 for Draco, where only the compressed data tells the
   /// size.
   std::size_t mesh_bytes(const Part& part) const {
-    const tinygltf::Primitive& primitive = primitive_of(part);
-    const auto& accessors = document_.model().accessors;
-    const auto position = primitive.attributes.find("POSITION");
-    const bool lines = primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES;
-    if (position == primitive.attributes.end() || lines) return 0;
-    if (find_extension(primitive.extensions, "KHR_draco_mesh_compression")) return 0;
-    const std::size_t vertices = accessors[static_cast<std::size_t>(position->second)].count;
-    const std::size_t indices =
-        primitive.indices >= 0 ? accessors[static_cast<std::size_t>(primitive.indices)].count : vertices;
-    const bool list = primitive.mode < 0 || primitive.mode == TINYGLTF_MODE_TRIANGLES;
-    const std::size_t triangles = list ? indices / 3 : indices;
+    const json& primitive = element(document_.item("meshes", part.mesh)["primitives"], part.primitive);
+    const json& attributes = primitive["attributes"];
+    const int mode = mode_of(primitive);
+    if (!attributes.contains("POSITION") || mode < kTriangles) return 0;
+    if (find_extension(primitive, "KHR_draco_mesh_compression")) return 0;
+    const auto count_of = [&](int accessor) -> std::size_t {
+      return document_.item("accessors", accessor)["count"];
+    };
+    const std::size_t vertices = count_of(attributes["POSITION"]);
+    const std::size_t indices = primitive.contains("indices") ? count_of(primitive["indices"]) : vertices;
+    const std::size_t triangles = mode == kTriangles ? indices / 3 : indices;
     return triangles * sizeof(std::array<std::uint32_t, 3>) +
            std::min(vertices, 3 * triangles) * kVertexBytes;
   }
@@ -175,40 +169,36 @@ class Loader {
     for (const Placement& placement : placements) {
       const bool copied = options_.bake_transforms && is_flat(placement.transform);
       std::size_t bytes = 0;
-      for (std::size_t i = static_cast<std::size_t>(first_part_[static_cast<std::size_t>(placement.mesh)]);
-           i < parts_.size() && parts_[i].mesh == placement.mesh; ++i) {
+      for_each_part(placement, [&](std::size_t i) {
         bytes += sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(parts_[i]) : 0);
-      }
+      });
       document_.claim(bytes, fmt::format("meshes[{}]", placement.mesh));
     }
   }
 
-  const tinygltf::Primitive& primitive_of(const Part& part) const {
-    return document_.model()
-        .meshes[static_cast<std::size_t>(part.mesh)]
-        .primitives[static_cast<std::size_t>(part.primitive)];
+  /// Calls load(i, warnings) for every i below count, in parallel.
+  template <typename Load>
+  void load_each(std::size_t count, const Load& load) {
+    std::vector<Warnings> warnings(count);
+    parallel_for(count, [&](std::size_t i) { load(i, warnings[i]); });
+    for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
   void load_meshes() {
     scene_.meshes.resize(parts_.size());
-    std::vector<Warnings> warnings(parts_.size());
-    parallel_for(parts_.size(), [&](std::size_t i) {
+    load_each(parts_.size(), [&](std::size_t i, Warnings& warnings) {
       const Part& part = parts_[i];
       const Material& material = scene_.materials[static_cast<std::size_t>(part.material)];
-      scene_.meshes[i] = load_primitive(document_, part.mesh, part.primitive, material, warnings[i]);
+      scene_.meshes[i] = load_primitive(document_, part.mesh, part.primitive, material, warnings);
       scene_.meshes[i].material = part.material;
     });
-    for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
   void load_images() {
-    const std::vector<int>& order = images_.order();
-    scene_.images.resize(order.size());
-    std::vector<Warnings> warnings(order.size());
-    parallel_for(order.size(), [&](std::size_t i) {
-      scene_.images[i] = load_image(document_, order[i], options_.missing_is_error, warnings[i]);
+    scene_.images.resize(images_.order().size());
+    load_each(scene_.images.size(), [&](std::size_t i, Warnings& warnings) {
+      scene_.images[i] = load_image(document_, images_.order()[i], options_.missing_is_error, warnings);
     });
-    for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
   /// Sets Scene::origin to the scene's centre if that is far away, and moves cameras and lights.

@@ -11,89 +11,85 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-using tinygltf::Value;
+// OpenGL's numbers, which glTF uses.
+constexpr int kNearest = 9728;
+constexpr int kRepeat = 10497;
+constexpr int kClampToEdge = 33071;
+constexpr int kMirroredRepeat = 33648;
 
 class Converter {
  public:
   Converter(const Document& document, int index, Warnings& warnings)
       : document_(document), where_(fmt::format("materials[{}]", index)), warnings_(warnings) {}
 
-  Material convert(const tinygltf::Material& source) {
+  Material convert(const json& source) {
     Material m;
-    m.name = source.name;
-    const auto& pbr = source.pbrMetallicRoughness;
-    if (pbr.baseColorFactor.size() == 4) {
-      const auto& f = pbr.baseColorFactor;
-      m.base_color = {unit(f[0], "baseColorFactor"), unit(f[1], "baseColorFactor"),
-                      unit(f[2], "baseColorFactor")};
-      m.base_alpha = unit(f[3], "baseColorFactor");
-    }
-    m.base_color_texture = slot(pbr.baseColorTexture, "baseColorTexture");
-    m.metallic = unit(pbr.metallicFactor, "metallicFactor");
-    m.roughness = unit(pbr.roughnessFactor, "roughnessFactor");
-    m.metallic_roughness_texture = slot(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
-    m.normal_texture = slot(source.normalTexture, "normalTexture");
-    m.normal_scale = static_cast<float>(source.normalTexture.scale);
-    m.emission_texture = slot(source.emissiveTexture, "emissiveTexture");
-    if (source.emissiveFactor.size() == 3) {
-      for (int c = 0; c < 3; ++c)
-        m.emission[c] = unit(source.emissiveFactor[static_cast<std::size_t>(c)], "emissiveFactor");
-    }
-    if (source.alphaMode == "MASK") m.alpha_mode = AlphaMode::mask;
-    if (source.alphaMode == "BLEND") m.alpha_mode = AlphaMode::blend;
-    m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
-    m.double_sided = source.doubleSided;
-    read_extensions(source.extensions, m);
+    m.name = source.value("name", "");
+    const json pbr = source.value("pbrMetallicRoughness", json::object());
+    const auto base = vector_or<Eigen::Vector4d>(pbr, "baseColorFactor", Eigen::Vector4d::Ones());
+    m.base_color = unit(base.head<3>(), "baseColorFactor");
+    m.base_alpha = unit(base[3], "baseColorFactor");
+    m.base_color_texture = slot(pbr, "baseColorTexture");
+    m.metallic = unit(pbr, "metallicFactor", 1.0);
+    m.roughness = unit(pbr, "roughnessFactor", 1.0);
+    m.metallic_roughness_texture = slot(pbr, "metallicRoughnessTexture");
+    m.normal_texture = slot(source, "normalTexture");
+    m.normal_scale = normal_scale(source, "normalTexture");
+    m.emission_texture = slot(source, "emissiveTexture");
+    m.emission =
+        unit(vector_or<Eigen::Vector3d>(source, "emissiveFactor", Eigen::Vector3d::Zero()), "emissiveFactor");
+    const std::string alpha_mode = source.value("alphaMode", "OPAQUE");
+    if (alpha_mode == "MASK") m.alpha_mode = AlphaMode::mask;
+    if (alpha_mode == "BLEND") m.alpha_mode = AlphaMode::blend;
+    m.alpha_cutoff = source.value("alphaCutoff", 0.5f);
+    m.double_sided = source.value("doubleSided", false);
+    read_extensions(source, m);
     drop_unread_textures(m);
     return m;
   }
 
  private:
-  void read_extensions(const tinygltf::ExtensionMap& extensions, Material& m) {
-    m.unlit = find_extension(extensions, "KHR_materials_unlit") != nullptr;
-    if (const Value* e = find_extension(extensions, "KHR_materials_emissive_strength")) {
-      m.emission *= static_cast<float>(number_or(*e, "emissiveStrength", 1.0));
+  void read_extensions(const json& material, Material& m) {
+    m.unlit = find_extension(material, "KHR_materials_unlit") != nullptr;
+    if (const json* e = find_extension(material, "KHR_materials_emissive_strength")) {
+      m.emission *= e->value("emissiveStrength", 1.0f);
       if (!m.emission.allFinite())
         document_.fail(where_, "emissiveStrength too large, expected finite emission");
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_ior")) {
-      const float ior = static_cast<float>(number_or(*e, "ior", 1.5));
+    if (const json* e = find_extension(material, "KHR_materials_ior")) {
+      const float ior = e->value("ior", 1.5f);
       m.ior = ior == 0.0f ? 0.0f : std::max(ior, 1.0f);
       if (m.ior != ior) warnings_.add(where_ + ".ior: below 1, taken as 1");
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_specular")) {
-      m.specular = unit(number_or(*e, "specularFactor", 1.0), "specularFactor");
+    if (const json* e = find_extension(material, "KHR_materials_specular")) {
+      m.specular = unit(*e, "specularFactor", 1.0);
       m.specular_texture = slot(*e, "specularTexture");
       // Values above 1 are allowed: the renderer limits the reflectance at normal incidence, not the factor.
-      m.specular_color = color(*e, "specularColorFactor", 1.0f).max(0.0f);
+      m.specular_color = vector_or<Color>(*e, "specularColorFactor", Color::Ones()).max(0.0f);
       m.specular_color_texture = slot(*e, "specularColorTexture");
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_transmission")) {
-      m.transmission = unit(number_or(*e, "transmissionFactor", 0.0), "transmissionFactor");
+    if (const json* e = find_extension(material, "KHR_materials_transmission")) {
+      m.transmission = unit(*e, "transmissionFactor", 0.0);
       m.transmission_texture = slot(*e, "transmissionTexture");
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_volume")) {
+    if (const json* e = find_extension(material, "KHR_materials_volume")) {
       // Only rasterisers need the value of the thickness; rays measure it. Its texture is not read.
-      m.thickness = static_cast<float>(number_or(*e, "thicknessFactor", 0.0));
-      m.attenuation_distance = static_cast<float>(number_or(*e, "attenuationDistance", kInfinity));
+      m.thickness = e->value("thicknessFactor", 0.0f);
+      m.attenuation_distance = e->value("attenuationDistance", kInfinity);
       m.attenuation_color = unit_color(*e, "attenuationColor", 1.0f);
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_clearcoat")) {
-      m.clearcoat = unit(number_or(*e, "clearcoatFactor", 0.0), "clearcoatFactor");
+    if (const json* e = find_extension(material, "KHR_materials_clearcoat")) {
+      m.clearcoat = unit(*e, "clearcoatFactor", 0.0);
       m.clearcoat_texture = slot(*e, "clearcoatTexture");
-      m.clearcoat_roughness =
-          unit(number_or(*e, "clearcoatRoughnessFactor", 0.0), "clearcoatRoughnessFactor");
+      m.clearcoat_roughness = unit(*e, "clearcoatRoughnessFactor", 0.0);
       m.clearcoat_roughness_texture = slot(*e, "clearcoatRoughnessTexture");
       m.clearcoat_normal_texture = slot(*e, "clearcoatNormalTexture");
-      if (e->Has("clearcoatNormalTexture")) {
-        m.clearcoat_normal_scale =
-            static_cast<float>(number_or(e->Get("clearcoatNormalTexture"), "scale", 1.0));
-      }
+      m.clearcoat_normal_scale = normal_scale(*e, "clearcoatNormalTexture");
     }
-    if (const Value* e = find_extension(extensions, "KHR_materials_sheen")) {
+    if (const json* e = find_extension(material, "KHR_materials_sheen")) {
       m.sheen_color = unit_color(*e, "sheenColorFactor", 0.0f);
       m.sheen_color_texture = slot(*e, "sheenColorTexture");
-      m.sheen_roughness = unit(number_or(*e, "sheenRoughnessFactor", 0.0), "sheenRoughnessFactor");
+      m.sheen_roughness = unit(*e, "sheenRoughnessFactor", 0.0);
       m.sheen_roughness_texture = slot(*e, "sheenRoughnessTexture");
     }
   }
@@ -122,40 +118,30 @@ class Converter {
     return static_cast<float>(clamped);
   }
 
-  Color color(const Value& object, const std::string& name, float fallback) const {
-    if (!object.Has(name)) return Color::Constant(fallback);
-    const Value& v = object.Get(name);
-    return {static_cast<float>(v.Get(0).GetNumberAsDouble()),
-            static_cast<float>(v.Get(1).GetNumberAsDouble()),
-            static_cast<float>(v.Get(2).GetNumberAsDouble())};
+  Color unit(const Eigen::Vector3d& values, std::string_view name) {
+    return {unit(values[0], name), unit(values[1], name), unit(values[2], name)};
   }
 
-  Color unit_color(const Value& object, const std::string& name, float fallback) {
-    const Color c = color(object, name, fallback);
-    return {unit(c.x(), name), unit(c.y(), name), unit(c.z(), name)};
+  float unit(const json& object, const char* name, double fallback) {
+    return unit(object.value(name, fallback), name);
   }
 
-  template <typename Info>
-  TextureSlot slot(const Info& info, std::string_view name) {
-    const Value* transform = find_extension(info.extensions, "KHR_texture_transform");
-    return slot(info.index, info.texCoord, transform, name);
+  Color unit_color(const json& object, const char* name, float fallback) {
+    return unit(vector_or<Vec3>(object, name, Vec3::Constant(fallback)).cast<double>(), name);
   }
 
-  TextureSlot slot(const Value& extension, const std::string& name) {
-    if (!extension.Has(name)) return {};
-    const Value& info = extension.Get(name);
-    const Value* transform = nullptr;
-    if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform")) {
-      transform = &info.Get("extensions").Get("KHR_texture_transform");
-    }
-    return slot(integer_or(info, "index", -1), integer_or(info, "texCoord", 0), transform, name);
+  static float normal_scale(const json& object, const char* texture) {
+    return object.contains(texture) ? object[texture].value("scale", 1.0f) : 1.0f;
   }
 
-  TextureSlot slot(int index, int texcoord, const Value* transform, std::string_view name) {
+  TextureSlot slot(const json& object, const char* name) {
     TextureSlot result;
-    if (index < 0) return result;
-    if (transform) {
-      texcoord = integer_or(*transform, "texCoord", texcoord);
+    if (!object.contains(name)) return result;
+    const json& info = object[name];
+    const int index = info["index"];
+    int texcoord = info.value("texCoord", 0);
+    if (const json* transform = find_extension(info, "KHR_texture_transform")) {
+      texcoord = transform->value("texCoord", texcoord);
       result.transform = texture_transform(*transform);
     }
     if (texcoord > 1) {
@@ -163,7 +149,7 @@ class Converter {
           fmt::format("{}.{}: texCoord {} is not supported, the texture is ignored", where_, name, texcoord));
       return result;
     }
-    if (document_.model().textures[static_cast<std::size_t>(index)].source < 0) {
+    if (!document_.item("textures", index).contains("source")) {
       warnings_.add(fmt::format("textures[{}]: has no image that can be read, it is ignored", index));
       return result;
     }
@@ -174,14 +160,10 @@ class Converter {
 
   /// Translation * rotation * scale. The rotation is counter-clockwise as seen in the picture, where v points
   /// down from the upper left corner.
-  static Eigen::Matrix<float, 2, 3> texture_transform(const Value& t) {
-    const auto pair = [&](const std::string& name, double fallback) {
-      if (!t.Has(name)) return Eigen::Vector2d(fallback, fallback);
-      return Eigen::Vector2d(t.Get(name).Get(0).GetNumberAsDouble(), t.Get(name).Get(1).GetNumberAsDouble());
-    };
-    const Eigen::Vector2d offset = pair("offset", 0.0);
-    const Eigen::Vector2d scale = pair("scale", 1.0);
-    const double angle = number_or(t, "rotation", 0.0);
+  static Eigen::Matrix<float, 2, 3> texture_transform(const json& t) {
+    const auto offset = vector_or<Eigen::Vector2d>(t, "offset", Eigen::Vector2d::Zero());
+    const auto scale = vector_or<Eigen::Vector2d>(t, "scale", Eigen::Vector2d::Ones());
+    const double angle = t.value("rotation", 0.0);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     Eigen::Matrix<double, 2, 3> m;
@@ -196,8 +178,8 @@ class Converter {
 };
 
 Wrap convert_wrap(int mode) {
-  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp_to_edge;
-  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirrored_repeat;
+  if (mode == kClampToEdge) return Wrap::clamp_to_edge;
+  if (mode == kMirroredRepeat) return Wrap::mirrored_repeat;
   return Wrap::repeat;
 }
 
@@ -205,19 +187,18 @@ Wrap convert_wrap(int mode) {
 
 Material convert_material(const Document& document, int index, Warnings& warnings) {
   if (index < 0) return {};
-  const tinygltf::Material& source = document.model().materials[static_cast<std::size_t>(index)];
-  return Converter(document, index, warnings).convert(source);
+  return Converter(document, index, warnings).convert(document.item("materials", index));
 }
 
 Texture convert_texture(const Document& document, int index) {
-  const tinygltf::Texture& source = document.model().textures[static_cast<std::size_t>(index)];
+  const json& source = document.item("textures", index);
   Texture texture;
-  texture.image = source.source;
-  if (source.sampler >= 0) {
-    const tinygltf::Sampler& sampler = document.model().samplers[static_cast<std::size_t>(source.sampler)];
-    texture.wrap_s = convert_wrap(sampler.wrapS);
-    texture.wrap_t = convert_wrap(sampler.wrapT);
-    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  texture.image = source["source"];
+  if (source.contains("sampler")) {
+    const json& sampler = document.item("samplers", source["sampler"]);
+    texture.wrap_s = convert_wrap(sampler.value("wrapS", kRepeat));
+    texture.wrap_t = convert_wrap(sampler.value("wrapT", kRepeat));
+    texture.nearest = sampler.value("magFilter", 0) == kNearest;
   }
   return texture;
 }

@@ -12,7 +12,7 @@ namespace gatelight::scene::gltf {
 /// outside their range are clamped, with a warning.
 Material convert_material(const Document& document, int index, Warnings& warnings);
 
-/// Texture `index` of the file; the image index is the file's, or -1 if the texture has none.
+/// Texture `index` of the file. The image index is the file's. The texture has an image.
 Texture convert_texture(const Document& document, int index);
 
 /// Calls visit(TextureSlot&) for every slot of a material.

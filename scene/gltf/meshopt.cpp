@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include "scene/gltf/extensions.h"
-
 namespace gatelight::scene::gltf {
 
-OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
-                          std::string_view file, std::string_view where) {
-  const std::size_t count = static_cast<std::size_t>(integer_or(extension, "count", 0));
-  const std::size_t stride = static_cast<std::size_t>(integer_or(extension, "byteStride", 0));
-  const std::string mode = text_or(extension, "mode", "");
-  const std::string filter = text_or(extension, "filter", "NONE");
+OwnedBytes decode_meshopt(Bytes source, const json& extension, std::size_t length, std::string_view file,
+                          std::string_view where) {
+  const std::size_t count = extension["count"];
+  const std::size_t stride = extension["byteStride"];
+  const std::string mode = extension["mode"];
+  const std::string filter = extension.value("filter", "NONE");
   const auto require = [&](bool fits, std::string_view what) {
     if (!fits) throw make_error(file, where, what);
   };

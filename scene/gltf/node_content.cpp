@@ -6,9 +6,13 @@
 #include <cmath>
 
 #include "scene/gltf/accessors.h"
+#include "scene/gltf/extensions.h"
 
 namespace gatelight::scene::gltf {
 namespace {
+
+/// The outer angle of a spot light in radians, an eighth of a turn.
+constexpr double kDefaultCone = 0.7853981634;
 
 /// The rigid part of a camera's transform. It keeps the direction of view and the plane of "up". Scale, shear
 /// and mirroring have no meaning for a camera.
@@ -29,50 +33,48 @@ Affine rigid(const Document& document, int node, const Eigen::Affine3d& world) {
 }  // namespace
 
 Camera make_camera(const Document& document, int node_index, const Eigen::Affine3d& world) {
-  const tinygltf::Node& node = document.model().nodes[static_cast<std::size_t>(node_index)];
-  const tinygltf::Camera& source = document.model().cameras[static_cast<std::size_t>(node.camera)];
-  const std::string where = fmt::format("cameras[{}]", node.camera);
+  const json& node = document.item("nodes", node_index);
+  const int index = node["camera"];
+  const json& source = document.item("cameras", index);
+  const std::string where = fmt::format("cameras[{}]", index);
   Camera camera;
-  camera.name = source.name.empty() ? node.name : source.name;
+  camera.name = name_of(source, node);
   camera.transform = rigid(document, node_index, world);
-  if (source.type == "orthographic") {
+  const json& lens = source[source["type"].get<std::string>()];
+  if (source["type"] == "orthographic") {
     camera.orthographic = true;
-    camera.half_height = std::abs(static_cast<float>(source.orthographic.ymag));
-    camera.half_width = std::abs(static_cast<float>(source.orthographic.xmag));
+    camera.half_height = std::abs(lens["ymag"].get<float>());
+    camera.half_width = std::abs(lens["xmag"].get<float>());
     if (camera.half_height == 0.0f || camera.half_width == 0.0f) {
       document.fail(where, "xmag or ymag is 0, expected a size");
     }
   } else {
-    camera.vertical_fov = static_cast<float>(source.perspective.yfov);
-    camera.aspect = static_cast<float>(source.perspective.aspectRatio);
-    if (!(camera.vertical_fov > 0.0f)) document.fail(where, "no perspective.yfov, expected an angle");
+    camera.vertical_fov = lens["yfov"];
+    camera.aspect = lens.value("aspectRatio", 0.0f);
   }
   return camera;
 }
 
 PunctualLight make_light(const Document& document, int node_index, int light_index,
                          const Eigen::Affine3d& world) {
-  const tinygltf::Node& node = document.model().nodes[static_cast<std::size_t>(node_index)];
-  const tinygltf::Light& source = document.model().lights[static_cast<std::size_t>(light_index)];
+  const json& extension = *find_extension(document.root(), "KHR_lights_punctual");
+  const json& source = element(extension["lights"], light_index);
   PunctualLight light;
-  light.name = source.name.empty() ? node.name : source.name;
-  if (source.type == "directional") light.type = LightType::directional;
-  if (source.type == "spot") light.type = LightType::spot;
-  if (source.color.size() == 3) {
-    light.intensity = Color(static_cast<float>(source.color[0]), static_cast<float>(source.color[1]),
-                            static_cast<float>(source.color[2]))
-                          .max(0.0f);
-  }
-  light.intensity *= static_cast<float>(source.intensity);
+  light.name = name_of(source, document.item("nodes", node_index));
+  if (source["type"] == "directional") light.type = LightType::directional;
+  if (source["type"] == "spot") light.type = LightType::spot;
+  light.intensity = vector_or<Color>(source, "color", Color::Ones()).max(0.0f);
+  light.intensity *= source.value("intensity", 1.0f);
   const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light_index);
   if (!light.intensity.allFinite()) document.fail(where, "intensity too large, expected finite numbers");
   light.position = world.translation().cast<float>();
   const Eigen::Vector3d direction = -world.linear().col(2).stableNormalized();
   if (direction.norm() > 0.5) light.direction = direction.cast<float>();
-  if (source.range > 0.0) light.range = static_cast<float>(source.range);
+  light.range = source.value("range", kInfinity);
   if (light.type == LightType::spot) {
-    const double outer = std::min(source.spot.outerConeAngle, static_cast<double>(kPi) / 2.0);
-    const double inner = source.spot.innerConeAngle;
+    const json& spot = source["spot"];
+    const double outer = std::min(spot.value("outerConeAngle", kDefaultCone), static_cast<double>(kPi) / 2.0);
+    const double inner = spot.value("innerConeAngle", 0.0);
     if (!(inner < outer)) {
       document.fail(where + ".spot",
                     fmt::format("innerConeAngle {}, expected less than outerConeAngle {}", inner, outer));
@@ -83,13 +85,13 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
   return light;
 }
 
-std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
+std::vector<Eigen::Affine3d> read_instances(const Document& document, const json& extension,
                                             const std::string& where) {
-  const tinygltf::Value& attributes = extension.Get("attributes");
+  const json& attributes = extension["attributes"];
   // Custom attributes must have the same count, too.
   std::size_t count = 0;
-  for (const std::string& semantic : attributes.Keys()) {
-    const AccessorReader reader(document, attributes.Get(semantic).GetNumberAsInt());
+  for (const auto& [semantic, accessor] : attributes.items()) {
+    const AccessorReader reader(document, accessor);
     if (count != 0 && reader.count() != count) {
       document.fail(reader.where(), fmt::format("count {} for {} of {}, expected {}", reader.count(),
                                                 semantic, where, count));
@@ -98,8 +100,8 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document, const tiny
   }
   const auto read = [&](const std::string& semantic, int components) {
     std::vector<float> rows;
-    if (!attributes.Has(semantic)) return rows;
-    const AccessorReader reader(document, attributes.Get(semantic).GetNumberAsInt());
+    if (!attributes.contains(semantic)) return rows;
+    const AccessorReader reader(document, attributes[semantic]);
     reader.expect_attribute(semantic, {components});
     rows.resize(count * static_cast<std::size_t>(components));
     reader.read_floats({}, components, rows.data());
@@ -129,7 +131,7 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document, const tiny
 
 Eigen::Affine3d read_first_matrix(const Document& document, int accessor) {
   const AccessorReader reader(document, accessor);
-  if (reader.components() != 16 || reader.component_type() != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+  if (reader.components() != 16 || reader.component_type() != kFloat) {
     document.fail(reader.where(), "inverse bind matrices that are not MAT4 of floats, expected those");
   }
   const std::uint32_t first = 0;

@@ -12,7 +12,7 @@ Camera make_camera(const Document& document, int node, const Eigen::Affine3d& wo
 PunctualLight make_light(const Document& document, int node, int light, const Eigen::Affine3d& world);
 
 /// The transforms of EXT_mesh_gpu_instancing, relative to the node.
-std::vector<Eigen::Affine3d> read_instances(const Document& document, const tinygltf::Value& extension,
+std::vector<Eigen::Affine3d> read_instances(const Document& document, const json& extension,
                                             const std::string& where);
 
 /// The first of a skin's inverse bind matrices.

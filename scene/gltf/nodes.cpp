@@ -15,35 +15,36 @@ namespace {
 using Transform = Eigen::Affine3d;
 
 Transform local_transform(const Document& document, int index) {
-  const tinygltf::Node& node = document.model().nodes[static_cast<std::size_t>(index)];
+  const json& node = document.item("nodes", index);
   const std::string where = fmt::format("nodes[{}]", index);
-  if (node.matrix.size() == 16) {
-    const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+  Transform t = Transform::Identity();
+  if (node.contains("matrix")) {
+    const Eigen::Matrix4d m = vector_or<Eigen::Matrix4d>(node, "matrix", Eigen::Matrix4d::Identity());
     if ((m.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)).cwiseAbs().maxCoeff() > 1e-6) {
       document.fail(where + ".matrix", fmt::format("last row {} {} {} {}, expected 0 0 0 1", m(3, 0), m(3, 1),
                                                    m(3, 2), m(3, 3)));
     }
-    Transform t = Transform::Identity();
     t.matrix().topRows<3>() = m.topRows<3>();
     return t;
   }
-  Transform t = Transform::Identity();
-  if (node.translation.size() == 3) t.translate(Eigen::Vector3d(node.translation.data()));
-  if (node.rotation.size() == 4) {
-    Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    if (!(q.norm() > 1e-12)) document.fail(where + ".rotation", "0 0 0 0, expected a unit quaternion");
-    t.rotate(q.normalized());
-  }
-  if (node.scale.size() == 3) t.scale(Eigen::Vector3d(node.scale.data()));
+  t.translate(vector_or<Eigen::Vector3d>(node, "translation", Eigen::Vector3d::Zero()));
+  const Eigen::Quaterniond q(vector_or<Eigen::Vector4d>(node, "rotation", Eigen::Vector4d::UnitW()));
+  if (!(q.norm() > 1e-12)) document.fail(where + ".rotation", "0 0 0 0, expected a unit quaternion");
+  t.rotate(q.normalized());
+  t.scale(vector_or<Eigen::Vector3d>(node, "scale", Eigen::Vector3d::Ones()));
   return t;
+}
+
+std::vector<int> children_of(const json& node) {
+  return node.value("children", std::vector<int>());
 }
 
 /// The parent of each node, or -1. Checks that each node has at most one parent and that there is no cycle.
 std::vector<int> find_parents(const Document& document) {
-  const auto& nodes = document.model().nodes;
+  const json& nodes = document.list("nodes");
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const int child : nodes[i].children) {
+    for (const int child : children_of(nodes[i])) {
       int& parent = parents[static_cast<std::size_t>(child)];
       if (parent >= 0) {
         document.fail(
@@ -76,8 +77,8 @@ class Walker {
       int node;
       Transform parent;
     };
-    const std::vector<int>& roots = document_.model().scenes[static_cast<std::size_t>(scene)].nodes;
-    std::vector<char> is_root(document_.model().nodes.size(), 0);
+    const std::vector<int> roots = document_.item("scenes", scene).value("nodes", std::vector<int>());
+    std::vector<char> is_root(parents_.size(), 0);
     std::vector<Entry> stack;
     for (std::size_t i = roots.size(); i-- > 0;) {
       const std::size_t root = static_cast<std::size_t>(roots[i]);
@@ -94,8 +95,7 @@ class Walker {
       stack.pop_back();
       const Transform world = entry.parent * local_transform(document_, entry.node);
       visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)));
-      const std::vector<int>& children =
-          document_.model().nodes[static_cast<std::size_t>(entry.node)].children;
+      const std::vector<int> children = children_of(document_.item("nodes", entry.node));
       for (std::size_t i = children.size(); i-- > 0;) stack.push_back({children[i], world});
     }
     return std::move(graph_);
@@ -110,66 +110,67 @@ class Walker {
   }
 
   void visit(int index, const Transform& world) {
-    const tinygltf::Node& node = document_.model().nodes[static_cast<std::size_t>(index)];
-    if (node.mesh >= 0) place_mesh(index, node, world);
-    if (node.camera >= 0) {
+    const json& node = document_.item("nodes", index);
+    if (node.contains("mesh")) place_mesh(index, node, world);
+    if (node.contains("camera")) {
       graph_.cameras.push_back(make_camera(document_, index, world));
       graph_.camera_positions.push_back(world.translation());
     }
-    if (const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual")) {
-      graph_.lights.push_back(make_light(document_, index, integer_or(*light, "light", 0), world));
+    if (const json* light = find_extension(node, "KHR_lights_punctual")) {
+      graph_.lights.push_back(make_light(document_, index, (*light)["light"], world));
       graph_.light_positions.push_back(world.translation());
     }
   }
 
-  void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
-    const tinygltf::Mesh& mesh = document_.model().meshes[static_cast<std::size_t>(node.mesh)];
+  void place_mesh(int index, const json& node, const Transform& world) {
+    const int mesh_index = node["mesh"];
+    const json& mesh = document_.item("meshes", mesh_index);
     Transform base = world;
-    if (node.skin >= 0) {
+    if (const int skin = node.value("skin", -1); skin >= 0) {
       warnings_.add("skins and morph targets are shown in their bind pose");
-      base = checked(bind_pose(node.skin), fmt::format("skins[{}]", node.skin));
+      base = checked(bind_pose(skin), fmt::format("skins[{}]", skin));
     }
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      if (!primitive.targets.empty()) warnings_.add("skins and morph targets are shown in their bind pose");
+    for (const json& primitive : mesh["primitives"]) {
+      if (!primitive.value("targets", json()).empty())
+        warnings_.add("skins and morph targets are shown in their bind pose");
     }
-    const std::string name = node.name.empty() ? mesh.name : node.name;
-    if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
+    const std::string name = name_of(node, mesh);
+    if (const json* instancing = find_extension(node, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       claim_instances(*instancing, mesh, where);
-      if (instancing->Get("attributes").Keys().empty()) {
+      if ((*instancing)["attributes"].empty()) {
         warnings_.add(where + ": no attributes that tell how many; drawn once");
-        add(node.mesh, name, base);
+        add(mesh_index, name, base);
       }
       for (const Transform& t : read_instances(document_, *instancing, where)) {
-        add(node.mesh, name, checked(base * t, where));
+        add(mesh_index, name, checked(base * t, where));
       }
     } else {
-      add(node.mesh, name, base);
+      add(mesh_index, name, base);
     }
   }
 
   /// Called before the instances are allocated: a huge count needs only a few characters.
-  void claim_instances(const tinygltf::Value& extension, const tinygltf::Mesh& mesh,
-                       const std::string& where) {
-    const tinygltf::Value& attributes = extension.Get("attributes");
+  void claim_instances(const json& extension, const json& mesh, const std::string& where) {
     std::size_t count = 0;
-    for (const std::string& semantic : attributes.Keys()) {
-      const auto accessor = static_cast<std::size_t>(attributes.Get(semantic).GetNumberAsInt());
-      count = std::max(count, document_.model().accessors[accessor].count);
+    for (const int accessor : extension["attributes"]) {
+      count = std::max<std::size_t>(count, document_.item("accessors", accessor)["count"]);
     }
-    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
+    const std::size_t name_bytes = mesh.value("name", "").size();
+    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + name_bytes), where);
   }
 
   /// In glTF only the joints place a skinned mesh. In the bind pose all joints agree, so the first one gives
   /// the transform from the mesh to the world.
   Transform bind_pose(int index) const {
-    const tinygltf::Skin& skin = document_.model().skins[static_cast<std::size_t>(index)];
+    const json& skin = document_.item("skins", index);
     Transform joint = Transform::Identity();
-    if (skin.joints.empty()) return joint;
-    for (int i = skin.joints[0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+    if (skin["joints"].empty()) return joint;
+    for (int i = skin["joints"][0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
       joint = local_transform(document_, i) * joint;
     }
-    if (skin.inverseBindMatrices >= 0) joint = joint * read_first_matrix(document_, skin.inverseBindMatrices);
+    const int matrices = skin.value("inverseBindMatrices", -1);
+    if (matrices >= 0) joint = joint * read_first_matrix(document_, matrices);
     return joint;
   }
 
@@ -195,7 +196,7 @@ class Walker {
 }  // namespace
 
 Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
-  const std::size_t count = document.model().scenes.size();
+  const std::size_t count = document.list("scenes").size();
   if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
     document.fail("scenes", fmt::format("scene {} asked for, expected less than {}", scene, count));
   }
@@ -204,7 +205,7 @@ Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
     warnings.add("the file has no scene");
     return {};
   }
-  if (scene < 0) scene = std::max(document.model().defaultScene, 0);
+  if (scene < 0) scene = document.root().value("scene", 0);
   return walker.walk(scene);
 }
 

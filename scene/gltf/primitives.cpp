@@ -34,9 +34,8 @@ Needs needs_of(const Material& material) {
 /// The source of a primitive's vertices: accessors, or Draco's data described by accessors.
 class Vertices {
  public:
-  Vertices(const Document& document, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
-           std::string where)
-      : document_(document), primitive_(primitive), draco_(draco), where_(std::move(where)) {
+  Vertices(const Document& document, const json& primitive, const DracoPrimitive* draco, std::string where)
+      : document_(document), attributes_(primitive["attributes"]), draco_(draco), where_(std::move(where)) {
     if (!has("POSITION")) document.fail(where_ + ".attributes", "no POSITION, expected one");
     count_ = draco ? draco->vertex_count() : reader("POSITION").count();
     if (count_ > 0xffffffffu)
@@ -46,17 +45,16 @@ class Vertices {
   std::size_t count() const { return count_; }
 
   bool has(const std::string& semantic) const {
-    return primitive_.attributes.contains(semantic) || (draco_ && draco_->has(semantic));
+    return attributes_.contains(semantic) || (draco_ && draco_->has(semantic));
   }
 
   /// Writes one row for each element of the selection, or count() rows if it is empty.
   void read(const std::string& semantic, std::initializer_list<int> components, Selection selection,
             int width, float* out, bool force_normalized = false) const {
-    const auto entry = primitive_.attributes.find(semantic);
     if (draco_ && draco_->has(semantic)) {
       bool normalized = force_normalized;
-      if (entry != primitive_.attributes.end()) {
-        normalized |= document_.model().accessors[static_cast<std::size_t>(entry->second)].normalized;
+      if (attributes_.contains(semantic)) {
+        normalized |= document_.item("accessors", attributes_[semantic]).value("normalized", false);
       }
       draco_->read_floats(semantic, selection, width, normalized, out);
       return;
@@ -72,11 +70,11 @@ class Vertices {
 
  private:
   AccessorReader reader(const std::string& semantic) const {
-    return AccessorReader(document_, primitive_.attributes.at(semantic));
+    return AccessorReader(document_, attributes_[semantic]);
   }
 
   const Document& document_;
-  const tinygltf::Primitive& primitive_;
+  const json& attributes_;
   const DracoPrimitive* draco_;
   std::string where_;
   std::size_t count_ = 0;
@@ -142,17 +140,17 @@ std::vector<std::uint32_t> compact(std::vector<std::array<std::uint32_t, 3>>& tr
 
 Mesh load_primitive(const Document& document, int mesh_index, int primitive_index, const Material& material,
                     Warnings& warnings) {
-  const tinygltf::Mesh& source = document.model().meshes[static_cast<std::size_t>(mesh_index)];
-  const tinygltf::Primitive& primitive = source.primitives[static_cast<std::size_t>(primitive_index)];
+  const json& source = document.item("meshes", mesh_index);
+  const json& primitive = element(source["primitives"], primitive_index);
   const std::string where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
 
   Mesh mesh;
-  mesh.name = source.name;
-  if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+  mesh.name = source.value("name", "");
+  if (mode_of(primitive) < kTriangles) {
     warnings.add("points and lines are not drawn");
     return mesh;
   }
-  const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_draco_mesh_compression");
+  const json* extension = find_extension(primitive, "KHR_draco_mesh_compression");
   std::optional<DracoPrimitive> draco;
   if (extension) draco.emplace(document, *extension, where);
 

@@ -97,51 +97,26 @@ class Checker {
   }
 
   void check_value(json& value, const Rule& rule, const Path& path) const {
-    switch (rule.kind) {
-      case Kind::object:
-        check_object(value, rule.target, path);
-        return;
-      case Kind::boolean:
-        if (!value.is_boolean()) fail(path, value, "true or false");
-        return;
-      case Kind::string:
-        if (!value.is_string() ||
-            (!rule.target.empty() && !is_choice(rule.target, value.get_ref<const std::string&>()))) {
-          fail(path, value, expectation(rule));
-        }
-        return;
-      case Kind::number: {
-        if (!value.is_number()) fail(path, value, expectation(rule));
-        const double number = value.get<double>();
-        if (!(number >= rule.low && number <= rule.high)) fail(path, value, expectation(rule));
-        value = number;
-        return;
-      }
-      case Kind::integer: {
-        const double number = whole_number(value, rule, path);
-        if (!(number >= rule.low && number <= rule.high)) fail(path, value, expectation(rule));
-        if (!rule.target.empty() && !is_choice(rule.target, fmt::format("{:.0f}", number))) {
-          fail(path, value, expectation(rule));
-        }
-        value = static_cast<std::int64_t>(number);
-        return;
-      }
-      case Kind::index: {
-        const double number = whole_number(value, rule, path);
-        if (!(number >= 0.0 && number < static_cast<double>(size_of(rule.target)))) {
-          fail(path, value, expectation(rule));
-        }
-        value = static_cast<std::int64_t>(number);
-        return;
-      }
-    }
+    if (rule.kind == Kind::object) return check_object(value, rule.target, path);
+    if (!fits(value, rule)) fail(path, value, expectation(rule));
+    if (rule.kind == Kind::number) value = value.get<double>();
+    if (is_whole(rule.kind)) value = static_cast<std::int64_t>(value.get<double>());
   }
 
-  double whole_number(const json& value, const Rule& rule, const Path& path) const {
-    if (!value.is_number()) fail(path, value, expectation(rule));
+  static bool is_whole(Kind kind) { return kind == Kind::integer || kind == Kind::index; }
+
+  bool fits(const json& value, const Rule& rule) const {
+    if (rule.kind == Kind::boolean) return value.is_boolean();
+    if (rule.kind == Kind::string) {
+      return value.is_string() &&
+             (rule.target.empty() || is_choice(rule.target, value.get_ref<const std::string&>()));
+    }
+    if (!value.is_number()) return false;
     const double number = value.get<double>();
-    if (std::floor(number) != number) fail(path, value, expectation(rule));
-    return number;
+    if (is_whole(rule.kind) && std::floor(number) != number) return false;
+    if (rule.kind == Kind::index) return number >= 0.0 && number < static_cast<double>(size_of(rule.target));
+    if (!(number >= rule.low && number <= rule.high)) return false;
+    return rule.target.empty() || is_choice(rule.target, fmt::format("{:.0f}", number));
   }
 
   std::string expectation(const Rule& rule) const {

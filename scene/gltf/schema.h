@@ -1,7 +1,6 @@
 #pragma once
-// Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores or misreads values of the
-// wrong type. A table gives type, range and length of every property that the loader uses, and the list that
-// an index refers to.
+// Checks the JSON of a glTF file before anything else reads it. A table gives type, range and length of every
+// property that the loader uses, and the list that an index refers to.
 
 #include <nlohmann/json.hpp>
 

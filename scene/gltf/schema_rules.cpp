@@ -4,7 +4,7 @@ namespace gatelight::scene::gltf {
 namespace {
 
 constexpr double kByteLimit = 9007199254740992.0;  // 2^53: integers beyond it are not exact in JSON
-constexpr double kIntLimit = 2147483647.0;         // tinygltf keeps these as int
+constexpr double kIntLimit = 2147483647.0;         // the loader keeps these as int
 
 constexpr Rule number(std::string_view owner, std::string_view name) {
   return {owner, name, Kind::number};

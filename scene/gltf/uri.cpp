@@ -1,29 +1,29 @@
 #include "scene/gltf/uri.h"
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <optional>
 
 namespace gatelight::scene::gltf {
 namespace {
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
+namespace Strutil = OIIO::Strutil;
 
 /// A % without two hexadecimal digits behind it is kept: files with such names exist.
 std::string decode_percent(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0) {
-      out.push_back(static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2])));
+    unsigned char byte = 0;
+    const char* digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() &&
+        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      out.push_back(static_cast<char>(byte));
       i += 2;
     } else {
       out.push_back(text[i]);
@@ -78,22 +78,6 @@ std::size_t scheme_length(std::string_view uri) {
   return 0;
 }
 
-/// Compares without regard to case; `lower` must be lower case.
-bool equal_letters(std::string_view text, std::string_view lower) {
-  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
-                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
-}
-
-bool has_scheme(std::string_view uri, std::string_view scheme) {
-  return equal_letters(uri.substr(0, scheme.size()), scheme);
-}
-bool is_data(std::string_view uri) {
-  return has_scheme(uri, "data:");
-}
-bool is_file(std::string_view uri) {
-  return has_scheme(uri, "file:");
-}
-
 /// Whether the path lies outside the folder after resolving symbolic links. A missing file counts as inside.
 bool leaves(const std::filesystem::path& folder, const std::filesystem::path& path) {
   std::error_code error;
@@ -111,8 +95,7 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   }
   const std::string_view head = uri.substr(0, comma);
   const std::string_view body = uri.substr(comma + 1);
-  constexpr std::string_view kBase64 = ";base64";
-  if (equal_letters(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
+  if (Strutil::iends_with(head, ";base64")) {
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
     if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");
@@ -128,7 +111,7 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
 
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where) {
-  if (is_data(uri)) return read_data(uri, file, where);
+  if (Strutil::istarts_with(uri, "data:")) return read_data(uri, file, where);
   const auto refuse = [&](std::string_view why) {
     return make_error(file, where,
                       fmt::format("'{}' {}, expected a file in the scene's folder{}", uri_name(uri), why,
@@ -137,7 +120,7 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
   if (uri.empty()) throw refuse("is empty");
   std::string_view rest = uri;
   if (const std::size_t scheme = scheme_length(uri); scheme > 0) {
-    if (!options.allow_external || !is_file(uri)) throw refuse("has a scheme");
+    if (!options.allow_external || !Strutil::istarts_with(uri, "file:")) throw refuse("has a scheme");
     rest.remove_prefix(scheme);
     // Accepts "file:///path", "file://localhost/path" and "file:path"; another host is another machine.
     for (const std::string_view host : {"//localhost/", "///"}) {
@@ -157,7 +140,8 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
 }
 
 std::string uri_name(std::string_view uri) {
-  if (is_data(uri)) return one_line(uri.substr(0, std::min<std::size_t>(uri.find(','), 64)));
+  if (Strutil::istarts_with(uri, "data:"))
+    return one_line(uri.substr(0, std::min<std::size_t>(uri.find(','), 64)));
   return one_line(uri.substr(0, 256));
 }
 

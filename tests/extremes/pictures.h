@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/render.h"
-#include "scene/bounds.h"
+#include "scene/bake.h"
 #include "tests/support/room.h"
 #include "tests/support/scene_builder.h"
 

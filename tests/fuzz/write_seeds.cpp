@@ -6,7 +6,7 @@
 #include <string>
 
 #include "renderer/cache/cache_file.h"
-#include "renderer/film/first_hit.h"
+#include "renderer/film/camera_sample.h"
 #include "tests/fuzz/made_cache.h"
 
 using namespace gatelight;

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include "renderer/image/tonemap.h"
+#include "renderer/metrics/beauty.h"
+
 namespace gatelight::renderer::flip {
 
 using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
@@ -15,5 +18,14 @@ struct RgbPlanes {
   Eigen::Index width() const { return r.cols(); }
   Eigen::Index height() const { return r.rows(); }
 };
+
+/// Reads radiance. Negative values, which no screen shows, become 0. Throws CompareError for a picture
+/// without a beauty layer, without pixels or with values that are not finite. `measure` is the metric's name
+/// for the message.
+RgbPlanes read_planes(const NamedPicture& named, const char* measure);
+
+/// Reads linear light: radiance times 2^exposure, through the tone curve, clamped to [0, 1]. Throws what
+/// read_planes() throws.
+RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap);
 
 }  // namespace gatelight::renderer::flip

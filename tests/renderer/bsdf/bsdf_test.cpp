@@ -192,7 +192,7 @@ TEST(BsdfProperties, NothingIsEverNotANumber) {
 }
 
 TEST(BsdfProperties, SmoothLimitIsTheDelta) {
-  const float smooth = Bsdf::kDeltaRoughness;
+  const float smooth = kDeltaRoughness;
   Random random(6);
   for (const BsdfCase& c : colored_cases()) {
     for (const float cosine : {1.0f, 0.6f, 0.2f}) {

@@ -204,9 +204,10 @@ TEST(LightSamplingTest, AConstantSkyIsSampledByTheCosine) {
     const float u = random.uniform_float();
     const LightSample sample = lit.lights.sample(Vec3::Zero(), n, u_select, Vec2(u, random.uniform_float()));
     ASSERT_NEAR(sample.pdf, lit.lights.pdf_environment(Vec3::Zero(), n, sample.wi), 1e-5f);
-    const Vec3 local = basis.to_local(sample.wi);
-    const double azimuth = std::atan2(local.y(), local.x()) / (2.0 * M_PI) + 0.5;
-    const int row = std::clamp(static_cast<int>(local.z() * kBins), 0, kBins - 1);
+    const float x = basis.tangent.dot(sample.wi);
+    const float y = basis.bitangent.dot(sample.wi);
+    const double azimuth = std::atan2(y, x) / (2.0 * M_PI) + 0.5;
+    const int row = std::clamp(static_cast<int>(n.dot(sample.wi) * kBins), 0, kBins - 1);
     const int column = std::clamp(static_cast<int>(azimuth * kBins), 0, kBins - 1);
     observed[static_cast<std::size_t>(row * kBins + column)] += 1.0;
   }

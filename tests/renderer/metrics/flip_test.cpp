@@ -13,7 +13,6 @@
 #include "renderer/metrics/flip/color_map.h"
 #include "renderer/metrics/flip/exposures.h"
 #include "renderer/metrics/flip/filters.h"
-#include "renderer/metrics/flip/summary.h"
 #include "tests/renderer/metrics/flip_reference.h"
 #include "tests/support/messages.h"
 #include "tests/support/rgb_pictures.h"
@@ -273,7 +272,7 @@ TEST(HdrFlip, SeesRadianceNearTheGreatestFloat) {
 }
 
 TEST(FlipSummary, MatchesTheHandWorkedExample) {
-  const FlipSummary s = flip::summarize(std::vector<float>{0.5f, 0.0f, 0.25f, 0.125f, 0.125f});
+  const FlipSummary s = summarize(std::vector<float>{0.5f, 0.0f, 0.25f, 0.125f, 0.125f});
   // Sorted 0, 1/8, 1/8, 1/4, 1/2; running sums 0, 1/8, 1/4, 1/2, 1: each quantile is where it is passed.
   EXPECT_DOUBLE_EQ(s.mean, 0.2);
   EXPECT_DOUBLE_EQ(s.first_quartile, 0.25);

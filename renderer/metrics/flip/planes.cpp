@@ -1,8 +1,9 @@
-#include "renderer/metrics/flip/shown.h"
+#include "renderer/metrics/flip/planes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gatelight::renderer::flip {
 
@@ -31,7 +32,7 @@ RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
 
 RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap) {
   RgbPlanes planes = read_planes(named, measure);
-  const float scale = exposure_scale(exposure);
+  const float scale = std::exp2(exposure);
   for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
     *plane = plane->unaryExpr([&](float x) {
       const float exposed = x * scale;
