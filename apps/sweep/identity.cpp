@@ -53,9 +53,7 @@ std::string deciding_text(const RenderSettings& settings) {
 }
 
 Identity::Identity(const renderer::SceneFingerprint& scene) {
-  for (const renderer::FingerprintPart& part : renderer::kFingerprintParts) {
-    record_.add_text(scene.*part.digest);
-  }
+  for (const renderer::NamedText& part : scene) record_.add_text(part.text);
 }
 
 Identity& Identity::add(const std::string& text) {

@@ -4,12 +4,26 @@
 
 #include <array>
 #include <set>
+#include <span>
 #include <string>
 
 #include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 
 namespace gatelight::renderer {
+
+/// A tensor with one axis; the caller keeps the values.
+template <class Values>
+neural::TensorView view_array(const char* name, neural::TensorType type, const Values& values) {
+  return {name, type, {values.size()}, std::as_bytes(std::span(values))};
+}
+
+/// Reads one into values of its size.
+template <class Values>
+void read_array(neural::SafetensorsReader& file, const char* name, neural::TensorType type, Values&& values) {
+  const std::uint64_t shape[] = {values.size()};
+  file.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+}
 
 /// The views point into the state and into this struct.
 struct CacheContent {

@@ -3,28 +3,19 @@
 // is refused and what is not stands in the README.
 
 #include <filesystem>
-#include <optional>
 
 #include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/identity/scene_fingerprint.h"
-#include "renderer/settings/cache_options.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
-/// What the answers of a cache mean, beside what its network and layout say of themselves.
+/// What decides the meaning of a cache's answers. Network and layout describe themselves.
 struct CacheMeaning {
-  Integrator integrator = Integrator::nrc;
-  CacheHolds holds = CacheHolds::no_delta;  ///< of nrc
-  float min_roughness = 0.0f;               ///< of nrc
-  float ao_distance = 0.0f;                 ///< metres; of nao
-  neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
-  std::optional<float> node_spacing;  ///< asked for; none: any
+  const RenderOptions& options;
+  float ao_distance = 0.0f;  ///< metres, resolved
 };
-
-/// `ao_distance` resolved, in metres.
-CacheMeaning meaning_of(const RenderOptions& options, float ao_distance);
 
 /// Written atomically and fsynced. Throws OutputError, neural::CacheFileError, and neural::BadConfiguration
 /// for a state that is not the model's.

@@ -88,7 +88,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         make_camera_samples(tile.pixels, sample, options, context_.camera, context_.filter, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
         tile.results.resize(tile.pixels.size());
-        Worker& worker = workers_.local();
+        CachedWorker& worker = workers_.local();
         occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
       });
       std::size_t asked = 0;
@@ -112,10 +112,10 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
       start = Clock::now();
       for_each_tile(count, [&](std::size_t t) {
         Tile& tile = tiles_[t];
-        Worker& worker = workers_.local();
+        CachedWorker& worker = workers_.local();
         occlusion ? finish_occlusion(tile) : finish_paths(tile);
         if (!tile.first_hits.empty()) describe_answers(tile, worker);
-        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.samples);
+        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.counts);
       });
       for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
       statistics_.render_trace_seconds += seconds_since(start);
@@ -124,10 +124,10 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
   }
 }
 
-void CachedPass::trace_paths(Tile& tile, Worker& worker) const {
+void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {
   tile.starts.resize(tile.samples.size());
   for (std::size_t i = 0; i < tile.samples.size(); ++i) tile.starts[i].sample = tile.samples[i];
-  paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.counts, worker.scratch);
+  paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.rays, worker.scratch);
 }
 
 void CachedPass::finish_paths(Tile& tile) const {
@@ -149,7 +149,7 @@ void CachedPass::finish_paths(Tile& tile) const {
   for (std::size_t i = 0; i < tile.radiance.size(); ++i) tile.results[i].radiance = tile.radiance[i];
 }
 
-void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
+void CachedPass::trace_occlusion(Tile& tile, CachedWorker& worker) const {
   PathBatch& paths = tile.paths;
   paths.queries.clear();
   paths.first_queries.assign(tile.samples.size(), kNone);
@@ -165,7 +165,7 @@ void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
     paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
     return true;
   };
-  ao_.trace(tile.samples, tile.results, tile.first_hits, worker.counts, worker.occlusion, ask);
+  ao_.trace(tile.samples, tile.results, tile.first_hits, worker.rays, worker.occlusion, ask);
 }
 
 void CachedPass::finish_occlusion(Tile& tile) const {
@@ -178,13 +178,13 @@ void CachedPass::finish_occlusion(Tile& tile) const {
 
 /// Traces the tile's paths to their ends. For each path the record of worker.check at the vertex where the
 /// cache was asked first: up to there both paths are the same.
-std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& worker) const {
+std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, CachedWorker& worker) const {
   PathBatch& check = worker.check;
   if (check.queries.inputs() != session_.inputs()) check = PathBatch(session_.inputs());
   PathPlan plan = plan_;
   plan.query_at = QueryAt::none;
   plan.records = true;
-  paths_.trace(tile.starts, {}, plan, check, {}, worker.counts, worker.scratch);
+  paths_.trace(tile.starts, {}, plan, check, {}, worker.rays, worker.scratch);
   check.resolve({}, {});
   std::vector<std::int32_t> records(tile.starts.size(), kNone);
   for (const PathVertex& v : check.vertices) {
@@ -197,7 +197,7 @@ std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& wo
   return records;
 }
 
-void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
+void CachedPass::describe_answers(Tile& tile, CachedWorker& worker) const {
   const std::size_t outputs = session_.outputs();
   const neural::Model& model = session_.model();
   const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
@@ -233,19 +233,6 @@ void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
       first.node = color_of(nodes->nodes[nearest]);
     }
   }
-}
-
-SampleCounts CachedPass::counts() const {
-  SampleCounts sum;
-  for (const Worker& w : workers_) sum.add(w.samples);
-  keep_first(sum.located);
-  return sum;
-}
-
-RayCounts CachedPass::rays() const {
-  RayCounts sum;
-  for (const Worker& w : workers_) sum.add(w.counts);
-  return sum;
 }
 
 void CachedPass::add_to(CacheStatistics& statistics) const {

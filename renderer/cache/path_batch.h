@@ -40,7 +40,8 @@ struct PathBatch {
   std::vector<PathVertex> vertices;  ///< each after the one that looked at it
   SurfacePoints queries;
   SurfacePoints records;
-  std::vector<float> targets;  ///< 3 for each record: what is known of H; then radiance over reflectance
+  std::vector<float>
+      targets;  ///< 3 for each record (1 of occlusion): what is known of H, then radiance over reflectance
   std::vector<std::int32_t> first_queries;  ///< for each path the query nearest to the eye, or kNone
   std::vector<std::int32_t> first_records;  ///< the same for records
   std::uint64_t unstored_hits = 0;

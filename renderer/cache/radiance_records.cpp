@@ -8,13 +8,6 @@ namespace {
 /// Scattering events that Russian roulette lets nobody reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
 
-template <typename Size>
-std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
-  std::vector<std::size_t> offsets(blocks.size() + 1, 0);
-  for (std::size_t b = 0; b < blocks.size(); ++b) offsets[b + 1] = offsets[b] + size(blocks[b]);
-  return offsets;
-}
-
 }  // namespace
 
 RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints& points,
@@ -81,27 +74,7 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
     const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
     if (times > 1) batch.paths[b].average_first_records(times);
   });
-
-  const std::vector<std::size_t> record_offsets =
-      offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
-  batch.dealing = Dealing(record_offsets.back(), request.most_records, request.batches);
-  const std::size_t kept = batch.dealing.kept();
-  if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
-  batch.records.resize(kept);
-  batch.targets.resize(3 * kept);
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
-    const PathBatch& paths = batch.paths[b];
-    for (std::size_t i = 0; i < paths.records.size(); ++i) {
-      const std::size_t j = record_offsets[b] + i;
-      if (!batch.dealing.keeps(j)) continue;
-      const std::size_t at = batch.dealing.place(j);
-      batch.records.copy(paths.records, i, 1, at);
-      for (std::size_t c = 0; c < 3; ++c)
-        batch.targets[3 * at + c] = paths.targets[3 * i + c] * request.target_scale;
-    }
-  });
-  batch.paths_traced = batch.starts.starts.size();
-  batch.records_made = record_offsets.back();
+  batch.deal(request, inputs_, 3);
 }
 
 RayCounts RadianceRecords::rays() const {

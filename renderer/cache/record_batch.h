@@ -45,10 +45,29 @@ class Dealing {
   std::uint64_t batches_ = 1;
 };
 
+/// What some steps of training need of their records.
+struct RecordRequest {
+  std::uint64_t step = 0;        ///< the first one: keys the random numbers
+  std::size_t points = 0;        ///< training points
+  std::size_t most_records = 0;  ///< more are thinned out evenly; 0: all are kept
+  std::uint64_t batches = 1;     ///< one for each step
+  bool self_training = false;
+  float target_scale = 1.0f;
+  std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
+};
+
+/// Where the points of each block begin in an array of all, and their number at the end.
+template <typename Size>
+std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
+  std::vector<std::size_t> offsets(blocks.size() + 1, 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) offsets[b + 1] = offsets[b] + size(blocks[b]);
+  return offsets;
+}
+
 /// Records of one or more batches.
 struct RecordBatch {
   TrainingStarts starts;
-  std::vector<PathBatch> paths;  ///< one for each block of starts
+  std::vector<PathBatch> paths;  ///< one for each block of starts, with its records
   SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
   std::vector<float> answers;
   SurfacePoints records;
@@ -63,17 +82,9 @@ struct RecordBatch {
     const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
     return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
   }
-};
-
-/// What some steps of training need of their records.
-struct RecordRequest {
-  std::uint64_t step = 0;        ///< the first one: keys the random numbers
-  std::size_t points = 0;        ///< training points
-  std::size_t most_records = 0;  ///< more are thinned out evenly; 0: all are kept
-  std::uint64_t batches = 1;     ///< one for each step
-  bool self_training = false;
-  float target_scale = 1.0f;
-  std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
+  /// Deals the records of all `paths` to the batches, with so many targets for each, times the request's
+  /// scale.
+  void deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
 };
 
 /// The number of points that leave about so many records.

@@ -11,9 +11,8 @@
 
 namespace gatelight::renderer {
 
-/// The inputs that a model reads. Others are not stored.
+/// The inputs that a model reads beside surface, triangle and barycentrics. Others are not stored.
 struct PointInputs {
-  bool gate = true;  ///< surface, triangle, barycentrics
   bool positions = false;
   bool directions = false;
   bool normals = false;
@@ -60,6 +59,11 @@ class SurfacePoints {
   neural::QueryBatch batch(std::size_t begin, std::size_t count) const;
 
  private:
+  /// visit(our array, the view of it) for each array that is stored. Surfaces and triangles are stored for
+  /// every encoding: counts and reports read them.
+  template <class Visit>
+  static void each_array(const PointInputs& inputs, Visit visit);
+
   PointInputs inputs_;
   std::size_t size_ = 0;
   std::vector<std::uint32_t> surfaces_;

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "neural/file/safetensors.h"
-#include "renderer/identity/scene_fingerprint.h"
 
 namespace gatelight::renderer {
 
 struct NamedText {
   std::string name;
   std::string text;
+  friend bool operator==(const NamedText&, const NamedText&) = default;
 };
 using NamedTexts = std::vector<NamedText>;
 
@@ -23,10 +23,11 @@ void add_texts(neural::Metadata& metadata, const std::string& prefix, const Name
 std::string list_differences(const neural::Metadata& metadata, const std::string& prefix,
                              const NamedTexts& expected);
 
+/// The prefix of a scene's fingerprint.
+inline constexpr const char* kScene = "scene";
 /// Throws neural::CacheFileError naming the parts in which the scene of the file differs. Parts named in
-/// `ignored` may.
-void add_scene(neural::Metadata& metadata, const SceneFingerprint& scene);
-void expect_scene(const neural::SafetensorsReader& file, const SceneFingerprint& scene,
+/// `ignored` may differ.
+void expect_scene(const neural::SafetensorsReader& file, const NamedTexts& scene,
                   const std::vector<std::string>& ignored = {});
 
 }  // namespace gatelight::renderer

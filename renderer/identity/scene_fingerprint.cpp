@@ -171,21 +171,11 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
   }
   for (const scene::PunctualLight& light : scene.lights) add_light(lights, light);
 
-  return {.geometry = hexadecimal(geometry.digest()),
-          .attributes = hexadecimal(attributes.digest()),
-          .materials = hexadecimal(materials.digest()),
-          .lights = hexadecimal(lights.digest()),
-          .environment = hexadecimal(digest_environment(environment))};
-}
-
-std::string differing_parts(const SceneFingerprint& a, const SceneFingerprint& b) {
-  std::string text;
-  for (const FingerprintPart& part : kFingerprintParts) {
-    if (a.*part.digest == b.*part.digest) continue;
-    text += text.empty() ? "" : ", ";
-    text += part.name;
-  }
-  return text;
+  return {{"geometry", hexadecimal(geometry.digest())},
+          {"attributes", hexadecimal(attributes.digest())},
+          {"materials", hexadecimal(materials.digest())},
+          {"lights", hexadecimal(lights.digest())},
+          {"environment", hexadecimal(digest_environment(environment))}};
 }
 
 }  // namespace gatelight::renderer

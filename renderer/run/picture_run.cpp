@@ -1,5 +1,6 @@
 // Renderer::render: one picture from start to end.
 
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -10,7 +11,7 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
-#include "renderer/run/checkpoint_keeper.h"
+#include "renderer/machine/clock.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
 #include "renderer/settings/resolved_options.h"
@@ -45,9 +46,13 @@ class Renderer::Implementation::PictureRun {
     if (keeps || (caches && !(cache.cache_in.empty() && cache.cache_out.empty())))
       fingerprint_ = renderer_.scene_fingerprint();
     if (!keeps) return;
-    keeper_.emplace(options_.checkpoint, renderer_.identity(fingerprint_));
-    found_ = keeper_->find(options_.spp);
-    if (found_) found_->restore(film_, earlier_);
+    const std::string& file = options_.checkpoint.file;
+    identity_ = renderer_.identity(fingerprint_);
+    check_writable(file);
+    if (!options_.checkpoint.resume || !std::filesystem::exists(file)) return;
+    found_.emplace(file);
+    found_->expect(*identity_, options_.spp);
+    found_->restore(film_, earlier_);
   }
 
   void train() {
@@ -56,7 +61,7 @@ class Renderer::Implementation::PictureRun {
     if (training_.complete) return;
     try {
       renderer_.train(training_, callbacks_, [&] {
-        if (!keeper_ || !keeper_->due()) return;
+        if (!checkpoint_due()) return;
         training_.session->settle();
         keep(Phase::train, sum_up(), true);
       });
@@ -64,20 +69,19 @@ class Renderer::Implementation::PictureRun {
       // A picture and a cache file of the last good state are worth more than none. The checkpoint stays.
       if (!renderer_.return_to_good(training_, found(), earlier_, callbacks_)) throw;
       training_.diverged = error.what();
-      keeper_.reset();
+      identity_.reset();
     }
     // Training that a time limit ended is not to be repeated: where it ended is part of the picture.
-    if (keeper_) keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
+    keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
   }
 
   void write_cache() const {
     if (!training_.session || !whole() || options_.cache.cache_out.empty()) return;
     try_writing(false, [&] {
-      write_cache_file(
-          options_.cache.cache_out, training_.session->export_state(), training_.session->model(),
-          training_options(options_),
-          meaning_of(options_, resolve_ao_distance(options_.ao_distance, renderer_.scene.bounds)),
-          fingerprint_);
+      write_cache_file(options_.cache.cache_out, training_.session->export_state(),
+                       training_.session->model(), training_options(options_),
+                       {options_, resolve_ao_distance(options_.ao_distance, renderer_.scene.bounds)},
+                       fingerprint_);
     });
   }
 
@@ -100,7 +104,7 @@ class Renderer::Implementation::PictureRun {
         callbacks_.snapshot(film_.resolve());
       }
       if (loop.over()) return;
-      if (keeper_ && whole() && keeper_->due()) keep(Phase::render, sum_up(loop, pass), true);
+      if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
     }
   }
 
@@ -109,7 +113,7 @@ class Renderer::Implementation::PictureRun {
     statistics = sum_up(loop, pass);
     statistics.interrupted = loop.done() < options_.spp || !whole();
     statistics.device_lost = device_lost_;
-    if (keeper_ && whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
+    if (whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
     loop.report_end();
   }
 
@@ -121,12 +125,24 @@ class Renderer::Implementation::PictureRun {
   RenderStatistics sum_up(const SampleLoop& loop, const Pass& pass) const {
     return renderer_.sum_up(loop.done(), loop.seconds(), &pass, training_, earlier_);
   }
-  /// Writes a checkpoint. `again`: another one will be tried.
+  bool checkpoint_due() const {
+    return identity_ && seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds;
+  }
+  /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
   void keep(Phase phase, const RenderStatistics& sum, bool again) {
+    if (!identity_) return;
     const CheckpointProgress progress{phase, phase == Phase::render ? sum.spp : 0, training_.first_step};
     try_writing(again, [&] {
-      keeper_->write(progress, sum, film_, training_.session.get(), training_options(options_));
+      const neural::TrainingOptions training = training_options(options_);
+      std::optional<CacheState> state;
+      std::optional<CheckpointCache> cache;
+      if (training_.session) {
+        state = training_.session->export_state();
+        cache.emplace(CheckpointCache{*state, training_.session->model(), training});
+      }
+      write_checkpoint(options_.checkpoint.file, *identity_, progress, sum, film_, cache);
     });
+    last_checkpoint_ = Clock::now();  // of one that failed, too: the next is not tried at once
   }
 
   /// A full disk, or too little memory for a copy of the state, is to cost a file but not the picture.
@@ -146,7 +162,8 @@ class Renderer::Implementation::PictureRun {
   const Callbacks& callbacks_;
   Film film_;
   SceneFingerprint fingerprint_;
-  std::optional<CheckpointKeeper> keeper_;
+  std::optional<CheckpointIdentity> identity_;  ///< of the checkpoints; none: none are written
+  Clock::time_point last_checkpoint_ = Clock::now();
   std::optional<Checkpoint> found_;
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;

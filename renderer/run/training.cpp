@@ -27,7 +27,7 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
     training.first_step = found->progress().first_step;
   } else if (!file.empty()) {
     CacheFile cache(file);
-    cache.expect(meaning_of(options, resolve_ao_distance(options.ao_distance, scene.bounds)), fingerprint,
+    cache.expect({options, resolve_ao_distance(options.ao_distance, scene.bounds)}, fingerprint,
                  scene.instances.size());
     make_session(&cache.setup(),
                  [&](const neural::Model& model) { cache.expect_model(model, training_options(options)); });

@@ -1,6 +1,8 @@
 #pragma once
 // A pass adds some samples to every pixel: what the render loop knows of an integrator.
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <cstdint>
 #include <functional>
 
@@ -31,6 +33,27 @@ class Pass {
   virtual RayCounts rays() const = 0;
   /// Adds what all runs asked of a cache; a pass without a cache adds nothing.
   virtual void add_to(CacheStatistics&) const {}
+};
+
+/// A pass whose threads each have a Worker, with `RayCounts rays` and `SampleCounts counts` among its
+/// members.
+template <class Worker>
+class WorkerPass : public Pass {
+ public:
+  SampleCounts counts() const final {
+    SampleCounts sum;
+    for (const Worker& w : workers_) sum.add(w.counts);
+    keep_first(sum.located);
+    return sum;
+  }
+  RayCounts rays() const final {
+    RayCounts sum;
+    for (const Worker& w : workers_) sum.add(w.rays);
+    return sum;
+  }
+
+ protected:
+  tbb::enumerable_thread_specific<Worker> workers_;
 };
 
 }  // namespace gatelight::renderer
