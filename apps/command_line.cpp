@@ -12,7 +12,7 @@
 #include "apps/settings/help_format.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 #include "apps/terminal/version.h"
 
 namespace gatelight::apps {

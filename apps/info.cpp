@@ -12,10 +12,11 @@
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
-#include "apps/terminal/stopwatch.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/machine/atomic_file.h"
+#include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/render.h"
 #include "renderer/surface/embree.h"
@@ -60,11 +61,12 @@ struct Told {
 };
 
 Told tell_scene(const RenderSettings& settings) {
-  const Stopwatch watch;
+  const renderer::Clock::time_point start = renderer::Clock::now();
   const scene::Scene scene = scene::load_gltf(settings.scene, settings.load);
-  const SceneReport report = make_scene_report(scene, watch.seconds());
+  const double seconds = renderer::seconds_since(start);
+  const scene::SceneRequirements requirements = scene::compute_requirements(scene);
   for (const std::string& warning : scene.warnings) log_warning(warning);
-  Told told{scene_report_text(scene, report), scene_report_json(scene, report)};
+  Told told{scene_report_text(scene, requirements, seconds), scene_report_json(scene, requirements, seconds)};
   if (renderer::uses_cache(settings.render.integrator)) {
     const renderer::CacheReport cache = renderer::Renderer(scene, settings.render).report_cache();
     told.text += cache_report_text(cache, settings.render);
@@ -84,8 +86,7 @@ int run_info(InfoSettings settings) {
   const Told told =
       settings.render.scene.empty() ? Told{program_text(), program_json()} : tell_scene(settings.render);
   if (!settings.json.empty()) {
-    write_text(settings.json,
-               told.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_text(settings.json, json_text(told.json) + "\n");
   }
   // JSON on stdout stands alone, so that it can be parsed.
   if (settings.json != "-") write_text("-", told.text);

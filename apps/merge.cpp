@@ -13,7 +13,7 @@
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -66,60 +65,30 @@ struct SweepCall {
   SweepSettings settings;
 };
 
-/// A word that is looked at with the others.
-Option kept(const char* name, const char* unit, const char* help, const char* default_text,
-            std::optional<std::string>& value) {
-  return {.name = name,
-          .unit = unit,
-          .help = help,
-          .read = [&value](const std::string& text) { value = text; },
-          .default_text = default_text};
-}
-
-const char* axis_help(const std::string& name) {
-  if (name == "--integrators") return "nrc, nao, path, ao";
-  if (name == "--encodings") return "gate, hashgrid";
-  if (name == "--features") return "gate: numbers in a feature vector";
-  if (name == "--resolution") return "gate: uniform, paper, fixed:R";
-  if (name == "--stack") return "gate: resolutions of the levels; one stack, or several separated by ';'";
-  if (name == "--cache-memory") {
-    return "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same "
-           "flags, "
-           "same-as-gate/2 half as many";
-  }
-  if (name == "--hidden") return "Width of the network's hidden layers";
-  if (name == "--learning-rate") return "Size of a training step";
-  return "Samples per pixel of pictures with a cache";
-}
-
-const char* axis_default(const std::string& name) {
-  if (name == "--integrators") return "nrc";
-  if (name == "--cache-spp") return "4";
-  return "";
-}
-
 void add_axes(std::vector<Option>& table, SweepWords& words) {
   OptionGroup axes{table, "Axes"};
-  axes.add(kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
-                words.train_steps));
+  const auto kept = [&](const char* name, const char* unit, const char* help, const char* default_text,
+                        std::string& text) {
+    axes.add(any_word(name, text, unit, help)).default_text = default_text;
+  };
+  kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
+       words.train_steps);
   for (const AxisFlag& flag : kAxisFlags) {
     axes.add({.name = flag.name + 2,
               .unit = "LIST",
-              .help = axis_help(flag.name),
+              .help = flag.help,
               .read = [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); },
-              .default_text = axis_default(flag.name)});
+              .default_text = flag.default_text});
   }
   axes.add(any_words("vary", words.vary, "NAME=LIST",
                      "Any other flag of render as an axis; may be given several times"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
                      "A flag for one scene alone; may be given several times"));
-  axes.add(kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds));
-  axes.add(kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp));
+  kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds);
+  kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp);
   axes.add(
       toggle("no-plain", words.no_plain, "Do not measure integrators without a cache beside those with one"));
-  std::vector<std::string_view> names = sweep_preset_names();
-  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
-  const std::string help = "Axes and flags at once: " + fmt::format("{}", fmt::join(names, ", "));
+  const std::string help = fmt::format("Axes and flags at once: {}", fmt::join(sweep_preset_names(), ", "));
   axes.add(any_word("preset", words.preset, "NAME", help.c_str()));
 }
 

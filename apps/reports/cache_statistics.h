@@ -13,6 +13,9 @@ nlohmann::ordered_json training_json(const renderer::CacheStatistics& statistics
 nlohmann::ordered_json cache_json(const renderer::CacheStatistics& statistics);
 nlohmann::ordered_json cache_memory_json(const renderer::CacheStatistics& statistics);
 
+/// Seconds of scouting, setting up and training.
+nlohmann::ordered_json cache_seconds_json(const renderer::CacheStatistics& statistics);
+
 /// A few lines, each with its line break.
 std::string cache_summary(const renderer::CacheStatistics& statistics);
 

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/json_numbers.h"
+#include "apps/reports/json.h"
+#include "apps/terminal/text.h"
 #include "renderer/settings/words.h"
 
 namespace gatelight::apps {
@@ -106,7 +105,7 @@ std::string compare_json(const CompareReport& report) {
     if (is_flip(metric)) json[renderer::name_of(kMetrics, metric)] = flip_json(report, metric);
   }
   if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string compare_text(const CompareReport& report) {

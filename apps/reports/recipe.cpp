@@ -64,8 +64,7 @@ ordered_json resolved_options(RenderSettings settings) {
 }
 
 std::string dump_options(const RenderSettings& settings) {
-  // A file name need not be UTF-8; JSON must be.
-  return resolved_options(settings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(resolved_options(settings), -1);
 }
 
 std::map<std::string, std::string> make_recipe(const RenderSettings& settings,

@@ -4,10 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
-#include "apps/reports/json_values.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
@@ -127,49 +125,48 @@ std::string describe_requirements(const SceneRequirements& requirements) {
   return names.empty() ? "nothing special" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace
-
-SceneReport make_scene_report(const scene::Scene& scene, double load_seconds) {
-  SceneReport report;
-  report.requirements = scene::compute_requirements(scene);
-  for (const scene::Mesh& mesh : scene.meshes) report.triangles_stored += mesh.triangles.size();
-  report.triangles = scene::count_triangles(scene);
-  report.geometry_bytes = scene::geometry_bytes(scene);
-  report.image_bytes = scene::image_bytes(scene);
-  const renderer::RenderOptions defaults;
-  report.render_bytes = renderer::estimate_memory(scene, defaults).total();
-  report.load_seconds = load_seconds;
-  return report;
+std::size_t stored_triangles(const scene::Scene& scene) {
+  std::size_t triangles = 0;
+  for (const scene::Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
+  return triangles;
 }
 
-std::string scene_report_text(const scene::Scene& scene, const SceneReport& report) {
+/// Estimate for a picture with the default options, in bytes.
+std::size_t render_bytes(const scene::Scene& scene) {
+  return renderer::estimate_memory(scene, renderer::RenderOptions()).total();
+}
+
+}  // namespace
+
+std::string scene_report_text(const scene::Scene& scene, const SceneRequirements& requirements,
+                              double load_seconds) {
   Rows rows;
   rows.add("scene", scene.path);
-  rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(report.triangles_stored),
-                                    format_integer(report.triangles)));
+  rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(stored_triangles(scene)),
+                                    format_integer(scene::count_triangles(scene))));
   rows.add("meshes", format_integer(scene.meshes.size()));
   rows.add("instances", format_integer(scene.instances.size()));
   rows.add("materials", format_integer(scene.materials.size()));
   rows.add("textures", fmt::format("{} of {} images", scene.textures.size(), scene.images.size()));
-  rows.add_list("lights", describe_lights(scene, report.requirements));
+  rows.add_list("lights", describe_lights(scene, requirements));
   rows.add_list("cameras", describe_cameras(scene));
   rows.add_list("variants", scene.variants);
   rows.add("bounds", describe_bounds(file_bounds(scene)));
-  rows.add("requires", describe_requirements(report.requirements));
+  rows.add("requires", describe_requirements(requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
-                                 format_bytes(report.geometry_bytes), format_bytes(report.image_bytes),
-                                 format_bytes(report.render_bytes)));
-  rows.add("loaded in", fmt::format("{:.2f} s", report.load_seconds));
+                                 format_bytes(scene::geometry_bytes(scene)),
+                                 format_bytes(scene::image_bytes(scene)), format_bytes(render_bytes(scene))));
+  rows.add("loaded in", fmt::format("{:.2f} s", load_seconds));
   return rows.text();
 }
 
-ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& report) {
-  const SceneRequirements& requirements = report.requirements;
+ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirements& requirements,
+                               double load_seconds) {
   ordered_json json;
   json["schema"] = 1;
   json["scene"] = scene.path;
-  json["triangles_stored"] = report.triangles_stored;
-  json["triangles"] = report.triangles;
+  json["triangles_stored"] = stored_triangles(scene);
+  json["triangles"] = scene::count_triangles(scene);
   json["meshes"] = scene.meshes.size();
   json["instances"] = scene.instances.size();
   json["materials"] = scene.materials.size();
@@ -185,6 +182,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   }
   json["variants"] = scene.variants;
   if (!scene.bounds.isEmpty()) {
+    const auto triple = [](const scene::Vec3& v) { return ordered_json{v.x(), v.y(), v.z()}; };
     const scene::Box bounds = file_bounds(scene);
     json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
   }
@@ -193,10 +191,10 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   }
   json["requirements"]["emissive_triangles"] = requirements.emissive_triangles;
   json["requirements"]["emissive_materials"] = requirements.emissive_materials;
-  json["memory_bytes"] = {{"geometry", report.geometry_bytes},
-                          {"images", report.image_bytes},
-                          {"render_estimate", report.render_bytes}};
-  json["seconds"] = {{"load", report.load_seconds}};
+  json["memory_bytes"] = {{"geometry", scene::geometry_bytes(scene)},
+                          {"images", scene::image_bytes(scene)},
+                          {"render_estimate", render_bytes(scene)}};
+  json["seconds"] = {{"load", load_seconds}};
   json["warnings"] = scene.warnings;
   return json;
 }

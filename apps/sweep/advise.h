@@ -2,12 +2,18 @@
 // The cheapest configuration that was good enough, or the best that was cheap enough.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/sweep/sweep_settings.h"
+#include "apps/sweep/flag_values.h"
 
 namespace gatelight::apps {
+
+struct AdviceLimits {
+  std::optional<double> max_error;    ///< mean FLIP of a picture, with every seed
+  std::optional<double> max_seconds;  ///< of scouting, training and rendering
+};
 
 /// The cells of a series with the same number of steps (samples): means over the seeds.
 struct Configuration {

@@ -8,11 +8,10 @@
 #include <stdexcept>
 
 #include "apps/reports/cache_statistics.h"
-#include "apps/reports/json_file.h"
-#include "apps/reports/json_numbers.h"
+#include "apps/reports/json.h"
 #include "apps/reports/recipe.h"
-#include "apps/sweep/cell_command.h"
-#include "apps/sweep/machine.h"
+#include "apps/sweep/identity.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/settings/option.h"
@@ -33,16 +32,14 @@ ordered_json per(double seconds, double count) {
 
 ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
   const CacheStatistics& c = s.cache;
-  const auto of_cache = [&](double value) { return has_cache ? ordered_json(value) : nullptr; };
+  ordered_json json = cache_seconds_json(c);
+  if (!has_cache) {
+    for (ordered_json& value : json) value = nullptr;
+  }
+  json["render"] = s.render_seconds;
   const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
-  return {{"scout", of_cache(c.scout_seconds)},
-          {"setup", of_cache(c.setup_seconds)},
-          {"train", of_cache(c.train_seconds)},
-          {"train_trace", of_cache(c.train_trace_seconds)},
-          {"train_query", of_cache(c.train_query_seconds)},
-          {"train_step", of_cache(c.train_step_seconds)},
-          {"render", s.render_seconds},
-          {"total", before + s.render_seconds}};
+  json["total"] = before + s.render_seconds;
+  return json;
 }
 
 void add_speed(ordered_json& json, const CacheStatistics& c, bool has_cache) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/sweep/plan.h"
+
 namespace gatelight::apps {
 
 /// A part of the work: a run, or a reference.
@@ -42,5 +44,12 @@ class SweepClock {
   std::size_t done_ = 0;
   std::map<std::string, Sum> sums_;  ///< of the tasks that are done, by kind
 };
+
+SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points);
+/// Of a view with these options; spp: of both halves together.
+SweepTask reference_task(const PlannedScene& scene, const renderer::RenderOptions& cell, ReferenceKind kind,
+                         int spp);
+/// All of a scene's, before it is known which are done.
+std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp);
 
 }  // namespace gatelight::apps

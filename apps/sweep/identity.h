@@ -35,4 +35,11 @@ class Identity {
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
                       const std::string& reference, const std::string& machine, bool hdr_flip);
 
+/// As the processor names itself.
+std::string cpu_name();
+
+/// The processor and the instruction sets that the options choose on it: with others a cell takes other
+/// seconds and has other last digits.
+std::string machine_text(const renderer::RenderOptions& options);
+
 }  // namespace gatelight::apps

@@ -9,8 +9,8 @@
 
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
-#include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/errors.h"
 #include "renderer/settings/words.h"
 

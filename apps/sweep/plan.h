@@ -8,7 +8,6 @@
 #include "apps/sweep/axes.h"
 #include "apps/sweep/flag_values.h"
 #include "apps/sweep/planned.h"
-#include "apps/sweep/scene_names.h"
 
 namespace gatelight::apps {
 
@@ -19,6 +18,12 @@ struct SweepBlock {
       base;  ///< holds for all its cells; without --seed, --train-steps and the --spp of plain integrators
   std::vector<SweepAxis> axes;  ///< --spp among them is for integrators with a cache
   std::vector<int> train_steps;
+};
+
+struct SweepScene {
+  std::string name;  ///< short, different from the others'
+  std::string file;
+  FlagValues flags;  ///< of this scene alone: its camera, its sky
 };
 
 struct SweepRequest {

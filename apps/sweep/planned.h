@@ -57,4 +57,11 @@ struct SweepPlan {
   std::size_t cell_count() const;
 };
 
+/// The series' settings with scene, seed and point.
+RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                             int point);
+/// `gatelight render` for it, ready for a shell.
+std::string cell_command(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                         int point);
+
 }  // namespace gatelight::apps

@@ -1,5 +1,7 @@
 #include "apps/sweep/presets.h"
 
+#include "renderer/settings/words.h"
+
 namespace gatelight::apps {
 namespace {
 
@@ -126,6 +128,7 @@ const Preset kPresets[] = {
 std::vector<std::string_view> sweep_preset_names() {
   std::vector<std::string_view> names;
   for (const Preset& preset : kPresets) names.push_back(preset.name);
+  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
   return names;
 }
 

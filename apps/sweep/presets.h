@@ -11,7 +11,7 @@ namespace gatelight::apps {
 
 inline constexpr int kPresetSeeds = 3;
 
-/// paper-table1, paper-table2 ...
+/// paper-table1, paper-table2 ..., then those of `render`.
 std::vector<std::string_view> sweep_preset_names();
 
 /// Empty for another name.

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 #include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -233,7 +233,7 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
                              {"spp", *reference.spp},
                              {"rel_mse_noise", *reference.rel_mse_noise},
                              {"seconds", *reference.seconds}};
-  renderer::write_file_atomically(beside(reference.file, ".json"), json.dump(1) + "\n");
+  renderer::write_file_atomically(beside(reference.file, ".json"), json_text(json) + "\n");
   return mean;
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "apps/settings/option_table.h"
@@ -177,7 +179,8 @@ void add_defaults(SweepBlock& block) {
 
 void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   request.seeds = preset ? kPresetSeeds : 1;
-  if (words.seeds) request.seeds = static_cast<int>(renderer::parse_integer("--seeds", *words.seeds, kSeeds));
+  if (!words.seeds.empty())
+    request.seeds = static_cast<int>(renderer::parse_integer("--seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
     request.first_seed = static_cast<std::uint32_t>(renderer::parse_integer("--seed", *seed, kSeed));
   }
@@ -207,6 +210,31 @@ std::vector<std::string> find_base_flags() {
   return names;
 }
 
+/// By their files' names, with those of their folders where two files have the same. Throws UsageError for a
+/// file that is named twice.
+std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
+  std::map<std::string, int> stems;
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    if (!seen.insert(path).second) {
+      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
+    }
+    ++stems[path.stem().string()];
+  }
+  std::vector<SweepScene> scenes;
+  std::map<std::string, int> names;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    std::string name = path.stem().string();
+    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
+    const int count = ++names[name];
+    if (count > 1) name += fmt::format("-{}", count);
+    scenes.push_back({std::move(name), file, {}});
+  }
+  return scenes;
+}
+
 }  // namespace
 
 const std::vector<std::string>& base_flag_names() {
@@ -222,8 +250,7 @@ SweepRequest make_request(const SweepWords& words) {
   FlagValues base = words.base;
   drop_flag(base, "--seed");
   if (!words.preset.empty() && !preset) {
-    std::vector<std::string_view> names = sweep_preset_names();
-    for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
+    const std::vector<std::string_view> names = sweep_preset_names();
     if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
       renderer::refuse_choice("--preset", words.preset, renderer::join_names(names));
     }
@@ -237,13 +264,14 @@ SweepRequest make_request(const SweepWords& words) {
   if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
-    if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);
+    if (!words.train_steps.empty())
+      block.train_steps = split_integers("--train-steps", words.train_steps, kSteps);
     add_defaults(block);
   }
   request.allow_external = words.allow_external;
-  request.plain_spp = words.spp ? split_integers("--spp", *words.spp, kSpp) : kDefaultPlainSpp;
+  request.plain_spp = words.spp.empty() ? kDefaultPlainSpp : split_integers("--spp", words.spp, kSpp);
   // The paper has no such rows.
-  request.plain = !words.no_plain && (!preset || words.spp);
+  request.plain = !words.no_plain && (!preset || !words.spp.empty());
   read_seeds(words, preset, request);
   return request;
 }

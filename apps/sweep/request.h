@@ -1,7 +1,6 @@
 #pragma once
 // The words of `gatelight sweep` into axes and what holds for all cells.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +12,23 @@ namespace gatelight::apps {
 struct AxisFlag {
   const char* name;    ///< "--encodings"
   const char* varies;  ///< "--encoding"
+  const char* help;
+  const char* default_text = "";
   bool values_are_lists = false;
 };
 inline constexpr AxisFlag kAxisFlags[] = {
-    {"--integrators", "--integrator"}, {"--encodings", "--encoding"},
-    {"--features", "--features"},      {"--resolution", "--resolution"},
-    {"--stack", "--stack", true},      {"--cache-memory", "--cache-memory"},
-    {"--hidden", "--hidden"},          {"--learning-rate", "--learning-rate"},
-    {"--cache-spp", "--spp"},
+    {"--integrators", "--integrator", "nrc, nao, path, ao", "nrc"},
+    {"--encodings", "--encoding", "gate, hashgrid"},
+    {"--features", "--features", "gate: numbers in a feature vector"},
+    {"--resolution", "--resolution", "gate: uniform, paper, fixed:R"},
+    {"--stack", "--stack", "gate: resolutions of the levels; one stack, or several separated by ';'", "",
+     true},
+    {"--cache-memory", "--cache-memory",
+     "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same flags, "
+     "same-as-gate/2 half as many"},
+    {"--hidden", "--hidden", "Width of the network's hidden layers"},
+    {"--learning-rate", "--learning-rate", "Size of a training step"},
+    {"--cache-spp", "--spp", "Samples per pixel of pictures with a cache", "4"},
 };
 
 /// Flags of `render` that hold for all cells of a sweep where they are given, or can be varied: those that
@@ -34,9 +42,9 @@ struct SweepWords {
   std::vector<std::pair<AxisFlag, std::string>> axes;
   std::vector<std::string> vary;
   std::vector<std::string> scene_flags;  ///< "sponza:camera=hall"
-  std::optional<std::string> train_steps;
-  std::optional<std::string> spp;
-  std::optional<std::string> seeds;
+  std::string train_steps;               ///< empty: not given, as the next two
+  std::string spp;
+  std::string seeds;
   bool no_plain = false;
   bool allow_external = false;
 };

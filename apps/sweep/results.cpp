@@ -8,9 +8,9 @@
 #include <fstream>
 #include <set>
 
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 #include "apps/sweep/cell_record.h"
-#include "apps/sweep/machine.h"
+#include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/machine/threads.h"

@@ -7,14 +7,14 @@
 #include <set>
 
 #include "apps/reports/recipe.h"
-#include "apps/sweep/cell_command.h"
+#include "apps/sweep/eta.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "apps/sweep/machine.h"
-#include "apps/sweep/tasks.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
+#include "apps/terminal/text.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "renderer/settings/resolved_options.h"
@@ -308,9 +308,7 @@ void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& 
 }
 
 void SceneSweep::keep(Cell& cell) const {
-  renderer::write_file_atomically(
-      in_folder(cell_file(cell.place.id)),
-      cell.record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  renderer::write_file_atomically(in_folder(cell_file(cell.place.id)), json_text(cell.record) + "\n");
   progress_.cell(cell.place.id, cell.record["status"].get<std::string>());
 }
 

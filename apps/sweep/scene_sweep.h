@@ -12,7 +12,7 @@
 #include "apps/sweep/references.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/sweep_progress.h"
-#include "apps/sweep/sweep_settings.h"
+#include "apps/sweep/sweep_run.h"
 
 namespace gatelight::apps {
 

@@ -1,24 +1,19 @@
 #pragma once
 // How far a sweep is, on stderr: as a bar over all its tasks, as JSON lines, or as a line for each task.
 
-#include <chrono>
-#include <mutex>
 #include <string>
 
 #include "apps/sweep/eta.h"
 #include "apps/terminal/progress.h"
-#include "apps/terminal/stopwatch.h"
+#include "renderer/machine/clock.h"
 
 namespace gatelight::apps {
 
 /// May be called from any thread.
-class SweepProgress {
+class SweepProgress : public ProgressLine {
  public:
   /// quiet: no words, whatever the mode.
   SweepProgress(ProgressMode mode, bool quiet);
-  ~SweepProgress();
-  SweepProgress(const SweepProgress&) = delete;
-  SweepProgress& operator=(const SweepProgress&) = delete;
 
   /// The work that is left. Its tasks come in order.
   void plan_rest(const std::vector<SweepTask>& tasks);
@@ -31,24 +26,17 @@ class SweepProgress {
   void cell(const std::string& id, const std::string& status);
   void end();
   void done(const std::string& folder, std::size_t cells, std::size_t failed);
-  /// Takes the bar away for another line.
-  void clear();
 
  private:
   void show(const std::string& what, double fraction, bool must);
-  void clear_line();
 
-  std::mutex mutex_;
-  ProgressMode mode_;
-  bool words_;
+  bool words_;  ///< a line for each task
   SweepClock clock_;
   std::string task_;
   bool one_piece_ = false;
-  Stopwatch watch_;  ///< of the task
-  Stopwatch total_;
+  renderer::Clock::time_point start_ = renderer::Clock::now();
+  renderer::Clock::time_point task_start_ = start_;
   int cells_ = 0;  ///< of the task
-  bool line_shown_ = false;
-  std::chrono::steady_clock::time_point last_;
 };
 
 }  // namespace gatelight::apps

@@ -10,21 +10,22 @@
 
 #include "apps/settings/complete_settings.h"
 #include "apps/sweep/advise.h"
-#include "apps/sweep/cell_command.h"
+#include "apps/sweep/eta.h"
 #include "apps/sweep/folder_lock.h"
+#include "apps/sweep/planned.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/scene_sweep.h"
-#include "apps/sweep/tasks.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
 #include "apps/terminal/signals.h"
-#include "apps/terminal/stopwatch.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
+#include "renderer/machine/clock.h"
 
 namespace gatelight::apps {
 namespace {
@@ -224,12 +225,12 @@ bool SweepRun::run_scene(std::size_t index) {
   if (!open_ || open_index_ != index) open_scene(index);
   if (!open_) return stop_signal() == 0;
   plan_tasks(index);
-  Stopwatch since_written;
+  renderer::Clock::time_point written = renderer::Clock::now();
   const bool finished = open_->run([&] {
     scenes_[index] = open_->results();
-    if (since_written.seconds() < kResultsInterval) return;
+    if (renderer::seconds_since(written) < kResultsInterval) return;
     write_results();
-    since_written = Stopwatch();
+    written = renderer::Clock::now();
   });
   scenes_[index] = open_->results();
   return finished;
@@ -256,8 +257,7 @@ void SweepRun::fail_scene(std::size_t index, const std::string& error) {
 void SweepRun::write_results() const {
   const fs::path folder = settings_.folder;
   const ordered_json all = results();
-  renderer::write_file_atomically(folder / "results.json",
-                                  all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  renderer::write_file_atomically(folder / "results.json", json_text(all) + "\n");
   renderer::write_file_atomically(folder / "results.csv", results_csv(all));
 }
 
@@ -283,9 +283,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
   if (settings.reference_folder.empty()) {
     settings.reference_folder = (fs::path(settings.folder) / "references").string();
   }
-  set_log_level(settings.quiet     ? LogLevel::errors
-                : settings.verbose ? LogLevel::details
-                                   : LogLevel::warnings);
+  set_log_level(settings.quiet, settings.verbose);
   if (settings.request.scenes.empty()) {
     write_text("-", advice_of_folder(settings.folder, settings.limits));
     return kDone;

@@ -4,9 +4,27 @@
 #include <string>
 #include <vector>
 
-#include "apps/sweep/sweep_settings.h"
+#include "apps/sweep/advise.h"
+#include "apps/sweep/plan.h"
+#include "apps/terminal/progress.h"
 
 namespace gatelight::apps {
+
+/// All that `gatelight sweep` can be told.
+struct SweepSettings {
+  SweepRequest request;
+  std::string folder;
+  std::string reference_file;    ///< empty: references are rendered
+  int reference_spp = 1024;      ///< of both halves together
+  std::string reference_folder;  ///< empty: references/ in `folder`
+  bool hdr_flip = true;
+  bool dry_run = false;
+  bool advise = false;
+  AdviceLimits limits;
+  ProgressMode progress = ProgressMode::automatic;
+  bool quiet = false;
+  bool verbose = false;
+};
 
 /// Answers the exit code, or throws what errors.h understands. command: the program's arguments.
 int run_sweep(const SweepSettings& settings, const std::vector<std::string>& command);

@@ -2,14 +2,12 @@
 // What the program says beside its results: to stderr. The library behind it is heavy to include and stays in
 // log.cpp.
 
-#include <cstdint>
 #include <string>
 
 namespace gatelight::apps {
 
-enum class LogLevel : std::uint8_t { errors, warnings, details };
-
-void set_log_level(LogLevel level);
+/// Errors alone where quiet, details too where verbose, else errors and warnings.
+void set_log_level(bool quiet, bool verbose);
 void log_warning(const std::string& text);
 /// Only with --verbose.
 void log_detail(const std::string& text);

@@ -19,22 +19,43 @@ enum class ProgressMode : std::uint8_t {
   none,
 };
 
-/// May be called from any thread.
-class ProgressReporter {
+/// A line on stderr that is drawn over itself, or JSON lines.
+class ProgressLine {
+ public:
+  explicit ProgressLine(ProgressMode mode);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Erases the line, so that another can be printed; the next update draws it again. Thread-safe.
+  void clear();
+
+ protected:
+  // The caller holds the mutex.
+  void show_line(const std::string& text);
+  void clear_line();
+  /// Whether enough time has passed since the last line, or this one cannot wait.
+  bool due(bool must);
+
+  std::mutex mutex_;
+  ProgressMode mode_;  ///< not automatic
+
+ private:
+  bool line_shown_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Thread-safe.
+class ProgressReporter : public ProgressLine {
  public:
   /// pixels: of the region that is rendered. time_limit_seconds: of rendering; 0: none.
   ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds);
-  ~ProgressReporter();
-  ProgressReporter(const ProgressReporter&) = delete;
-  ProgressReporter& operator=(const ProgressReporter&) = delete;
 
   /// A part of the work that has no measure: "load", "build", "write".
   void phase(const std::string& name);
   void update(const renderer::Progress& progress);
   /// The files are written. Says so as JSON; answers false where words are expected instead.
   bool done(const std::vector<std::string>& outputs, double seconds);
-  /// Takes the bar away, so that another line can be printed; the next update brings it back.
-  void clear();
 
  private:
   struct Rates {
@@ -46,14 +67,9 @@ class ProgressReporter {
   Rates rates(const renderer::Progress& progress) const;
   void show_json(const renderer::Progress& progress, const Rates& rates);
   void show_bar(const renderer::Progress& progress, const Rates& rates);
-  void clear_line();
 
-  std::mutex mutex_;
-  ProgressMode mode_;
   double pixels_;
   double time_limit_seconds_;
-  bool line_shown_ = false;
-  std::chrono::steady_clock::time_point last_;
   std::optional<renderer::Phase> phase_;
   renderer::Progress first_;  ///< update of the phase; a picture that is gone on with does not begin at zero
 };

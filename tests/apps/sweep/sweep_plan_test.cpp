@@ -10,8 +10,8 @@
 #include <set>
 
 #include "apps/settings/flags.h"
-#include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/planned.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
@@ -225,6 +225,7 @@ TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
 
 TEST(SweepPresets, EachIsAPlanOfRowsForBothOfThePapersCaches) {
   for (const std::string_view name : sweep_preset_names()) {
+    if (sweep_preset(name).empty()) continue;  // one of `render`
     const SweepPlan plan = plan_of({{"--size", "64x36"}}, {}, false, std::string(name));
     std::set<std::string> integrators;
     for (const PlannedSeries& s : plan.scenes[0].series) {

@@ -12,7 +12,6 @@
 
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "apps/sweep/machine.h"
 #include "apps/sweep/measure.h"
 #include "apps/terminal/errors.h"
 #include "renderer/cache/cache_report.h"
