@@ -32,8 +32,7 @@ Examples:
   gatelight render --help)";
 
 const CLI::App* called_subcommand(const CLI::App& root) {
-  const std::vector<const CLI::App*> called =
-      root.get_subcommands([](const CLI::App* app) { return app->parsed(); });
+  const std::vector<CLI::App*> called = root.get_subcommands();
   return called.empty() ? nullptr : called.front();
 }
 

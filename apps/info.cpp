@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/reports/cache_report_text.h"
-#include "apps/reports/device_report.h"
 #include "apps/reports/scene_report.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -15,6 +14,8 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "neural/base/errors.h"
+#include "neural/vulkan/devices.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
@@ -24,6 +25,8 @@
 
 namespace gatelight::apps {
 namespace {
+
+using nlohmann::ordered_json;
 
 constexpr const char* kInfoFooter =
     R"(With --integrator nao or nrc it also tells what the cache of the scene would be for the view that these flags describe:
@@ -40,13 +43,53 @@ struct InfoSettings {
   std::string json;
 };
 
+struct DeviceReport {
+  std::vector<neural::vulkan::DeviceListing> devices;
+  std::string reason;  ///< why there are none
+};
+
+DeviceReport find_devices() {
+  try {
+    DeviceReport report{neural::vulkan::list_devices(), ""};
+    if (report.devices.empty()) report.reason = "no device";
+    return report;
+  } catch (const neural::Unavailable& error) {
+    return {{}, error.what()};
+  }
+}
+
+/// A line for each device.
+std::string devices_text(const DeviceReport& report) {
+  if (report.devices.empty()) return fmt::format("{:<14} {}\n", "vulkan", report.reason);
+  std::string text;
+  for (std::size_t i = 0; i < report.devices.size(); ++i) {
+    const neural::vulkan::DeviceListing& device = report.devices[i];
+    text += fmt::format("{:<14} {}: {} ({}, Vulkan {}, {}){}{}\n", i == 0 ? "vulkan" : "", i, device.name,
+                        device.kind, device.version, format_bytes(device.memory_bytes),
+                        device.refusal.empty() ? "" : ", cannot be used: ", device.refusal);
+  }
+  return text;
+}
+
+ordered_json devices_json(const DeviceReport& report) {
+  ordered_json devices = ordered_json::array();
+  for (const neural::vulkan::DeviceListing& device : report.devices)
+    devices.push_back({{"name", device.name},
+                       {"kind", device.kind},
+                       {"version", device.version},
+                       {"memory_bytes", device.memory_bytes},
+                       {"usable", device.refusal.empty()},
+                       {"refusal", device.refusal}});
+  return {{"built_in", neural::vulkan::is_built_in()}, {"reason", report.reason}, {"devices", devices}};
+}
+
 std::string program_text() {
   return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
                      renderer::best_isa(), "threads", renderer::available_threads(), "embree",
                      renderer::embree_version(), devices_text(find_devices()));
 }
 
-nlohmann::ordered_json program_json() {
+ordered_json program_json() {
   return {{"schema", 1},
           {"version", version()},
           {"isa", renderer::best_isa()},
@@ -57,7 +100,7 @@ nlohmann::ordered_json program_json() {
 
 struct Told {
   std::string text;
-  nlohmann::ordered_json json;
+  ordered_json json;
 };
 
 Told tell_scene(const RenderSettings& settings) {

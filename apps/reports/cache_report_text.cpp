@@ -72,7 +72,7 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
 }  // namespace
 
 std::string cache_report_text(const CacheReport& report, const renderer::RenderOptions& options) {
-  const CacheStatistics& s = report.statistics.cache;
+  const CacheStatistics& s = report.statistics;
   std::string text = "\n";
   text += row("cache", fmt::format("{}, {}, {} nodes", renderer::word(options.integrator),
                                    renderer::word(options.cache.encoding), format_integer(s.nodes)));
@@ -92,7 +92,7 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
 }
 
 ordered_json cache_report_json(const CacheReport& report, const renderer::RenderOptions& options) {
-  const CacheStatistics& s = report.statistics.cache;
+  const CacheStatistics& s = report.statistics;
   ordered_json json = {{"integrator", renderer::word(options.integrator)},
                        {"encoding", renderer::word(options.cache.encoding)}};
   json["memory_bytes"] = cache_memory_json(s);

@@ -9,6 +9,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
@@ -41,17 +42,9 @@ constexpr Requirement kRequirements[] = {
     {"directional_lights", &SceneRequirements::directional_lights},
 };
 
-const char* name_of_type(scene::LightType type) {
-  switch (type) {
-    case scene::LightType::directional:
-      return "directional";
-    case scene::LightType::point:
-      return "point";
-    case scene::LightType::spot:
-      return "spot";
-  }
-  return "";
-}
+constexpr renderer::Choice<scene::LightType> kLightTypes[] = {{"directional", scene::LightType::directional},
+                                                              {"point", scene::LightType::point},
+                                                              {"spot", scene::LightType::spot}};
 
 const char* name_of_type(const scene::Camera& camera) {
   return camera.orthographic ? "orthographic" : "perspective";
@@ -79,8 +72,9 @@ class Rows {
 std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneRequirements& requirements) {
   std::vector<std::string> lines;
   for (const scene::PunctualLight& light : scene.lights) {
-    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}", name_of_type(light.type),
-                                light.name, light.intensity.x(), light.intensity.y(), light.intensity.z()));
+    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}",
+                                renderer::name_of(kLightTypes, light.type), light.name, light.intensity.x(),
+                                light.intensity.y(), light.intensity.z()));
   }
   if (requirements.emissive_triangles > 0) {
     lines.push_back(fmt::format("{} emissive triangles of {} materials",
@@ -174,7 +168,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   json["images"] = scene.images.size();
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
-    json["lights"].push_back({{"name", light.name}, {"type", name_of_type(light.type)}});
+    json["lights"].push_back({{"name", light.name}, {"type", renderer::name_of(kLightTypes, light.type)}});
   }
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {

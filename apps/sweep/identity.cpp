@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "neural/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/identity/deciding_options.h"
@@ -57,22 +58,16 @@ std::string deciding_text(const RenderSettings& settings) {
   return deciding_text(settings, scene::Camera{}) + scene_options(settings);
 }
 
-Identity::Identity(const renderer::SceneFingerprint& scene) {
-  for (const renderer::NamedText& part : scene) record_.add_text(part.text);
-}
-
-Identity& Identity::add(const std::string& text) {
-  record_.add_text(text);
-  return *this;
-}
-
-std::string Identity::name() const {
-  return neural::hexadecimal(record_.digest()).substr(0, 16);
+std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts) {
+  neural::DigestRecord record;
+  for (const renderer::NamedText& part : scene) record.add_text(part.text);
+  for (const std::string& text : texts) record.add_text(text);
+  return neural::hexadecimal(record.digest()).substr(0, 16);
 }
 
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
                       const std::string& reference, const std::string& machine, bool hdr_flip) {
-  return Identity(scene).add(deciding).add(reference).add(machine).add(hdr_flip ? "hdr" : "").name();
+  return identity_name(scene, {deciding, reference, machine, hdr_flip ? "hdr" : ""});
 }
 
 std::string cpu_name() {

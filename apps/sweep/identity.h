@@ -1,10 +1,10 @@
 #pragma once
 // Names of cells and references by what decides them, so that a sweep can be gone on with.
 
+#include <initializer_list>
 #include <string>
 
 #include "apps/settings/render_settings.h"
-#include "neural/file/digest.h"
 #include "renderer/identity/scene_fingerprint.h"
 #include "scene/scene.h"
 
@@ -20,15 +20,7 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
 std::string deciding_text(const RenderSettings& settings);
 
 /// 16 hexadecimal digits for the scene and further texts.
-class Identity {
- public:
-  explicit Identity(const renderer::SceneFingerprint& scene);
-  Identity& add(const std::string& text);
-  std::string name() const;
-
- private:
-  neural::DigestRecord record_;
-};
+std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts);
 
 /// The ID of a cell: of the scene, deciding_text(), the key of its reference, machine_text() and what is
 /// measured.

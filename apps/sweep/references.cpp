@@ -14,6 +14,7 @@
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "neural/base/errors.h"
+#include "neural/file/digest.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
@@ -162,10 +163,8 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
   settings.render.memory_limit_bytes = 0;
   settings.render.isa = RenderOptions().isa;  // but of its last digits
   settings.image = {};
-  const std::string key = Identity(fingerprint)
-                              .add("reference")
-                              .add(deciding_text(settings, view_of(scene, settings.render)))
-                              .name();
+  const std::string key =
+      identity_name(fingerprint, {"reference", deciding_text(settings, view_of(scene, settings.render))});
   return {.kind = kind, .key = key, .file = (fs::path(folder) / (key + ".exr")).string(), .spp = spp};
 }
 

@@ -68,10 +68,8 @@ bool SceneSweep::decide_memory() {
     progress_.phase(fmt::format("memory of {}", series.label));
     try {
       const RenderSettings& gate = series.memory->settings;
-      const std::string key = Identity(fingerprint_of(gate))
-                                  .add("memory")
-                                  .add(deciding_text(gate, view_of(scene_, gate.render)))
-                                  .name();
+      const std::string key =
+          identity_name(fingerprint_of(gate), {"memory", deciding_text(gate, view_of(scene_, gate.render))});
       // Building and scouting cannot be stopped.
       if (!store.knows(key) && stop_signal() != 0) return false;
       const std::uint64_t bytes = store.bytes(key, scene_, gate.render);

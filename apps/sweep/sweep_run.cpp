@@ -79,25 +79,171 @@ class SweepRun {
     }
   }
 
-  int run();
+  int run() {
+    prepare_folders();
+    const FolderLock lock(settings_.folder);
+    if (!survey()) {
+      // What was written by an earlier call knows more.
+      progress_.clear();
+      print_notice(
+          fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
+      return kSignalBase + stop_signal();
+    }
+    tell_versions();
+    bool finished = true;
+    bool written = false;
+    for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
+      if (tasks_[i].empty()) continue;
+      finished = run_scene(i);
+      write_results();
+      write_report();
+      written = true;
+    }
+    if (!written) {
+      write_results();
+      write_report();
+    }
+    std::size_t cells = 0, failed = 0;
+    for (const SceneResults& scene : scenes_) {
+      cells += scene.cells.size();
+      for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
+    }
+    if (!finished) {
+      progress_.clear();
+      print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
+                               stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
+      return kSignalBase + stop_signal();
+    }
+    progress_.done(settings_.folder, cells, failed);
+    if (failed > 0) {
+      print_failure(
+          {kPartly,
+           fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
+           "the same command tries them again"});
+      return kPartly;
+    }
+    return kDone;
+  }
+
   ordered_json results() const { return make_results(command_, scenes_); }
 
  private:
-  void prepare_folders() const;
+  void prepare_folders() const {
+    const fs::path folder = settings_.folder;
+    for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
+    if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
+    for (const char* file : {"results.json", "results.csv", "report.html"})
+      renderer::check_writable(folder / file);
+  }
+
   /// Finds what is done in all scenes, so that results are whole from the first to the last. Answers false
   /// where a signal ended it.
-  bool survey();
+  bool survey() {
+    for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
+      tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
+    }
+    plan_tasks(0);
+    // The first comes last, and stays open.
+    for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
+      open_scene(i);
+      if (stop_signal() != 0) return false;
+    }
+    return true;
+  }
+
   /// Becomes open_, unless it cannot be read (its cells have failed then, and the others go on) or a signal
   /// ended it.
-  void open_scene(std::size_t index);
+  void open_scene(std::size_t index) {
+    const PlannedScene& planned = plan_.scenes[index];
+    open_.reset();
+    auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
+    try {
+      if (!scene->open()) return;
+    } catch (const renderer::OutputError&) {
+      throw;
+    } catch (...) {
+      // A bad word alone on the line is an error like any other.
+      if (plan_.scenes.size() == 1) throw;
+      fail_scene(index, describe_current_exception().message);
+      return;
+    }
+    tasks_[index] = scene->tasks();
+    scenes_[index] = scene->results();
+    open_ = std::move(scene);
+    open_index_ = index;
+  }
+
   /// Of this scene and those after it.
-  void plan_tasks(std::size_t scene);
-  void tell_versions() const;
+  void plan_tasks(std::size_t scene) {
+    std::vector<SweepTask> rest;
+    for (std::size_t i = scene; i < tasks_.size(); ++i) {
+      rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
+    }
+    progress_.plan_rest(rest);
+  }
+
+  void tell_versions() const {
+    std::size_t count = 0;
+    std::set<std::string> others;
+    for (const SceneResults& scene : scenes_) {
+      for (const ordered_json& cell : scene.cells) {
+        if (!is_done(cell) || cell["version"] == version()) continue;
+        ++count;
+        others.insert(cell["version"].get<std::string>());
+      }
+    }
+    if (count == 0) return;
+    log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
+                            count, count == 1 ? " was" : "s were", fmt::join(others, ", "),
+                            (fs::path(settings_.folder) / "cells").string()));
+  }
+
   /// Answers false where a signal ended it.
-  bool run_scene(std::size_t index);
-  void fail_scene(std::size_t index, const std::string& error);
-  void write_results() const;
-  void write_report() const;
+  bool run_scene(std::size_t index) {
+    // A file may have changed since it was looked at: it is opened as if it were new.
+    if (!open_ || open_index_ != index) open_scene(index);
+    if (!open_) return stop_signal() == 0;
+    plan_tasks(index);
+    renderer::Clock::time_point written = renderer::Clock::now();
+    const bool finished = open_->run([&] {
+      scenes_[index] = open_->results();
+      if (renderer::seconds_since(written) < kResultsInterval) return;
+      write_results();
+      written = renderer::Clock::now();
+    });
+    scenes_[index] = open_->results();
+    return finished;
+  }
+
+  void fail_scene(std::size_t index, const std::string& error) {
+    const PlannedScene& planned = plan_.scenes[index];
+    tasks_[index].clear();
+    scenes_[index].cells.clear();
+    for (const PlannedSeries& series : planned.series) {
+      for (const std::uint32_t seed : plan_.seeds) {
+        for (const int point : series.points) {
+          // No scene, no fingerprint: a name that no cell of a scene has.
+          const std::string id =
+              fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
+          scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
+        }
+      }
+    }
+    progress_.clear();
+    log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
+  }
+
+  void write_results() const {
+    const fs::path folder = settings_.folder;
+    const ordered_json all = results();
+    renderer::write_file_atomically(folder / "results.json", json_text(all) + "\n");
+    renderer::write_file_atomically(folder / "results.csv", results_csv(all));
+  }
+
+  void write_report() const {
+    const fs::path folder = settings_.folder;
+    renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
+  }
 
   const SweepSettings& settings_;
   const SweepPlan& plan_;
@@ -108,163 +254,6 @@ class SweepRun {
   std::unique_ptr<SceneSweep> open_;           ///< one scene at a time is in memory
   std::size_t open_index_ = 0;
 };
-
-int SweepRun::run() {
-  prepare_folders();
-  const FolderLock lock(settings_.folder);
-  if (!survey()) {
-    // What was written by an earlier call knows more.
-    progress_.clear();
-    print_notice(
-        fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
-    return kSignalBase + stop_signal();
-  }
-  tell_versions();
-  bool finished = true;
-  bool written = false;
-  for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
-    if (tasks_[i].empty()) continue;
-    finished = run_scene(i);
-    write_results();
-    write_report();
-    written = true;
-  }
-  if (!written) {
-    write_results();
-    write_report();
-  }
-  std::size_t cells = 0, failed = 0;
-  for (const SceneResults& scene : scenes_) {
-    cells += scene.cells.size();
-    for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
-  }
-  if (!finished) {
-    progress_.clear();
-    print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
-                             stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
-    return kSignalBase + stop_signal();
-  }
-  progress_.done(settings_.folder, cells, failed);
-  if (failed > 0) {
-    print_failure(
-        {kPartly,
-         fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
-         "the same command tries them again"});
-    return kPartly;
-  }
-  return kDone;
-}
-
-void SweepRun::prepare_folders() const {
-  const fs::path folder = settings_.folder;
-  for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
-  if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
-  for (const char* file : {"results.json", "results.csv", "report.html"})
-    renderer::check_writable(folder / file);
-}
-
-bool SweepRun::survey() {
-  for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-    tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
-  }
-  plan_tasks(0);
-  // The first comes last, and stays open.
-  for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
-    open_scene(i);
-    if (stop_signal() != 0) return false;
-  }
-  return true;
-}
-
-void SweepRun::open_scene(std::size_t index) {
-  const PlannedScene& planned = plan_.scenes[index];
-  open_.reset();
-  auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
-  try {
-    if (!scene->open()) return;
-  } catch (const renderer::OutputError&) {
-    throw;
-  } catch (...) {
-    // A bad word alone on the line is an error like any other.
-    if (plan_.scenes.size() == 1) throw;
-    fail_scene(index, describe_current_exception().message);
-    return;
-  }
-  tasks_[index] = scene->tasks();
-  scenes_[index] = scene->results();
-  open_ = std::move(scene);
-  open_index_ = index;
-}
-
-void SweepRun::plan_tasks(std::size_t scene) {
-  std::vector<SweepTask> rest;
-  for (std::size_t i = scene; i < tasks_.size(); ++i) {
-    rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
-  }
-  progress_.plan_rest(rest);
-}
-
-void SweepRun::tell_versions() const {
-  std::size_t count = 0;
-  std::set<std::string> others;
-  for (const SceneResults& scene : scenes_) {
-    for (const ordered_json& cell : scene.cells) {
-      if (!is_done(cell) || cell["version"] == version()) continue;
-      ++count;
-      others.insert(cell["version"].get<std::string>());
-    }
-  }
-  if (count == 0) return;
-  log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
-                          count, count == 1 ? " was" : "s were", fmt::join(others, ", "),
-                          (fs::path(settings_.folder) / "cells").string()));
-}
-
-bool SweepRun::run_scene(std::size_t index) {
-  // A file may have changed since it was looked at: it is opened as if it were new.
-  if (!open_ || open_index_ != index) open_scene(index);
-  if (!open_) return stop_signal() == 0;
-  plan_tasks(index);
-  renderer::Clock::time_point written = renderer::Clock::now();
-  const bool finished = open_->run([&] {
-    scenes_[index] = open_->results();
-    if (renderer::seconds_since(written) < kResultsInterval) return;
-    write_results();
-    written = renderer::Clock::now();
-  });
-  scenes_[index] = open_->results();
-  return finished;
-}
-
-void SweepRun::fail_scene(std::size_t index, const std::string& error) {
-  const PlannedScene& planned = plan_.scenes[index];
-  tasks_[index].clear();
-  scenes_[index].cells.clear();
-  for (const PlannedSeries& series : planned.series) {
-    for (const std::uint32_t seed : plan_.seeds) {
-      for (const int point : series.points) {
-        // No scene, no fingerprint: a name that no cell of a scene has.
-        const std::string id =
-            fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
-        scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
-      }
-    }
-  }
-  progress_.clear();
-  log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
-}
-
-void SweepRun::write_results() const {
-  const fs::path folder = settings_.folder;
-  const ordered_json all = results();
-  renderer::write_file_atomically(folder / "results.json", json_text(all) + "\n");
-  renderer::write_file_atomically(folder / "results.csv", results_csv(all));
-}
-
-void SweepRun::write_report() const {
-  const fs::path folder = settings_.folder;
-  renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
-}
 
 std::string advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
   const ordered_json results = read_results(folder);

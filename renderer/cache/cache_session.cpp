@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
-#include "renderer/cache/answers.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
@@ -52,6 +55,32 @@ void check_memory(const scene::Scene& scene, const RenderOptions& options, const
 bool counts_needed(const RenderOptions& options) {
   return options.cache.candidates > 1 ||
          std::find(options.aovs.begin(), options.aovs.end(), Aov::training_count) != options.aovs.end();
+}
+
+/// Fills `answers`: as many floats for each point as the network has outputs. Outputs that are negative or
+/// not finite become zero; returns the number of points that have one.
+std::uint64_t ask_cache(const neural::Trainer& trainer, neural::QueryPrecision precision,
+                        const AnswerUnits& units, const SurfacePoints& points, std::span<float> answers) {
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  trainer.query(points.batch(), {.precision = precision, .range = neural::OutputRange::raw}, answers);
+  const std::size_t outputs = trainer.model().config.mlp.outputs;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), 4096), std::uint64_t{0},
+      [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t negative) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          bool below = false;
+          for (float& a : answers.subspan(outputs * i, outputs)) {
+            if (!(a >= 0.0f && a <= kGreatest)) {
+              below = true;
+              a = 0.0f;
+            }
+            a = std::min(a * units.scale, units.greatest);
+          }
+          if (below) ++negative;
+        }
+        return negative;
+      },
+      std::plus<>());
 }
 
 }  // namespace

@@ -22,7 +22,6 @@ void RecordBatch::deal(const RecordRequest& request, const PointInputs& inputs, 
     }
   });
   paths_traced = starts.starts.size();
-  records_made = offsets.back();
 }
 
 }  // namespace gatelight::renderer

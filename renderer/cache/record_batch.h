@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "neural/base/batch.h"
-#include "renderer/cache/answers.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 
@@ -73,8 +73,7 @@ struct RecordBatch {
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
-  std::uint64_t records_made = 0;  ///< before those beyond the batches' size were left out
-  Dealing dealing;                 ///< of `records`
+  Dealing dealing;  ///< of `records`
 
   neural::TrainingBatch batch(std::uint64_t m) const {
     const std::uint64_t begin = dealing.begin(m);
@@ -91,6 +90,12 @@ struct RecordBatch {
 inline std::size_t points_for(double records, double records_per_point) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(records / records_per_point)));
 }
+
+/// An answer is the network's output times `scale`, at most `greatest`.
+struct AnswerUnits {
+  float scale = 1.0f;
+  float greatest = std::numeric_limits<float>::max();
+};
 
 /// Answers in radiance over reflectance: 3 floats for each point.
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;

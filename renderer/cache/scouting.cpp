@@ -100,7 +100,6 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     widths.add_seen(hit.instance, cone.width + cone.spread * hit.t);
     ++hits;
   }
-  report.paths = starts.starts.size();
 
   if (options.integrator == Integrator::nrc) {
     const CachedPaths paths(world, cached_paths_options(plain), everything);
@@ -112,7 +111,6 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     records.trace(request, batch);
     records.finish(request, {}, batch);
     report.rays.add(records.rays());
-    report.paths += batch.paths_traced;
 
     double all = 0.0;
     double few = 0.0;

@@ -10,7 +10,6 @@ namespace gatelight::renderer {
 
 struct ScoutReport {
   CacheSetup setup;
-  std::uint64_t paths = 0;
   RayCounts rays;
 };
 

@@ -2,10 +2,9 @@
 // The options that decide a picture's bits, as texts under the names of their flags: what must be equal where
 // a picture is gone on with.
 
-#include <string>
-
 #include "renderer/identity/named_texts.h"
 #include "renderer/settings/options.h"
+#include "scene/scene.h"
 
 namespace gatelight::renderer {
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/cache/cache_report.h"
 #include "renderer/cache/cached_pass.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
@@ -120,6 +120,33 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
   }
   add_earlier(sum, earlier);
   return sum;
+}
+
+Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(scene, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+const RenderStatistics& Renderer::statistics() const {
+  return implementation_->statistics;
+}
+
+CacheReport Renderer::report_cache() {
+  const neural::FlushDenormals flush;
+  Implementation& self = *implementation_;
+  CacheReport report;
+  self.arena.execute(
+      [&] { report = renderer::report_cache(*self.world, self.camera, self.region, self.options); });
+  return report;
+}
+
+CacheStatistics Renderer::set_up_cache() {
+  const neural::FlushDenormals flush;
+  Implementation& self = *implementation_;
+  CacheStatistics statistics;
+  self.arena.execute(
+      [&] { statistics = CacheSession(*self.world, self.camera, self.region, self.options).statistics(); });
+  return statistics;
 }
 
 }  // namespace gatelight::renderer

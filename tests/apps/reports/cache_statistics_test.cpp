@@ -58,7 +58,7 @@ json statistics_of(Integrator integrator) {
   RenderSettings settings;
   settings.render.integrator = integrator;
   RunReport report;
-  report.statistics.cache = some_statistics();
+  report.statistics = some_statistics();
   return json::parse(stats_json(settings, report));
 }
 
@@ -118,7 +118,7 @@ TEST(CacheStatistics, AreSummedUpForPeople) {
 
 renderer::CacheReport some_report() {
   renderer::CacheReport report;
-  report.statistics.cache = some_statistics();
+  report.statistics = some_statistics();
   for (std::uint64_t i = 0; i < 20; ++i) {
     report.instances.push_back({.name = "instance " + std::to_string(i),
                                 .triangles = 10,
@@ -126,7 +126,7 @@ renderer::CacheReport some_report() {
                                 .sides = 1,
                                 .nodes = 1000 * i});
   }
-  report.statistics.cache.direction_input = true;
+  report.statistics.direction_input = true;
   report.bytes_without_scouting = 8 << 20;
   return report;
 }
@@ -169,15 +169,15 @@ TEST(StopNotice, TellsOfTheTrainingThatItCutShort) {
   RunReport report;
   report.signal = 2;
   report.statistics.spp = 1;
-  report.statistics.cache = some_statistics();
+  report.statistics = some_statistics();
   const auto expect_picture = [&] {
     tests::expect_message(stop_notice(settings, report), {"signal 2", "1", "64", "a.exr"});
     EXPECT_FALSE(tests::has_name(stop_notice(settings, report), "c.safetensors"));
   };
   expect_picture();  // it had learned all
-  report.statistics.cache.steps = 37;
+  report.statistics.steps = 37;
   tests::expect_message(stop_notice(settings, report), {"signal 2", "37", "128", "c.safetensors"});
-  settings.render.cache.train_seconds = report.statistics.cache.train_seconds;
+  settings.render.cache.train_seconds = report.statistics.train_seconds;
   expect_picture();  // its time was over
   settings.render.cache.train_seconds = 0.0;
   settings.render.integrator = Integrator::path;
