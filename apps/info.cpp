@@ -45,7 +45,7 @@ struct InfoSettings {
 
 struct DeviceReport {
   std::vector<neural::vulkan::DeviceListing> devices;
-  std::string reason;  ///< why there are none
+  std::string reason;  ///< why there is no device
 };
 
 DeviceReport find_devices() {
@@ -131,7 +131,7 @@ int run_info(InfoSettings settings) {
   if (!settings.json.empty()) {
     write_text(settings.json, json_text(told.json) + "\n");
   }
-  // JSON on stdout stands alone, so that it can be parsed.
+  // With JSON on stdout nothing else is printed there, so that it can be parsed.
   if (settings.json != "-") write_text("-", told.text);
   return kDone;
 }
@@ -142,7 +142,7 @@ Subcommand add_info_command(CLI::App& root) {
   CLI::App* app =
       add_subcommand(root, "info", "Tell what a scene holds and needs, or what this program is", kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
-  // A missing texture changes little that is told here.
+  // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;
   renderer::Option scene =
       positional("SCENE", settings->render.scene,
@@ -155,7 +155,7 @@ Subcommand add_info_command(CLI::App& root) {
   add_flags(*app, cache_report_table(settings->render));
   return {app, [app, settings] {
             finish_flags(*app, settings->render);
-            // They are of the call, not of the scene.
+            // They belong to the call, not to the scene.
             for (const char* name : {"SCENE", "--json"}) settings->render.given.erase(name);
             return run_info(*settings);
           }};

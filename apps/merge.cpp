@@ -31,7 +31,8 @@ Example:
   for seed in 1 2 3 4; do gatelight render room.glb -o part-$seed.exr --exr float --spp 256 --seed $seed; done
   gatelight merge -o reference.exr part-*.exr)";
 
-/// Warns once of a picture of another scene: the same file may have another name elsewhere.
+/// Warns once of a picture of another scene. It only warns, because the same file may have another name
+/// elsewhere.
 class ScenesSeen {
  public:
   void add(const renderer::Picture& picture, const std::string& file) {

@@ -110,7 +110,7 @@ class RenderRun {
     };
   }
 
-  /// Tries all outputs before it throws the first error: one full disk does not cost the other picture.
+  /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) const {
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
@@ -163,7 +163,7 @@ class RenderRun {
     if (!again && !failed_output_) failed_output_ = error;
   }
 
-  /// Before the first pass there is nothing to write.
+  /// A signal before the first pass: there is nothing to write.
   int stop_without_picture() {
     progress_.clear();
     print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
@@ -181,7 +181,7 @@ class RenderRun {
   RunReport report_;
   const Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
-  std::exception_ptr failed_output_;  ///< of a checkpoint or cache file that was not tried again
+  std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };
 
 int run_render(RenderSettings settings, const std::vector<std::string>& command) {
@@ -189,7 +189,7 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command)
   check_files(settings);
   set_log_level(settings.quiet, settings.verbose);
   install_signal_handlers();
-  // What knows no file gets the scene's name.
+  // Errors without a file name get the scene's name.
   try {
     return RenderRun(settings, command).run();
   } catch (const renderer::TrainingDiverged& error) {

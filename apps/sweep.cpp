@@ -134,7 +134,7 @@ void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
   output.add(toggle("verbose", s.verbose, "Say more: all options of each run"));
 }
 
-/// Not in the help: they are those of render.
+/// Flags of render; they are not in the help.
 void add_base_flags(std::vector<Option>& table, SweepWords& words) {
   OptionGroup base{table, ""};
   for (const std::string& name : base_flag_names()) {
@@ -158,7 +158,7 @@ std::vector<Option> option_table(SweepCall& call) {
   return table;
 }
 
-/// Without a scene there is nothing that they could change.
+/// Without a scene other flags have no effect.
 void refuse_flags_of_scenes(const CLI::App& app) {
   const std::set<std::string> allowed = {"--output",   "--advise", "--max-error", "--max-time",
                                          "--progress", "--quiet",  "--verbose"};

@@ -21,7 +21,7 @@ using renderer::CacheInstanceReport;
 using renderer::CacheReport;
 using renderer::CacheStatistics;
 
-/// The JSON has them all.
+/// The JSON has all instances.
 constexpr std::size_t kInstancesShown = 12;
 
 std::string row(const std::string& name, const std::string& value) {

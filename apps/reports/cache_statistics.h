@@ -1,5 +1,5 @@
 #pragma once
-// What a cache learned and answered, for programs and for people.
+// Statistics of the cache as JSON and as text.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

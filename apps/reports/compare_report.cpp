@@ -14,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 using renderer::ErrorMetrics;
 
-/// Those that are plain numbers.
+/// The metrics that are plain numbers.
 struct Value {
   Metric metric;
   const char* key;

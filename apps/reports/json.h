@@ -1,5 +1,5 @@
 #pragma once
-// JSON of earlier runs, and numbers that JSON cannot hold.
+// Reading JSON files, and numbers that JSON cannot hold.
 
 #include <cmath>
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace gatelight::apps {
 
-/// A discarded value (is_discarded()) where there is no such file, no JSON in it, or JSON nested more than 32
-/// levels deep: copying and printing values takes a call for each level.
+/// Reads a file. Returns a discarded value (is_discarded()) where there is no such file, no JSON in it, or
+/// JSON nested more than 32 levels deep, because copying and printing recurse.
 nlohmann::ordered_json read_json_file(const std::filesystem::path& path);
 
-/// Null for infinity and NaN: the PSNR of equal pictures, say.
+/// Null for infinity and NaN, such as the PSNR of equal pictures.
 inline nlohmann::ordered_json json_number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
 }

@@ -52,12 +52,12 @@ const char* name_of_type(const scene::Camera& camera) {
 
 class Rows {
  public:
-  /// Names of the file may hold anything: a terminal gets nothing to obey.
+  /// Names in the file may hold anything; control characters must not reach the terminal.
   void add(const std::string& name, const std::string& value) {
     text_ += fmt::format("{:<14} {}\n", name, one_line(value));
   }
 
-  /// The first entry beside the name, the others below it.
+  /// Puts the first entry beside the name and the others below it.
   void add_list(const std::string& name, const std::vector<std::string>& entries) {
     if (entries.empty()) add(name, "none");
     for (std::size_t i = 0; i < entries.size(); ++i) add(i == 0 ? name : "", entries[i]);
@@ -96,7 +96,7 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
   return lines;
 }
 
-/// In the file's coordinates.
+/// The bounds in the file's coordinates.
 scene::Box file_bounds(const scene::Scene& scene) {
   scene::Box bounds = scene.bounds;
   if (!bounds.isEmpty()) bounds.translate(scene.origin);

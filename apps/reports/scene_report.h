@@ -1,5 +1,5 @@
 #pragma once
-// What `gatelight info SCENE` tells.
+// The report of `gatelight info SCENE`.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Rises when a key changes its meaning or goes away.
+/// Increases when a key changes its meaning or disappears.
 constexpr int kSchema = 1;
 
 ordered_json nonfinite(const renderer::RenderStatistics& statistics) {

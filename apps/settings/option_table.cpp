@@ -23,7 +23,7 @@ using renderer::OptionValue;
 using renderer::toggle;
 using renderer::word;
 
-/// Beyond it 2^EV leaves the range of float.
+/// Beyond this 2^EV leaves the range of float.
 constexpr renderer::RealRange kStops{-100.0, 100.0};
 constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
 constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
@@ -46,7 +46,7 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   group.add(choice("tonemap", tonemap, "Curve of PNG files"));
 }
 
-/// How the call goes, not what it makes.
+/// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
                       bool& quiet, bool& verbose) {
   const auto add = [&](Option option) { group.add(std::move(option)).in_recipe = InRecipe::never; };
@@ -59,7 +59,7 @@ void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& prog
   add(toggle("verbose", verbose, "Say more: what was loaded, the memory needed, all options"));
 }
 
-/// Part of a view by hand; what is complete is said.
+/// A part of the view of --eye. Recipes have the complete view.
 Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
                const renderer::CameraOptions& camera, scene::Vec3 LookAt::*part, const char* help) {
   const auto value = [&camera, part]() -> OptionValue {
@@ -118,7 +118,7 @@ Option positional(const char* name, std::string& member, const char* help) {
 }
 
 std::vector<Option> option_table(RenderSettings& settings) {
-  // --config is of all subcommands.
+  // --config belongs to all subcommands.
   auto& [scene, outputs, render, load, image, eye, target, up, config, stats, progress, reproducible, quiet,
          verbose, preset, given] = settings;
   std::vector<Option> table;

@@ -16,7 +16,7 @@ double pixels_of(const RenderOptions& o) {
   return static_cast<double>(o.width) * o.height;
 }
 
-/// Of this scene before those of others, and in the end any picture, by its paths.
+/// Kinds of this scene first, then of any scene, and last of any picture.
 std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<std::string>& kinds) {
   std::vector<std::string> all;
   all.reserve(2 * kinds.size() + 1);

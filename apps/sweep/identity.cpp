@@ -19,7 +19,7 @@ std::string text_of(const scene::Vec3& v) {
   return fmt::format("{},{},{}", v.x(), v.y(), v.z());
 }
 
-/// What deciding_options() leaves to the scene's camera and fingerprint.
+/// Options that deciding_options() leaves to the scene's camera and fingerprint.
 std::string scene_options(const RenderSettings& settings) {
   const renderer::CameraOptions& camera = settings.render.camera;
   const renderer::EnvironmentOptions& environment = settings.render.environment;
@@ -48,7 +48,7 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
   for (const renderer::NamedText& option : renderer::deciding_options(o, camera, {{"isa", o.isa}})) {
     text += fmt::format("{} {}\n", option.name, option.text);
   }
-  // FLIP looks at the picture as it is shown; threads and memory limit decide how long it takes, or whether.
+  // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
                             settings.image.exposure, renderer::word(settings.image.tonemap), o.threads,
                             o.memory_limit_bytes, renderer::word(o.nan_policy));
@@ -88,7 +88,7 @@ std::string machine_text(const renderer::RenderOptions& options) {
     try {
       kernels = renderer::cache_machine(options);
     } catch (const renderer::Unavailable&) {
-      // Its cells will say so.
+      // Its cells will fail with this error.
     }
   }
   return fmt::format("cpu {}\nisa {}\nkernels {}", cpu,

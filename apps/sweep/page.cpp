@@ -19,7 +19,7 @@ constexpr std::string_view view(const char (&literal)[size]) {
   return {literal, size - 1};
 }
 
-/// Of the element that holds a picture.
+/// The ID of the element that holds a picture.
 std::string element_id(std::size_t index) {
   return "picture-" + std::to_string(index);
 }
@@ -46,7 +46,7 @@ std::string picture_elements(const std::vector<PagePicture>& pictures) {
 }  // namespace
 
 std::string json_for_script(const ordered_json& json) {
-  // '<' is in strings only, where JSON may spell it so.
+  // '<' occurs only in strings, where JSON allows this escape.
   return OIIO::Strutil::replace(json.dump(-1, ' ', true, ordered_json::error_handler_t::replace), "<",
                                 "\\u003c", true);
 }

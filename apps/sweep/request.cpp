@@ -25,13 +25,13 @@ const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
 
-/// Of files, of one picture's progress, and what makes a picture depend on the time it takes.
+/// Flags of files, of the progress of one picture, and of time limits.
 constexpr const char* kNoBaseFlags[] = {
     "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
     "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
     "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
 
-/// With lists, or with names of more presets.
+/// `sweep` has flags of these names with lists or more presets.
 constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};
 
 struct Instead {
@@ -41,7 +41,7 @@ struct Instead {
 constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
                                 {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
                                 {"--seed", "--seeds N"}};
-/// They decide which scene is loaded.
+/// These decide which scene is loaded.
 constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing"};
 
 template <std::size_t N>
@@ -97,7 +97,7 @@ std::vector<NamedAxis> read_axes(const SweepWords& words) {
   return axes;
 }
 
-/// "SCENE:NAME=VALUE": the value that a flag has for one of the scenes.
+/// Reads "SCENE:NAME=VALUE", the value of a flag for one scene.
 void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes, SweepRequest& request) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = equals == std::string::npos ? equals : text.rfind(':', equals);
@@ -126,11 +126,10 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   set_flag(scene->flags, flag, text.substr(equals + 1));
 }
 
-/// A row of a preset is what its name says: flags that make it one, or tell it from others, have no other
-/// value.
+/// Refuses flags that any row of the preset sets: each row must be what its name says.
 void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>& rows,
                           const std::vector<NamedAxis>& axes, const SweepRequest& request) {
-  // Which of the caches it is follows from the preset of `render` that each row has.
+  // The preset of `render` in each row decides the integrator.
   std::set<std::string> flags = {"--integrator"};
   for (const SweepBlock& row : rows) {
     for (const auto& [flag, value] : row.base) flags.insert(flag);
@@ -154,7 +153,7 @@ bool names_flag(const SweepBlock& block, const std::string& flag) {
                                                     [&](const SweepAxis& axis) { return axis.flag == flag; });
 }
 
-/// Flags on the command line win over those of a preset.
+/// Flags on the command line override those of a preset.
 void override_block(SweepBlock& block, const FlagValues& base, const std::vector<NamedAxis>& axes) {
   const auto forget = [&](const std::string& flag) {
     drop_flag(block.base, flag);
@@ -171,7 +170,7 @@ void override_block(SweepBlock& block, const FlagValues& base, const std::vector
 }
 
 void add_defaults(SweepBlock& block) {
-  // A preset of `render` says both.
+  // A preset of `render` sets both.
   if (names_flag(block, "--preset")) return;
   if (!names_flag(block, "--integrator")) block.base.emplace_back("--integrator", "nrc");
   if (!names_flag(block, "--spp")) block.base.emplace_back("--spp", kDefaultCacheSpp);
@@ -210,7 +209,7 @@ std::vector<std::string> find_base_flags() {
   return names;
 }
 
-/// By their files' names, with those of their folders where two files have the same. Throws UsageError for a
+/// Names scenes by their files, with the folder where two files have the same name. Throws UsageError for a
 /// file that is named twice.
 std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
   std::map<std::string, int> stems;
@@ -270,7 +269,7 @@ SweepRequest make_request(const SweepWords& words) {
   }
   request.allow_external = words.allow_external;
   request.plain_spp = words.spp.empty() ? kDefaultPlainSpp : split_integers("--spp", words.spp, kSpp);
-  // The paper has no such rows.
+  // The paper has no rows without a cache.
   request.plain = !words.no_plain && (!preset || !words.spp.empty());
   read_seeds(words, preset, request);
   return request;

@@ -1,5 +1,5 @@
 #pragma once
-// The words of `gatelight sweep` into axes and what holds for all cells.
+// Converts the words of `gatelight sweep` into the request of a sweep.
 
 #include <string>
 #include <vector>
@@ -31,8 +31,8 @@ inline constexpr AxisFlag kAxisFlags[] = {
     {"--cache-spp", "--spp", "Samples per pixel of pictures with a cache", "4"},
 };
 
-/// Flags of `render` that hold for all cells of a sweep where they are given, or can be varied: those that
-/// decide the picture, with a value. `sweep` has others of the name of some.
+/// Flags of `render` that can be given for all cells of a sweep, or varied: those with a value that decide
+/// the picture. Flags that `sweep` defines itself are not among them.
 const std::vector<std::string>& base_flag_names();
 
 struct SweepWords {
@@ -42,7 +42,7 @@ struct SweepWords {
   std::vector<std::pair<AxisFlag, std::string>> axes;
   std::vector<std::string> vary;
   std::vector<std::string> scene_flags;  ///< "sponza:camera=hall"
-  std::string train_steps;               ///< empty: not given, as the next two
+  std::string train_steps;               ///< empty: not given; the same for the next two
   std::string spp;
   std::string seeds;
   bool no_plain = false;

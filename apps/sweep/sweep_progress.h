@@ -1,5 +1,5 @@
 #pragma once
-// How far a sweep is, on stderr: as a bar over all its tasks, as JSON lines, or as a line for each task.
+// Progress of a sweep on stderr: a bar over all tasks, JSON lines, or a line for each task.
 
 #include <string>
 
@@ -9,17 +9,17 @@
 
 namespace gatelight::apps {
 
-/// May be called from any thread.
+/// Thread-safe.
 class SweepProgress : public ProgressLine {
  public:
-  /// quiet: no words, whatever the mode.
+  /// quiet: no output, in every mode.
   SweepProgress(ProgressMode mode, bool quiet);
 
-  /// The work that is left. Its tasks come in order.
+  /// Sets the remaining tasks, in order.
   void plan_rest(const std::vector<SweepTask>& tasks);
-  /// What is no part of rendering: loading, building, measuring.
+  /// Shows a phase other than rendering: loading, building, measuring.
   void phase(const std::string& what, double fraction = 0.0);
-  /// one_piece: the fraction of its progress is that of the task, not of one of its phases.
+  /// one_piece: the fraction in updates is that of the whole task, not of a phase.
   void begin(const std::string& task, bool one_piece);
   void update(const renderer::Progress& progress);
   /// A cell of the task is done or failed.

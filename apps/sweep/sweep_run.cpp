@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Between two writings of the results of a sweep that is under way.
+/// Seconds between two writes of the results of a running sweep.
 constexpr double kResultsInterval = 30.0;
 
 void make_folder(const fs::path& folder) {
@@ -83,7 +83,7 @@ class SweepRun {
     prepare_folders();
     const FolderLock lock(settings_.folder);
     if (!survey()) {
-      // What was written by an earlier call knows more.
+      // The results of an earlier call are more complete, and stay.
       progress_.clear();
       print_notice(
           fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
@@ -136,14 +136,14 @@ class SweepRun {
       renderer::check_writable(folder / file);
   }
 
-  /// Finds what is done in all scenes, so that results are whole from the first to the last. Answers false
-  /// where a signal ended it.
+  /// Finds what is done in all scenes, so that results are always complete. Returns false where a signal
+  /// ended it.
   bool survey() {
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
       tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
     }
     plan_tasks(0);
-    // The first comes last, and stays open.
+    // The first scene comes last and stays open.
     for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
       open_scene(i);
       if (stop_signal() != 0) return false;
@@ -151,8 +151,8 @@ class SweepRun {
     return true;
   }
 
-  /// Becomes open_, unless it cannot be read (its cells have failed then, and the others go on) or a signal
-  /// ended it.
+  /// Opens a scene as open_. open_ stays empty where a signal ended it, or where the scene cannot be read:
+  /// then its cells fail and the other scenes continue.
   void open_scene(std::size_t index) {
     const PlannedScene& planned = plan_.scenes[index];
     open_.reset();
@@ -162,7 +162,7 @@ class SweepRun {
     } catch (const renderer::OutputError&) {
       throw;
     } catch (...) {
-      // A bad word alone on the line is an error like any other.
+      // With a single scene this is an ordinary error.
       if (plan_.scenes.size() == 1) throw;
       fail_scene(index, describe_current_exception().message);
       return;
@@ -173,7 +173,7 @@ class SweepRun {
     open_index_ = index;
   }
 
-  /// Of this scene and those after it.
+  /// Plans the tasks of this scene and the following ones.
   void plan_tasks(std::size_t scene) {
     std::vector<SweepTask> rest;
     for (std::size_t i = scene; i < tasks_.size(); ++i) {
@@ -200,7 +200,7 @@ class SweepRun {
 
   /// Answers false where a signal ended it.
   bool run_scene(std::size_t index) {
-    // A file may have changed since it was looked at: it is opened as if it were new.
+    // The file may have changed since the survey, so it is opened again.
     if (!open_ || open_index_ != index) open_scene(index);
     if (!open_) return stop_signal() == 0;
     plan_tasks(index);
@@ -222,7 +222,7 @@ class SweepRun {
     for (const PlannedSeries& series : planned.series) {
       for (const std::uint32_t seed : plan_.seeds) {
         for (const int point : series.points) {
-          // No scene, no fingerprint: a name that no cell of a scene has.
+          // Without a scene there is no fingerprint; no other cell has such a name.
           const std::string id =
               fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
           scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
@@ -250,7 +250,7 @@ class SweepRun {
   std::vector<std::string> command_;
   SweepProgress progress_;
   std::vector<SceneResults> scenes_;
-  std::vector<std::vector<SweepTask>> tasks_;  ///< of each scene, what is missing
+  std::vector<std::vector<SweepTask>> tasks_;  ///< missing tasks of each scene
   std::unique_ptr<SceneSweep> open_;           ///< one scene at a time is in memory
   std::size_t open_index_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// One call of `gatelight sweep`, from the plan to the files.
+// A call of `gatelight sweep`, from the plan to the files.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace gatelight::apps {
 
-/// All that `gatelight sweep` can be told.
+/// All settings of `gatelight sweep`.
 struct SweepSettings {
   SweepRequest request;
   std::string folder;
@@ -26,7 +26,7 @@ struct SweepSettings {
   bool verbose = false;
 };
 
-/// Answers the exit code, or throws what errors.h understands. command: the program's arguments.
+/// Returns the exit code, or throws what errors.h handles. command: the program's arguments.
 int run_sweep(const SweepSettings& settings, const std::vector<std::string>& command);
 
 }  // namespace gatelight::apps

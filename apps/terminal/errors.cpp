@@ -64,7 +64,7 @@ Failure describe_current_exception() {
     if (std::string_view(error.what()).starts_with(kThreadFailed)) {
       return {kMemory, error.what(), "use fewer --threads, or a machine with more memory"};
     }
-    // What libraries throw for files: scene::SceneError, renderer::ImageError and the environment's.
+    // Libraries throw these for files: scene::SceneError, renderer::ImageError and the environment's errors.
     return {kInput, error.what(), "check the input file"};
   } catch (const std::exception& error) {
     return {kUsage, fmt::format("internal error: {}", error.what()), "please report it"};

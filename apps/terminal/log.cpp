@@ -21,7 +21,7 @@ void set_log_level(bool quiet, bool verbose) {
   logger().set_level(quiet ? spdlog::level::err : verbose ? spdlog::level::info : spdlog::level::warn);
 }
 
-// The text is an argument, never a format: file names may hold braces.
+// The text is never a format string: file names may hold braces.
 void log_warning(const std::string& text) {
   logger().warn("{}", text);
 }

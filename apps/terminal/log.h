@@ -1,12 +1,11 @@
 #pragma once
-// What the program says beside its results: to stderr. The library behind it is heavy to include and stays in
-// log.cpp.
+// Messages on stderr. Only log.cpp includes spdlog, which is slow to compile.
 
 #include <string>
 
 namespace gatelight::apps {
 
-/// Errors alone where quiet, details too where verbose, else errors and warnings.
+/// quiet: errors only. verbose: details too. Otherwise errors and warnings.
 void set_log_level(bool quiet, bool verbose);
 void log_warning(const std::string& text);
 /// Only with --verbose.

@@ -15,7 +15,7 @@
 namespace gatelight::apps {
 namespace {
 
-/// JSON lines end up in log files: one a second is enough. A bar may move faster.
+/// JSON lines end up in log files, so one per second is enough. A bar moves faster.
 constexpr double kJsonInterval = 1.0;
 constexpr double kBarInterval = 0.1;
 
@@ -23,7 +23,7 @@ constexpr renderer::Choice<renderer::Phase> kPhases[] = {{"scout", renderer::Pha
                                                          {"train", renderer::Phase::train},
                                                          {"render", renderer::Phase::render}};
 
-/// What the bar tells of a phase beside its fraction.
+/// What the bar shows of a phase beside its fraction.
 std::string measures(const renderer::Progress& progress, double samples_per_second) {
   if (progress.phase == renderer::Phase::train) {
     return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);

@@ -1,5 +1,5 @@
 #pragma once
-// How far it is, on stderr.
+// Progress on stderr.
 
 #include <chrono>
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace gatelight::apps {
 enum class ProgressMode : std::uint8_t {
   automatic,  ///< a bar where stderr is a terminal, nothing elsewhere
   bar,
-  json,  ///< one JSON object a line
+  json,  ///< one JSON object per line
   none,
 };
 
-/// A line on stderr that is drawn over itself, or JSON lines.
+/// A status line on stderr that is redrawn in place, or JSON lines.
 class ProgressLine {
  public:
   explicit ProgressLine(ProgressMode mode);
@@ -51,10 +51,10 @@ class ProgressReporter : public ProgressLine {
   /// pixels: of the region that is rendered. time_limit_seconds: of rendering; 0: none.
   ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds);
 
-  /// A part of the work that has no measure: "load", "build", "write".
+  /// Begins a phase without measurable progress: "load", "build", "write".
   void phase(const std::string& name);
   void update(const renderer::Progress& progress);
-  /// The files are written. Says so as JSON; answers false where words are expected instead.
+  /// Reports that the files are written, as JSON. Returns false in other modes, where the caller prints text.
   bool done(const std::vector<std::string>& outputs, double seconds);
 
  private:
@@ -62,7 +62,7 @@ class ProgressReporter : public ProgressLine {
     double samples_per_second = 0.0;
     double eta_seconds = -1.0;  ///< of the phase; negative: unknown
   };
-  /// Whether it is the first of its phase.
+  /// Whether the update is the first of its phase.
   bool enter_phase(const renderer::Progress& progress);
   Rates rates(const renderer::Progress& progress) const;
   void show_json(const renderer::Progress& progress, const Rates& rates);
@@ -71,7 +71,7 @@ class ProgressReporter : public ProgressLine {
   double pixels_;
   double time_limit_seconds_;
   std::optional<renderer::Phase> phase_;
-  renderer::Progress first_;  ///< update of the phase; a picture that is gone on with does not begin at zero
+  renderer::Progress first_;  ///< update of the phase; a resumed picture does not begin at zero
 };
 
 }  // namespace gatelight::apps

@@ -52,7 +52,7 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
 }
 
 CacheSetup read_cache_setup(SafetensorsReader& file) {
-  // As many as the file holds: an untrusted length takes no more memory than the file does.
+  // The length is untrusted, but the file has as many elements, so it takes no more memory than the file.
   std::vector<std::uint32_t> sides(file.length(kSides, TensorType::u32));
   read_array(file, kSides, TensorType::u32, sides);
   CacheSetup setup;
@@ -68,7 +68,8 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
   read_positive(file, kScales, scales);
   std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
       std::tuple_cat(scales);
-  // As scouts leave them: a step traces paths for its records, and a file is not to ask for any number.
+  // Scouting keeps this bound. A step traces paths for its records, and a file must not demand any number of
+  // them.
   for (const float records : {setup.records_per_path, setup.records_per_short_path}) {
     if (records < kLeastRecordsPerPath)
       file.fail(fmt::format("tensor '{}': {} records of a path, expected at least 1/64", kScales, records));

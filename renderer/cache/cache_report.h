@@ -1,5 +1,5 @@
 #pragma once
-// What the cache of a scene would be: found by scouting, nothing is trained.
+// Describes the cache that a scene would get. It scouts, but trains nothing.
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Passes of the integrators with a cache: many tiles are traced up to where they ask, asked together, and
+// Passes of the integrators with a cache. Many tiles are traced up to their queries, answered together, and
 // finished.
 
 #include "renderer/cache/cache_session.h"
@@ -12,14 +12,14 @@ namespace gatelight::renderer {
 struct CachedWorker {
   CachedPaths::Scratch scratch;
   AoIntegrator::Scratch occlusion;
-  PathBatch check;  ///< of the error variable
+  PathBatch check;  ///< for the layer cache-error
   RayCounts rays;
   SampleCounts counts;
 };
 
 class CachedPass : public WorkerPass<CachedWorker> {
  public:
-  /// options.integrator is nao or nrc. The session outlives it and is asked by nobody else meanwhile.
+  /// options.integrator is nao or nrc. The session must outlive the pass, which uses it exclusively.
   CachedPass(const World& world, const PassContext& context, CacheSession& session);
 
   void run(std::uint32_t first, std::uint32_t end, Film& film,

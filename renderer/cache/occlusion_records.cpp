@@ -36,7 +36,7 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
       const Surface surface = world_.surfaces.at(hit, direction, 0.0f, 0.5f);
       const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
       if (!stored_(neural::surface_index(hit.instance, side))) continue;
-      // The paths of one point stand in a row: the first makes the record.
+      // The rays of one point are consecutive: the first makes the record.
       if (i % times == 0) {
         records.push_back(hit, side, -direction, surface, surface.material.base_color);
         targets.push_back(0.0f);

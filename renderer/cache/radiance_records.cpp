@@ -5,7 +5,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Scattering events that Russian roulette lets nobody reach: 0.95 to this power is 1e-22.
+/// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
 
 }  // namespace
@@ -21,9 +21,9 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
   request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
   double per_point =
       static_cast<double>(request.self_training ? setup.records_per_short_path : setup.records_per_path);
-  // The first records of a point's paths are one.
+  // The first records of a point's paths are merged into one.
   per_point += (options_.cache.samples_per_point - 1) * (per_point - std::min(per_point, 1.0));
-  // A few points more than enough: the number of records varies, and what is too much is left out.
+  // A few points more than needed: the number of records varies, and excess records are left out.
   request.points = points_for(1.03 * static_cast<double>(records), per_point);
   return request;
 }
@@ -33,8 +33,8 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   PathPlan plan;
   plan.records = true;
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
-  // A vertex near the end of a path of limited length would teach less light than the first one, at the same
-  // nodes: such paths teach at their first vertex alone.
+  // In a path of limited length later vertices have less light than the first, at the same nodes. So only the
+  // first vertex becomes a record.
   plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
   plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;

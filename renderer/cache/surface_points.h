@@ -1,5 +1,5 @@
 #pragma once
-// Points on surfaces as the cache takes them: growing arrays, of which a QueryBatch is a view.
+// Points on surfaces in the form of the cache: growing arrays, with a QueryBatch as their view.
 
 #include <cstddef>
 #include <vector>
@@ -24,7 +24,7 @@ struct PointInputs {
   bool operator==(const PointInputs&) const = default;
 };
 
-/// Which side of its triangle a viewer sees: neural::surface_index's side.
+/// The side of a triangle that a viewer sees, as neural::surface_index takes it.
 constexpr std::uint32_t side_of(bool front, bool mirrors) {
   return front != mirrors ? 0u : 1u;
 }
@@ -39,7 +39,7 @@ class SurfacePoints {
   void clear() { resize(0); }
   void resize(std::size_t size);
 
-  /// wo: unit, away from the surface, in the world. side: 0 or 1.
+  /// wo: unit, away from the surface, in world space. side: 0 or 1.
   void push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
                  const Color& albedo);
 
@@ -51,7 +51,7 @@ class SurfacePoints {
   std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
   const neural::Float2& barycentrics(std::size_t i) const { return barycentrics_[i]; }
 
-  /// Whether point i is point j of the other, but for rounding.
+  /// Whether point i equals point j of `other`, up to rounding.
   bool same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const;
 
   /// Valid until the next change. The second: `count` points from `begin` on.
@@ -59,8 +59,8 @@ class SurfacePoints {
   neural::QueryBatch batch(std::size_t begin, std::size_t count) const;
 
  private:
-  /// visit(our array, the view of it) for each array that is stored. Surfaces and triangles are stored for
-  /// every encoding: counts and reports read them.
+  /// Calls visit(array member, view member) for each stored array. Surfaces, triangles and barycentrics are
+  /// stored for every encoding: counts and reports read them.
   template <class Visit>
   static void each_array(const PointInputs& inputs, Visit visit);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Small facts of a run as texts, in the metadata of a file and beside those of another run.
+// Facts of a run as named texts: stored in the metadata of files, and compared with those of another run.
 
 #include <string>
 #include <vector>
@@ -15,11 +15,11 @@ struct NamedText {
 };
 using NamedTexts = std::vector<NamedText>;
 
-/// Under "PREFIX.NAME".
+/// Stores the texts under "PREFIX.NAME".
 void add_texts(neural::Metadata& metadata, const std::string& prefix, const NamedTexts& texts);
 
-/// "seed: file 1, expected 2; filter: file nothing, expected box": where the metadata under the prefix
-/// differs. Empty where it does not.
+/// The differences between the metadata under the prefix and `expected`: "seed: file 1, expected 2; filter:
+/// file nothing, expected box". Empty: there are none.
 std::string list_differences(const neural::Metadata& metadata, const std::string& prefix,
                              const NamedTexts& expected);
 

@@ -31,7 +31,7 @@ void add_numbers(DigestRecord& record, const Eigen::DenseBase<Dense>& values) {
   }
 }
 
-/// An array with its length: two arrays of a mesh never pass for one.
+/// An array with its length: two arrays of a mesh are never mistaken for one.
 template <class Values>
 void add_array(DigestRecord& record, const Values& values) {
   record.add(std::uint64_t{values.size()});
@@ -72,7 +72,7 @@ void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
 }
 
 void add_material(DigestRecord& record, const scene::Material& material) {
-  // Every member by name: with one more in the struct this does not compile.
+  // Names every member: a new one in the struct stops this from compiling.
   const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
                metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
                alpha_mode, alpha_cutoff, double_sided, unlit, ior, specular, specular_texture, specular_color,

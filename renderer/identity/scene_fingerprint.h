@@ -1,6 +1,6 @@
 #pragma once
-// Whether a scene is the one that a file was made with: digests of all that decides its light. Names,
-// cameras and warnings do not.
+// Digests of all that decides the light of a scene, to check whether a file belongs to it. Names, cameras and
+// warnings do not count.
 
 #include "renderer/identity/named_texts.h"
 #include "renderer/settings/environment_options.h"
@@ -16,8 +16,8 @@ namespace gatelight::renderer {
 ///     environment  content of its file, or its constant
 using SceneFingerprint = NamedTexts;
 
-/// Parallel (oneTBB), the same for any number of threads. Throws std::runtime_error naming the environment's
-/// file where it cannot be read.
+/// Parallel (oneTBB), with the same result for any number of threads. Throws std::runtime_error, naming the
+/// environment's file, where it cannot be read.
 SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment);
 
 }  // namespace gatelight::renderer

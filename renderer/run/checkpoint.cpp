@@ -34,7 +34,7 @@ constexpr const char* kHasCache = "cache";
 constexpr const char* kNonFinite = "nonfinite_samples";
 constexpr const char* kGuard = "training_guard";
 
-/// What adds up over the runs that make a picture: the same member of each of the statistics.
+/// Visits what adds up over the runs of a picture: the same member of each of the statistics.
 template <class Visit, class... Statistics>
 void each_sum(Visit&& visit, Statistics&... s) {
   visit("render-seconds", s.render_seconds...);
@@ -62,7 +62,7 @@ void each_sum(Visit&& visit, Statistics&... s) {
   visit("cache-unstored-hits", s.cache.unstored_hits...);
 }
 
-/// What the last run that trained has to say.
+/// Visits what only the last run that trained determines.
 template <class Visit, class... Statistics>
 void each_last(Visit&& visit, Statistics&... s) {
   visit("cache-touched-nodes", s.cache.touched_nodes...);
@@ -127,7 +127,7 @@ TrainingGuard read_guard(SafetensorsReader& file, std::uint64_t steps) {
   return {values[0], values[1], count(2), values[3], count(4), values[5], count(6)};
 }
 
-/// In files a sample is four words.
+/// A sample is four words in the file.
 constexpr std::size_t kSampleWords = sizeof(NonFiniteSample) / sizeof(std::uint32_t);
 
 std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
@@ -231,7 +231,7 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
     each_array(sums, [&](const char* name, TensorType type, auto& values) {
       read_array(file_, name, type, values);
     });
-    // What is not finite never gets there: a picture that went on from it would show it.
+    // A film never holds a value that is not finite; the resumed picture would show it.
     const auto bad =
         std::find_if(sums.radiance.begin(), sums.radiance.end(), [](double x) { return !std::isfinite(x); });
     if (bad != sums.radiance.end())

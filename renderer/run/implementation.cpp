@@ -54,10 +54,10 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       camera(view, options.width, options.height),
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
-  const neural::FlushDenormals flush;  // the arena's threads too, as it is made here
+  const neural::FlushDenormals flush;  // also on the arena's threads, as the arena is made here
   require_threads(threads);
   const Clock::time_point start = Clock::now();
-  // What was loaded has learned enough, unless the caller says otherwise.
+  // A loaded cache needs no more steps, unless the caller asks for some.
   if (!options.cache.train_steps && options.cache.cache_in.empty()) {
     steps_chosen = true;
     options.cache.train_steps = choose_training_steps(

@@ -66,12 +66,12 @@ class Renderer::Implementation::PictureRun {
         keep(Phase::train, sum_up(), true);
       });
     } catch (const TrainingDiverged& error) {
-      // A picture and a cache file of the last good state are worth more than none. The checkpoint stays.
+      // The last good state still gives a picture and a cache file. The checkpoint is kept.
       if (!renderer_.return_to_good(training_, found(), earlier_, callbacks_)) throw;
       training_.diverged = error.what();
       identity_.reset();
     }
-    // Training that a time limit ended is not to be repeated: where it ended is part of the picture.
+    // Training that a time limit ended is not repeated: its end decides the picture.
     keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
   }
 
@@ -92,8 +92,8 @@ class Renderer::Implementation::PictureRun {
       try {
         loop.run_pass(options_.spp);
       } catch (const neural::DeviceLost& error) {
-        // Every pixel is the mean of its own samples: the part of a pass that was made is a picture, but none
-        // that a checkpoint could go on from. The last one stays.
+        // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
+        // not resume from it; the last checkpoint is kept.
         if (loop.done() == 0) throw;
         device_lost_ = error.what();
         return;
@@ -118,9 +118,9 @@ class Renderer::Implementation::PictureRun {
   }
 
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
-  /// A picture with half a cache is for looking at, and no part of the whole one.
+  /// A picture from an incomplete cache is a preview; it is never resumed.
   bool whole() const { return !training_.session || training_.complete; }
-  /// Before the first pass.
+  /// Statistics before the first pass.
   RenderStatistics sum_up() const { return renderer_.sum_up(0, 0.0, nullptr, training_, earlier_); }
   RenderStatistics sum_up(const SampleLoop& loop, const Pass& pass) const {
     return renderer_.sum_up(loop.done(), loop.seconds(), &pass, training_, earlier_);
@@ -142,10 +142,10 @@ class Renderer::Implementation::PictureRun {
       }
       write_checkpoint(options_.checkpoint.file, *identity_, progress, sum, film_, cache);
     });
-    last_checkpoint_ = Clock::now();  // of one that failed, too: the next is not tried at once
+    last_checkpoint_ = Clock::now();  // after a failure too, so that the next try is not immediate
   }
 
-  /// A full disk, or too little memory for a copy of the state, is to cost a file but not the picture.
+  /// A full disk, or too little memory for a copy of the state, costs the file but not the picture.
   void try_writing(bool again, const std::function<void()>& write) const {
     if (!callbacks_.output_failed) return write();
     try {
@@ -162,7 +162,7 @@ class Renderer::Implementation::PictureRun {
   const Callbacks& callbacks_;
   Film film_;
   SceneFingerprint fingerprint_;
-  std::optional<CheckpointIdentity> identity_;  ///< of the checkpoints; none: none are written
+  std::optional<CheckpointIdentity> identity_;  ///< empty: no checkpoints are written
   Clock::time_point last_checkpoint_ = Clock::now();
   std::optional<Checkpoint> found_;
   RenderStatistics earlier_;  ///< of the checkpoint

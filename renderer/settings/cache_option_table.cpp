@@ -8,7 +8,8 @@
 #include "renderer/machine/errors.h"
 #include "renderer/settings/option_table.h"
 
-// Structures are taken apart as in option_table.cpp: what has no flag is there for checkpoints.
+// Structured bindings name every member, as in option_table.cpp. Members without a flag are here for
+// checkpoints.
 
 namespace gatelight::renderer {
 namespace {
@@ -42,7 +43,7 @@ constexpr Need kSelfTraining{[](const RenderOptions& o) { return o.cache.self_tr
                              "--self-training STEP"};
 constexpr Need kSpread{[](const RenderOptions& o) { return o.cache.query_at == QueryAt::spread; },
                        "--query-at spread"};
-/// The bare answer is that of the first vertex, or what should have been it.
+/// The view of the cache is at the first vertex, or its reference.
 constexpr Need kFinalView{[](const RenderOptions& o) {
                             return o.cache.view == CacheView::final || o.cache.query_at == QueryAt::primary ||
                                    o.cache.query_at == QueryAt::none;
@@ -143,7 +144,7 @@ void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options)
             {kNrc, kSelfTraining});
 }
 
-/// Two flags of it stand in another group.
+/// Two of its flags are in another group.
 void add_training_options(OptionGroup& group, neural::TrainingOptions& options) {
   auto& [loss, adam, update, feature_step, precision, average, start_at_mean, max_target, count_triangles,
          seed] = options;

@@ -6,8 +6,8 @@
 #include <array>
 #include <limits>
 
-// Structures are taken apart member by member: with one more in the struct this does not compile, and whoever
-// adds it describes it here.
+// Structured bindings name every member of the structs: a new member does not compile until it is described
+// here.
 
 namespace gatelight::renderer {
 namespace {
@@ -112,14 +112,14 @@ OptionValue environment_value(const EnvironmentOptions& environment) {
   return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
 }
 
-/// Checkpoints know them as the chosen camera and the scene's fingerprint.
+/// Checkpoints store the chosen camera and the scene's fingerprint instead.
 void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment) {
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
   auto& [name, look_at, fov_degrees] = camera;  // flags of the application set look_at
   add(any_word("camera", name, "NAME|INDEX", "Camera of the file, by name or index (default: the first)"))
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
-  // Beyond these, tangents leave single precision.
+  // Beyond these bounds tangents leave the range of single precision.
   add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
                 "Vertical field of view; overrides the camera's"));
   auto& [file, constant, rotation_degrees, scale] = environment;  // one flag sets file and constant
@@ -133,7 +133,7 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
 }
 
-/// What instruction sets were chosen is known to checkpoints from elsewhere.
+/// Checkpoints store the chosen instruction sets separately.
 void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};

@@ -35,7 +35,7 @@ bool inside(double value, const RealRange& range) {
 
 constexpr double kLeastFloat = std::numeric_limits<float>::min();
 
-/// Smaller ones are flushed to zero wherever they are used.
+/// Smaller values are flushed to zero wherever they are used.
 bool vanishes(double value) {
   return value != 0.0 && std::abs(value) < kLeastFloat;
 }
@@ -68,7 +68,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-/// So many numbers with separators between them, or nothing.
+/// `size` numbers with separators between them, or nothing.
 template <typename Number, std::size_t size>
 std::optional<std::array<Number, size>> read_numbers(std::string_view text, char separator) {
   const std::vector<std::string_view> parts = split(text, separator);

@@ -1,5 +1,5 @@
 #pragma once
-// Passes of the integrators without a cache: tile by tile, each tile one batch a sample.
+// Passes of the integrators without a cache. Each sample of a tile is one batch.
 
 #include "renderer/transport/ao_integrator.h"
 #include "renderer/transport/pass.h"
