@@ -8,7 +8,7 @@
 #include "neural/file/safetensors.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/film/film.h"
-#include "renderer/identity/named_texts.h"
+#include "renderer/identity/scene_fingerprint.h"
 #include "renderer/render.h"
 
 namespace gatelight::renderer {
