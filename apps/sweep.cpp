@@ -52,13 +52,7 @@ Examples:
 constexpr renderer::IntegerRange kReferenceSpp{2, 1 << 24};
 constexpr renderer::RealRange kErrors{0.0, 1.0};
 
-using renderer::any_word;
-using renderer::any_words;
-using renderer::choice;
-using renderer::number_or;
-using renderer::Option;
-using renderer::OptionGroup;
-using renderer::toggle;
+using namespace renderer;
 
 struct SweepCall {
   SweepWords words;

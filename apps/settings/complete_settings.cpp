@@ -76,13 +76,15 @@ void check_file_names(const RenderSettings& settings) {
   names.write("--checkpoint", settings.render.checkpoint.file);
 }
 
+std::string no_cache(const RenderOptions& o) {
+  return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
+                     word(o.integrator));
+}
+
 /// Why an option has no effect here; empty where it has one.
 std::string why_without_effect(const Option& option, const RenderOptions& options) {
   if (!option.of_cache) return "";
-  if (!uses_cache(options.integrator)) {
-    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                       word(options.integrator));
-  }
+  if (!uses_cache(options.integrator)) return no_cache(options);
   for (const Need& need : option.needs) {
     if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
   }
@@ -116,10 +118,7 @@ void adapt_cache(RenderSettings& settings) {
 /// Why a layer would be black, and what it needs; empty where it would not.
 std::string why_black(Aov aov, const RenderOptions& o) {
   if (aov < Aov::cache_answer) return "";
-  if (!uses_cache(o.integrator)) {
-    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                       word(o.integrator));
-  }
+  if (!uses_cache(o.integrator)) return no_cache(o);
   if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
     return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
   }

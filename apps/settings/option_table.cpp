@@ -8,20 +8,7 @@
 namespace gatelight::apps {
 namespace {
 
-using renderer::any_word;
-using renderer::any_words;
-using renderer::CachePreset;
-using renderer::choice;
-using renderer::Choice;
-using renderer::InRecipe;
-using renderer::kWords;
-using renderer::LookAt;
-using renderer::number;
-using renderer::Option;
-using renderer::OptionGroup;
-using renderer::OptionValue;
-using renderer::toggle;
-using renderer::word;
+using namespace renderer;
 
 /// Beyond this 2^EV leaves the range of float.
 constexpr renderer::RealRange kStops{-100.0, 100.0};
