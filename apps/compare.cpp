@@ -37,7 +37,7 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
 Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
-(mse, rel_mse, psnr, mean, max); then they are counted and told. PNG files are made linear first.
+(mse, rel_mse, psnr, mean, max); then they are counted and reported. PNG files are converted to linear first.
 
 With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
 and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean

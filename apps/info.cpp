@@ -29,8 +29,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kInfoFooter =
-    R"(With --integrator nao or nrc it also tells what the cache of the scene would be for the view that these flags describe:
-memory, feature vectors, resolutions and sides of the instances, and what the network reads. Nothing is trained.
+    R"(With --integrator nao or nrc it also describes the cache that the scene would get for the view of these flags: memory,
+feature vectors, resolutions and sides of the instances, and inputs of the network. Nothing is trained.
 
 Examples:
   gatelight info
@@ -139,8 +139,7 @@ int run_info(InfoSettings settings) {
 }  // namespace
 
 Subcommand add_info_command(CLI::App& root) {
-  CLI::App* app =
-      add_subcommand(root, "info", "Tell what a scene holds and needs, or what this program is", kInfoFooter);
+  CLI::App* app = add_subcommand(root, "info", "Describe a scene, or this program", kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;

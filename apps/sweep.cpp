@@ -16,28 +16,29 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kSweepFooter =
-    R"(Every combination of the lists is a line in the plots, every step count on it a cell: one picture, compared with a
-reference. One training gives the pictures of all its step counts. Beside each integrator with a cache the one without
-is measured (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture may stand here and
-holds for all cells (--size, --camera, --batch ...; see its --help). A flag that means nothing in a cell, such as
+    R"(Every combination of the lists is a line in the plots, and each of its step counts is a cell: one picture, compared
+with a reference. One training gives the pictures of all its step counts. For each integrator with a cache the one
+without is measured too (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture can be
+given and holds for all cells (--size, --camera, --batch ...; see its --help). A flag without effect in a cell, such as
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
-file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (what same-as-gate has
-found), and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells
-that are done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and
-its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end
-the rest; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end it after writing the results so far (130, 143 or 129).
+file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
+same-as-gate), and cells/, a file for each cell that is done or has failed. The same command continues where it was
+stopped: it makes missing and failed cells, but none that is done. Cells are identified by the scene's content, all
+options, the processor and its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails
+is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end the sweep after writing
+the results so far (130, 143 or 129).
 
-Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row
-is named after):
+Presets of the paper (3 seeds, 1920x1080 unless --size is given; flags override them, except those that a row is named
+after):
   paper-table1    GATE and the hash grid at the same memory, 128 steps
   paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
   paper-steps     the same as table 1 from 8 to 128 steps
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
-  paper-extra     storage, counters, candidates, precision, stacks, clusters, where the cache is asked, what it holds
+  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
 Those of 'gatelight render' (preview, final, paper-nao, paper-nrc) stand for their flags.
 
 Examples:
@@ -93,7 +94,7 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
   references.add(
       {.name = "reference-spp",
        .unit = "N",
-       .help = "Samples per pixel of rendered references: two halves, whose difference tells their noise",
+       .help = "Samples per pixel of rendered references: two halves, whose difference gives their noise",
        .read =
            [&s](const std::string& text) {
              const std::int64_t spp = renderer::parse_integer("--reference-spp", text, kReferenceSpp);
@@ -101,15 +102,15 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
            },
        .default_text = "1024"});
   references.add(any_word("reference-dir", s.reference_folder, "DIR",
-                          "Where they are kept (default: references in DIR)"));
+                          "Folder of rendered references (default: references in DIR)"));
   references.add(choice("hdr-flip", s.hdr_flip, renderer::kOnOff, "Measure HDR-FLIP of radiance, too"));
 }
 
 void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup advice{table, "Advice"};
-  advice.add(toggle(
-      "advise", s.advise,
-      "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR"));
+  advice.add(toggle("advise", s.advise,
+                    "Name the fastest configuration within the limits, on stdout. Without SCENE it uses the "
+                    "results in DIR"));
   advice.add(number_or("", "max-error", s.limits.max_error, kErrors, "FLIP",
                        "Largest mean FLIP of a picture, with every seed"));
   advice.add(number_or("", "max-time", s.limits.max_seconds, renderer::kPositive, "SECONDS",
@@ -118,14 +119,14 @@ void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
 
 void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup output{table, "Output"};
-  Option& folder =
-      output.add(any_word("output", s.folder, "DIR", "Folder of the results; is made where it is not there"));
+  Option& folder = output.add(
+      any_word("output", s.folder, "DIR", "Folder of the results; it is made if it does not exist"));
   folder.letter = "-o";
   folder.required = true;
   output.add(toggle("dry-run", s.dry_run, "Print the plan and stop"));
   output.add(progress_option(s.progress));
-  output.add(toggle("quiet", s.quiet, "Say nothing but errors"));
-  output.add(toggle("verbose", s.verbose, "Say more: all options of each run"));
+  output.add(toggle("quiet", s.quiet, "Print errors only"));
+  output.add(toggle("verbose", s.verbose, "Print more: all options of each run"));
 }
 
 /// Flags of render; they are not in the help.

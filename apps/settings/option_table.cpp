@@ -42,8 +42,8 @@ void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& prog
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
   add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"));
   add(progress_option(progress));
-  add(toggle("quiet", quiet, "Say nothing but errors"));
-  add(toggle("verbose", verbose, "Say more: what was loaded, the memory needed, all options"));
+  add(toggle("quiet", quiet, "Print errors only"));
+  add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
 }
 
 /// A part of the view of --eye. Recipes have the complete view.
@@ -121,9 +121,9 @@ std::vector<Option> option_table(RenderSettings& settings) {
     if (name == "environment-scale") add_load_options(view, load);
     if (name != "camera") continue;
     const auto& camera = render.camera;
-    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Look from here, in metres (with --target)"));
-    view.add(by_hand("target", target, camera, &LookAt::target, "Look at this point, in metres"));
-    view.add(by_hand("up", up, camera, &LookAt::up, "What is up in a view by hand")).default_text = "0,1,0";
+    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
+    view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
+    view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
   }
   return table;
 }

@@ -48,10 +48,12 @@ void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& check
     files.add(decides_nothing(option, InRecipe::unless_reproducible));
   };
   add(any_word("checkpoint", file, "FILE",
-               "Keep all that is needed to go on after the program was ended in this file"));
-  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS", "Time between two writes of it"));
-  add(toggle("resume", resume,
-             "Go on with the checkpoint where it is there: the same picture as without the break"));
+               "Write a file from which --resume continues after the program has ended"));
+  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
+             "Time between two writes of the checkpoint"));
+  add(toggle(
+      "resume", resume,
+      "Continue from the checkpoint if it exists; the picture is the same as without the interruption"));
 }
 
 Option size_option(int& width, int& height) {
@@ -138,14 +140,14 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};
   machine.add(decides_nothing(
-      number("threads", threads, {0, 1024}, "N", "0: all that the machine and the control group allow"),
+      number("threads", threads, {0, 1024}, "N", "0: as many as the machine and the control group allow"),
       InRecipe::unless_reproducible));
   const auto read_limit = [&](const std::string& text) {
     memory_limit_bytes = static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
   };
   machine.add(decides_nothing({.name = "memory-limit",
                                .unit = "MIB",
-                               .help = "Refuse to need more memory than this, in MiB; 0: no limit",
+                               .help = "Largest memory, in MiB; more is refused; 0: no limit",
                                .value = [&] { return value_of(memory_limit_bytes >> 20); },
                                .read = read_limit},
                               InRecipe::unless_reproducible));
@@ -181,8 +183,8 @@ std::vector<Option> option_table(RenderOptions& options) {
 
   OptionGroup light{table, "Light transport"};
   light.add(choice("integrator", integrator,
-                   "What a pixel is: radiance (path) or ambient occlusion (ao) by sampling alone, or what a "
-                   "cache learned of them answers (nrc, nao)"));
+                   "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache "
+                   "that is trained first (nrc, nao)"));
   light.add(number("max-depth", max_depth, kDepth, "N",
                    "Largest number of scattering events; 1: emission and direct light"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
