@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/sweep/advise.h"
 #include "apps/sweep/plan.h"
+#include "apps/terminal/progress.h"
 
 namespace gatelight::apps {
 
@@ -51,5 +53,21 @@ struct SweepWords {
 
 /// Throws UsageError. Values of axes are checked by make_plan().
 SweepRequest make_request(const SweepWords& words);
+
+/// All settings of `gatelight sweep`.
+struct SweepSettings {
+  SweepRequest request;
+  std::string folder;
+  std::string reference_file;    ///< empty: references are rendered
+  int reference_spp = 1024;      ///< of both halves together
+  std::string reference_folder;  ///< empty: references/ in `folder`
+  bool hdr_flip = true;
+  bool dry_run = false;
+  bool advise = false;
+  AdviceLimits limits;
+  ProgressMode progress = ProgressMode::automatic;
+  bool quiet = false;
+  bool verbose = false;
+};
 
 }  // namespace gatelight::apps

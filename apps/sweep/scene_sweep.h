@@ -10,9 +10,9 @@
 
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/references.h"
+#include "apps/sweep/request.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/sweep_progress.h"
-#include "apps/sweep/sweep_run.h"
 
 namespace gatelight::apps {
 

@@ -165,7 +165,7 @@ TEST(Checkpoint, WhatDiffersIsRefusedByName) {
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
                  {"/a", "seed", "1", "other"});
   other = identity();
-  other.scene.materials = "other";
+  other.scene[2].text = "other";
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials"});
   other.scene[3].text = "other";
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
