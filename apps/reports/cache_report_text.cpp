@@ -45,6 +45,11 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
       [](const CacheInstanceReport* a, const CacheInstanceReport* b) { return a->nodes > b->nodes; });
   std::string text =
       fmt::format("\n{:>12} {:>12} {:>6} {:>10}  instance\n", "nodes", "triangles", "sides", "R");
+  const auto add_line = [&](const CacheInstanceReport& line, const std::string& name) {
+    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(line.nodes),
+                        format_integer(line.triangles), line.sides,
+                        fmt::format("{}", fmt::join(line.resolutions, ",")), name);
+  };
   CacheInstanceReport rest, total;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const CacheInstanceReport& instance = *sorted[i];
@@ -55,17 +60,11 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
       sum->sides += instance.sides;
     }
     if (i >= kInstancesShown) continue;
-    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(instance.nodes),
-                        format_integer(instance.triangles), instance.sides,
-                        fmt::format("{}", fmt::join(instance.resolutions, ",")), instance.name);
+    add_line(instance, instance.name);
   }
-  const auto add_sum = [&](const CacheInstanceReport& sum, const std::string& name) {
-    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(sum.nodes),
-                        format_integer(sum.triangles), sum.sides, "", name);
-  };
   if (sorted.size() > kInstancesShown)
-    add_sum(rest, fmt::format("{} others", sorted.size() - kInstancesShown));
-  add_sum(total, fmt::format("all {}", sorted.size()));
+    add_line(rest, fmt::format("{} others", sorted.size() - kInstancesShown));
+  add_line(total, fmt::format("all {}", sorted.size()));
   return text;
 }
 

@@ -49,6 +49,11 @@ bool contains(const char* const (&list)[N], const std::string& word) {
   return std::find(std::begin(list), std::end(list), word) != std::end(list);
 }
 
+bool is_base_flag(const std::string& flag) {
+  const std::vector<std::string>& names = base_flag_names();
+  return std::find(names.begin(), names.end(), flag) != names.end();
+}
+
 void check_vary(const std::string& flag) {
   for (const Instead& other : kInstead) {
     if (flag == other.flag)
@@ -58,10 +63,9 @@ void check_vary(const std::string& flag) {
     throw UsageError(
         fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
   }
-  const std::vector<std::string>& names = base_flag_names();
   const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                 [&](const AxisFlag& f) { return flag == f.varies; });
-  if (!axis && flag != "--preset" && std::find(names.begin(), names.end(), flag) == names.end()) {
+  if (!axis && flag != "--preset" && !is_base_flag(flag)) {
     throw UsageError(fmt::format(
         "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help", flag));
   }
@@ -115,8 +119,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
-  const std::vector<std::string>& known = base_flag_names();
-  if (flag == "--seed" || std::find(known.begin(), known.end(), flag) == known.end()) {
+  if (flag == "--seed" || !is_base_flag(flag)) {
     throw UsageError(fmt::format("--for: '{}' is no flag that all cells of a scene can have", flag));
   }
   for (const NamedAxis& named : axes) {

@@ -62,10 +62,9 @@ void ProgressLine::clear_line() {
 }
 
 bool ProgressLine::due(bool must) {
-  const auto now = std::chrono::steady_clock::now();
   const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
-  if (!must && std::chrono::duration<double>(now - last_).count() < interval) return false;
-  last_ = now;
+  if (!must && renderer::seconds_since(last_) < interval) return false;
+  last_ = renderer::Clock::now();
   return true;
 }
 

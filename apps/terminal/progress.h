@@ -1,13 +1,13 @@
 #pragma once
 // Progress on stderr.
 
-#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/machine/clock.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
@@ -42,7 +42,7 @@ class ProgressLine {
 
  private:
   bool line_shown_ = false;
-  std::chrono::steady_clock::time_point last_;
+  renderer::Clock::time_point last_;
 };
 
 /// Thread-safe.
