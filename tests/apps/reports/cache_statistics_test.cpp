@@ -58,7 +58,7 @@ json statistics_of(Integrator integrator) {
   RenderSettings settings;
   settings.render.integrator = integrator;
   RunReport report;
-  report.statistics = some_statistics();
+  report.statistics.cache = some_statistics();
   return json::parse(stats_json(settings, report));
 }
 
@@ -169,15 +169,15 @@ TEST(StopNotice, TellsOfTheTrainingThatItCutShort) {
   RunReport report;
   report.signal = 2;
   report.statistics.spp = 1;
-  report.statistics = some_statistics();
+  report.statistics.cache = some_statistics();
   const auto expect_picture = [&] {
     tests::expect_message(stop_notice(settings, report), {"signal 2", "1", "64", "a.exr"});
     EXPECT_FALSE(tests::has_name(stop_notice(settings, report), "c.safetensors"));
   };
   expect_picture();  // it had learned all
-  report.statistics.steps = 37;
+  report.statistics.cache.steps = 37;
   tests::expect_message(stop_notice(settings, report), {"signal 2", "37", "128", "c.safetensors"});
-  settings.render.cache.train_seconds = report.statistics.train_seconds;
+  settings.render.cache.train_seconds = report.statistics.cache.train_seconds;
   expect_picture();  // its time was over
   settings.render.cache.train_seconds = 0.0;
   settings.render.integrator = Integrator::path;

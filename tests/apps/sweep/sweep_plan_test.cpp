@@ -194,12 +194,13 @@ TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
 }
 
 TEST(SweepPlan, ScenesOfOneNameAreToldApart) {
+  SweepWords words;
+  words.scenes = {"a/room.glb", "b/room.glb", "hall.glb"};
   std::vector<std::string> names;
-  for (const SweepScene& scene : name_scenes({"a/room.glb", "b/room.glb", "hall.glb"})) {
-    names.push_back(scene.name);
-  }
+  for (const SweepScene& scene : make_request(words).scenes) names.push_back(scene.name);
   EXPECT_THAT(names, ElementsAre("a-room", "b-room", "hall"));
-  EXPECT_THROW(name_scenes({"a/room.glb", "a/./room.glb"}), UsageError);
+  words.scenes = {"a/room.glb", "a/./room.glb"};
+  EXPECT_THROW(make_request(words), UsageError);
 }
 
 TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
