@@ -129,7 +129,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   set_flag(scene->flags, flag, text.substr(equals + 1));
 }
 
-/// Refuses flags that any row of the preset sets: each row must be what its name says.
+/// Refuses flags that any row of the preset sets: each row must be what its name promises.
 void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>& rows,
                           const std::vector<NamedAxis>& axes, const SweepRequest& request) {
   // The preset of `render` in each row decides the integrator.

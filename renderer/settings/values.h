@@ -17,7 +17,7 @@ struct IntegerRange {
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
 
-/// NaN is in no range, infinity only where `infinity` says so.
+/// NaN is in no range, infinity only where `infinity` is set.
 struct RealRange {
   double min = 0.0;
   double max = std::numeric_limits<double>::max();
