@@ -12,7 +12,7 @@
 #include "apps/settings/help_format.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 #include "apps/terminal/version.h"
 
 namespace gatelight::apps {
@@ -32,18 +32,17 @@ Examples:
   gatelight render --help)";
 
 const CLI::App* called_subcommand(const CLI::App& root) {
-  const std::vector<const CLI::App*> called =
-      root.get_subcommands([](const CLI::App* app) { return app->parsed(); });
+  const std::vector<CLI::App*> called = root.get_subcommands();
   return called.empty() ? nullptr : called.front();
 }
 
-/// Of a file that may hold anything.
+/// The beginning of a text from a file, which may be long.
 std::string cut(const std::string& text) {
   constexpr std::size_t kMost = 200;
   return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
 }
 
-/// What was wrong, in words of ours where the library's are too vague.
+/// What was wrong; our own words replace those of the library where they are too vague.
 std::string describe(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && called == nullptr) {
@@ -87,7 +86,7 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const Con
   return kUsage;
 }
 
-/// A file without a name would pass for no file at all: often a variable of a shell that is not set.
+/// An empty file name would count as no file; often it is an unset shell variable.
 void refuse_empty_words(const CLI::App& root) {
   for (const CLI::App* app : {&root, called_subcommand(root)}) {
     for (const CLI::Option* option : app->get_options()) {
@@ -101,7 +100,7 @@ void refuse_empty_words(const CLI::App& root) {
   }
 }
 
-/// Of the exception that is being handled.
+/// Reports the exception that is being handled and returns its exit code.
 int fail(const ConfigFile& config) {
   Failure failure = describe_current_exception();
   failure.message = with_config_file(failure.message, config);

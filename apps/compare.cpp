@@ -13,7 +13,7 @@
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/metrics/merge.h"
@@ -37,7 +37,7 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
 Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
-(mse, rel_mse, psnr, mean, max); then they are counted and told. PNG files are made linear first.
+(mse, rel_mse, psnr, mean, max); then they are counted and reported. PNG files are converted to linear first.
 
 With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
 and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
@@ -55,7 +55,7 @@ constexpr renderer::Choice<Map> kMaps[] = {
 struct CompareSettings {
   std::string reference;
   std::string test;
-  std::vector<std::string> halves;  ///< none, or the second reference and the second test
+  std::vector<std::string> halves;  ///< empty, or the second reference and the second test
   std::string metrics;
   std::string json;
   std::string error_map;
@@ -76,7 +76,7 @@ std::vector<Metric> choose_metrics(const std::string& list) {
   return chosen;
 }
 
-/// One file, or the mean of two; `halves` holds what was read.
+/// The picture of one file, or the mean of two; `halves` receives the two.
 Picture read_pictures(const std::vector<std::string>& files, std::vector<Picture>& halves) {
   Picture first = renderer::read_image(files.front());
   if (files.size() == 1) return first;
@@ -103,7 +103,7 @@ void check_outputs(const CompareSettings& settings) {
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
 }
 
-/// Whether it is a mean over pixels, so that some can be left out.
+/// Whether the metric is a mean over pixels, so that some pixels can be left out.
 bool leaves_pixels_out(Metric metric) {
   return metric != Metric::ssim && metric != Metric::flip && metric != Metric::hdr_flip;
 }
@@ -179,7 +179,7 @@ int run_compare(const CompareSettings& settings) {
     renderer::write_image(make_map(settings, report, reference, test), settings.error_map);
   }
   if (!settings.json.empty()) write_text(settings.json, compare_json(report));
-  // JSON on stdout stands alone, so that it can be parsed.
+  // With JSON on stdout nothing else is printed there, so that it can be parsed.
   if (settings.json != "-") write_text("-", compare_text(report));
   return kDone;
 }

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/reports/cache_report_text.h"
-#include "apps/reports/device_report.h"
 #include "apps/reports/scene_report.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -12,10 +11,13 @@
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
-#include "apps/terminal/stopwatch.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "neural/base/errors.h"
+#include "neural/vulkan/devices.h"
 #include "renderer/machine/atomic_file.h"
+#include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/render.h"
 #include "renderer/surface/embree.h"
@@ -24,9 +26,11 @@
 namespace gatelight::apps {
 namespace {
 
+using nlohmann::ordered_json;
+
 constexpr const char* kInfoFooter =
-    R"(With --integrator nao or nrc it also tells what the cache of the scene would be for the view that these flags describe:
-memory, feature vectors, resolutions and sides of the instances, and what the network reads. Nothing is trained.
+    R"(With --integrator nao or nrc it also describes the cache that the scene would get for the view of these flags: memory,
+feature vectors, resolutions and sides of the instances, and inputs of the network. Nothing is trained.
 
 Examples:
   gatelight info
@@ -39,13 +43,53 @@ struct InfoSettings {
   std::string json;
 };
 
+struct DeviceReport {
+  std::vector<neural::vulkan::DeviceListing> devices;
+  std::string reason;  ///< why there is no device
+};
+
+DeviceReport find_devices() {
+  try {
+    DeviceReport report{neural::vulkan::list_devices(), ""};
+    if (report.devices.empty()) report.reason = "no device";
+    return report;
+  } catch (const neural::Unavailable& error) {
+    return {{}, error.what()};
+  }
+}
+
+/// A line for each device.
+std::string devices_text(const DeviceReport& report) {
+  if (report.devices.empty()) return fmt::format("{:<14} {}\n", "vulkan", report.reason);
+  std::string text;
+  for (std::size_t i = 0; i < report.devices.size(); ++i) {
+    const neural::vulkan::DeviceListing& device = report.devices[i];
+    text += fmt::format("{:<14} {}: {} ({}, Vulkan {}, {}){}{}\n", i == 0 ? "vulkan" : "", i, device.name,
+                        device.kind, device.version, format_bytes(device.memory_bytes),
+                        device.refusal.empty() ? "" : ", cannot be used: ", device.refusal);
+  }
+  return text;
+}
+
+ordered_json devices_json(const DeviceReport& report) {
+  ordered_json devices = ordered_json::array();
+  for (const neural::vulkan::DeviceListing& device : report.devices)
+    devices.push_back({{"name", device.name},
+                       {"kind", device.kind},
+                       {"version", device.version},
+                       {"memory_bytes", device.memory_bytes},
+                       {"usable", device.refusal.empty()},
+                       {"refusal", device.refusal}});
+  return {{"built_in", neural::vulkan::is_built_in()}, {"reason", report.reason}, {"devices", devices}};
+}
+
 std::string program_text() {
   return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
                      renderer::best_isa(), "threads", renderer::available_threads(), "embree",
                      renderer::embree_version(), devices_text(find_devices()));
 }
 
-nlohmann::ordered_json program_json() {
+ordered_json program_json() {
   return {{"schema", 1},
           {"version", version()},
           {"isa", renderer::best_isa()},
@@ -56,15 +100,16 @@ nlohmann::ordered_json program_json() {
 
 struct Told {
   std::string text;
-  nlohmann::ordered_json json;
+  ordered_json json;
 };
 
 Told tell_scene(const RenderSettings& settings) {
-  const Stopwatch watch;
+  const renderer::Clock::time_point start = renderer::Clock::now();
   const scene::Scene scene = scene::load_gltf(settings.scene, settings.load);
-  const SceneReport report = make_scene_report(scene, watch.seconds());
+  const double seconds = renderer::seconds_since(start);
+  const scene::SceneRequirements requirements = scene::compute_requirements(scene);
   for (const std::string& warning : scene.warnings) log_warning(warning);
-  Told told{scene_report_text(scene, report), scene_report_json(scene, report)};
+  Told told{scene_report_text(scene, requirements, seconds), scene_report_json(scene, requirements, seconds)};
   if (renderer::uses_cache(settings.render.integrator)) {
     const renderer::CacheReport cache = renderer::Renderer(scene, settings.render).report_cache();
     told.text += cache_report_text(cache, settings.render);
@@ -84,10 +129,9 @@ int run_info(InfoSettings settings) {
   const Told told =
       settings.render.scene.empty() ? Told{program_text(), program_json()} : tell_scene(settings.render);
   if (!settings.json.empty()) {
-    write_text(settings.json,
-               told.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_text(settings.json, json_text(told.json) + "\n");
   }
-  // JSON on stdout stands alone, so that it can be parsed.
+  // With JSON on stdout nothing else is printed there, so that it can be parsed.
   if (settings.json != "-") write_text("-", told.text);
   return kDone;
 }
@@ -95,10 +139,9 @@ int run_info(InfoSettings settings) {
 }  // namespace
 
 Subcommand add_info_command(CLI::App& root) {
-  CLI::App* app =
-      add_subcommand(root, "info", "Tell what a scene holds and needs, or what this program is", kInfoFooter);
+  CLI::App* app = add_subcommand(root, "info", "Describe a scene, or this program", kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
-  // A missing texture changes little that is told here.
+  // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;
   renderer::Option scene =
       positional("SCENE", settings->render.scene,
@@ -111,7 +154,7 @@ Subcommand add_info_command(CLI::App& root) {
   add_flags(*app, cache_report_table(settings->render));
   return {app, [app, settings] {
             finish_flags(*app, settings->render);
-            // They are of the call, not of the scene.
+            // They belong to the call, not to the scene.
             for (const char* name : {"SCENE", "--json"}) settings->render.given.erase(name);
             return run_info(*settings);
           }};

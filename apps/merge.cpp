@@ -13,7 +13,7 @@
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
@@ -22,16 +22,17 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kMergeFooter =
-    R"(A reference in parts: each rendered with a seed of its own, on any day and machine. The mean is weighted by the samples
-per pixel that each file tells (gatelight:spp in its header), and tells their sum. Size, layers and integrator must be
-the same, and all values finite. Of layers that have no mean, samples are added up, variance becomes that of the mean,
-and ids are those of the first file.
+    R"(For a reference in parts: each is rendered with a seed of its own, on any day and machine. The mean is weighted by the
+samples per pixel of each file (gatelight:spp in its header), and its header has their sum. Size, layers and integrator
+must be the same, and all values finite. Sample counts are added up, variance becomes that of the mean, and ids are
+those of the first file.
 
 Example:
   for seed in 1 2 3 4; do gatelight render room.glb -o part-$seed.exr --exr float --spp 256 --seed $seed; done
   gatelight merge -o reference.exr part-*.exr)";
 
-/// Warns once of a picture of another scene: the same file may have another name elsewhere.
+/// Warns once of a picture of another scene. It only warns, because the same file may have another name
+/// elsewhere.
 class ScenesSeen {
  public:
   void add(const renderer::Picture& picture, const std::string& file) {

@@ -1,9 +1,27 @@
-#include <memory>
+#include <fmt/format.h>
 
-#include "apps/render_run.h"
+#include <exception>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "apps/reports/recipe.h"
+#include "apps/reports/run_report.h"
+#include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/progress.h"
+#include "apps/terminal/signals.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
+#include "neural/base/errors.h"
+#include "renderer/film/memory_estimate.h"
+#include "renderer/machine/clock.h"
+#include "renderer/render.h"
+#include "scene/gltf.h"
 
 namespace gatelight::apps {
 namespace {
@@ -20,6 +38,168 @@ Examples:
   gatelight render room.glb -o room.exr -o room.png --integrator nrc --train-steps 1024
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json)";
+
+using renderer::Clock;
+using renderer::seconds_since;
+
+double count_pixels(const renderer::RenderOptions& options) {
+  if (!options.region) return static_cast<double>(options.width) * options.height;
+  const auto [x0, y0, x1, y1] = *options.region;
+  return static_cast<double>(x1 - x0) * (y1 - y0);
+}
+
+class RenderRun {
+ public:
+  RenderRun(const RenderSettings& settings, const std::vector<std::string>& command)
+      : settings_(settings),
+        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render),
+                  settings.render.time_limit_seconds) {
+    report_.command = command;
+  }
+
+  int run() {
+    const scene::Scene scene = load();
+    if (stop_signal() != 0) return stop_without_picture();
+    progress_.phase("build");
+    renderer::Renderer renderer(scene, settings_.render);
+    for (const std::string& warning : renderer.statistics().warnings) warn(warning);
+    if (stop_signal() != 0) return stop_without_picture();
+    renderer::Picture picture = renderer.render(make_callbacks(renderer));
+    report_.statistics = renderer.statistics();
+    report_.signal = stop_signal();
+    write_results(std::move(picture));
+    if (!report_.statistics.device_lost.empty())
+      throw neural::DeviceLost(
+          fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
+    if (report_.signal == 0 && !report_.statistics.cache.diverged.empty())
+      throw renderer::TrainingDiverged(fmt::format("{}; what was written is of its last good step, {}",
+                                                   report_.statistics.cache.diverged,
+                                                   report_.statistics.cache.steps));
+    if (failed_output_) std::rethrow_exception(failed_output_);
+    return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
+  }
+
+ private:
+  scene::Scene load() {
+    progress_.phase("load");
+    const Clock::time_point start = Clock::now();
+    scene::Scene scene = scene::load_gltf(settings_.scene, settings_.load);
+    report_.load_seconds = seconds_since(start);
+    for (const std::string& warning : scene.warnings) warn(warning);
+    if (settings_.verbose) {
+      progress_.clear();
+      log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings_.scene,
+                             format_integer(scene::count_triangles(scene)), scene.instances.size(),
+                             scene.lights.size()));
+      log_detail(fmt::format("memory needed, estimated: {}",
+                             format_bytes(renderer::estimate_memory(scene, settings_.render).total())));
+      log_detail(fmt::format("options: {}", dump_options(settings_)));
+    }
+    return scene;
+  }
+
+  renderer::Callbacks make_callbacks(const renderer::Renderer& renderer) {
+    return {
+        .progress = [this](const renderer::Progress& progress) { progress_.update(progress); },
+        .stop = [] { return stop_signal() != 0; },
+        .snapshot_wanted = [] { return take_snapshot_request(); },
+        .snapshot = [this, &renderer](
+                        const renderer::Picture& picture) { write_snapshot(picture, renderer.statistics()); },
+        .output_failed = [this](const std::exception_ptr& error,
+                                bool again) { note_failed_output(error, again); },
+    };
+  }
+
+  /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
+  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) const {
+    picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
+    std::exception_ptr first_error;
+    for (const std::string& output : settings_.outputs) {
+      try {
+        renderer::write_image(picture, output, settings_.image);
+      } catch (...) {
+        if (!first_error) first_error = std::current_exception();
+      }
+    }
+    if (first_error) std::rethrow_exception(first_error);
+  }
+
+  void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
+    try {
+      write_pictures(picture, statistics);
+      progress_.clear();
+      log_detail("snapshot written");
+    } catch (const std::exception& error) {
+      // The end of the run is another chance to write.
+      warn(fmt::format("snapshot: {}", error.what()));
+    }
+  }
+
+  void write_results(renderer::Picture picture) {
+    progress_.phase("write");
+    if (report_.statistics.nonfinite > 0) {
+      warn(fmt::format("{} samples were not finite and are left out; --stats locates the first of them",
+                       report_.statistics.nonfinite));
+    }
+    const Clock::time_point start = Clock::now();
+    write_pictures(std::move(picture), report_.statistics);
+    report_.write_seconds = seconds_since(start);
+    report_.total_seconds = seconds_since(start_);
+    if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));
+    const bool told = progress_.done(settings_.outputs, report_.total_seconds);
+    if (!told && !settings_.quiet) tell(summary(settings_, report_));
+    if (report_.signal != 0) {
+      print_notice(stop_notice(settings_, report_));
+    }
+  }
+
+  void note_failed_output(const std::exception_ptr& error, bool again) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::exception& failure) {
+      warn(fmt::format("{}; the picture goes on{}", failure.what(),
+                       again ? ", and it will be tried again" : ""));
+    }
+    if (!again && !failed_output_) failed_output_ = error;
+  }
+
+  /// A signal before the first pass: there is nothing to write.
+  int stop_without_picture() {
+    progress_.clear();
+    print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
+                             stop_signal(), settings_.scene));
+    return kSignalBase + stop_signal();
+  }
+
+  void warn(const std::string& text) {
+    progress_.clear();
+    log_warning(text);
+    report_.warnings.push_back(text);
+  }
+
+  const RenderSettings& settings_;
+  RunReport report_;
+  const Clock::time_point start_ = Clock::now();
+  ProgressReporter progress_;
+  std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
+};
+
+int run_render(RenderSettings settings, const std::vector<std::string>& command) {
+  complete_settings(settings);
+  check_files(settings);
+  set_log_level(settings.quiet, settings.verbose);
+  install_signal_handlers();
+  // Errors without a file name get the scene's name.
+  try {
+    return RenderRun(settings, command).run();
+  } catch (const renderer::TrainingDiverged& error) {
+    throw renderer::TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
+  } catch (const renderer::NumericalError& error) {
+    throw renderer::NumericalError(fmt::format("{}: {}", settings.scene, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw renderer::OutOfMemory(fmt::format("{}: the machine is out of memory", settings.scene));
+  }
+}
 
 }  // namespace
 

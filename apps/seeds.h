@@ -7,7 +7,7 @@
 
 namespace gatelight::apps {
 
-/// Warns of pictures with one seed: they have the same noise, which no mean makes less.
+/// Warns of pictures with the same seed: their noise is the same, and a mean does not reduce it.
 class SeedsSeen {
  public:
   void add(const renderer::Picture& picture, const std::string& file);

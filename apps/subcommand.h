@@ -1,5 +1,5 @@
 #pragma once
-// A part of the command line: its flags and what runs when it was called. One file for each.
+// A subcommand: its flags and its function. Each has a file of its own.
 
 #include <functional>
 #include <string>
@@ -13,7 +13,7 @@ namespace gatelight::apps {
 
 struct Subcommand {
   CLI::App* app = nullptr;   ///< owned by the root
-  std::function<int()> run;  ///< after parsing; answers the exit code, or throws
+  std::function<int()> run;  ///< called after parsing; returns the exit code, or throws
 };
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command);

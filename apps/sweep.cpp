@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -17,28 +16,29 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kSweepFooter =
-    R"(Every combination of the lists is a line in the plots, every step count on it a cell: one picture, compared with a
-reference. One training gives the pictures of all its step counts. Beside each integrator with a cache the one without
-is measured (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture may stand here and
-holds for all cells (--size, --camera, --batch ...; see its --help). A flag that means nothing in a cell, such as
+    R"(Every combination of the lists is a line in the plots, and each of its step counts is a cell: one picture, compared
+with a reference. One training gives the pictures of all its step counts. For each integrator with a cache the one
+without is measured too (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture can be
+given and holds for all cells (--size, --camera, --batch ...; see its --help). A flag without effect in a cell, such as
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
-file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (what same-as-gate has
-found), and cells/, a file for each cell that is done or has failed. The same command goes on where it was stopped; cells
-that are done are not made again, failed ones are. Cells are known by the scene's content, all options, the processor and
-its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails is told and does not end
-the rest; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end it after writing the results so far (130, 143 or 129).
+file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
+same-as-gate), and cells/, a file for each cell that is done or has failed. The same command continues where it was
+stopped: it makes missing and failed cells, but none that is done. Cells are identified by the scene's content, all
+options, the processor and its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails
+is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end the sweep after writing
+the results so far (130, 143 or 129).
 
-Presets of the paper (3 seeds, 1920x1080 where --size says nothing else; flags win over them, but for those that a row
-is named after):
+Presets of the paper (3 seeds, 1920x1080 unless --size is given; flags override them, except those that a row is named
+after):
   paper-table1    GATE and the hash grid at the same memory, 128 steps
   paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
   paper-steps     the same as table 1 from 8 to 128 steps
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
-  paper-extra     storage, counters, candidates, precision, stacks, clusters, where the cache is asked, what it holds
+  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
 Those of 'gatelight render' (preview, final, paper-nao, paper-nrc) stand for their flags.
 
 Examples:
@@ -53,73 +53,37 @@ Examples:
 constexpr renderer::IntegerRange kReferenceSpp{2, 1 << 24};
 constexpr renderer::RealRange kErrors{0.0, 1.0};
 
-using renderer::any_word;
-using renderer::any_words;
-using renderer::choice;
-using renderer::number_or;
-using renderer::Option;
-using renderer::OptionGroup;
-using renderer::toggle;
+using namespace renderer;
 
 struct SweepCall {
   SweepWords words;
   SweepSettings settings;
 };
 
-/// A word that is looked at with the others.
-Option kept(const char* name, const char* unit, const char* help, const char* default_text,
-            std::optional<std::string>& value) {
-  return {.name = name,
-          .unit = unit,
-          .help = help,
-          .read = [&value](const std::string& text) { value = text; },
-          .default_text = default_text};
-}
-
-const char* axis_help(const std::string& name) {
-  if (name == "--integrators") return "nrc, nao, path, ao";
-  if (name == "--encodings") return "gate, hashgrid";
-  if (name == "--features") return "gate: numbers in a feature vector";
-  if (name == "--resolution") return "gate: uniform, paper, fixed:R";
-  if (name == "--stack") return "gate: resolutions of the levels; one stack, or several separated by ';'";
-  if (name == "--cache-memory") {
-    return "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same "
-           "flags, "
-           "same-as-gate/2 half as many";
-  }
-  if (name == "--hidden") return "Width of the network's hidden layers";
-  if (name == "--learning-rate") return "Size of a training step";
-  return "Samples per pixel of pictures with a cache";
-}
-
-const char* axis_default(const std::string& name) {
-  if (name == "--integrators") return "nrc";
-  if (name == "--cache-spp") return "4";
-  return "";
-}
-
 void add_axes(std::vector<Option>& table, SweepWords& words) {
   OptionGroup axes{table, "Axes"};
-  axes.add(kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
-                words.train_steps));
+  const auto kept = [&](const char* name, const char* unit, const char* help, const char* default_text,
+                        std::string& text) {
+    axes.add(any_word(name, text, unit, help)).default_text = default_text;
+  };
+  kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
+       words.train_steps);
   for (const AxisFlag& flag : kAxisFlags) {
     axes.add({.name = flag.name + 2,
               .unit = "LIST",
-              .help = axis_help(flag.name),
+              .help = flag.help,
               .read = [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); },
-              .default_text = axis_default(flag.name)});
+              .default_text = flag.default_text});
   }
   axes.add(any_words("vary", words.vary, "NAME=LIST",
                      "Any other flag of render as an axis; may be given several times"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
                      "A flag for one scene alone; may be given several times"));
-  axes.add(kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds));
-  axes.add(kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp));
+  kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds);
+  kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp);
   axes.add(
       toggle("no-plain", words.no_plain, "Do not measure integrators without a cache beside those with one"));
-  std::vector<std::string_view> names = sweep_preset_names();
-  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
-  const std::string help = "Axes and flags at once: " + fmt::format("{}", fmt::join(names, ", "));
+  const std::string help = fmt::format("Axes and flags at once: {}", fmt::join(sweep_preset_names(), ", "));
   axes.add(any_word("preset", words.preset, "NAME", help.c_str()));
 }
 
@@ -130,7 +94,7 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
   references.add(
       {.name = "reference-spp",
        .unit = "N",
-       .help = "Samples per pixel of rendered references: two halves, whose difference tells their noise",
+       .help = "Samples per pixel of rendered references: two halves, whose difference gives their noise",
        .read =
            [&s](const std::string& text) {
              const std::int64_t spp = renderer::parse_integer("--reference-spp", text, kReferenceSpp);
@@ -138,15 +102,15 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
            },
        .default_text = "1024"});
   references.add(any_word("reference-dir", s.reference_folder, "DIR",
-                          "Where they are kept (default: references in DIR)"));
+                          "Folder of rendered references (default: references in DIR)"));
   references.add(choice("hdr-flip", s.hdr_flip, renderer::kOnOff, "Measure HDR-FLIP of radiance, too"));
 }
 
 void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup advice{table, "Advice"};
-  advice.add(toggle(
-      "advise", s.advise,
-      "Name the cheapest configuration within the limits, on stdout. Without SCENE from what is in DIR"));
+  advice.add(toggle("advise", s.advise,
+                    "Name the fastest configuration within the limits, on stdout. Without SCENE it uses the "
+                    "results in DIR"));
   advice.add(number_or("", "max-error", s.limits.max_error, kErrors, "FLIP",
                        "Largest mean FLIP of a picture, with every seed"));
   advice.add(number_or("", "max-time", s.limits.max_seconds, renderer::kPositive, "SECONDS",
@@ -155,17 +119,17 @@ void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
 
 void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup output{table, "Output"};
-  Option& folder =
-      output.add(any_word("output", s.folder, "DIR", "Folder of the results; is made where it is not there"));
+  Option& folder = output.add(
+      any_word("output", s.folder, "DIR", "Folder of the results; it is made if it does not exist"));
   folder.letter = "-o";
   folder.required = true;
   output.add(toggle("dry-run", s.dry_run, "Print the plan and stop"));
   output.add(progress_option(s.progress));
-  output.add(toggle("quiet", s.quiet, "Say nothing but errors"));
-  output.add(toggle("verbose", s.verbose, "Say more: all options of each run"));
+  output.add(toggle("quiet", s.quiet, "Print errors only"));
+  output.add(toggle("verbose", s.verbose, "Print more: all options of each run"));
 }
 
-/// Not in the help: they are those of render.
+/// Flags of render; they are not in the help.
 void add_base_flags(std::vector<Option>& table, SweepWords& words) {
   OptionGroup base{table, ""};
   for (const std::string& name : base_flag_names()) {
@@ -189,7 +153,7 @@ std::vector<Option> option_table(SweepCall& call) {
   return table;
 }
 
-/// Without a scene there is nothing that they could change.
+/// Without a scene other flags have no effect.
 void refuse_flags_of_scenes(const CLI::App& app) {
   const std::set<std::string> allowed = {"--output",   "--advise", "--max-error", "--max-time",
                                          "--progress", "--quiet",  "--verbose"};

@@ -21,7 +21,7 @@ using renderer::CacheInstanceReport;
 using renderer::CacheReport;
 using renderer::CacheStatistics;
 
-/// The JSON has them all.
+/// The JSON has all instances.
 constexpr std::size_t kInstancesShown = 12;
 
 std::string row(const std::string& name, const std::string& value) {
@@ -45,6 +45,11 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
       [](const CacheInstanceReport* a, const CacheInstanceReport* b) { return a->nodes > b->nodes; });
   std::string text =
       fmt::format("\n{:>12} {:>12} {:>6} {:>10}  instance\n", "nodes", "triangles", "sides", "R");
+  const auto add_line = [&](const CacheInstanceReport& line, const std::string& name) {
+    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(line.nodes),
+                        format_integer(line.triangles), line.sides,
+                        fmt::format("{}", fmt::join(line.resolutions, ",")), name);
+  };
   CacheInstanceReport rest, total;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const CacheInstanceReport& instance = *sorted[i];
@@ -55,24 +60,18 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
       sum->sides += instance.sides;
     }
     if (i >= kInstancesShown) continue;
-    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(instance.nodes),
-                        format_integer(instance.triangles), instance.sides,
-                        fmt::format("{}", fmt::join(instance.resolutions, ",")), instance.name);
+    add_line(instance, instance.name);
   }
-  const auto add_sum = [&](const CacheInstanceReport& sum, const std::string& name) {
-    text += fmt::format("{:>12} {:>12} {:>6} {:>10}  {}\n", format_integer(sum.nodes),
-                        format_integer(sum.triangles), sum.sides, "", name);
-  };
   if (sorted.size() > kInstancesShown)
-    add_sum(rest, fmt::format("{} others", sorted.size() - kInstancesShown));
-  add_sum(total, fmt::format("all {}", sorted.size()));
+    add_line(rest, fmt::format("{} others", sorted.size() - kInstancesShown));
+  add_line(total, fmt::format("all {}", sorted.size()));
   return text;
 }
 
 }  // namespace
 
 std::string cache_report_text(const CacheReport& report, const renderer::RenderOptions& options) {
-  const CacheStatistics& s = report.statistics.cache;
+  const CacheStatistics& s = report.statistics;
   std::string text = "\n";
   text += row("cache", fmt::format("{}, {}, {} nodes", renderer::word(options.integrator),
                                    renderer::word(options.cache.encoding), format_integer(s.nodes)));
@@ -92,7 +91,7 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
 }
 
 ordered_json cache_report_json(const CacheReport& report, const renderer::RenderOptions& options) {
-  const CacheStatistics& s = report.statistics.cache;
+  const CacheStatistics& s = report.statistics;
   ordered_json json = {{"integrator", renderer::word(options.integrator)},
                        {"encoding", renderer::word(options.cache.encoding)}};
   json["memory_bytes"] = cache_memory_json(s);

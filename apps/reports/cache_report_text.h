@@ -1,5 +1,5 @@
 #pragma once
-// What `gatelight info SCENE --integrator nao|nrc` tells of the cache.
+// The report of `gatelight info SCENE --integrator nao|nrc` on the cache.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

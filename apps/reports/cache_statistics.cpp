@@ -56,6 +56,15 @@ ordered_json cache_memory_json(const CacheStatistics& s) {
   return {{"parameters", s.parameter_bytes}, {"optimizer", s.optimizer_bytes}, {"layout", s.layout_bytes}};
 }
 
+ordered_json cache_seconds_json(const CacheStatistics& s) {
+  return {{"scout", s.scout_seconds},
+          {"setup", s.setup_seconds},
+          {"train", s.train_seconds},
+          {"train_trace", s.train_trace_seconds},
+          {"train_query", s.train_query_seconds},
+          {"train_step", s.train_step_seconds}};
+}
+
 std::string cache_summary(const CacheStatistics& s) {
   std::string steps = format_integer(static_cast<std::uint64_t>(s.steps));
   if (s.steps != s.steps_wanted) steps += fmt::format(" of {}", s.steps_wanted);

@@ -1,5 +1,5 @@
 #pragma once
-// What a cache learned and answered, for programs and for people.
+// Statistics of the cache as JSON and as text.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -12,6 +12,9 @@ namespace gatelight::apps {
 nlohmann::ordered_json training_json(const renderer::CacheStatistics& statistics);
 nlohmann::ordered_json cache_json(const renderer::CacheStatistics& statistics);
 nlohmann::ordered_json cache_memory_json(const renderer::CacheStatistics& statistics);
+
+/// Seconds of scouting, setting up and training.
+nlohmann::ordered_json cache_seconds_json(const renderer::CacheStatistics& statistics);
 
 /// A few lines, each with its line break.
 std::string cache_summary(const renderer::CacheStatistics& statistics);

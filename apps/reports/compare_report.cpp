@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/json_numbers.h"
+#include "apps/reports/json.h"
+#include "apps/terminal/text.h"
 #include "renderer/settings/words.h"
 
 namespace gatelight::apps {
@@ -15,31 +14,18 @@ namespace {
 using nlohmann::ordered_json;
 using renderer::ErrorMetrics;
 
+/// The metrics that are plain numbers.
 struct Value {
+  Metric metric;
   const char* key;
   double ErrorMetrics::*member;
 };
-
-/// Those that are plain numbers.
-std::vector<Value> values_of(Metric metric) {
-  switch (metric) {
-    case Metric::mse:
-      return {{"mse", &ErrorMetrics::mse}};
-    case Metric::rel_mse:
-      return {{"rel_mse", &ErrorMetrics::rel_mse}};
-    case Metric::psnr:
-      return {{"psnr", &ErrorMetrics::psnr}};
-    case Metric::mean:
-      return {{"mean_error", &ErrorMetrics::mean_error}, {"mean_difference", &ErrorMetrics::mean_difference}};
-    case Metric::max:
-      return {{"max_error", &ErrorMetrics::max_error}};
-    case Metric::ssim:
-    case Metric::flip:
-    case Metric::hdr_flip:
-      break;
-  }
-  return {};
-}
+constexpr Value kValues[] = {{Metric::mse, "mse", &ErrorMetrics::mse},
+                             {Metric::rel_mse, "rel_mse", &ErrorMetrics::rel_mse},
+                             {Metric::psnr, "psnr", &ErrorMetrics::psnr},
+                             {Metric::mean, "mean_error", &ErrorMetrics::mean_error},
+                             {Metric::mean, "mean_difference", &ErrorMetrics::mean_difference},
+                             {Metric::max, "max_error", &ErrorMetrics::max_error}};
 
 const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) {
   return metric == Metric::flip ? report.flip.value() : report.hdr_flip.value();
@@ -100,19 +86,22 @@ std::string compare_json(const CompareReport& report) {
     json["halves"] = {report.references.back(), report.tests.back()};
   }
   for (const Metric metric : report.metrics) {
-    for (const Value& value : values_of(metric)) json[value.key] = json_number(report.errors.*value.member);
+    for (const Value& value : kValues) {
+      if (value.metric == metric) json[value.key] = json_number(report.errors.*value.member);
+    }
     if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
     if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
     if (is_flip(metric)) json[renderer::name_of(kMetrics, metric)] = flip_json(report, metric);
   }
   if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string compare_text(const CompareReport& report) {
   std::string text;
   for (const Metric metric : report.metrics) {
-    for (const Value& value : values_of(metric)) {
+    for (const Value& value : kValues) {
+      if (value.metric != metric) continue;
       text += fmt::format("{:<16} {:.6g}{}\n", value.key, report.errors.*value.member,
                           metric == Metric::psnr ? " dB" : "");
     }

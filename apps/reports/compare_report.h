@@ -1,5 +1,5 @@
 #pragma once
-// What `compare` has measured, as text and as JSON.
+// The results of `compare` as text and as JSON.
 
 #include <optional>
 #include <string>
@@ -23,11 +23,11 @@ struct CompareReport {
   std::vector<std::string> tests;
   int width = 0;
   int height = 0;
-  std::vector<Metric> metrics;  ///< that were asked for, in the order of the report
+  std::vector<Metric> metrics;  ///< requested, in the order of the report
   renderer::ErrorMetrics errors;
-  renderer::FlipOptions flip_options;        ///< exposure and curve also of ssim
-  std::optional<double> ssim;                ///< none: not asked for, or smaller than its window
-  std::optional<renderer::FlipResult> flip;  ///< there where it is asked for, as hdr_flip
+  renderer::FlipOptions flip_options;  ///< exposure and curve also of ssim
+  std::optional<double> ssim;          ///< empty: not requested, or the picture is smaller than the window
+  std::optional<renderer::FlipResult> flip;  ///< present where requested, as hdr_flip is
   std::optional<renderer::FlipResult> hdr_flip;
   std::optional<double> bias_rel_mse;  ///< of halves
 };

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 using renderer::InRecipe;
 using renderer::Option;
 
-/// What is new follows these: recipes of two versions differ in what is new alone.
+/// New options follow these, so that recipes of two versions differ only in new options.
 constexpr const char* kOrder =
     "integrator size region spp time-limit max-depth min-depth seed sampler filter filter-width direct "
     "mis light-selection clamp ao-distance aov nan isa eye target up camera fov environment "
@@ -31,9 +31,9 @@ constexpr const char* kOrder =
     "cache-roughness spread-threshold query-precision device cache-in cache-out threads memory-limit "
     "output checkpoint checkpoint-every resume";
 
-/// The value of an option. JSON has no infinity.
+/// The value of an option as JSON, which has no infinity.
 struct Json {
-  bool is_short;  ///< floats have the digits that tell them from others, no more
+  bool is_short;  ///< floats get their shortest digits
 
   ordered_json operator()(std::monostate) const { return nullptr; }
   ordered_json operator()(float value) const {
@@ -64,8 +64,7 @@ ordered_json resolved_options(RenderSettings settings) {
 }
 
 std::string dump_options(const RenderSettings& settings) {
-  // A file name need not be UTF-8; JSON must be.
-  return resolved_options(settings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(resolved_options(settings), -1);
 }
 
 std::map<std::string, std::string> make_recipe(const RenderSettings& settings,

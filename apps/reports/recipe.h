@@ -1,5 +1,5 @@
 #pragma once
-// What made a picture, so that it can be made again.
+// The recipe of a picture, so that it can be made again.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +11,11 @@
 
 namespace gatelight::apps {
 
-/// Every option with the value that was used, by the name of its flag. Options that cannot change the picture
-/// (threads, progress, names of outputs) are left out where `reproducible` is set.
+/// Every option with the value that was used, under the name of its flag. Where `reproducible` is set,
+/// options that cannot change the picture (threads, progress, names of outputs) are left out.
 nlohmann::ordered_json resolved_options(RenderSettings settings);
 
-/// The same as JSON text.
+/// resolved_options() as JSON text.
 std::string dump_options(const RenderSettings& settings);
 
 /// The EXR header's strings.

@@ -1,5 +1,5 @@
 #pragma once
-// What a run did, for people and for programs.
+// The report of a run as text and as JSON.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct RunReport {
   double write_seconds = 0.0;
   double total_seconds = 0.0;
   std::vector<std::string> warnings;
-  int signal = 0;  ///< that asked for the end; 0: none
+  int signal = 0;  ///< that stopped the run; 0: none
 };
 
 /// Largest resident memory of this process so far, in bytes.
@@ -28,7 +28,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report);
 /// A few lines, each with its line break.
 std::string summary(const RenderSettings& settings, const RunReport& report);
 
-/// After a signal: how far it came, in training where that was cut short, and what there is of it.
+/// The notice after a signal: the progress, also of training where that was cut short, and what was written.
 std::string stop_notice(const RenderSettings& settings, const RunReport& report);
 
 }  // namespace gatelight::apps

@@ -4,13 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
-#include "apps/reports/json_values.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
@@ -43,17 +42,9 @@ constexpr Requirement kRequirements[] = {
     {"directional_lights", &SceneRequirements::directional_lights},
 };
 
-const char* name_of_type(scene::LightType type) {
-  switch (type) {
-    case scene::LightType::directional:
-      return "directional";
-    case scene::LightType::point:
-      return "point";
-    case scene::LightType::spot:
-      return "spot";
-  }
-  return "";
-}
+constexpr renderer::Choice<scene::LightType> kLightTypes[] = {{"directional", scene::LightType::directional},
+                                                              {"point", scene::LightType::point},
+                                                              {"spot", scene::LightType::spot}};
 
 const char* name_of_type(const scene::Camera& camera) {
   return camera.orthographic ? "orthographic" : "perspective";
@@ -61,12 +52,12 @@ const char* name_of_type(const scene::Camera& camera) {
 
 class Rows {
  public:
-  /// Names of the file may hold anything: a terminal gets nothing to obey.
+  /// Names in the file may hold anything; control characters must not reach the terminal.
   void add(const std::string& name, const std::string& value) {
     text_ += fmt::format("{:<14} {}\n", name, one_line(value));
   }
 
-  /// The first entry beside the name, the others below it.
+  /// Puts the first entry beside the name and the others below it.
   void add_list(const std::string& name, const std::vector<std::string>& entries) {
     if (entries.empty()) add(name, "none");
     for (std::size_t i = 0; i < entries.size(); ++i) add(i == 0 ? name : "", entries[i]);
@@ -81,8 +72,9 @@ class Rows {
 std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneRequirements& requirements) {
   std::vector<std::string> lines;
   for (const scene::PunctualLight& light : scene.lights) {
-    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}", name_of_type(light.type),
-                                light.name, light.intensity.x(), light.intensity.y(), light.intensity.z()));
+    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}",
+                                renderer::name_of(kLightTypes, light.type), light.name, light.intensity.x(),
+                                light.intensity.y(), light.intensity.z()));
   }
   if (requirements.emissive_triangles > 0) {
     lines.push_back(fmt::format("{} emissive triangles of {} materials",
@@ -104,7 +96,7 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
   return lines;
 }
 
-/// In the file's coordinates.
+/// The bounds in the file's coordinates.
 scene::Box file_bounds(const scene::Scene& scene) {
   scene::Box bounds = scene.bounds;
   if (!bounds.isEmpty()) bounds.translate(scene.origin);
@@ -127,49 +119,48 @@ std::string describe_requirements(const SceneRequirements& requirements) {
   return names.empty() ? "nothing special" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace
-
-SceneReport make_scene_report(const scene::Scene& scene, double load_seconds) {
-  SceneReport report;
-  report.requirements = scene::compute_requirements(scene);
-  for (const scene::Mesh& mesh : scene.meshes) report.triangles_stored += mesh.triangles.size();
-  report.triangles = scene::count_triangles(scene);
-  report.geometry_bytes = scene::geometry_bytes(scene);
-  report.image_bytes = scene::image_bytes(scene);
-  const renderer::RenderOptions defaults;
-  report.render_bytes = renderer::estimate_memory(scene, defaults).total();
-  report.load_seconds = load_seconds;
-  return report;
+std::size_t stored_triangles(const scene::Scene& scene) {
+  std::size_t triangles = 0;
+  for (const scene::Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
+  return triangles;
 }
 
-std::string scene_report_text(const scene::Scene& scene, const SceneReport& report) {
+/// Estimate for a picture with the default options, in bytes.
+std::size_t render_bytes(const scene::Scene& scene) {
+  return renderer::estimate_memory(scene, renderer::RenderOptions()).total();
+}
+
+}  // namespace
+
+std::string scene_report_text(const scene::Scene& scene, const SceneRequirements& requirements,
+                              double load_seconds) {
   Rows rows;
   rows.add("scene", scene.path);
-  rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(report.triangles_stored),
-                                    format_integer(report.triangles)));
+  rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(stored_triangles(scene)),
+                                    format_integer(scene::count_triangles(scene))));
   rows.add("meshes", format_integer(scene.meshes.size()));
   rows.add("instances", format_integer(scene.instances.size()));
   rows.add("materials", format_integer(scene.materials.size()));
   rows.add("textures", fmt::format("{} of {} images", scene.textures.size(), scene.images.size()));
-  rows.add_list("lights", describe_lights(scene, report.requirements));
+  rows.add_list("lights", describe_lights(scene, requirements));
   rows.add_list("cameras", describe_cameras(scene));
   rows.add_list("variants", scene.variants);
   rows.add("bounds", describe_bounds(file_bounds(scene)));
-  rows.add("requires", describe_requirements(report.requirements));
+  rows.add("requires", describe_requirements(requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
-                                 format_bytes(report.geometry_bytes), format_bytes(report.image_bytes),
-                                 format_bytes(report.render_bytes)));
-  rows.add("loaded in", fmt::format("{:.2f} s", report.load_seconds));
+                                 format_bytes(scene::geometry_bytes(scene)),
+                                 format_bytes(scene::image_bytes(scene)), format_bytes(render_bytes(scene))));
+  rows.add("loaded in", fmt::format("{:.2f} s", load_seconds));
   return rows.text();
 }
 
-ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& report) {
-  const SceneRequirements& requirements = report.requirements;
+ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirements& requirements,
+                               double load_seconds) {
   ordered_json json;
   json["schema"] = 1;
   json["scene"] = scene.path;
-  json["triangles_stored"] = report.triangles_stored;
-  json["triangles"] = report.triangles;
+  json["triangles_stored"] = stored_triangles(scene);
+  json["triangles"] = scene::count_triangles(scene);
   json["meshes"] = scene.meshes.size();
   json["instances"] = scene.instances.size();
   json["materials"] = scene.materials.size();
@@ -177,7 +168,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   json["images"] = scene.images.size();
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
-    json["lights"].push_back({{"name", light.name}, {"type", name_of_type(light.type)}});
+    json["lights"].push_back({{"name", light.name}, {"type", renderer::name_of(kLightTypes, light.type)}});
   }
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {
@@ -185,6 +176,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   }
   json["variants"] = scene.variants;
   if (!scene.bounds.isEmpty()) {
+    const auto triple = [](const scene::Vec3& v) { return ordered_json{v.x(), v.y(), v.z()}; };
     const scene::Box bounds = file_bounds(scene);
     json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
   }
@@ -193,10 +185,10 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneReport& rep
   }
   json["requirements"]["emissive_triangles"] = requirements.emissive_triangles;
   json["requirements"]["emissive_materials"] = requirements.emissive_materials;
-  json["memory_bytes"] = {{"geometry", report.geometry_bytes},
-                          {"images", report.image_bytes},
-                          {"render_estimate", report.render_bytes}};
-  json["seconds"] = {{"load", report.load_seconds}};
+  json["memory_bytes"] = {{"geometry", scene::geometry_bytes(scene)},
+                          {"images", scene::image_bytes(scene)},
+                          {"render_estimate", render_bytes(scene)}};
+  json["seconds"] = {{"load", load_seconds}};
   json["warnings"] = scene.warnings;
   return json;
 }

@@ -5,6 +5,7 @@
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 
 namespace gatelight::apps {
@@ -12,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Rises when a key changes its meaning or goes away.
+/// Increases when a key changes its meaning or disappears.
 constexpr int kSchema = 1;
 
 ordered_json nonfinite(const renderer::RenderStatistics& statistics) {
@@ -27,14 +28,7 @@ ordered_json seconds(const RunReport& report, bool with_cache) {
   const renderer::RenderStatistics& s = report.statistics;
   const renderer::CacheStatistics& cache = s.cache;
   ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
-  if (with_cache) {
-    json["scout"] = cache.scout_seconds;
-    json["setup"] = cache.setup_seconds;
-    json["train"] = cache.train_seconds;
-    json["train_trace"] = cache.train_trace_seconds;
-    json["train_query"] = cache.train_query_seconds;
-    json["train_step"] = cache.train_step_seconds;
-  }
+  if (with_cache) json.update(cache_seconds_json(cache));
   json["render"] = s.render_seconds;
   if (with_cache) {
     json["render_trace"] = cache.render_trace_seconds;
@@ -89,8 +83,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["nonfinite"] = nonfinite(s);
   json["clamped"] = s.clamped;
   json["warnings"] = report.warnings;
-  // A file name need not be UTF-8; the statistics must be.
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace gatelight::apps

@@ -12,7 +12,7 @@ double per_second(double count, double seconds) {
   return seconds > 0.0 ? count / seconds : 0.0;
 }
 
-/// A signal ended it, not --train-time. What has half a cache gets no --cache-out.
+/// Whether a signal, not --train-time, ended training. Such a cache is not written to --cache-out.
 bool training_cut_short(const renderer::CacheOptions& options, const renderer::CacheStatistics& s) {
   const bool out_of_time = options.train_seconds > 0.0 && s.train_seconds >= options.train_seconds;
   return s.steps < s.steps_wanted && !out_of_time;

@@ -76,13 +76,15 @@ void check_file_names(const RenderSettings& settings) {
   names.write("--checkpoint", settings.render.checkpoint.file);
 }
 
-/// Empty where it has one.
+std::string no_cache(const RenderOptions& o) {
+  return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
+                     word(o.integrator));
+}
+
+/// Why an option has no effect here; empty where it has one.
 std::string why_without_effect(const Option& option, const RenderOptions& options) {
   if (!option.of_cache) return "";
-  if (!uses_cache(options.integrator)) {
-    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                       word(options.integrator));
-  }
+  if (!uses_cache(options.integrator)) return no_cache(options);
   for (const Need& need : option.needs) {
     if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
   }
@@ -97,29 +99,26 @@ void refuse_without_effect(RenderSettings& settings) {
   }
 }
 
-/// What defaults and presets leave open or wrong for this encoding and integrator.
+/// Sets what defaults and presets leave open or wrong for this encoding and integrator.
 void adapt_cache(RenderSettings& settings) {
   CacheOptions& o = settings.render.cache;
   if (!uses_cache(settings.render.integrator)) return;
-  // The paper's presets count steps by triangle, which a hash grid does not know.
+  // The paper's presets count steps by triangle, which a hash grid does not have.
   if (o.encoding == neural::FeatureEncoding::hash_grid) {
     o.training.feature_step = neural::FeatureStep::per_node;
     o.candidates = 1;
   }
   if (o.view == CacheView::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
-  // One number alone is compared with itself: its loss needs no weight.
+  // Occlusion is one number in [0, 1]: its loss needs no relative weight.
   if (settings.render.integrator == Integrator::nao && !settings.given.contains("--loss")) {
     o.training.loss = neural::Loss::l2;
   }
 }
 
-/// Why a layer would be black, and what it needs; empty where it shows something.
+/// Why a layer would be black, and what it needs; empty where it would not.
 std::string why_black(Aov aov, const RenderOptions& o) {
   if (aov < Aov::cache_answer) return "";
-  if (!uses_cache(o.integrator)) {
-    return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                       word(o.integrator));
-  }
+  if (!uses_cache(o.integrator)) return no_cache(o);
   if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
     return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
   }
@@ -130,7 +129,7 @@ std::string why_black(Aov aov, const RenderOptions& o) {
   return "";
 }
 
-/// Of all layers those are left out that would be black, of some they are refused.
+/// Layers that would be black are left out of `all`, and refused otherwise.
 void complete_aovs(RenderOptions& o) {
   if (o.aovs.size() == std::size(kWords<Aov>))
     std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o).empty(); });

@@ -1,5 +1,5 @@
 #pragma once
-// What single flags cannot know: whether they go together, and what follows from them.
+// Checks that need several flags, and values that follow from them.
 
 #include <set>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace gatelight::apps {
 
-/// Flags that mean nothing beside the other values: of another encoding, rule or integrator, or of a cache
-/// where there is none. Refused, and no part of recipes.
+/// Flags that have no effect with the other values: of another encoding, rule or integrator, or of a cache
+/// where there is none. They are refused, and left out of recipes.
 std::set<std::string> flags_without_effect(RenderSettings settings);
 
-/// Checks what single flags cannot know (does the region lie in the picture?) and fills in what follows from
-/// the flags: the view by hand, the number of threads. Throws UsageError.
+/// Checks flags against each other (such as the region against the size) and fills in what follows from them:
+/// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
 
-/// The files that are read, each with its flag, for those who write further ones.
+/// The files that are read, each with its flag. Callers add the files that they write.
 FileNames read_files(const RenderSettings& settings);
 
-/// Before the long work: the inputs exist, the outputs can be written. Throws InputError,
+/// Checks before the long work that inputs exist and outputs can be written. Throws InputError,
 /// renderer::OutputError or renderer::UnknownFormat.
 void check_files(const RenderSettings& settings);
 

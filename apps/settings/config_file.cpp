@@ -26,10 +26,10 @@ class SubcommandConfig final : public CLI::ConfigTOML {
     const std::vector<const CLI::App*> called =
         root_.get_subcommands([](const CLI::App* app) { return app->parsed(); });
     for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(text)) {
-      // Marks of a section's begin and end.
+      // The library's marks of the begin and end of a section.
       if (item.name == "++" || item.name == "--") continue;
       if (item.parents.empty() && !called.empty()) item.parents = {called.front()->get_name()};
-      // A section of another subcommand is not for this call.
+      // A section of another subcommand does not apply to this call.
       if (!called.empty() && item.parents.front() != called.front()->get_name() &&
           is_subcommand(item.parents.front())) {
         continue;
@@ -44,7 +44,7 @@ class SubcommandConfig final : public CLI::ConfigTOML {
   }
 
  private:
-  /// Devices have no end, and what is no text would be cut at its first zero byte later.
+  /// Limits the size, as devices have no end, and refuses zero bytes, at which text would be cut later.
   std::string whole_text(std::istream& input) const {
     constexpr std::size_t kMost = std::size_t{1} << 20;
     std::string text(kMost + 1, '\0');
@@ -77,7 +77,7 @@ class SubcommandConfig final : public CLI::ConfigTOML {
   std::shared_ptr<ConfigFile> config_;
 };
 
-/// Where `flag` stands as a word of its own, npos for nowhere.
+/// Where `flag` occurs as a whole word; npos: nowhere.
 std::size_t find_flag(const std::string& text, const std::string& flag) {
   const auto in_flags = [&](std::size_t at) {
     return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '-');

@@ -16,7 +16,7 @@ bool is_file(const std::string& name) {
   return !name.empty() && name != "-";
 }
 
-/// What cannot be looked at stays as it is named: it will be refused for that.
+/// A path that cannot be resolved stays as it is named; opening it will fail later.
 fs::path place_of(const std::string& name) {
   std::error_code error;
   const fs::path file = renderer::replaced_file(fs::absolute(name, error));

@@ -1,5 +1,5 @@
 #pragma once
-// Which flag names which file: what is written must not be read, or written twice.
+// Records which flag names which file: a file must not be read and written, or written twice.
 
 #include <filesystem>
 #include <map>
@@ -8,12 +8,11 @@
 
 namespace gatelight::apps {
 
-/// Files are told apart by where they will lie, not by how they are called: folders may be links, and so may
-/// the files themselves. Empty names and "-" are no files.
+/// Files are compared by their location after following links, not by name. Empty names and "-" are no files.
 class FileNames {
  public:
   void read(std::string_view flag, const std::string& name);
-  /// Throws UsageError where another flag, or the same one, has named the file; but not for `may_replace`.
+  /// Throws UsageError where a flag other than `may_replace` has already named the file.
   void write(std::string_view flag, const std::string& name, std::string_view may_replace = "");
 
  private:

@@ -31,7 +31,7 @@ void add_flag(CLI::App& app, const Option& option) {
   if (!default_text.empty()) flag->default_str(default_text);
 }
 
-/// A flag without a place in the help tells no name by itself.
+/// The name of a flag; the library gives none for flags that are not in the help.
 std::string name_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
 }
@@ -61,7 +61,7 @@ std::vector<std::string> given_flags(const CLI::App& app) {
 void finish_flags(CLI::App& app, RenderSettings& settings) {
   if (settings.preset) {
     renderer::apply_preset(*settings.preset, settings.render);
-    // They were read once already, in an order of the library's own: before the preset.
+    // They were read once already, before the preset.
     for (CLI::Option* option : app.get_options()) {
       if (option->count() > 0) option->run_callback();
     }

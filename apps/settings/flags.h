@@ -1,6 +1,6 @@
 #pragma once
-// Options into flags of the command line. CLI11 takes seconds to compile: it is included by the sources of
-// this and of what stands around all subcommands, by no other.
+// Makes flags of the command line from options. CLI11 takes seconds to compile: only flags.cpp and the
+// sources that handle all subcommands include it.
 
 #include <string>
 #include <vector>
@@ -14,20 +14,20 @@ class App;
 
 namespace gatelight::apps {
 
-/// A subcommand without flags. The footer ends its help.
+/// Adds a subcommand without flags. The footer ends its help.
 CLI::App* add_subcommand(CLI::App& root, const char* name, const char* description, const char* footer);
 
-/// What the options are bound to must outlive the parsing.
+/// Adds flags. The members that the options are bound to must outlive the parsing.
 void add_flags(CLI::App& app, const std::vector<renderer::Option>& options);
 
-/// After parsing: the flags on the command line or in --config, with their dashes.
+/// After parsing: the flags given on the command line or in --config, with their dashes.
 std::vector<std::string> given_flags(const CLI::App& app);
 
-/// After parsing: applies the preset, and reads over it all flags that were given, wherever they stood.
+/// After parsing: applies the preset and then reads all given flags again, so that they override it.
 void finish_flags(CLI::App& app, RenderSettings& settings);
 
-/// What `gatelight render SCENE WORDS` asks for, presets applied; complete_settings() comes after it. Outputs
-/// may be missing. Throws UsageError.
+/// The settings of `gatelight render SCENE WORDS` with presets applied. Outputs may be missing. Call
+/// complete_settings() afterwards. Throws UsageError.
 RenderSettings read_render_words(const std::string& scene, const std::vector<std::string>& words);
 
 }  // namespace gatelight::apps

@@ -6,7 +6,7 @@
 
 namespace gatelight::apps {
 
-/// Help of one line or more for each flag, wrapped to a terminal, with the default at its end.
+/// Formats the help of each flag, wrapped to the terminal, with the default at its end.
 std::shared_ptr<CLI::Formatter> make_help_formatter();
 
 }  // namespace gatelight::apps

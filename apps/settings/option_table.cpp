@@ -8,22 +8,9 @@
 namespace gatelight::apps {
 namespace {
 
-using renderer::any_word;
-using renderer::any_words;
-using renderer::CachePreset;
-using renderer::choice;
-using renderer::Choice;
-using renderer::InRecipe;
-using renderer::kWords;
-using renderer::LookAt;
-using renderer::number;
-using renderer::Option;
-using renderer::OptionGroup;
-using renderer::OptionValue;
-using renderer::toggle;
-using renderer::word;
+using namespace renderer;
 
-/// Beyond it 2^EV leaves the range of float.
+/// Beyond this 2^EV leaves the range of float.
 constexpr renderer::RealRange kStops{-100.0, 100.0};
 constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
 constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
@@ -46,7 +33,7 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   group.add(choice("tonemap", tonemap, "Curve of PNG files"));
 }
 
-/// How the call goes, not what it makes.
+/// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
                       bool& quiet, bool& verbose) {
   const auto add = [&](Option option) { group.add(std::move(option)).in_recipe = InRecipe::never; };
@@ -55,11 +42,11 @@ void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& prog
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
   add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"));
   add(progress_option(progress));
-  add(toggle("quiet", quiet, "Say nothing but errors"));
-  add(toggle("verbose", verbose, "Say more: what was loaded, the memory needed, all options"));
+  add(toggle("quiet", quiet, "Print errors only"));
+  add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
 }
 
-/// Part of a view by hand; what is complete is said.
+/// A part of the view of --eye. Recipes have the complete view.
 Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
                const renderer::CameraOptions& camera, scene::Vec3 LookAt::*part, const char* help) {
   const auto value = [&camera, part]() -> OptionValue {
@@ -118,7 +105,7 @@ Option positional(const char* name, std::string& member, const char* help) {
 }
 
 std::vector<Option> option_table(RenderSettings& settings) {
-  // --config is of all subcommands.
+  // --config belongs to all subcommands.
   auto& [scene, outputs, render, load, image, eye, target, up, config, stats, progress, reproducible, quiet,
          verbose, preset, given] = settings;
   std::vector<Option> table;
@@ -134,9 +121,9 @@ std::vector<Option> option_table(RenderSettings& settings) {
     if (name == "environment-scale") add_load_options(view, load);
     if (name != "camera") continue;
     const auto& camera = render.camera;
-    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Look from here, in metres (with --target)"));
-    view.add(by_hand("target", target, camera, &LookAt::target, "Look at this point, in metres"));
-    view.add(by_hand("up", up, camera, &LookAt::up, "What is up in a view by hand")).default_text = "0,1,0";
+    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
+    view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
+    view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
   }
   return table;
 }

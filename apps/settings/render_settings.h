@@ -1,5 +1,5 @@
 #pragma once
-// All that `gatelight render` can be told.
+// All settings of `gatelight render`.
 
 #include <array>
 #include <optional>
@@ -21,7 +21,8 @@ struct RenderSettings {
   renderer::RenderOptions render;
   scene::LoadOptions load;
   renderer::ImageWriteOptions image;
-  std::optional<std::array<float, 3>> eye;  ///< become render.camera.look_at in complete_settings()
+  std::optional<std::array<float, 3>>
+      eye;  ///< complete_settings() makes render.camera.look_at of these three
   std::optional<std::array<float, 3>> target;
   std::optional<std::array<float, 3>> up;
   std::string config;  ///< file of --config, empty for none

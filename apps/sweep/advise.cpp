@@ -22,13 +22,13 @@ bool same(const Configuration& a, const Configuration& b) {
   return a.scene == b.scene && a.reference_id == b.reference_id && a.series == b.series && a.point == b.point;
 }
 
-/// Whether an error of the one says anything about an error of the other.
+/// Whether errors of both can be compared.
 bool comparable(const Configuration& a, const Configuration& b) {
   return a.scene == b.scene && a.reference_id == b.reference_id;
 }
 
-/// "path", or "path, max-depth 2": where a scene has several references of a kind, the axes that all of
-/// `group` have in common and others have not.
+/// "path", or "path, max-depth 2". Where a scene has several references of a kind, the text has the axes that
+/// all of `group` share and no others have.
 std::string reference_text(const std::vector<Configuration>& group, const std::vector<Configuration>& all) {
   const Configuration& first = group.front();
   std::vector<const Configuration*> others;
@@ -50,7 +50,7 @@ std::string reference_text(const std::vector<Configuration>& group, const std::v
   return first.reference + (text.empty() ? fmt::format(", reference {}", first.reference_id) : text);
 }
 
-/// Adds the cell's numbers to the means.
+/// Adds the values of a cell to the means.
 void add(Configuration& c, double error, double seconds) {
   c.smallest_error = c.seeds == 0 ? error : std::min(c.smallest_error, error);
   c.largest_error = c.seeds == 0 ? error : std::max(c.largest_error, error);
@@ -100,7 +100,7 @@ std::vector<Configuration> configurations(const ordered_json& results) {
 }
 
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits) {
-  // The command has one of the seeds.
+  // The worst seed counts, because the command has only one of them.
   const auto good = [&](const Configuration& c) {
     return !limits.max_error || c.largest_error <= *limits.max_error;
   };

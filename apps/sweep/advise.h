@@ -1,19 +1,25 @@
 #pragma once
-// The cheapest configuration that was good enough, or the best that was cheap enough.
+// Chooses the fastest configuration that is accurate enough, or the most accurate that is fast enough.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/sweep/sweep_settings.h"
+#include "apps/sweep/flag_values.h"
 
 namespace gatelight::apps {
 
-/// The cells of a series with the same number of steps (samples): means over the seeds.
+struct AdviceLimits {
+  std::optional<double> max_error;    ///< mean FLIP of a picture, with every seed
+  std::optional<double> max_seconds;  ///< of scouting, training and rendering
+};
+
+/// The cells of a series with the same number of steps (or samples): means over the seeds.
 struct Configuration {
   std::string scene;
-  std::string reference;     ///< its kind
-  std::string reference_id;  ///< errors against different references are not compared
+  std::string reference;     ///< kind of the reference
+  std::string reference_id;  ///< only errors against the same reference are compared
   std::string series;
   FlagValues axes;
   std::string point;  ///< "128 steps, 4 spp"
@@ -25,20 +31,21 @@ struct Configuration {
   double seconds = 0.0;
 };
 
-/// From results.json, in its order. Cells that failed or have no FLIP are left out.
+/// The configurations in results.json, in its order. Cells that failed or have no FLIP are left out.
 std::vector<Configuration> configurations(const nlohmann::ordered_json& results);
 
 struct Advice {
   Configuration best;
-  bool met = false;  ///< whether it is within the limits; else it is the one that comes nearest
+  bool met = false;  ///< whether it is within the limits; otherwise it is the nearest
 };
 
-/// Of configurations with one reference, at least one. Within max_error (with every seed) the fastest; within
-/// max_seconds alone that with the smallest error. Where none meets the limits: of those that are fast enough
-/// the one with the smallest error, or where none is, the fastest.
+/// Chooses among configurations with one reference, at least one: the fastest within max_error (with every
+/// seed), or with max_seconds alone the one with the smallest error. Where none meets the limits: the
+/// smallest error among those that are fast enough, or else the fastest.
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits);
 
-/// For each reference the advice with its command. Throws nlohmann::json::exception where `results` are none.
+/// The advice for each reference, with its command. Throws nlohmann::json::exception where `results` is no
+/// result of a sweep.
 std::string advice_text(const nlohmann::ordered_json& results, const AdviceLimits& limits);
 
 }  // namespace gatelight::apps

@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep varies.
+// The axes of a sweep.
 
 #include <string>
 #include <vector>
@@ -13,16 +13,16 @@ struct SweepAxis {
   std::vector<std::string> values;
 };
 
-/// "a,b" into two values; "a,b;c" into "a,b" and "c". Values that are lists themselves (--stack) are not
-/// taken apart at commas. Throws UsageError for empty and repeated values.
+/// Splits "a,b" into two values, and "a,b;c" into "a,b" and "c". Values that are lists themselves (--stack)
+/// are not split at commas. Throws UsageError for empty and repeated values.
 std::vector<std::string> split_values(const std::string& flag, const std::string& text,
                                       bool values_are_lists = false);
 
-/// Ascending, each once.
+/// The values in ascending order, each once.
 std::vector<int> split_integers(const std::string& flag, const std::string& text,
                                 const renderer::IntegerRange& range);
 
-/// "NAME=V1,V2", the text of --vary. NAME is that of a flag of `render`, with or without its dashes. Which
+/// Parses "NAME=V1,V2", the text of --vary. NAME is a flag of `render`, with or without its dashes. Which
 /// flags may be varied is not checked here.
 SweepAxis parse_vary(const std::string& text);
 

@@ -8,11 +8,10 @@
 #include <stdexcept>
 
 #include "apps/reports/cache_statistics.h"
-#include "apps/reports/json_file.h"
-#include "apps/reports/json_numbers.h"
+#include "apps/reports/json.h"
 #include "apps/reports/recipe.h"
-#include "apps/sweep/cell_command.h"
-#include "apps/sweep/machine.h"
+#include "apps/sweep/identity.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/settings/option.h"
@@ -33,16 +32,14 @@ ordered_json per(double seconds, double count) {
 
 ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
   const CacheStatistics& c = s.cache;
-  const auto of_cache = [&](double value) { return has_cache ? ordered_json(value) : nullptr; };
+  ordered_json json = cache_seconds_json(c);
+  if (!has_cache) {
+    for (ordered_json& value : json) value = nullptr;
+  }
+  json["render"] = s.render_seconds;
   const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
-  return {{"scout", of_cache(c.scout_seconds)},
-          {"setup", of_cache(c.setup_seconds)},
-          {"train", of_cache(c.train_seconds)},
-          {"train_trace", of_cache(c.train_trace_seconds)},
-          {"train_query", of_cache(c.train_query_seconds)},
-          {"train_step", of_cache(c.train_step_seconds)},
-          {"render", s.render_seconds},
-          {"total", before + s.render_seconds}};
+  json["total"] = before + s.render_seconds;
+  return json;
 }
 
 void add_speed(ordered_json& json, const CacheStatistics& c, bool has_cache) {
@@ -71,12 +68,12 @@ void add_errors(ordered_json& json, const CellErrors& e) {
       {"q25", s.first_quartile}, {"median", s.weighted_median}, {"q75", s.third_quartile}};
 }
 
-/// What only a picture that was measured has.
+/// The keys that only a measured picture has.
 constexpr const char* kMeasured[] = {
     "seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes", "loss",
     "errors",  "flip_percentiles",  "picture",       "error_map"};
 
-/// Options that leave a choice to the run.
+/// Options whose value the run may choose.
 constexpr const char* kFoundOptions[] = {"isa",          "filter-width", "ao-distance", "direction-input",
                                          "normal-input", "albedo-input", "node-spacing"};
 
@@ -85,7 +82,7 @@ ordered_json found_number(float value) {
   return shortest(value);
 }
 
-/// `options` with what the run has chosen; what does not apply stays out.
+/// Sets the values that the run has chosen; options that do not apply stay out.
 void add_found(ordered_json& options, const CellPlace& place, const renderer::RenderStatistics& s,
                float ao_distance) {
   const renderer::RenderOptions& o = place.series.settings.render;
@@ -101,7 +98,7 @@ void add_found(ordered_json& options, const CellPlace& place, const renderer::Re
   set("node-spacing", found_number(s.cache.node_spacing));
 }
 
-/// By whom and where; seconds mean little without it.
+/// Adds program version and machine, without which times mean little.
 void add_origin(ordered_json& json) {
   json["schema"] = kSweepSchema;
   json["version"] = version();
@@ -110,14 +107,14 @@ void add_origin(ordered_json& json) {
   json["backend"] = nullptr;
 }
 
-/// An object of numbers, or null: what JSON has for those that are not finite.
+/// Whether it is an object of numbers or nulls; JSON has null for numbers that are not finite.
 bool holds_numbers(const ordered_json& object) {
   return object.is_object() && std::all_of(object.begin(), object.end(), [](const ordered_json& value) {
            return value.is_null() || value.is_number();
          });
 }
 
-/// Whether other parts of the program may rely on its keys.
+/// Whether the record has all keys, with the types that the program relies on.
 bool is_whole(const ordered_json& record) {
   for (const char* key : kMeasured) {
     if (!record.contains(key)) return false;
@@ -136,7 +133,7 @@ bool is_whole(const ordered_json& record) {
          seconds.contains("total") && seconds["total"].is_number() && seconds["total"] >= 0.0;
 }
 
-/// Names of files in it are those that this program gives: nothing else in or beside the folder is shown.
+/// Whether its file names are those that this program gives, so that no other files are shown.
 bool names_its_files(const ordered_json& record, const std::string& id) {
   const auto names = [&](const char* key, const std::string& file) {
     return record[key].is_null() || record[key] == file;
@@ -144,7 +141,7 @@ bool names_its_files(const ordered_json& record, const std::string& id) {
   return names("picture", picture_file(id)) && names("error_map", error_map_file(id));
 }
 
-/// Whether all of it is there: a run that a power failure ended may leave half of one.
+/// Whether the file is complete; after a power failure it may not be.
 bool is_whole_png(const std::filesystem::path& path) {
   try {
     scene::open_png(path).read_8();
@@ -228,7 +225,7 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
       !names_its_files(record, place.id)) {
     return std::nullopt;
   }
-  // Files are looked for, not believed: somebody may have tidied up.
+  // The files may have been deleted since.
   for (const char* key : {"picture", "error_map"}) {
     const ordered_json& name = record[key];
     if (name.is_string() && is_whole_png(root / name.get<std::string>())) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a cell, as the JSON object of cells/ID.json and results.json.
+// The record of a cell: the JSON object of cells/ID.json and results.json.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace gatelight::apps {
 
-/// Rises when a key changes its meaning or goes away.
+/// Increases when a key changes its meaning or disappears.
 inline constexpr int kSweepSchema = 2;
 
 /// A cell in its plan.
@@ -19,29 +19,29 @@ struct CellPlace {
   const PlannedScene& scene;
   const PlannedSeries& series;
   std::uint32_t seed = 0;
-  int point = 0;  ///< training steps, or samples of a plain integrator
+  int point = 0;  ///< training steps, or samples without a cache
   std::string id;
-  std::string reference_key;  ///< of what it is compared with
+  std::string reference_key;  ///< of its reference
 };
 
-/// Without results: what the plan says of it. Written anew over a record that was read, because labels and
-/// axes belong to the sweep, not to the cell.
+/// The record without results. Its keys replace those of a record that was read, because labels and axes
+/// belong to the sweep, not to the cell.
 nlohmann::ordered_json planned_record(const CellPlace& place);
 nlohmann::ordered_json failed_record(const CellPlace& place, const std::string& error);
-/// pictures: whether they are written under their names. ao_distance: the one that the options mean.
+/// pictures: whether they are written. ao_distance: resolved, in metres.
 nlohmann::ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
                                    const CellErrors& errors, bool pictures, float ao_distance);
 
-/// False for null, and for what is no record.
+/// Whether the record has results. False for null and for other JSON.
 bool is_done(const nlohmann::ordered_json& record);
 
-/// Relative to the sweep's folder.
+/// File names relative to the sweep's folder.
 std::string picture_file(const std::string& id);
 std::string error_map_file(const std::string& id);
 std::string cell_file(const std::string& id);
 
-/// The record of the file with what the plan says today; of a cell that is not done, a file that cannot be
-/// read, or one of another schema, nothing.
+/// Reads the record of a cell and updates it with the plan. Returns nothing where the cell is not done, or
+/// its file cannot be read or has another schema.
 std::optional<nlohmann::ordered_json> read_done_record(const std::string& folder, const CellPlace& place,
                                                        bool with_pictures);
 

@@ -1,8 +1,32 @@
 #include "apps/sweep/eta.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
+
+#include "renderer/settings/words.h"
 
 namespace gatelight::apps {
+namespace {
+
+using renderer::RenderOptions;
+
+double pixels_of(const RenderOptions& o) {
+  return static_cast<double>(o.width) * o.height;
+}
+
+/// Kinds of this scene first, then of any scene, and last of any picture.
+std::vector<std::string> kinds_of(const PlannedScene& scene, const std::vector<std::string>& kinds) {
+  std::vector<std::string> all;
+  all.reserve(2 * kinds.size() + 1);
+  for (const std::string& kind : kinds) all.push_back(fmt::format("{} {}", scene.name, kind));
+  all.insert(all.end(), kinds.begin(), kinds.end());
+  all.emplace_back("picture");
+  return all;
+}
+
+}  // namespace
 
 void SweepClock::plan_rest(const std::vector<SweepTask>& tasks) {
   tasks_.resize(done_);
@@ -44,6 +68,35 @@ std::optional<double> SweepClock::left(double elapsed, double fraction) const {
     }
   }
   return left;
+}
+
+SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
+  const RenderOptions& o = series.settings.render;
+  const std::string integrator = renderer::word(o.integrator);
+  if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
+  const std::string encoding = renderer::word(o.cache.encoding);
+  // Camera paths and training paths.
+  const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
+                      static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
+  return {kinds_of(scene, {fmt::format("{} {}", integrator, encoding), integrator}), work};
+}
+
+SweepTask reference_task(const PlannedScene& scene, const RenderOptions& cell, ReferenceKind kind, int spp) {
+  return {kinds_of(scene, {renderer::name_of(kReferenceKinds, kind)}), pixels_of(cell) * spp};
+}
+
+std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp) {
+  std::vector<SweepTask> tasks;
+  std::set<ReferenceKind> kinds;
+  for (const PlannedSeries& series : scene.series) {
+    if (kinds.insert(series.reference).second) {
+      tasks.push_back(reference_task(scene, series.settings.render, series.reference, reference_spp));
+    }
+    for (std::size_t seed = 0; seed < plan.seeds.size(); ++seed) {
+      tasks.push_back(run_task(scene, series, series.points));
+    }
+  }
+  return tasks;
 }
 
 }  // namespace gatelight::apps

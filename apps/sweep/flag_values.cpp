@@ -27,7 +27,7 @@ bool drop_flag(FlagValues& flags, const std::string& flag) {
 std::vector<std::string> words_of(const FlagValues& flags) {
   std::vector<std::string> words;
   for (const auto& [flag, value] : flags) {
-    // A value may begin with a dash: "--exposure -1" would be read well, "--camera -x" would not.
+    // A value may begin with a dash: "--exposure -1" is parsed as meant, "--camera -x" is not.
     if (!value.empty() && value.front() == '-') {
       words.push_back(fmt::format("{}={}", flag, value));
     } else {

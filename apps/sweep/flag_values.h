@@ -1,5 +1,5 @@
 #pragma once
-// Flags of `render` with their values, as an order of words.
+// Flags of `render` with their values, in order.
 
 #include <string>
 #include <utility>
@@ -11,9 +11,9 @@ namespace gatelight::apps {
 using FlagValues = std::vector<std::pair<std::string, std::string>>;
 
 const std::string* find_flag(const FlagValues& flags, const std::string& flag);
-/// In the place that it has, or at the end.
+/// Replaces the value of a flag, or appends the flag.
 void set_flag(FlagValues& flags, const std::string& flag, const std::string& value);
-/// Answers whether it was there.
+/// Removes a flag. Returns whether it was there.
 bool drop_flag(FlagValues& flags, const std::string& flag);
 std::vector<std::string> words_of(const FlagValues& flags);
 

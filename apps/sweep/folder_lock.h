@@ -1,15 +1,15 @@
 #pragma once
-// One sweep at a time in a folder.
+// Allows one sweep at a time in a folder.
 
 #include <string>
 
 namespace gatelight::apps {
 
-/// Until it goes away, or the program does, however it ends.
+/// Holds the lock until it is destroyed or the program ends, however it ends.
 class FolderLock {
  public:
-  /// Throws InputError where another has it, renderer::OutputError where FOLDER/.lock cannot be opened. A
-  /// file system without locks gives none.
+  /// Throws InputError where another process has the lock, renderer::OutputError where FOLDER/.lock cannot be
+  /// opened. On a file system without locks there is no protection.
   explicit FolderLock(const std::string& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 

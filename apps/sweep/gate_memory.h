@@ -1,5 +1,5 @@
 #pragma once
-// How many bytes the features of a cache take on a scene, for another encoding to take as many.
+// The bytes of the features of a cache on a scene, so that another encoding can take as many.
 
 #include <cstdint>
 #include <map>
@@ -10,13 +10,13 @@
 
 namespace gatelight::apps {
 
-/// Remembers in a file: finding out builds the scene's acceleration structure and scouts.
+/// Stores them in a file, because computing them builds the scene's acceleration structure and scouts.
 class GateMemoryStore {
  public:
   explicit GateMemoryStore(std::string file);
 
   bool knows(const std::string& key) const { return known_.contains(key); }
-  /// key: of scene and options. Throws what renderer::Renderer throws, and OutputError.
+  /// Bytes for scene and options, whose key is `key`. Throws what renderer::Renderer throws, and OutputError.
   std::uint64_t bytes(const std::string& key, const scene::Scene& scene,
                       const renderer::RenderOptions& options);
 

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+
+#include "neural/file/digest.h"
+#include "renderer/cache/cache_backend.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/identity/deciding_options.h"
+#include "renderer/machine/errors.h"
 #include "renderer/settings/words.h"
+#include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
 namespace {
@@ -13,7 +19,7 @@ std::string text_of(const scene::Vec3& v) {
   return fmt::format("{},{},{}", v.x(), v.y(), v.z());
 }
 
-/// What deciding_options() leaves to the scene's camera and fingerprint.
+/// Options that deciding_options() leaves to the scene's camera and fingerprint.
 std::string scene_options(const RenderSettings& settings) {
   const renderer::CameraOptions& camera = settings.render.camera;
   const renderer::EnvironmentOptions& environment = settings.render.environment;
@@ -42,7 +48,7 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
   for (const renderer::NamedText& option : renderer::deciding_options(o, camera, {{"isa", o.isa}})) {
     text += fmt::format("{} {}\n", option.name, option.text);
   }
-  // FLIP looks at the picture as it is shown; threads and memory limit decide how long it takes, or whether.
+  // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
                             settings.image.exposure, renderer::word(settings.image.tonemap), o.threads,
                             o.memory_limit_bytes, renderer::word(o.nan_policy));
@@ -52,24 +58,41 @@ std::string deciding_text(const RenderSettings& settings) {
   return deciding_text(settings, scene::Camera{}) + scene_options(settings);
 }
 
-Identity::Identity(const renderer::SceneFingerprint& scene) {
-  for (const renderer::FingerprintPart& part : renderer::kFingerprintParts) {
-    record_.add_text(scene.*part.digest);
-  }
-}
-
-Identity& Identity::add(const std::string& text) {
-  record_.add_text(text);
-  return *this;
-}
-
-std::string Identity::name() const {
-  return neural::hexadecimal(record_.digest()).substr(0, 16);
+std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts) {
+  neural::DigestRecord record;
+  for (const renderer::NamedText& part : scene) record.add_text(part.text);
+  for (const std::string& text : texts) record.add_text(text);
+  return neural::hexadecimal(record.digest()).substr(0, 16);
 }
 
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
                       const std::string& reference, const std::string& machine, bool hdr_flip) {
-  return Identity(scene).add(deciding).add(reference).add(machine).add(hdr_flip ? "hdr" : "").name();
+  return identity_name(scene, {deciding, reference, machine, hdr_flip ? "hdr" : ""});
+}
+
+std::string cpu_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(':');
+    if (line.rfind("model name", 0) != 0 || colon == std::string::npos) continue;
+    const std::size_t begin = line.find_first_not_of(' ', colon + 1);
+    return begin == std::string::npos ? "" : line.substr(begin);
+  }
+  return "unknown";
+}
+
+std::string machine_text(const renderer::RenderOptions& options) {
+  static const std::string cpu = cpu_name();
+  std::string kernels = "none";
+  if (renderer::uses_cache(options.integrator)) {
+    try {
+      kernels = renderer::cache_machine(options);
+    } catch (const renderer::Unavailable&) {
+      // Its cells will fail with this error.
+    }
+  }
+  return fmt::format("cpu {}\nisa {}\nkernels {}", cpu,
+                     options.isa == "auto" ? renderer::best_isa() : options.isa, kernels);
 }
 
 }  // namespace gatelight::apps

@@ -1,10 +1,10 @@
 #pragma once
-// Names of cells and references by what decides them, so that a sweep can be gone on with.
+// Names of cells and references by what decides them, so that a sweep can be resumed.
 
+#include <initializer_list>
 #include <string>
 
 #include "apps/settings/render_settings.h"
-#include "neural/file/digest.h"
 #include "renderer/identity/scene_fingerprint.h"
 #include "scene/scene.h"
 
@@ -13,26 +13,25 @@ namespace gatelight::apps {
 /// The camera that the options choose in a scene. Throws what renderer::choose_camera() throws.
 scene::Camera view_of(const scene::Scene& scene, const renderer::RenderOptions& options);
 
-/// Every option that decides picture, errors or seconds, seed and number of steps or samples included, but
-/// not what lies in the scene's files. `camera` is the chosen one.
+/// Every option that decides picture, errors or time, including seed, steps and samples, but not the content
+/// of the scene's files. `camera` is the chosen camera.
 std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera);
-/// Before a scene is there: the camera by its name.
+/// The same before the scene is loaded, with the camera by its name.
 std::string deciding_text(const RenderSettings& settings);
 
 /// 16 hexadecimal digits for the scene and further texts.
-class Identity {
- public:
-  explicit Identity(const renderer::SceneFingerprint& scene);
-  Identity& add(const std::string& text);
-  std::string name() const;
+std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts);
 
- private:
-  neural::DigestRecord record_;
-};
-
-/// The ID of a cell: of the scene, deciding_text(), the key of its reference, machine_text() and what is
-/// measured.
+/// The ID of a cell: a digest of the scene, deciding_text(), the key of its reference, machine_text() and the
+/// metrics.
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
                       const std::string& reference, const std::string& machine, bool hdr_flip);
+
+/// The name of the processor.
+std::string cpu_name();
+
+/// The processor and the instruction sets that the options choose on it. Others change the times and the last
+/// digits of a cell.
+std::string machine_text(const renderer::RenderOptions& options);
 
 }  // namespace gatelight::apps

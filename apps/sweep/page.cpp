@@ -1,5 +1,7 @@
 #include "apps/sweep/page.h"
 
+#include <OpenImageIO/strutil.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -17,7 +19,7 @@ constexpr std::string_view view(const char (&literal)[size]) {
   return {literal, size - 1};
 }
 
-/// Of the element that holds a picture.
+/// The ID of the element that holds a picture.
 std::string element_id(std::size_t index) {
   return "picture-" + std::to_string(index);
 }
@@ -44,18 +46,9 @@ std::string picture_elements(const std::vector<PagePicture>& pictures) {
 }  // namespace
 
 std::string json_for_script(const ordered_json& json) {
-  const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  // '<' is in strings only, where JSON may spell it so.
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
+  // '<' occurs only in strings, where JSON allows this escape.
+  return OIIO::Strutil::replace(json.dump(-1, ' ', true, ordered_json::error_handler_t::replace), "<",
+                                "\\u003c", true);
 }
 
 std::string fill_slots(std::string_view text, std::initializer_list<Slot> slots) {

@@ -1,5 +1,5 @@
 #pragma once
-// The files of page/ and Chart.js as one HTML text, with data inside.
+// The files of page/ and Chart.js as one HTML text, with the data inside.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace gatelight::apps {
 
-/// JSON that may stand in a <script>: ASCII, and no '<', which could end the element.
+/// JSON for a <script> element: ASCII without '<', which could end the element.
 std::string json_for_script(const nlohmann::ordered_json& json);
 
-/// Puts each value in the place of {{its name}}. What a value holds is not looked through again.
+/// Replaces each {{name}} by the value of its slot. Values are not searched for slots again.
 struct Slot {
   std::string_view name;
   std::string_view value;
@@ -19,11 +19,11 @@ struct Slot {
 std::string fill_slots(std::string_view text, std::initializer_list<Slot> slots);
 
 struct PagePicture {
-  nlohmann::ordered_json entry;  ///< of the index that the script reads: {"file", ...}
+  nlohmann::ordered_json entry;  ///< entry of the index that the script reads: {"file", ...}
   std::string uri;
 };
 
-/// The pictures stand beside their index, so that nobody reads more of them than are looked at.
+/// The pictures are separate from their index, so that only pictures that are shown are decoded.
 std::string make_page(const nlohmann::ordered_json& results, const std::vector<PagePicture>& pictures);
 
 }  // namespace gatelight::apps

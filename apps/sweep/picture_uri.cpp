@@ -41,7 +41,7 @@ Pixels shrink(const Pixels& pixels, PictureKind kind, int width) {
   const OIIO::ImageBuf source(OIIO::ImageSpec(pixels.width, pixels.height, 3, OIIO::TypeDesc::FLOAT),
                               values.data());
   OIIO::ImageBuf target(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT));
-  // On this thread: several pictures are made at once.
+  // On one thread, because several pictures are made at once.
   if (!OIIO::ImageBufAlgo::resize(target, source, "triangle", 0.0f, {}, 1))
     throw std::runtime_error(target.geterror());
   values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
@@ -58,7 +58,7 @@ std::vector<unsigned char> encode_jpeg(const Pixels& pixels, PictureKind kind) {
   OIIO::ImageSpec spec(pixels.width, pixels.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("Compression", kind == PictureKind::map ? "jpeg:75" : "jpeg:88");
-  // Noise is coloured: half the resolution of colours would change what is compared.
+  // Noise is coloured, so subsampled colour would change what is compared.
   spec.attribute("jpeg:subsampling", kind == PictureKind::map ? "4:2:0" : "4:4:4");
   std::vector<unsigned char> encoded;
   OIIO::Filesystem::IOVecOutput memory(encoded);

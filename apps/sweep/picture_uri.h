@@ -12,7 +12,7 @@ inline constexpr int kMaxPictureWidth = 1280;
 
 enum class PictureKind {
   light,
-  /// Colours that stand for numbers: they are averaged as bytes, and need no more than half their resolution.
+  /// A colour map of numbers: bytes are averaged, and colour has half the resolution.
   map,
 };
 
@@ -22,8 +22,8 @@ struct EmbeddedPicture {
   std::string uri;
 };
 
-/// The picture as its PNG would show it, as a JPEG in a data URI. Wider than max_width it is made smaller;
-/// what is light by means of light, not of bytes.
+/// The picture as its PNG would show it, as a JPEG in a data URI. It is scaled down to max_width; `light`
+/// pictures are averaged in linear light.
 EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::ImageWriteOptions& display,
                               PictureKind kind = PictureKind::light, int max_width = kMaxPictureWidth);
 

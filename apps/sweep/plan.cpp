@@ -9,8 +9,8 @@
 
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
-#include "apps/sweep/cell_command.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/errors.h"
 #include "renderer/settings/words.h"
 
@@ -21,7 +21,7 @@ using renderer::Integrator;
 
 constexpr const char* kSameAsGate = "same-as-gate";
 
-/// Names no file: settings are read before there is a scene.
+/// Stands for the scene, because settings are read before a scene is loaded. It is no file.
 const std::string kNoScene = "scene";
 
 ReferenceKind reference_kind(const renderer::RenderOptions& o) {
@@ -30,7 +30,7 @@ ReferenceKind reference_kind(const renderer::RenderOptions& o) {
   return bare ? ReferenceKind::cache : ReferenceKind::path;
 }
 
-/// Leaves out flags that would be refused because they have no effect beside the others.
+/// Drops flags that would be refused because they have no effect with the others.
 RenderSettings settle(FlagValues& flags) {
   RenderSettings settings;
   for (bool dropped = true; dropped;) {
@@ -41,7 +41,7 @@ RenderSettings settle(FlagValues& flags) {
     for (const std::string& flag : flags_without_effect(settings)) {
       if (!drop_flag(flags, flag)) continue;
       dropped = true;
-      // A preset's size stays: pictures are compared with each other.
+      // The size of the preset stays, because pictures are compared with each other.
       if (flag == "--preset") set_flag(flags, "--size", fmt::format("{}x{}", o.width, o.height));
     }
     if (!has_cache) dropped |= drop_flag(flags, "--spp");
@@ -50,7 +50,7 @@ RenderSettings settle(FlagValues& flags) {
   return settings;
 }
 
-/// Takes "--cache-memory same-as-gate[/DIVISOR]" out of the flags.
+/// Removes "--cache-memory same-as-gate[/DIVISOR]" from the flags. Returns the divisor.
 std::optional<double> take_same_as_gate(FlagValues& flags) {
   const std::string* value = find_flag(flags, "--cache-memory");
   if (!value || value->rfind(kSameAsGate, 0) != 0) return std::nullopt;
@@ -107,7 +107,7 @@ class Planner {
   }
 
  private:
-  /// More is a mistake: cells of a minute each would take a week.
+  /// More combinations are a mistake: cells of a minute each would take a week.
   static void require_few(const SweepBlock& block) {
     constexpr double kMost = 10000;
     double count = 1.0;
@@ -133,7 +133,7 @@ class Planner {
   void add(const SweepBlock& block, const FlagValues& flags) {
     const PlannedSeries series = make_series(block, flags);
     keep(series);
-    // The bare answer of a cache has no integrator that renders it without one.
+    // No integrator without a cache renders the view of the cache.
     if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
     FlagValues plain = flags;
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
@@ -150,7 +150,7 @@ class Planner {
     FlagValues named = series.flags;
     const bool hash = series.settings.render.cache.encoding == neural::FeatureEncoding::hash_grid;
     if (divisor && series.has_cache() && hash) {
-      // What decides GATE's memory decides this one's, and tells it from others.
+      // What decides the memory of GATE also decides the memory and the name of this series.
       set_flag(gate, "--encoding", "gate");
       series.memory = GateMemory{settle(gate), *divisor};
       for (const auto& [flag, value] : gate) set_flag(named, flag, value);
@@ -166,7 +166,7 @@ class Planner {
     return series;
   }
 
-  /// Equal ones are one, with the points of both.
+  /// Merges equal series, with the points of both.
   void keep(PlannedSeries series) {
     const auto [at, is_new] = by_key_.emplace(series_key(series), series_.size());
     if (is_new) {
@@ -179,7 +179,7 @@ class Planner {
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
 
-  /// They vary where plain ones stand beside those with a cache, too.
+  /// Integrators also vary where those without a cache are measured too.
   void name_integrators() {
     std::set<std::string> integrators, encodings;
     for (const PlannedSeries& s : series_) {
@@ -200,7 +200,7 @@ class Planner {
     std::map<std::string, int> seen;
     for (PlannedSeries& s : series_) {
       s.label = integrator_of(s);
-      // A row of a table has a name of its own.
+      // A row of a preset has a name of its own.
       if (s.has_cache() && !find_flag(s.axes, "row")) s.label += fmt::format(" {}", encoding_of(s));
       for (const auto& [name, value] : s.axes) {
         if (name == "integrator" || name == "encoding") continue;
@@ -220,7 +220,7 @@ class Planner {
 
   const SweepRequest& request_;
   const FlagValues& scene_flags_;
-  std::vector<std::string> axes_;  ///< flags that have several values
+  std::vector<std::string> axes_;  ///< flags with several values
   std::vector<PlannedSeries> series_;
   std::map<std::string, std::size_t> by_key_;
 };

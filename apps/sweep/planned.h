@@ -1,5 +1,5 @@
 #pragma once
-// What a plan consists of: scenes, and the series of pictures that are made of each.
+// The parts of a plan: scenes, their series of pictures, and the cells of a series.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,31 +13,31 @@
 
 namespace gatelight::apps {
 
-/// What a picture is compared with.
+/// The kind of reference that a picture is compared with.
 enum class ReferenceKind : std::uint8_t {
   path,   ///< radiance
   ao,     ///< ambient occlusion
-  cache,  ///< what the bare cache should answer (nrc --view cache)
+  cache,  ///< reference of the view of the cache (nrc --view cache)
 };
 inline constexpr renderer::Choice<ReferenceKind> kReferenceKinds[] = {
     {"path", ReferenceKind::path}, {"ao", ReferenceKind::ao}, {"cache", ReferenceKind::cache}};
 
-/// --cache-memory same-as-gate: as many bytes as this cache takes, divided.
+/// --cache-memory same-as-gate: as many bytes as this cache takes, over the divisor.
 struct GateMemory {
   RenderSettings settings;
   double divisor = 1.0;
 };
 
-/// Cells that differ in seed and step count (samples of a plain integrator) alone: a line in a plot. With one
-/// seed it is a run: what one training, or one rendering, gives.
+/// Cells that differ only in seed and step count (or samples, without a cache): a line in a plot. With one
+/// seed it is a run: one training, or one rendering.
 struct PlannedSeries {
   std::string label;        ///< "nrc gate features 8"
-  FlagValues axes;          ///< of what varies in this sweep, without dashes
-  FlagValues flags;         ///< of a cell, without seed and point
-  RenderSettings settings;  ///< complete, but for scene, seed and point
+  FlagValues axes;          ///< values of what varies in this sweep, without dashes
+  FlagValues flags;         ///< flags of a cell, without seed and point
+  RenderSettings settings;  ///< complete except for scene, seed and point
   ReferenceKind reference = ReferenceKind::path;
   std::vector<int> points;           ///< training steps, or samples of a plain integrator; ascending
-  std::optional<GateMemory> memory;  ///< decides settings.render.cache.memory_bytes when the scene is there
+  std::optional<GateMemory> memory;  ///< decides settings.render.cache.memory_bytes once the scene is loaded
 
   bool has_cache() const { return renderer::uses_cache(settings.render.integrator); }
 };
@@ -56,5 +56,12 @@ struct SweepPlan {
   std::size_t run_count() const;
   std::size_t cell_count() const;
 };
+
+/// The settings of a cell: those of the series with scene, seed and point.
+RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                             int point);
+/// The command `gatelight render ...` of a cell, quoted for a shell.
+std::string cell_command(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,
+                         int point);
 
 }  // namespace gatelight::apps

@@ -1,19 +1,21 @@
 #include "apps/sweep/presets.h"
 
+#include "renderer/settings/words.h"
+
 namespace gatelight::apps {
 namespace {
 
-/// What the paper shows of each step count: its tables at 128, its figure from 8 on.
+/// The step counts of the paper: 128 in its tables, from 8 on in its figure.
 const std::vector<int> kTableSteps = {128};
 const std::vector<int> kFigureSteps = {8, 16, 32, 64, 128};
 
 const char* const kPaperPresets[] = {"paper-nao", "paper-nrc"};
 
-// tiny-cuda-nn, which the paper's hash grid is measured with, visits every entry in every step.
+// The paper measures the hash grid with tiny-cuda-nn, which updates every entry in every step.
 const FlagValues kHashGrid = {{"--encoding", "hashgrid"}, {"--update", "dense"}};
 const FlagValues kSparseHashGrid = {{"--encoding", "hashgrid"}, {"--update", "sparse"}};
 
-// GATE with other resolutions than the paper's would read the normal by itself.
+// By default GATE reads the normal with other resolutions than the paper's.
 const std::pair<std::string, std::string> kNoNormal = {"--normal-input", "off"};
 const FlagValues kUniform = {{"--resolution", "uniform"}, kNoNormal};
 
@@ -27,7 +29,7 @@ FlagValues joined(FlagValues flags, const FlagValues& more) {
   return flags;
 }
 
-/// Each row below a preset of `render`.
+/// Adds a block for each row, on top of a preset of `render`.
 void add_rows(std::vector<SweepBlock>& blocks, const char* preset, const std::vector<Row>& rows,
               const std::vector<int>& steps) {
   for (const Row& row : rows) {
@@ -52,7 +54,7 @@ std::vector<Row> equal_memory() {
           {"hash grid, sparse updates", joined(kSparseHashGrid, memory)}};
 }
 
-/// Sizes of the hash grid: L as large as GATE, M a half of it, S less than 1 MB.
+/// Sizes of the hash grid: L is as large as GATE, M half of it, S less than 1 MB.
 std::vector<Row> hash_sizes() {
   return {{"gate", {}},
           {"hash grid L", joined(kHashGrid, {{"--cache-memory", "same-as-gate"}})},
@@ -62,7 +64,7 @@ std::vector<Row> hash_sizes() {
 
 std::vector<SweepBlock> inputs() {
   std::vector<SweepBlock> blocks;
-  // Occlusion has no albedo.
+  // Occlusion does not depend on the albedo.
   add_rows(blocks, "paper-nao",
            {{"gate", {{"--normal-input", "off"}}}, {"gate, normal", {{"--normal-input", "on"}}}},
            kFigureSteps);
@@ -75,7 +77,7 @@ std::vector<SweepBlock> inputs() {
   return blocks;
 }
 
-/// What the paper leaves open or does not measure, one thing changed at a time.
+/// What the paper leaves open or does not measure; each row changes one thing.
 std::vector<SweepBlock> extra() {
   std::vector<SweepBlock> blocks = both({{"as in the paper", {}},
                                          {"storage per triangle", {{"--storage", "per-triangle"}}},
@@ -126,6 +128,7 @@ const Preset kPresets[] = {
 std::vector<std::string_view> sweep_preset_names() {
   std::vector<std::string_view> names;
   for (const Preset& preset : kPresets) names.push_back(preset.name);
+  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
   return names;
 }
 

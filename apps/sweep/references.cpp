@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 #include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "neural/base/errors.h"
+#include "neural/file/digest.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
@@ -29,12 +30,12 @@ using nlohmann::ordered_json;
 using renderer::Picture;
 using renderer::RenderOptions;
 
-/// references/KEY.exr and what lies beside it.
+/// The path of another file of the same reference: KEY + end.
 std::string beside(const std::string& file, const std::string& end) {
   return (fs::path(file).parent_path() / (fs::path(file).stem().string() + end)).string();
 }
 
-/// Nothing where there is none, or one that cannot be read: it is made anew.
+/// Reads a finished picture. Returns nothing where there is none or it cannot be read; it is then made again.
 std::optional<Picture> read_made(const std::string& file) {
   if (!fs::exists(file)) return std::nullopt;
   try {
@@ -45,7 +46,7 @@ std::optional<Picture> read_made(const std::string& file) {
   }
 }
 
-/// Nothing where the picture was stopped.
+/// Returns nothing where rendering was stopped.
 std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettings& cell,
                                    RenderOptions options, std::uint32_t seed, const std::string& file,
                                    const renderer::Callbacks& callbacks) {
@@ -79,7 +80,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
   return picture;
 }
 
-/// What a comparison with a cell would refuse, after hours.
+/// Checks early what a comparison with a cell would refuse only after hours.
 void check_given(const renderer::NamedPicture& given, const RenderOptions& cell) {
   Picture blank{.width = cell.width, .height = cell.height};
   if (cell.region) {
@@ -116,7 +117,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   o.light_selection = defaults.light_selection;
   o.min_depth = defaults.min_depth;
   o.clamp = 0.0f;
-  // Each kind of light has a length of its own.
+  // Radiance and occlusion have different limits of length.
   if (kind == ReferenceKind::ao) {
     o.max_depth = defaults.max_depth;
   } else {
@@ -138,7 +139,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
 }
 
 ordered_json reference_json(const Reference& reference, const std::string& folder) {
-  // Within the sweep's folder its name does not depend on where that lies.
+  // Inside the sweep's folder the name is relative.
   const fs::path absolute = fs::absolute(reference.file).lexically_normal();
   const fs::path relative = absolute.lexically_relative(fs::absolute(folder).lexically_normal());
   const bool inside = !relative.empty() && *relative.begin() != "..";
@@ -158,14 +159,12 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
   settings.render = reference_options(cell.render, kind);
   settings.render.seed = 0;
   settings.render.spp = spp;
-  settings.render.threads = 1;  // no part of the picture
+  settings.render.threads = 1;  // does not change the picture
   settings.render.memory_limit_bytes = 0;
-  settings.render.isa = RenderOptions().isa;  // but of its last digits
+  settings.render.isa = RenderOptions().isa;  // changes only the last digits
   settings.image = {};
-  const std::string key = Identity(fingerprint)
-                              .add("reference")
-                              .add(deciding_text(settings, view_of(scene, settings.render)))
-                              .name();
+  const std::string key =
+      identity_name(fingerprint, {"reference", deciding_text(settings, view_of(scene, settings.render))});
   return {.kind = kind, .key = key, .file = (fs::path(folder) / (key + ".exr")).string(), .spp = spp};
 }
 
@@ -233,7 +232,7 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
                              {"spp", *reference.spp},
                              {"rel_mse_noise", *reference.rel_mse_noise},
                              {"seconds", *reference.seconds}};
-  renderer::write_file_atomically(beside(reference.file, ".json"), json.dump(1) + "\n");
+  renderer::write_file_atomically(beside(reference.file, ".json"), json_text(json) + "\n");
   return mean;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the cells of a sweep are compared with: rendered once, as two halves with seeds of their own whose
-// difference tells the noise of their mean.
+// The references of a sweep. Each is rendered once, as two halves with different seeds; their difference
+// gives the noise of the mean.
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -15,42 +15,41 @@
 
 namespace gatelight::apps {
 
-/// Of the two halves: far from those that people choose.
+/// Seeds of the two halves, far from those that users choose.
 inline constexpr std::uint32_t kReferenceSeeds[] = {4000000007u, 4000000009u};
 
-/// What a cell's picture would be with infinitely many samples and nothing learned: its view, light and
-/// filter, but none of the choices that only make an estimate better or worse.
+/// The options of the picture to which a cell would converge without learning: its view, light and filter,
+/// but no options that only change the quality of the estimate.
 renderer::RenderOptions reference_options(const renderer::RenderOptions& cell, ReferenceKind kind);
 
 struct Reference {
   ReferenceKind kind = ReferenceKind::path;
-  std::string key;     ///< 16 hexadecimal digits; of one that is given those of its pixels
-  std::string file;    ///< of the mean
+  std::string key;     ///< 16 hexadecimal digits; of a given one a digest of its pixels
+  std::string file;    ///< of the mean of both halves
   bool given = false;  ///< by --reference
   std::optional<int> spp;
-  std::optional<double> rel_mse_noise;  ///< rel_mse that it has of its own
+  std::optional<double> rel_mse_noise;  ///< rel_mse of the reference itself, from its noise
   std::optional<double> seconds;
 };
 
 nlohmann::ordered_json reference_json(const Reference& reference, const std::string& folder);
 
-/// Where a reference of these settings lies, whether it is made or not. spp: of both halves together.
-/// KEY.exr, KEY_a.exr, KEY_b.exr and KEY.json in `folder`.
+/// The reference for these settings, whether it is made yet or not: KEY.exr, KEY_a.exr, KEY_b.exr and
+/// KEY.json in `folder`. spp: of both halves together.
 Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
                          const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder);
 
-/// A picture that somebody else has made. Throws renderer::ImageError, renderer::CompareError where it fits
-/// no picture of `cell`, InputError where it has pixels that are not finite.
+/// A reference from a given file. Throws renderer::ImageError; renderer::CompareError where it does not fit
+/// pictures of `cell`; InputError where pixels are not finite.
 Reference given_reference(ReferenceKind kind, const std::string& file, const renderer::RenderOptions& cell);
 
-/// Reads what is there (the numbers of KEY.json into the reference) or renders what is missing or cannot be
-/// read: the halves go on from their checkpoints where an earlier call was stopped. Nothing where
-/// callbacks.stop asked for the end.
+/// Reads the reference, or renders what is missing or cannot be read. Halves resume from their checkpoints
+/// where an earlier call was stopped. Returns nothing where callbacks.stop ended it.
 std::optional<renderer::Picture> make_reference(Reference& reference, const scene::Scene& scene,
                                                 const RenderSettings& cell,
                                                 const renderer::Callbacks& callbacks);
 
-/// Numbers of a reference that is made already.
+/// Reads the numbers of KEY.json into a reference that is already made.
 void read_reference_numbers(Reference& reference);
 
 }  // namespace gatelight::apps

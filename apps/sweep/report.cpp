@@ -31,10 +31,10 @@ std::string word(const ordered_json& object, const char* key) {
   return value.is_string() ? value.get<std::string>() : "";
 }
 
-/// A picture of the page.
+/// A picture that the page shows.
 struct Wanted {
   std::string file;      ///< as results.json names it
-  ordered_json display;  ///< of a reference: {"exposure", "tonemap"} of the cells beside it; null of a PNG
+  ordered_json display;  ///< of a reference: {"exposure", "tonemap"} of its cells; null for a PNG
   PictureKind kind = PictureKind::light;
 
   bool operator==(const Wanted&) const = default;
@@ -46,7 +46,7 @@ void add(std::vector<Wanted>& pictures, Wanted wanted) {
     pictures.push_back(std::move(wanted));
 }
 
-/// Older results know references by their kind alone.
+/// Older results name references by their kind only.
 bool is_compared_with(const ordered_json& cell, const ordered_json& reference) {
   const std::string id = word(reference, "id");
   const std::string cells = word(cell, "reference_id");
@@ -54,7 +54,7 @@ bool is_compared_with(const ordered_json& cell, const ordered_json& reference) {
   return word(cell, "reference") == word(reference, "kind");
 }
 
-/// Once for each way in which the PNGs beside it were made.
+/// Adds a reference once for each exposure and curve of its cells.
 void add_reference(std::vector<Wanted>& pictures, const ordered_json& cells, const std::string& scene,
                    const ordered_json& reference) {
   for (const ordered_json& cell : cells) {
@@ -89,24 +89,24 @@ renderer::ImageWriteOptions write_options(const ordered_json& display) {
   return options;
 }
 
-/// So many pictures and maps are shown at full width, which is about 15 MB where they are noisy; of more the
-/// pixels are as many together.
+/// Up to this many pictures and maps are shown at full width, about 15 MB where they are noisy. More pictures
+/// share the same number of pixels.
 constexpr double kFullWidthCount = 60.0;
 constexpr int kLeastWidth = 480;
 
-/// Maps stand side by side, and are looked at for where, not for details.
+/// Maps are shown side by side, and need less detail.
 int max_width(PictureKind kind, std::size_t count) {
   const double scale = std::sqrt(kFullWidthCount / static_cast<double>(count));
   const int width = std::clamp(static_cast<int>(kMaxPictureWidth * scale), kLeastWidth, kMaxPictureWidth);
   return kind == PictureKind::map ? 3 * width / 4 : width;
 }
 
-/// Nothing where there is no such picture.
+/// Returns nothing where there is no such picture.
 std::optional<PagePicture> read_picture(const Wanted& wanted, const std::filesystem::path& folder,
                                         std::size_t count) {
   EmbeddedPicture picture;
   try {
-    // An absolute path stays what it is.
+    // operator/ keeps an absolute path.
     picture = embed_picture(renderer::read_image(folder / wanted.file), write_options(wanted.display),
                             wanted.kind, max_width(wanted.kind, count));
   } catch (const renderer::ImageError&) {

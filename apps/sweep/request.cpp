@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "apps/settings/option_table.h"
@@ -23,13 +25,13 @@ const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
 
-/// Of files, of one picture's progress, and what makes a picture depend on the time it takes.
+/// Flags of files, of the progress of one picture, and of time limits.
 constexpr const char* kNoBaseFlags[] = {
     "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
     "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
     "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
 
-/// With lists, or with names of more presets.
+/// `sweep` has flags of these names with lists or more presets.
 constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};
 
 struct Instead {
@@ -39,12 +41,17 @@ struct Instead {
 constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
                                 {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
                                 {"--seed", "--seeds N"}};
-/// They decide which scene is loaded.
+/// These decide which scene is loaded.
 constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing"};
 
 template <std::size_t N>
 bool contains(const char* const (&list)[N], const std::string& word) {
   return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+bool is_base_flag(const std::string& flag) {
+  const std::vector<std::string>& names = base_flag_names();
+  return std::find(names.begin(), names.end(), flag) != names.end();
 }
 
 void check_vary(const std::string& flag) {
@@ -56,10 +63,9 @@ void check_vary(const std::string& flag) {
     throw UsageError(
         fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
   }
-  const std::vector<std::string>& names = base_flag_names();
   const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                 [&](const AxisFlag& f) { return flag == f.varies; });
-  if (!axis && flag != "--preset" && std::find(names.begin(), names.end(), flag) == names.end()) {
+  if (!axis && flag != "--preset" && !is_base_flag(flag)) {
     throw UsageError(fmt::format(
         "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help", flag));
   }
@@ -95,7 +101,7 @@ std::vector<NamedAxis> read_axes(const SweepWords& words) {
   return axes;
 }
 
-/// "SCENE:NAME=VALUE": the value that a flag has for one of the scenes.
+/// Reads "SCENE:NAME=VALUE", the value of a flag for one scene.
 void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes, SweepRequest& request) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = equals == std::string::npos ? equals : text.rfind(':', equals);
@@ -113,8 +119,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
-  const std::vector<std::string>& known = base_flag_names();
-  if (flag == "--seed" || std::find(known.begin(), known.end(), flag) == known.end()) {
+  if (flag == "--seed" || !is_base_flag(flag)) {
     throw UsageError(fmt::format("--for: '{}' is no flag that all cells of a scene can have", flag));
   }
   for (const NamedAxis& named : axes) {
@@ -124,11 +129,10 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   set_flag(scene->flags, flag, text.substr(equals + 1));
 }
 
-/// A row of a preset is what its name says: flags that make it one, or tell it from others, have no other
-/// value.
+/// Refuses flags that any row of the preset sets: each row must be what its name promises.
 void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>& rows,
                           const std::vector<NamedAxis>& axes, const SweepRequest& request) {
-  // Which of the caches it is follows from the preset of `render` that each row has.
+  // The preset of `render` in each row decides the integrator.
   std::set<std::string> flags = {"--integrator"};
   for (const SweepBlock& row : rows) {
     for (const auto& [flag, value] : row.base) flags.insert(flag);
@@ -152,7 +156,7 @@ bool names_flag(const SweepBlock& block, const std::string& flag) {
                                                     [&](const SweepAxis& axis) { return axis.flag == flag; });
 }
 
-/// Flags on the command line win over those of a preset.
+/// Flags on the command line override those of a preset.
 void override_block(SweepBlock& block, const FlagValues& base, const std::vector<NamedAxis>& axes) {
   const auto forget = [&](const std::string& flag) {
     drop_flag(block.base, flag);
@@ -169,7 +173,7 @@ void override_block(SweepBlock& block, const FlagValues& base, const std::vector
 }
 
 void add_defaults(SweepBlock& block) {
-  // A preset of `render` says both.
+  // A preset of `render` sets both.
   if (names_flag(block, "--preset")) return;
   if (!names_flag(block, "--integrator")) block.base.emplace_back("--integrator", "nrc");
   if (!names_flag(block, "--spp")) block.base.emplace_back("--spp", kDefaultCacheSpp);
@@ -177,7 +181,8 @@ void add_defaults(SweepBlock& block) {
 
 void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   request.seeds = preset ? kPresetSeeds : 1;
-  if (words.seeds) request.seeds = static_cast<int>(renderer::parse_integer("--seeds", *words.seeds, kSeeds));
+  if (!words.seeds.empty())
+    request.seeds = static_cast<int>(renderer::parse_integer("--seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
     request.first_seed = static_cast<std::uint32_t>(renderer::parse_integer("--seed", *seed, kSeed));
   }
@@ -207,6 +212,31 @@ std::vector<std::string> find_base_flags() {
   return names;
 }
 
+/// Names scenes by their files, with the folder where two files have the same name. Throws UsageError for a
+/// file that is named twice.
+std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
+  std::map<std::string, int> stems;
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    if (!seen.insert(path).second) {
+      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
+    }
+    ++stems[path.stem().string()];
+  }
+  std::vector<SweepScene> scenes;
+  std::map<std::string, int> names;
+  for (const std::string& file : files) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    std::string name = path.stem().string();
+    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
+    const int count = ++names[name];
+    if (count > 1) name += fmt::format("-{}", count);
+    scenes.push_back({std::move(name), file, {}});
+  }
+  return scenes;
+}
+
 }  // namespace
 
 const std::vector<std::string>& base_flag_names() {
@@ -222,8 +252,7 @@ SweepRequest make_request(const SweepWords& words) {
   FlagValues base = words.base;
   drop_flag(base, "--seed");
   if (!words.preset.empty() && !preset) {
-    std::vector<std::string_view> names = sweep_preset_names();
-    for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
+    const std::vector<std::string_view> names = sweep_preset_names();
     if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
       renderer::refuse_choice("--preset", words.preset, renderer::join_names(names));
     }
@@ -237,13 +266,14 @@ SweepRequest make_request(const SweepWords& words) {
   if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
-    if (words.train_steps) block.train_steps = split_integers("--train-steps", *words.train_steps, kSteps);
+    if (!words.train_steps.empty())
+      block.train_steps = split_integers("--train-steps", words.train_steps, kSteps);
     add_defaults(block);
   }
   request.allow_external = words.allow_external;
-  request.plain_spp = words.spp ? split_integers("--spp", *words.spp, kSpp) : kDefaultPlainSpp;
-  // The paper has no such rows.
-  request.plain = !words.no_plain && (!preset || words.spp);
+  request.plain_spp = words.spp.empty() ? kDefaultPlainSpp : split_integers("--spp", words.spp, kSpp);
+  // The paper has no rows without a cache.
+  request.plain = !words.no_plain && (!preset || !words.spp.empty());
   read_seeds(words, preset, request);
   return request;
 }

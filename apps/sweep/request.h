@@ -1,11 +1,12 @@
 #pragma once
-// The words of `gatelight sweep` into axes and what holds for all cells.
+// Converts the words of `gatelight sweep` into the request of a sweep.
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/sweep/advise.h"
 #include "apps/sweep/plan.h"
+#include "apps/terminal/progress.h"
 
 namespace gatelight::apps {
 
@@ -13,18 +14,27 @@ namespace gatelight::apps {
 struct AxisFlag {
   const char* name;    ///< "--encodings"
   const char* varies;  ///< "--encoding"
+  const char* help;
+  const char* default_text = "";
   bool values_are_lists = false;
 };
 inline constexpr AxisFlag kAxisFlags[] = {
-    {"--integrators", "--integrator"}, {"--encodings", "--encoding"},
-    {"--features", "--features"},      {"--resolution", "--resolution"},
-    {"--stack", "--stack", true},      {"--cache-memory", "--cache-memory"},
-    {"--hidden", "--hidden"},          {"--learning-rate", "--learning-rate"},
-    {"--cache-spp", "--spp"},
+    {"--integrators", "--integrator", "nrc, nao, path, ao", "nrc"},
+    {"--encodings", "--encoding", "gate, hashgrid"},
+    {"--features", "--features", "gate: numbers in a feature vector"},
+    {"--resolution", "--resolution", "gate: uniform, paper, fixed:R"},
+    {"--stack", "--stack", "gate: resolutions of the levels; one stack, or several separated by ';'", "",
+     true},
+    {"--cache-memory", "--cache-memory",
+     "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same flags, "
+     "same-as-gate/2 half as many"},
+    {"--hidden", "--hidden", "Width of the network's hidden layers"},
+    {"--learning-rate", "--learning-rate", "Size of a training step"},
+    {"--cache-spp", "--spp", "Samples per pixel of pictures with a cache", "4"},
 };
 
-/// Flags of `render` that hold for all cells of a sweep where they are given, or can be varied: those that
-/// decide the picture, with a value. `sweep` has others of the name of some.
+/// Flags of `render` that can be given for all cells of a sweep, or varied: those with a value that decide
+/// the picture. Flags that `sweep` defines itself are not among them.
 const std::vector<std::string>& base_flag_names();
 
 struct SweepWords {
@@ -34,14 +44,30 @@ struct SweepWords {
   std::vector<std::pair<AxisFlag, std::string>> axes;
   std::vector<std::string> vary;
   std::vector<std::string> scene_flags;  ///< "sponza:camera=hall"
-  std::optional<std::string> train_steps;
-  std::optional<std::string> spp;
-  std::optional<std::string> seeds;
+  std::string train_steps;               ///< empty: not given; the same for the next two
+  std::string spp;
+  std::string seeds;
   bool no_plain = false;
   bool allow_external = false;
 };
 
 /// Throws UsageError. Values of axes are checked by make_plan().
 SweepRequest make_request(const SweepWords& words);
+
+/// All settings of `gatelight sweep`.
+struct SweepSettings {
+  SweepRequest request;
+  std::string folder;
+  std::string reference_file;    ///< empty: references are rendered
+  int reference_spp = 1024;      ///< of both halves together
+  std::string reference_folder;  ///< empty: references/ in `folder`
+  bool hdr_flip = true;
+  bool dry_run = false;
+  bool advise = false;
+  AdviceLimits limits;
+  ProgressMode progress = ProgressMode::automatic;
+  bool quiet = false;
+  bool verbose = false;
+};
 
 }  // namespace gatelight::apps

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <set>
 
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 #include "apps/sweep/cell_record.h"
-#include "apps/sweep/machine.h"
+#include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/machine/threads.h"
@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of all rows, whatever they hold, so that programs may rely on them; axes come after them.
+/// Columns of all sweeps, so that programs can rely on them; axes follow.
 constexpr const char* kColumns =
     "id,scene,series,integrator,encoding,seed,train_steps,spp,reference,reference_id,command,status,error,"
     "version,cpu,isa,backend,seconds_scout,seconds_setup,seconds_train,seconds_train_trace,"
@@ -43,7 +43,7 @@ std::string csv_field(const ordered_json& value) {
   return quoted + '"';
 }
 
-/// "seconds_train" for {"seconds": {"train": 1}}.
+/// Finds the value of a column: "seconds_train" is {"seconds": {"train": 1}}.
 const ordered_json* find_value(const ordered_json& cell, const std::string& column) {
   if (const auto at = cell.find(column); at != cell.end()) return &*at;
   for (const auto& [key, value] : cell.items()) {
@@ -54,7 +54,7 @@ const ordered_json* find_value(const ordered_json& cell, const std::string& colu
   return nullptr;
 }
 
-/// What the cells have at `key`, each once.
+/// The distinct values of `key` in the cells.
 std::set<std::string> words_of_cells(const ordered_json& cells, const char* key) {
   std::set<std::string> words;
   for (const ordered_json& cell : cells) {
@@ -63,7 +63,7 @@ std::set<std::string> words_of_cells(const ordered_json& cells, const char* key)
   return words;
 }
 
-/// Where the cells were made, as they say it; of this machine where none is.
+/// The machine that the cells name; this machine where no cell is done.
 ordered_json machine_json(const ordered_json& cells) {
   int threads = 0;
   for (const ordered_json& cell : cells) {

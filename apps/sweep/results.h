@@ -12,17 +12,17 @@ struct SceneResults {  // NOLINT(bugprone-exception-escape): moving JSON throws 
   std::vector<nlohmann::ordered_json> cells;
 };
 
-/// With the machine and the versions that the cells name, which need not be this program's.
+/// Collects all cells. Machine and versions are those that the cells name, which need not be this program's.
 nlohmann::ordered_json make_results(const std::vector<std::string>& command,
                                     const std::vector<SceneResults>& scenes);
 
-/// A line for each cell, flat columns with the names of results.json's keys: the same for all sweeps, and one
-/// for each axis. What is null there is empty. Texts are quoted as in RFC 4180.
+/// CSV with a line for each cell. The columns are the flattened keys of results.json, the same for all
+/// sweeps, and one for each axis. Null is empty. Texts are quoted as in RFC 4180.
 std::string results_csv(const nlohmann::ordered_json& results);
 
 /// DIR/results.json.
 std::string results_file(const std::string& folder);
-/// Throws InputError. Of its cells is not known more than that there are some.
+/// Throws InputError. The cells are not checked.
 nlohmann::ordered_json read_results(const std::string& folder);
 
 }  // namespace gatelight::apps

@@ -7,14 +7,14 @@
 #include <set>
 
 #include "apps/reports/recipe.h"
-#include "apps/sweep/cell_command.h"
+#include "apps/sweep/eta.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "apps/sweep/machine.h"
-#include "apps/sweep/tasks.h"
+#include "apps/sweep/planned.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
+#include "apps/terminal/text.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "renderer/settings/resolved_options.h"
@@ -68,17 +68,15 @@ bool SceneSweep::decide_memory() {
     progress_.phase(fmt::format("memory of {}", series.label));
     try {
       const RenderSettings& gate = series.memory->settings;
-      const std::string key = Identity(fingerprint_of(gate))
-                                  .add("memory")
-                                  .add(deciding_text(gate, view_of(scene_, gate.render)))
-                                  .name();
-      // Building and scouting cannot be stopped.
+      const std::string key =
+          identity_name(fingerprint_of(gate), {"memory", deciding_text(gate, view_of(scene_, gate.render))});
+      // Building and scouting cannot be interrupted.
       if (!store.knows(key) && stop_signal() != 0) return false;
       const std::uint64_t bytes = store.bytes(key, scene_, gate.render);
       const auto wanted =
           static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(bytes) / series.memory->divisor));
       series.settings.render.cache.memory_bytes = wanted;
-      // All digits, so that the same command gives the same bytes.
+      // With all digits, so that the command gives the same bytes.
       set_flag(series.flags, "--cache-memory", fmt::format("{}", static_cast<double>(wanted) / 1048576.0));
     } catch (const renderer::OutputError&) {
       throw;
@@ -94,7 +92,7 @@ Reference SceneSweep::planned_reference(const PlannedSeries& series) {
                         settings_.reference_spp, settings_.reference_folder);
 }
 
-/// One picture stands for one view in one light.
+/// One picture can only be the reference of one view and light.
 std::optional<Reference> SceneSweep::find_given() {
   if (settings_.reference_file.empty()) return std::nullopt;
   std::set<std::string> wanted;
@@ -122,7 +120,7 @@ void SceneSweep::name_cells() {
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         const RenderSettings settings = cell_settings(series, planned_.file, seed, point);
-        // A series that cannot be has no memory that tells it from others.
+        // The memory of a series that failed is unknown, so its label makes the names unique.
         const std::string deciding =
             deciding_text(settings, view) + (series_errors_[i].empty() ? "" : series.label);
         Cell cell{.place = {planned_, series, seed, point,
@@ -151,7 +149,7 @@ std::vector<SceneSweep::Run> SceneSweep::missing_runs() const {
       if (!run.missing.empty()) runs.push_back(std::move(run));
     }
   }
-  // The first seed of everything comes first: a sweep that is stopped early has something of all.
+  // The first seed of all series comes first, so that a sweep that is stopped early has something of each.
   std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.seed < b.seed; });
   return runs;
 }
@@ -224,9 +222,9 @@ bool SceneSweep::make(Run run) {
   if (!reference && stop_signal() != 0) return false;
 
   progress_.begin(fmt::format("{}  {}  seed {}", planned_.name, series.label, plan_.seeds[run.seed]), false);
-  // Memory that turns out to be the same makes cells of two series equal.
+  // Two series can turn out to have the same memory, and so the same cells.
   take_done(run);
-  std::size_t next = 0;  // of the cells that are missing
+  std::size_t next = 0;  // index into run.missing
   bool finished = true;
   if (!reference) {
     fail(run.missing,
@@ -270,7 +268,7 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
                              const Picture& reference, const Reference& named) {
   const CellPlace& place = cell.place;
   const RenderSettings& settings = place.series.settings;
-  // Occlusion lies between 0 and 1: it has no exposure.
+  // Occlusion lies between 0 and 1, so it needs no exposures.
   const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
   progress_.phase("measure");
   const auto go_on = [this](double fraction) {
@@ -308,9 +306,7 @@ void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& 
 }
 
 void SceneSweep::keep(Cell& cell) const {
-  renderer::write_file_atomically(
-      in_folder(cell_file(cell.place.id)),
-      cell.record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  renderer::write_file_atomically(in_folder(cell_file(cell.place.id)), json_text(cell.record) + "\n");
   progress_.cell(cell.place.id, cell.record["status"].get<std::string>());
 }
 

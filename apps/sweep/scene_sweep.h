@@ -1,5 +1,5 @@
 #pragma once
-// The cells of one scene: found among those that are done, or made.
+// The cells of one scene: read where they are done, else made.
 
 #include <functional>
 #include <map>
@@ -10,9 +10,9 @@
 
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/references.h"
+#include "apps/sweep/request.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/sweep_progress.h"
-#include "apps/sweep/sweep_settings.h"
 
 namespace gatelight::apps {
 
@@ -23,15 +23,16 @@ class SceneSweep {
   SceneSweep(const SceneSweep&) = delete;
   SceneSweep& operator=(const SceneSweep&) = delete;
 
-  /// Loads the scene, names its cells and reads those that are done. Answers false where a signal ended it.
+  /// Loads the scene, names its cells and reads those that are done. Returns false where a signal ended it.
   /// Throws what loading throws, and UsageError and others for a --reference that does not fit.
   bool open();
-  /// What is missing: empty where all cells are done.
+  /// The tasks of missing cells; empty where all cells are done.
   std::vector<SweepTask> tasks() const;
-  /// Makes what is missing, `after_run` after each run. Answers false where a signal ended it. What a cell
-  /// throws is its failure, but for renderer::OutputError: where one file cannot be written, others cannot.
+  /// Makes the missing cells and calls `after_run` after each run. Returns false where a signal ended it. An
+  /// exception of a cell is recorded as its failure, except renderer::OutputError: other files could not be
+  /// written either.
   bool run(const std::function<void()>& after_run);
-  /// All that is done or failed.
+  /// The cells that are done or have failed.
   SceneResults results() const;
 
  private:
@@ -56,9 +57,9 @@ class SceneSweep {
   Reference& reference_of(std::size_t series) { return references_.at(reference_keys_[series]); }
   const Reference& reference_of(std::size_t series) const { return references_.at(reference_keys_[series]); }
 
-  /// Nothing where a signal ended it, or where it failed.
+  /// Null where a signal ended it or it failed.
   const renderer::Picture* reference_picture(std::size_t series);
-  /// Those that another run made meanwhile.
+  /// Removes cells that another run has made meanwhile.
   void take_done(Run& run);
   bool make(Run run);
   /// Answers false where a signal ended it.
@@ -77,8 +78,8 @@ class SceneSweep {
   SweepProgress& progress_;
   scene::Scene scene_;
   std::map<std::string, renderer::SceneFingerprint> fingerprints_;  ///< by environment
-  std::vector<PlannedSeries> series_;                               ///< with memory decided
-  std::vector<std::string> series_errors_;  ///< why a series cannot be; empty where it can
+  std::vector<PlannedSeries> series_;                               ///< with resolved memory
+  std::vector<std::string> series_errors_;  ///< why a series cannot be made; empty where it can
   std::map<std::string, Reference> references_;
   std::vector<std::string> reference_keys_;  ///< of each series
   std::map<std::string, renderer::Picture> reference_pictures_;

@@ -1,10 +1,8 @@
 #include "apps/sweep/sweep_progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/terminal/terminal.h"
@@ -13,8 +11,7 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr double kJsonInterval = 1.0;
-constexpr double kBarInterval = 0.1;
+using renderer::seconds_since;
 
 std::string describe(const renderer::Progress& p) {
   switch (p.phase) {
@@ -34,17 +31,8 @@ std::string eta_text(const std::optional<double>& left) {
 
 }  // namespace
 
-SweepProgress::SweepProgress(ProgressMode mode, bool quiet) : mode_(mode), words_(!quiet) {
-  if (mode_ == ProgressMode::automatic) {
-    mode_ = ::isatty(STDERR_FILENO) == 1 ? ProgressMode::bar : ProgressMode::none;
-  }
-  if (quiet) mode_ = ProgressMode::none;
-  if (mode_ == ProgressMode::json) words_ = false;
-}
-
-SweepProgress::~SweepProgress() {
-  clear();
-}
+SweepProgress::SweepProgress(ProgressMode mode, bool quiet)
+    : ProgressLine(quiet ? ProgressMode::none : mode), words_(!quiet && mode_ != ProgressMode::json) {}
 
 void SweepProgress::plan_rest(const std::vector<SweepTask>& tasks) {
   const std::lock_guard lock(mutex_);
@@ -60,7 +48,7 @@ void SweepProgress::begin(const std::string& task, bool one_piece) {
   const std::lock_guard lock(mutex_);
   task_ = task;
   one_piece_ = one_piece;
-  watch_ = Stopwatch();
+  task_start_ = renderer::Clock::now();
   cells_ = 0;
   show("", 0.0, true);
 }
@@ -80,7 +68,7 @@ void SweepProgress::cell(const std::string& id, const std::string& status) {
 
 void SweepProgress::end() {
   const std::lock_guard lock(mutex_);
-  clock_.finish(watch_.seconds());
+  clock_.finish(seconds_since(task_start_));
   clear_line();
   const std::optional<double> left = clock_.left(0.0, 0.0);
   if (mode_ == ProgressMode::json) {
@@ -88,13 +76,14 @@ void SweepProgress::end() {
                                    {"task", task_},
                                    {"tasks_done", clock_.done()},
                                    {"tasks", clock_.count()},
-                                   {"seconds", watch_.seconds()}};
+                                   {"seconds", seconds_since(task_start_)}};
     if (left) line["eta_seconds"] = *left;
     print_json_line(line);
   } else if (words_) {
     tell(fmt::format("{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
                      cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "",
-                     watch_.seconds(), clock_.done() == clock_.count() ? "nothing" : eta_text(left)));
+                     seconds_since(task_start_),
+                     clock_.done() == clock_.count() ? "nothing" : eta_text(left)));
   }
 }
 
@@ -106,26 +95,17 @@ void SweepProgress::done(const std::string& folder, std::size_t cells, std::size
                      {"folder", folder},
                      {"cells", cells},
                      {"failed", failed},
-                     {"seconds", total_.seconds()}});
+                     {"seconds", seconds_since(start_)}});
   } else if (words_) {
     tell(fmt::format("{} cells{} in '{}', {} in this call\n", cells,
                      failed > 0 ? fmt::format(", {} of them failed,", failed) : "", folder,
-                     format_duration(total_.seconds())));
+                     format_duration(seconds_since(start_))));
   }
 }
 
-void SweepProgress::clear() {
-  const std::lock_guard lock(mutex_);
-  clear_line();
-}
-
 void SweepProgress::show(const std::string& what, double fraction, bool must) {
-  if (mode_ == ProgressMode::none) return;
-  const auto now = std::chrono::steady_clock::now();
-  const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
-  if (!must && std::chrono::duration<double>(now - last_).count() < interval) return;
-  last_ = now;
-  const std::optional<double> left = clock_.left(watch_.seconds(), one_piece_ ? fraction : 0.0);
+  if (mode_ == ProgressMode::none || !due(must)) return;
+  const std::optional<double> left = clock_.left(seconds_since(task_start_), one_piece_ ? fraction : 0.0);
   if (mode_ == ProgressMode::json) {
     nlohmann::ordered_json line = {{"event", "progress"},
                                    {"task", task_},
@@ -133,28 +113,18 @@ void SweepProgress::show(const std::string& what, double fraction, bool must) {
                                    {"fraction", fraction},
                                    {"tasks_done", clock_.done()},
                                    {"tasks", clock_.count()},
-                                   {"seconds", total_.seconds()}};
+                                   {"seconds", seconds_since(start_)}};
     if (left) line["eta_seconds"] = *left;
     print_json_line(line);
     return;
   }
-  clear_line();
   std::string text =
       fmt::format("{}/{}  {}  {}  {:.0f} %  ETA {}", std::min(clock_.done() + 1, clock_.count()),
                   clock_.count(), task_, what, 100.0 * fraction, eta_text(left));
   // The last column stays free: some terminals wrap there.
   const auto room = static_cast<std::size_t>(std::max(1, terminal_columns() - 1));
   if (text.size() > room) text.resize(room);
-  tell(text);
-  std::fflush(stderr);
-  line_shown_ = true;
-}
-
-void SweepProgress::clear_line() {
-  if (!line_shown_) return;
-  tell("\r\x1b[K");
-  std::fflush(stderr);
-  line_shown_ = false;
+  show_line(text);
 }
 
 }  // namespace gatelight::apps

@@ -1,54 +1,42 @@
 #pragma once
-// How far a sweep is, on stderr: as a bar over all its tasks, as JSON lines, or as a line for each task.
+// Progress of a sweep on stderr: a bar over all tasks, JSON lines, or a line for each task.
 
-#include <chrono>
-#include <mutex>
 #include <string>
 
 #include "apps/sweep/eta.h"
 #include "apps/terminal/progress.h"
-#include "apps/terminal/stopwatch.h"
+#include "renderer/machine/clock.h"
 
 namespace gatelight::apps {
 
-/// May be called from any thread.
-class SweepProgress {
+/// Thread-safe.
+class SweepProgress : public ProgressLine {
  public:
-  /// quiet: no words, whatever the mode.
+  /// quiet: no output, in every mode.
   SweepProgress(ProgressMode mode, bool quiet);
-  ~SweepProgress();
-  SweepProgress(const SweepProgress&) = delete;
-  SweepProgress& operator=(const SweepProgress&) = delete;
 
-  /// The work that is left. Its tasks come in order.
+  /// Sets the remaining tasks, in order.
   void plan_rest(const std::vector<SweepTask>& tasks);
-  /// What is no part of rendering: loading, building, measuring.
+  /// Shows a phase other than rendering: loading, building, measuring.
   void phase(const std::string& what, double fraction = 0.0);
-  /// one_piece: the fraction of its progress is that of the task, not of one of its phases.
+  /// one_piece: the fraction in updates is that of the whole task, not of a phase.
   void begin(const std::string& task, bool one_piece);
   void update(const renderer::Progress& progress);
   /// A cell of the task is done or failed.
   void cell(const std::string& id, const std::string& status);
   void end();
   void done(const std::string& folder, std::size_t cells, std::size_t failed);
-  /// Takes the bar away for another line.
-  void clear();
 
  private:
   void show(const std::string& what, double fraction, bool must);
-  void clear_line();
 
-  std::mutex mutex_;
-  ProgressMode mode_;
-  bool words_;
+  bool words_;  ///< a line for each task
   SweepClock clock_;
   std::string task_;
   bool one_piece_ = false;
-  Stopwatch watch_;  ///< of the task
-  Stopwatch total_;
+  renderer::Clock::time_point start_ = renderer::Clock::now();
+  renderer::Clock::time_point task_start_ = start_;
   int cells_ = 0;  ///< of the task
-  bool line_shown_ = false;
-  std::chrono::steady_clock::time_point last_;
 };
 
 }  // namespace gatelight::apps

@@ -10,21 +10,22 @@
 
 #include "apps/settings/complete_settings.h"
 #include "apps/sweep/advise.h"
-#include "apps/sweep/cell_command.h"
+#include "apps/sweep/eta.h"
 #include "apps/sweep/folder_lock.h"
+#include "apps/sweep/planned.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
 #include "apps/sweep/scene_sweep.h"
-#include "apps/sweep/tasks.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/results.h"
 #include "apps/terminal/signals.h"
-#include "apps/terminal/stopwatch.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
+#include "renderer/machine/clock.h"
 
 namespace gatelight::apps {
 namespace {
@@ -32,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Between two writings of the results of a sweep that is under way.
+/// Seconds between two writes of the results of a running sweep.
 constexpr double kResultsInterval = 30.0;
 
 void make_folder(const fs::path& folder) {
@@ -78,193 +79,181 @@ class SweepRun {
     }
   }
 
-  int run();
+  int run() {
+    prepare_folders();
+    const FolderLock lock(settings_.folder);
+    if (!survey()) {
+      // The results of an earlier call are more complete, and stay.
+      progress_.clear();
+      print_notice(
+          fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
+      return kSignalBase + stop_signal();
+    }
+    tell_versions();
+    bool finished = true;
+    bool written = false;
+    for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
+      if (tasks_[i].empty()) continue;
+      finished = run_scene(i);
+      write_results();
+      write_report();
+      written = true;
+    }
+    if (!written) {
+      write_results();
+      write_report();
+    }
+    std::size_t cells = 0, failed = 0;
+    for (const SceneResults& scene : scenes_) {
+      cells += scene.cells.size();
+      for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
+    }
+    if (!finished) {
+      progress_.clear();
+      print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
+                               stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
+      return kSignalBase + stop_signal();
+    }
+    progress_.done(settings_.folder, cells, failed);
+    if (failed > 0) {
+      print_failure(
+          {kPartly,
+           fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
+           "the same command tries them again"});
+      return kPartly;
+    }
+    return kDone;
+  }
+
   ordered_json results() const { return make_results(command_, scenes_); }
 
  private:
-  void prepare_folders() const;
-  /// Finds what is done in all scenes, so that results are whole from the first to the last. Answers false
-  /// where a signal ended it.
-  bool survey();
-  /// Becomes open_, unless it cannot be read (its cells have failed then, and the others go on) or a signal
+  void prepare_folders() const {
+    const fs::path folder = settings_.folder;
+    for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
+    if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
+    for (const char* file : {"results.json", "results.csv", "report.html"})
+      renderer::check_writable(folder / file);
+  }
+
+  /// Finds what is done in all scenes, so that results are always complete. Returns false where a signal
   /// ended it.
-  void open_scene(std::size_t index);
-  /// Of this scene and those after it.
-  void plan_tasks(std::size_t scene);
-  void tell_versions() const;
+  bool survey() {
+    for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
+      tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
+    }
+    plan_tasks(0);
+    // The first scene comes last and stays open.
+    for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
+      open_scene(i);
+      if (stop_signal() != 0) return false;
+    }
+    return true;
+  }
+
+  /// Opens a scene as open_. open_ stays empty where a signal ended it, or where the scene cannot be read:
+  /// then its cells fail and the other scenes continue.
+  void open_scene(std::size_t index) {
+    const PlannedScene& planned = plan_.scenes[index];
+    open_.reset();
+    auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
+    try {
+      if (!scene->open()) return;
+    } catch (const renderer::OutputError&) {
+      throw;
+    } catch (...) {
+      // With a single scene this is an ordinary error.
+      if (plan_.scenes.size() == 1) throw;
+      fail_scene(index, describe_current_exception().message);
+      return;
+    }
+    tasks_[index] = scene->tasks();
+    scenes_[index] = scene->results();
+    open_ = std::move(scene);
+    open_index_ = index;
+  }
+
+  /// Plans the tasks of this scene and the following ones.
+  void plan_tasks(std::size_t scene) {
+    std::vector<SweepTask> rest;
+    for (std::size_t i = scene; i < tasks_.size(); ++i) {
+      rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
+    }
+    progress_.plan_rest(rest);
+  }
+
+  void tell_versions() const {
+    std::size_t count = 0;
+    std::set<std::string> others;
+    for (const SceneResults& scene : scenes_) {
+      for (const ordered_json& cell : scene.cells) {
+        if (!is_done(cell) || cell["version"] == version()) continue;
+        ++count;
+        others.insert(cell["version"].get<std::string>());
+      }
+    }
+    if (count == 0) return;
+    log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
+                            count, count == 1 ? " was" : "s were", fmt::join(others, ", "),
+                            (fs::path(settings_.folder) / "cells").string()));
+  }
+
   /// Answers false where a signal ended it.
-  bool run_scene(std::size_t index);
-  void fail_scene(std::size_t index, const std::string& error);
-  void write_results() const;
-  void write_report() const;
+  bool run_scene(std::size_t index) {
+    // The file may have changed since the survey, so it is opened again.
+    if (!open_ || open_index_ != index) open_scene(index);
+    if (!open_) return stop_signal() == 0;
+    plan_tasks(index);
+    renderer::Clock::time_point written = renderer::Clock::now();
+    const bool finished = open_->run([&] {
+      scenes_[index] = open_->results();
+      if (renderer::seconds_since(written) < kResultsInterval) return;
+      write_results();
+      written = renderer::Clock::now();
+    });
+    scenes_[index] = open_->results();
+    return finished;
+  }
+
+  void fail_scene(std::size_t index, const std::string& error) {
+    const PlannedScene& planned = plan_.scenes[index];
+    tasks_[index].clear();
+    scenes_[index].cells.clear();
+    for (const PlannedSeries& series : planned.series) {
+      for (const std::uint32_t seed : plan_.seeds) {
+        for (const int point : series.points) {
+          // Without a scene there is no fingerprint; no other cell has such a name.
+          const std::string id =
+              fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
+          scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
+        }
+      }
+    }
+    progress_.clear();
+    log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
+  }
+
+  void write_results() const {
+    const fs::path folder = settings_.folder;
+    const ordered_json all = results();
+    renderer::write_file_atomically(folder / "results.json", json_text(all) + "\n");
+    renderer::write_file_atomically(folder / "results.csv", results_csv(all));
+  }
+
+  void write_report() const {
+    const fs::path folder = settings_.folder;
+    renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
+  }
 
   const SweepSettings& settings_;
   const SweepPlan& plan_;
   std::vector<std::string> command_;
   SweepProgress progress_;
   std::vector<SceneResults> scenes_;
-  std::vector<std::vector<SweepTask>> tasks_;  ///< of each scene, what is missing
+  std::vector<std::vector<SweepTask>> tasks_;  ///< missing tasks of each scene
   std::unique_ptr<SceneSweep> open_;           ///< one scene at a time is in memory
   std::size_t open_index_ = 0;
 };
-
-int SweepRun::run() {
-  prepare_folders();
-  const FolderLock lock(settings_.folder);
-  if (!survey()) {
-    // What was written by an earlier call knows more.
-    progress_.clear();
-    print_notice(
-        fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
-    return kSignalBase + stop_signal();
-  }
-  tell_versions();
-  bool finished = true;
-  bool written = false;
-  for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
-    if (tasks_[i].empty()) continue;
-    finished = run_scene(i);
-    write_results();
-    write_report();
-    written = true;
-  }
-  if (!written) {
-    write_results();
-    write_report();
-  }
-  std::size_t cells = 0, failed = 0;
-  for (const SceneResults& scene : scenes_) {
-    cells += scene.cells.size();
-    for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
-  }
-  if (!finished) {
-    progress_.clear();
-    print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
-                             stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
-    return kSignalBase + stop_signal();
-  }
-  progress_.done(settings_.folder, cells, failed);
-  if (failed > 0) {
-    print_failure(
-        {kPartly,
-         fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
-         "the same command tries them again"});
-    return kPartly;
-  }
-  return kDone;
-}
-
-void SweepRun::prepare_folders() const {
-  const fs::path folder = settings_.folder;
-  for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
-  if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
-  for (const char* file : {"results.json", "results.csv", "report.html"})
-    renderer::check_writable(folder / file);
-}
-
-bool SweepRun::survey() {
-  for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-    tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
-  }
-  plan_tasks(0);
-  // The first comes last, and stays open.
-  for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
-    open_scene(i);
-    if (stop_signal() != 0) return false;
-  }
-  return true;
-}
-
-void SweepRun::open_scene(std::size_t index) {
-  const PlannedScene& planned = plan_.scenes[index];
-  open_.reset();
-  auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
-  try {
-    if (!scene->open()) return;
-  } catch (const renderer::OutputError&) {
-    throw;
-  } catch (...) {
-    // A bad word alone on the line is an error like any other.
-    if (plan_.scenes.size() == 1) throw;
-    fail_scene(index, describe_current_exception().message);
-    return;
-  }
-  tasks_[index] = scene->tasks();
-  scenes_[index] = scene->results();
-  open_ = std::move(scene);
-  open_index_ = index;
-}
-
-void SweepRun::plan_tasks(std::size_t scene) {
-  std::vector<SweepTask> rest;
-  for (std::size_t i = scene; i < tasks_.size(); ++i) {
-    rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
-  }
-  progress_.plan_rest(rest);
-}
-
-void SweepRun::tell_versions() const {
-  std::size_t count = 0;
-  std::set<std::string> others;
-  for (const SceneResults& scene : scenes_) {
-    for (const ordered_json& cell : scene.cells) {
-      if (!is_done(cell) || cell["version"] == version()) continue;
-      ++count;
-      others.insert(cell["version"].get<std::string>());
-    }
-  }
-  if (count == 0) return;
-  log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
-                          count, count == 1 ? " was" : "s were", fmt::join(others, ", "),
-                          (fs::path(settings_.folder) / "cells").string()));
-}
-
-bool SweepRun::run_scene(std::size_t index) {
-  // A file may have changed since it was looked at: it is opened as if it were new.
-  if (!open_ || open_index_ != index) open_scene(index);
-  if (!open_) return stop_signal() == 0;
-  plan_tasks(index);
-  Stopwatch since_written;
-  const bool finished = open_->run([&] {
-    scenes_[index] = open_->results();
-    if (since_written.seconds() < kResultsInterval) return;
-    write_results();
-    since_written = Stopwatch();
-  });
-  scenes_[index] = open_->results();
-  return finished;
-}
-
-void SweepRun::fail_scene(std::size_t index, const std::string& error) {
-  const PlannedScene& planned = plan_.scenes[index];
-  tasks_[index].clear();
-  scenes_[index].cells.clear();
-  for (const PlannedSeries& series : planned.series) {
-    for (const std::uint32_t seed : plan_.seeds) {
-      for (const int point : series.points) {
-        // No scene, no fingerprint: a name that no cell of a scene has.
-        const std::string id =
-            fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
-        scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
-      }
-    }
-  }
-  progress_.clear();
-  log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
-}
-
-void SweepRun::write_results() const {
-  const fs::path folder = settings_.folder;
-  const ordered_json all = results();
-  renderer::write_file_atomically(folder / "results.json",
-                                  all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-  renderer::write_file_atomically(folder / "results.csv", results_csv(all));
-}
-
-void SweepRun::write_report() const {
-  const fs::path folder = settings_.folder;
-  renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
-}
 
 std::string advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
   const ordered_json results = read_results(folder);
@@ -283,9 +272,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
   if (settings.reference_folder.empty()) {
     settings.reference_folder = (fs::path(settings.folder) / "references").string();
   }
-  set_log_level(settings.quiet     ? LogLevel::errors
-                : settings.verbose ? LogLevel::details
-                                   : LogLevel::warnings);
+  set_log_level(settings.quiet, settings.verbose);
   if (settings.request.scenes.empty()) {
     write_text("-", advice_of_folder(settings.folder, settings.limits));
     return kDone;

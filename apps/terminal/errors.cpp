@@ -21,10 +21,6 @@ namespace {
 /// What oneTBB throws where it cannot start a thread.
 constexpr std::string_view kThreadFailed = "pthread_create has failed";
 
-bool starts_with(std::string_view text, std::string_view begin) {
-  return text.substr(0, begin.size()) == begin;
-}
-
 }  // namespace
 
 Failure describe_current_exception() {
@@ -65,10 +61,10 @@ Failure describe_current_exception() {
   } catch (const neural::CacheFileError& error) {
     return {kInput, error.what(), "use the scene and flags that it was written with, or begin anew"};
   } catch (const std::runtime_error& error) {
-    if (starts_with(error.what(), kThreadFailed)) {
+    if (std::string_view(error.what()).starts_with(kThreadFailed)) {
       return {kMemory, error.what(), "use fewer --threads, or a machine with more memory"};
     }
-    // What libraries throw for files: scene::SceneError, renderer::ImageError and the environment's.
+    // Libraries throw these for files: scene::SceneError, renderer::ImageError and the environment's errors.
     return {kInput, error.what(), "check the input file"};
   } catch (const std::exception& error) {
     return {kUsage, fmt::format("internal error: {}", error.what()), "please report it"};

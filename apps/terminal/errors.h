@@ -1,5 +1,5 @@
 #pragma once
-// How the program fails: one exit code for each kind of reason, one last line on stderr.
+// Failures of the program: an exit code for each kind of reason, and one last line on stderr.
 
 #include <stdexcept>
 #include <string>
@@ -21,8 +21,7 @@ enum ExitCode : int {
   kSignalBase = 128,  ///< plus the signal's number
 };
 
-/// The command line asks for something that makes no sense. The message names flag, value and what was
-/// expected.
+/// The command line is wrong. The message names the flag, the value and what was expected.
 using UsageError = renderer::BadOption;
 
 /// An input file that cannot be used. The message names the file.
@@ -36,20 +35,21 @@ struct Failure {
   std::string advice;   ///< what to do
 };
 
-/// What the exception being handled means. Call it in a catch block.
+/// Describes the exception that is being handled. Call it in a catch block.
 Failure describe_current_exception();
 
-/// Failures are read line by line. What a file says may hold anything: a terminal gets nothing to obey.
+/// Replaces control characters by spaces. Failures are read line by line, and text from a file must not
+/// control the terminal.
 std::string one_line(std::string text);
 
-/// For std::set_terminate: a failure that nobody could catch, such as a thread that cannot be started, ends
-/// the program with its line and its code, too.
+/// For std::set_terminate: a failure that could not be caught, such as a thread that cannot be started, also
+/// ends the program with its line and its code.
 [[noreturn]] void end_program();
 
 /// Prints the last line of stderr.
 void print_failure(const Failure& failure);
 
-/// The same for an end that is no failure: a signal.
+/// Prints the last line of stderr after a signal, which is no failure.
 void print_notice(const std::string& text);
 
 }  // namespace gatelight::apps

@@ -17,21 +17,11 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void set_log_level(LogLevel level) {
-  switch (level) {
-    case LogLevel::errors:
-      logger().set_level(spdlog::level::err);
-      break;
-    case LogLevel::warnings:
-      logger().set_level(spdlog::level::warn);
-      break;
-    case LogLevel::details:
-      logger().set_level(spdlog::level::info);
-      break;
-  }
+void set_log_level(bool quiet, bool verbose) {
+  logger().set_level(quiet ? spdlog::level::err : verbose ? spdlog::level::info : spdlog::level::warn);
 }
 
-// The text is an argument, never a format: file names may hold braces.
+// The text is never a format string: file names may hold braces.
 void log_warning(const std::string& text) {
   logger().warn("{}", text);
 }

@@ -1,15 +1,12 @@
 #pragma once
-// What the program says beside its results: to stderr. The library behind it is heavy to include and stays in
-// log.cpp.
+// Messages on stderr. Only log.cpp includes spdlog, which is slow to compile.
 
-#include <cstdint>
 #include <string>
 
 namespace gatelight::apps {
 
-enum class LogLevel : std::uint8_t { errors, warnings, details };
-
-void set_log_level(LogLevel level);
+/// quiet: errors only. verbose: details too. Otherwise errors and warnings.
+void set_log_level(bool quiet, bool verbose);
 void log_warning(const std::string& text);
 /// Only with --verbose.
 void log_detail(const std::string& text);

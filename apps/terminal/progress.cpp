@@ -10,27 +10,20 @@
 
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
 
-/// JSON lines end up in log files: one a second is enough. A bar may move faster.
+/// JSON lines end up in log files, so one per second is enough. A bar moves faster.
 constexpr double kJsonInterval = 1.0;
 constexpr double kBarInterval = 0.1;
 
-const char* name_of(renderer::Phase phase) {
-  switch (phase) {
-    case renderer::Phase::scout:
-      return "scout";
-    case renderer::Phase::train:
-      return "train";
-    case renderer::Phase::render:
-      return "render";
-  }
-  return "";
-}
+constexpr renderer::Choice<renderer::Phase> kPhases[] = {{"scout", renderer::Phase::scout},
+                                                         {"train", renderer::Phase::train},
+                                                         {"render", renderer::Phase::render}};
 
-/// What the bar tells of a phase beside its fraction.
+/// What the bar shows of a phase beside its fraction.
 std::string measures(const renderer::Progress& progress, double samples_per_second) {
   if (progress.phase == renderer::Phase::train) {
     return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);
@@ -44,26 +37,46 @@ std::string measures(const renderer::Progress& progress, double samples_per_seco
 
 }  // namespace
 
-ProgressReporter::ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds)
-    : mode_(mode), pixels_(pixels), time_limit_seconds_(time_limit_seconds) {
-  if (mode_ == ProgressMode::automatic) {
+ProgressLine::ProgressLine(ProgressMode mode) : mode_(mode) {
+  if (mode_ == ProgressMode::automatic)
     mode_ = ::isatty(STDERR_FILENO) == 1 ? ProgressMode::bar : ProgressMode::none;
-  }
 }
 
-ProgressReporter::~ProgressReporter() {
-  clear();
+void ProgressLine::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
 }
+
+void ProgressLine::show_line(const std::string& text) {
+  clear_line();
+  tell(text);
+  std::fflush(stderr);
+  line_shown_ = true;
+}
+
+void ProgressLine::clear_line() {
+  if (!line_shown_) return;
+  tell("\r\x1b[K");
+  std::fflush(stderr);
+  line_shown_ = false;
+}
+
+bool ProgressLine::due(bool must) {
+  const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
+  if (!must && renderer::seconds_since(last_) < interval) return false;
+  last_ = renderer::Clock::now();
+  return true;
+}
+
+ProgressReporter::ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds)
+    : ProgressLine(mode), pixels_(pixels), time_limit_seconds_(time_limit_seconds) {}
 
 void ProgressReporter::phase(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (mode_ == ProgressMode::json) {
     print_json_line({{"event", "phase"}, {"phase", name}});
   } else if (mode_ == ProgressMode::bar) {
-    clear_line();
-    tell(fmt::format("{} ...", name));
-    std::fflush(stderr);
-    line_shown_ = true;
+    show_line(fmt::format("{} ...", name));
   }
 }
 
@@ -71,11 +84,7 @@ void ProgressReporter::update(const renderer::Progress& progress) {
   const std::lock_guard lock(mutex_);
   if (mode_ == ProgressMode::none) return;
   const bool first = enter_phase(progress);
-  const bool last = progress.fraction >= 1.0;
-  const auto now = std::chrono::steady_clock::now();
-  const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
-  if (!first && !last && std::chrono::duration<double>(now - last_).count() < interval) return;
-  last_ = now;
+  if (!due(first || progress.fraction >= 1.0)) return;
   if (mode_ == ProgressMode::bar) {
     show_bar(progress, rates(progress));
   } else {
@@ -106,7 +115,7 @@ ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progre
 
 void ProgressReporter::show_json(const renderer::Progress& progress, const Rates& rates) {
   nlohmann::ordered_json line = {
-      {"event", "progress"}, {"phase", name_of(progress.phase)}, {"fraction", progress.fraction}};
+      {"event", "progress"}, {"phase", name_of(kPhases, progress.phase)}, {"fraction", progress.fraction}};
   if (progress.phase == renderer::Phase::train) {
     line["steps_done"] = progress.steps_done;
     line["steps"] = progress.steps;
@@ -122,7 +131,7 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
 }
 
 void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
-  const std::string name = name_of(progress.phase);
+  const std::string name = name_of(kPhases, progress.phase);
   const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,
                                           measures(progress, rates.samples_per_second),
                                           rates.eta_seconds < 0.0 ? "?" : format_duration(rates.eta_seconds));
@@ -130,11 +139,8 @@ void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates&
   const int room = terminal_columns() - static_cast<int>(name.size() + numbers.size()) - 4;
   const int width = std::clamp(room, 0, 40);
   const int filled = static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * width));
-  clear_line();
-  if (width >= 8) tell(fmt::format("{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled));
-  tell(numbers);
-  std::fflush(stderr);
-  line_shown_ = true;
+  const std::string bar = fmt::format("{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled);
+  show_line(width >= 8 ? bar + numbers : numbers);
 }
 
 bool ProgressReporter::done(const std::vector<std::string>& outputs, double seconds) {
@@ -143,18 +149,6 @@ bool ProgressReporter::done(const std::vector<std::string>& outputs, double seco
   if (mode_ != ProgressMode::json) return false;
   print_json_line({{"event", "done"}, {"outputs", outputs}, {"seconds", seconds}});
   return true;
-}
-
-void ProgressReporter::clear() {
-  const std::lock_guard lock(mutex_);
-  clear_line();
-}
-
-void ProgressReporter::clear_line() {
-  if (!line_shown_) return;
-  tell("\r\x1b[K");
-  std::fflush(stderr);
-  line_shown_ = false;
 }
 
 }  // namespace gatelight::apps

@@ -1,13 +1,13 @@
 #pragma once
-// How far it is, on stderr.
+// Progress on stderr.
 
-#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/machine/clock.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
@@ -15,47 +15,63 @@ namespace gatelight::apps {
 enum class ProgressMode : std::uint8_t {
   automatic,  ///< a bar where stderr is a terminal, nothing elsewhere
   bar,
-  json,  ///< one JSON object a line
+  json,  ///< one JSON object per line
   none,
 };
 
-/// May be called from any thread.
-class ProgressReporter {
+/// A status line on stderr that is redrawn in place, or JSON lines.
+class ProgressLine {
+ public:
+  explicit ProgressLine(ProgressMode mode);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Erases the line, so that another can be printed; the next update draws it again. Thread-safe.
+  void clear();
+
+ protected:
+  // The caller holds the mutex.
+  void show_line(const std::string& text);
+  void clear_line();
+  /// Whether enough time has passed since the last line, or this one cannot wait.
+  bool due(bool must);
+
+  std::mutex mutex_;
+  ProgressMode mode_;  ///< not automatic
+
+ private:
+  bool line_shown_ = false;
+  renderer::Clock::time_point last_;
+};
+
+/// Thread-safe.
+class ProgressReporter : public ProgressLine {
  public:
   /// pixels: of the region that is rendered. time_limit_seconds: of rendering; 0: none.
   ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds);
-  ~ProgressReporter();
-  ProgressReporter(const ProgressReporter&) = delete;
-  ProgressReporter& operator=(const ProgressReporter&) = delete;
 
-  /// A part of the work that has no measure: "load", "build", "write".
+  /// Begins a phase without measurable progress: "load", "build", "write".
   void phase(const std::string& name);
   void update(const renderer::Progress& progress);
-  /// The files are written. Says so as JSON; answers false where words are expected instead.
+  /// Reports that the files are written, as JSON. Returns false in other modes, where the caller prints text.
   bool done(const std::vector<std::string>& outputs, double seconds);
-  /// Takes the bar away, so that another line can be printed; the next update brings it back.
-  void clear();
 
  private:
   struct Rates {
     double samples_per_second = 0.0;
     double eta_seconds = -1.0;  ///< of the phase; negative: unknown
   };
-  /// Whether it is the first of its phase.
+  /// Whether the update is the first of its phase.
   bool enter_phase(const renderer::Progress& progress);
   Rates rates(const renderer::Progress& progress) const;
   void show_json(const renderer::Progress& progress, const Rates& rates);
   void show_bar(const renderer::Progress& progress, const Rates& rates);
-  void clear_line();
 
-  std::mutex mutex_;
-  ProgressMode mode_;
   double pixels_;
   double time_limit_seconds_;
-  bool line_shown_ = false;
-  std::chrono::steady_clock::time_point last_;
   std::optional<renderer::Phase> phase_;
-  renderer::Progress first_;  ///< update of the phase; a picture that is gone on with does not begin at zero
+  renderer::Progress first_;  ///< update of the phase; a resumed picture does not begin at zero
 };
 
 }  // namespace gatelight::apps

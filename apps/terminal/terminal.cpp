@@ -1,11 +1,15 @@
 #include "apps/terminal/terminal.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "apps/terminal/text.h"
+#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {
 
@@ -20,8 +24,18 @@ void tell(std::string_view text) {
 }
 
 void print_json_line(const nlohmann::ordered_json& object) {
-  tell(fmt::format("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
+  tell(json_text(object, -1) + "\n");
   std::fflush(stderr);
+}
+
+void write_text(const std::string& target, const std::string& text) {
+  if (target != "-") {
+    renderer::write_file_atomically(target, text);
+    return;
+  }
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw renderer::OutputError("cannot write to stdout: " + std::generic_category().message(errno));
+  }
 }
 
 }  // namespace gatelight::apps

@@ -1,17 +1,22 @@
 #pragma once
-// Lines on stderr for terminals and for programs.
+// What the program prints: lines on stderr, results on stdout.
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
 
 namespace gatelight::apps {
 
 int terminal_columns();
 
-/// To stderr. What cannot be said (a full disk, a pipe whose reader is gone) is no reason to end.
+/// Writes to stderr. Write errors (a full disk, a pipe without a reader) are ignored.
 void tell(std::string_view text);
 
-/// One line, at once.
+/// Writes the object as one line to stderr and flushes it.
 void print_json_line(const nlohmann::ordered_json& object);
+
+/// Writes a result. `target` is a file or "-" for stdout. Throws renderer::OutputError, for a closed or full
+/// stdout too.
+void write_text(const std::string& target, const std::string& text);
 
 }  // namespace gatelight::apps

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace gatelight::apps {
 
@@ -55,6 +56,10 @@ std::string format_duration(double seconds) {
   const auto whole = static_cast<std::uint64_t>(std::llround(std::fmin(std::fmax(seconds, 0.0), 1e9)));
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string json_text(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string quote_command(const std::vector<std::string>& command) {

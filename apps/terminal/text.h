@@ -1,18 +1,19 @@
 #pragma once
-// Numbers for people.
+// Numbers and JSON as text.
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gatelight::apps {
 
-/// The number that a text begins with, with a point whatever the locale says; 0 for none.
+/// The number at the begin of a text, with a decimal point in every locale; 0 where there is none.
 double read_number(std::string_view text);
 
-/// With the digits that a float has: 0.3, not 0.30000001192092896.
+/// The double with the shortest digits of a float: 0.3, not 0.30000001192092896.
 double shortest(float value);
 
 std::string format_bytes(std::size_t bytes);  ///< "812 B", "1.50 MiB"
@@ -20,7 +21,10 @@ std::string format_count(double count);       ///< "950", "1.24 M"
 std::string format_integer(std::uint64_t n);  ///< "1 240 273"
 std::string format_duration(double seconds);  ///< "0:07", "1:02:07"
 
-/// As a shell would have to be given it.
+/// JSON as text. Bytes that are not UTF-8, which file names may have, are replaced. indent -1: one line.
+std::string json_text(const nlohmann::ordered_json& json, int indent = 1);
+
+/// The command with the quotes that a shell needs.
 std::string quote_command(const std::vector<std::string>& command);
 
 }  // namespace gatelight::apps

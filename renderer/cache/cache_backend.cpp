@@ -22,7 +22,7 @@ std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
 
 constexpr std::string_view kVulkan = "vulkan";
 
-/// What stands behind "vulkan:"; nothing for the CPU.
+/// The device named after "vulkan:"; nothing for the CPU.
 std::optional<std::string> vulkan_device(const RenderOptions& options) {
   const std::string_view device = options.cache.device;
   if (device == "cpu") return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<std::string> vulkan_device(const RenderOptions& options) {
   throw Unavailable(fmt::format("--device {}: expected cpu or vulkan", device));
 }
 
-/// Refusals of the library become the renderer's, which name the flag.
+/// Turns refusals of `neural` into the renderer's, which name the flag.
 template <typename Function>
 auto on_device(const RenderOptions& options, Function function) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// What the cache computes on.
+// The device or instruction set on which the cache computes.
 
 #include <memory>
 #include <string>
@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural::Model> model,
                                                     const RenderOptions& options);
 
-/// The instruction set or device of that backend, in words for files: another one has other last bits.
+/// The instruction set or device of that backend as text for files: another one gives other last bits.
 std::string cache_machine(const RenderOptions& options);
 
 }  // namespace gatelight::renderer

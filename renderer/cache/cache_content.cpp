@@ -20,14 +20,8 @@ constexpr const char* kTriangleCounts = "renderer.triangle_counts";
 constexpr const char* kSteps = "renderer.steps";
 
 template <class Values>
-void read_all(SafetensorsReader& file, const char* name, TensorType type, Values&& values) {
-  const std::uint64_t shape[] = {values.size()};
-  file.read(name, type, shape, std::as_writable_bytes(std::span(values)));
-}
-
-template <class Values>
 void read_positive(SafetensorsReader& file, const char* name, Values& values) {
-  read_all(file, name, TensorType::f32, values);
+  read_array(file, name, TensorType::f32, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!(values[i] > 0.0f) || !std::isfinite(values[i]))
       file.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number above zero", name, i,
@@ -48,7 +42,7 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
   content.spacing_scales = setup.spacing_scales;
   content.tensors = content.model.tensors;
   const auto add = [&](const char* name, TensorType type, const auto& values) {
-    content.tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
+    content.tensors.push_back(view_array(name, type, values));
   };
   add(kSides, TensorType::u32, content.sides);
   add(kSpacingScales, TensorType::f32, content.spacing_scales);
@@ -58,9 +52,9 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
 }
 
 CacheSetup read_cache_setup(SafetensorsReader& file) {
-  // As many as the file holds: an untrusted length takes no more memory than the file does.
+  // The length is untrusted, but the file has as many elements, so it takes no more memory than the file.
   std::vector<std::uint32_t> sides(file.length(kSides, TensorType::u32));
-  read_all(file, kSides, TensorType::u32, sides);
+  read_array(file, kSides, TensorType::u32, sides);
   CacheSetup setup;
   setup.sides.reserve(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -74,7 +68,8 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
   read_positive(file, kScales, scales);
   std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
       std::tuple_cat(scales);
-  // As scouts leave them: a step traces paths for its records, and a file is not to ask for any number.
+  // Scouting keeps this bound. A step traces paths for its records, and a file must not demand any number of
+  // them.
   for (const float records : {setup.records_per_path, setup.records_per_short_path}) {
     if (records < kLeastRecordsPerPath)
       file.fail(fmt::format("tensor '{}': {} records of a path, expected at least 1/64", kScales, records));
@@ -88,8 +83,8 @@ CacheState read_cache_state(SafetensorsReader& file, const neural::Model& model,
   state.setup = read_cache_setup(file);
   state.model = neural::read_model_content(file, model, options);
   state.triangle_counts.resize(file.length(kTriangleCounts, TensorType::u32));
-  read_all(file, kTriangleCounts, TensorType::u32, state.triangle_counts);
-  read_all(file, kSteps, TensorType::u64, std::span(&state.steps, 1));
+  read_array(file, kTriangleCounts, TensorType::u32, state.triangle_counts);
+  read_array(file, kSteps, TensorType::u64, std::span(&state.steps, 1));
   if (state.steps >> 31 != 0)
     file.fail(fmt::format("tensor '{}': {}, expected less than 2^31", kSteps, state.steps));
   others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps});

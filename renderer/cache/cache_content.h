@@ -1,15 +1,29 @@
 #pragma once
-// A cache's part of a file: the model's tensors and metadata (neural/file/model_file.h) beside what the
-// renderer keeps with them.
+// A cache's part of a file: the model's tensors and metadata (neural/file/model_file.h) and the renderer's
+// own.
 
 #include <array>
 #include <set>
+#include <span>
 #include <string>
 
 #include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 
 namespace gatelight::renderer {
+
+/// A tensor with one axis; the caller keeps the values.
+template <class Values>
+neural::TensorView view_array(const char* name, neural::TensorType type, const Values& values) {
+  return {name, type, {values.size()}, std::as_bytes(std::span(values))};
+}
+
+/// Reads a tensor with one axis and as many elements as `values`.
+template <class Values>
+void read_array(neural::SafetensorsReader& file, const char* name, neural::TensorType type, Values&& values) {
+  const std::uint64_t shape[] = {values.size()};
+  file.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+}
 
 /// The views point into the state and into this struct.
 struct CacheContent {
@@ -20,16 +34,16 @@ struct CacheContent {
   std::vector<neural::TensorView> tensors;  ///< the model's and the renderer's
 };
 
-/// Fills `content`, which must stay where it is as long as its views are used. Throws
-/// neural::BadConfiguration for a state that is not the model's.
+/// Fills `content`, which must not move while its views are used. Throws neural::BadConfiguration for a state
+/// that is not the model's.
 void fill_cache_content(CacheContent& content, const neural::Model& model,
                         const neural::TrainingOptions& options, const CacheState& state);
 
-/// What stands before the model is made. Throws neural::CacheFileError.
+/// Reads what is needed to build the model. Throws neural::CacheFileError.
 CacheSetup read_cache_setup(neural::SafetensorsReader& file);
 
-/// The state of the model that was made after the setup. Throws neural::CacheFileError, and where the file
-/// holds tensors that are neither of the cache nor one of `others`.
+/// Reads the state of the model that was built from the setup. Throws neural::CacheFileError, also where the
+/// file has tensors that are neither of the cache nor one of `others`.
 CacheState read_cache_state(neural::SafetensorsReader& file, const neural::Model& model,
                             const neural::TrainingOptions& options, std::set<std::string> others = {});
 

@@ -8,7 +8,6 @@
 #include "neural/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/identity/named_texts.h"
-#include "renderer/machine/atomic_file.h"
 #include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
@@ -19,29 +18,18 @@ constexpr int kVersion = 3;
 constexpr const char* kMeaning = "cache";
 
 NamedTexts texts_of(const CacheMeaning& meaning) {
-  NamedTexts texts = {{"integrator", word(meaning.integrator)}, {"encoding", word(meaning.encoding)}};
-  if (meaning.integrator == Integrator::nao) {
-    texts.push_back({"ao-distance", fmt::format("{}", meaning.ao_distance)});
+  const auto& [options, ao_distance] = meaning;
+  NamedTexts texts = {{"integrator", word(options.integrator)}, {"encoding", word(options.cache.encoding)}};
+  if (options.integrator == Integrator::nao) {
+    texts.push_back({"ao-distance", fmt::format("{}", ao_distance)});
   } else {
-    texts.push_back({"cache-holds", word(meaning.holds)});
-    texts.push_back({"cache-roughness", fmt::format("{}", meaning.min_roughness)});
+    texts.push_back({"cache-holds", word(options.cache.holds)});
+    texts.push_back({"cache-roughness", fmt::format("{}", options.cache.min_roughness)});
   }
   return texts;
 }
 
 }  // namespace
-
-CacheMeaning meaning_of(const RenderOptions& options, float ao_distance) {
-  const CacheOptions& cache = options.cache;
-  const bool spaced =
-      cache.encoding == neural::FeatureEncoding::gate && cache.gate.rule == neural::ResolutionRule::uniform;
-  return {.integrator = options.integrator,
-          .holds = cache.holds,
-          .min_roughness = cache.min_roughness,
-          .ao_distance = ao_distance,
-          .encoding = cache.encoding,
-          .node_spacing = spaced ? cache.node_spacing : std::nullopt};
-}
 
 void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
                       const neural::TrainingOptions& options, const CacheMeaning& meaning,
@@ -52,12 +40,9 @@ void write_cache_file(const std::filesystem::path& path, const CacheState& state
   metadata["format"] = kFormat;
   metadata["version"] = fmt::format("{}", kVersion);
   add_texts(metadata, kMeaning, texts_of(meaning));
-  add_scene(metadata, scene);
+  add_texts(metadata, kScene, scene);
   metadata[neural::kDigestKey] = neural::content_digest(content.tensors, metadata);
-  AtomicFile file(path);
-  neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
-                            path, content.tensors, metadata);
-  file.commit();
+  neural::write_safetensors(path, content.tensors, metadata);
 }
 
 CacheFile::CacheFile(const std::filesystem::path& path) : file_(path) {
@@ -69,12 +54,15 @@ CacheFile::CacheFile(const std::filesystem::path& path) : file_(path) {
 void CacheFile::expect(const CacheMeaning& meaning, const SceneFingerprint& scene,
                        std::size_t instances) const {
   std::string differences = list_differences(file_.metadata(), kMeaning, texts_of(meaning));
-  if (meaning.node_spacing && *meaning.node_spacing != setup_.node_spacing) {
+  const CacheOptions& cache = meaning.options.cache;
+  const bool spaced = cache.node_spacing && cache.encoding == neural::FeatureEncoding::gate &&
+                      cache.gate.rule == neural::ResolutionRule::uniform;
+  if (spaced && *cache.node_spacing != setup_.node_spacing) {
     differences += fmt::format("{}node-spacing: file {}, expected {}", differences.empty() ? "" : "; ",
-                               setup_.node_spacing, *meaning.node_spacing);
+                               setup_.node_spacing, *cache.node_spacing);
   }
   if (!differences.empty()) file_.fail(fmt::format("it holds another cache: {}", differences));
-  const bool occlusion = meaning.integrator == Integrator::nao;
+  const bool occlusion = meaning.options.integrator == Integrator::nao;
   expect_scene(file_, scene,
                occlusion ? std::vector<std::string>{"lights", "environment"} : std::vector<std::string>{});
   if (setup_.sides.size() != instances)

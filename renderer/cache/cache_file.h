@@ -1,49 +1,39 @@
 #pragma once
-// A trained cache in a file of its own (--cache-out, --cache-in): for another camera of the same scene. What
-// is refused and what is not stands in the README.
+// A trained cache in a file of its own (--cache-out, --cache-in): for another camera of the same scene.
+// renderer/run/README.md lists what must be equal.
 
 #include <filesystem>
-#include <optional>
 
 #include "neural/file/model_file.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/identity/scene_fingerprint.h"
-#include "renderer/settings/cache_options.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
-/// What the answers of a cache mean, beside what its network and layout say of themselves.
+/// What decides the meaning of a cache's answers. Network and layout describe themselves.
 struct CacheMeaning {
-  Integrator integrator = Integrator::nrc;
-  CacheHolds holds = CacheHolds::no_delta;  ///< of nrc
-  float min_roughness = 0.0f;               ///< of nrc
-  float ao_distance = 0.0f;                 ///< metres; of nao
-  neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
-  std::optional<float> node_spacing;  ///< asked for; none: any
+  const RenderOptions& options;
+  float ao_distance = 0.0f;  ///< metres, resolved
 };
 
-/// `ao_distance` resolved, in metres.
-CacheMeaning meaning_of(const RenderOptions& options, float ao_distance);
-
-/// Written atomically and fsynced. Throws OutputError, neural::CacheFileError, and neural::BadConfiguration
-/// for a state that is not the model's.
+/// Writes the file atomically and fsyncs it. Throws OutputError, neural::CacheFileError, and
+/// neural::BadConfiguration for a state that is not the model's.
 void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
                       const neural::TrainingOptions& options, const CacheMeaning& meaning,
                       const SceneFingerprint& scene);
 
-/// A file that is read in two stages, because the model is made after its setup. Trusts nothing: all members
-/// throw neural::CacheFileError with the file, the value and what was expected.
+/// A file that is read in two stages, because the model is built from its setup. Its content is untrusted:
+/// all members throw neural::CacheFileError, which names the file, the value and what was expected.
 class CacheFile {
  public:
   explicit CacheFile(const std::filesystem::path& path);
 
   const CacheSetup& setup() const { return setup_; }
-  /// Refuses, naming every difference, a cache that means something else or is of another scene, or of
-  /// another number of instances. Of nao only what decides occlusion counts: lights and the environment may
-  /// differ.
+  /// Throws, naming every difference, for a cache with another meaning, of another scene, or of another
+  /// number of instances. For nao lights and the environment may differ.
   void expect(const CacheMeaning& meaning, const SceneFingerprint& scene, std::size_t instances) const;
-  /// Refuses a file whose tensors are not of this model, before there is memory for it.
+  /// Throws where the tensors are not of this model. Call it before memory for them is allocated.
   void expect_model(const neural::Model& model, const neural::TrainingOptions& options) const;
   CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options);
 

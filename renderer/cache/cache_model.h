@@ -1,5 +1,5 @@
 #pragma once
-// Options and a scene's requirements become a model.
+// The model for the options and the requirements of a scene.
 
 #include <memory>
 
@@ -10,7 +10,7 @@
 
 namespace gatelight::renderer {
 
-/// Inputs beside the position that the options and the scene ask for.
+/// Inputs beside the position that the options and the scene require.
 neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options);
 
 /// Throws neural::BadConfiguration.
@@ -19,7 +19,7 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
 
 neural::TrainingOptions training_options(const RenderOptions& options);
 
-/// Steps for a picture of so many samples, where the caller leaves it open.
+/// The number of training steps for a picture of so many pixels, where the caller does not choose it.
 int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);
 
 }  // namespace gatelight::renderer

@@ -57,12 +57,12 @@ CacheReport report_cache(const World& world, const Camera& camera, const PixelRe
                          const RenderOptions& options) {
   CacheReport report;
   const CacheSession session(world, camera, region, options);
-  report.statistics.cache = session.statistics();
-  report.bytes_without_scouting = report.statistics.cache.parameter_bytes;
+  report.statistics = session.statistics();
+  report.bytes_without_scouting = report.statistics.parameter_bytes;
   if (options.cache.encoding != neural::FeatureEncoding::gate) return report;
   for (std::size_t i = 0; i < world.scene.instances.size(); ++i)
     report.instances.push_back(describe(world.scene, session.model().gate, i, session.setup().sides[i]));
-  // The same spacing, had every side that materials show storage.
+  // The same spacing, but with storage for every side that materials show.
   CacheSetup everything = session.setup();
   for (std::size_t i = 0; i < everything.sides.size(); ++i)
     everything.sides[i] = possible_sides(world.scene, world.scene.instances[i]);

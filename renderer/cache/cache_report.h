@@ -1,5 +1,5 @@
 #pragma once
-// What the cache of a scene would be: found by scouting, nothing is trained.
+// Describes the cache that a scene would get. It scouts, but trains nothing.
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,7 @@ struct CacheInstanceReport {
 };
 
 struct CacheReport {
-  RenderStatistics statistics;  ///< its `cache`: memory, nodes, sides, node spacing; and what building took
+  CacheStatistics statistics;  ///< memory, nodes, sides, node spacing, seconds of scouting and setting up
   std::vector<CacheInstanceReport> instances;  ///< in the scene's order; empty for a hash grid
   std::uint64_t bytes_without_scouting = 0;    ///< parameters, had all possible sides storage
 };

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
-#include "renderer/cache/answers.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
@@ -22,14 +25,14 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The reported loss is the mean of so many last steps.
+/// The reported loss is the mean over this many last steps.
 constexpr std::size_t kLossWindow = 64;
 
-/// Paths of one step that are held at once.
+/// Largest number of paths that a step holds at once.
 constexpr double kMostPaths = 1 << 24;
 
-/// Records whose paths are traced in one go: those of several batches lie nearer to each other, and threads
-/// wait less often (5 to 10 % faster than one batch of 16384 by itself).
+/// Records whose paths are traced together. Paths of several batches are more coherent, and threads wait less
+/// often (5 to 10 % faster than single batches of 16384).
 constexpr std::uint64_t kTracedRecords = 1 << 16;
 
 void check_options(const CacheOptions& options) {
@@ -52,6 +55,32 @@ void check_memory(const scene::Scene& scene, const RenderOptions& options, const
 bool counts_needed(const RenderOptions& options) {
   return options.cache.candidates > 1 ||
          std::find(options.aovs.begin(), options.aovs.end(), Aov::training_count) != options.aovs.end();
+}
+
+/// Fills `answers`: as many floats for each point as the network has outputs. Outputs that are negative or
+/// not finite become zero; returns the number of points that have one.
+std::uint64_t ask_cache(const neural::Trainer& trainer, neural::QueryPrecision precision,
+                        const AnswerUnits& units, const SurfacePoints& points, std::span<float> answers) {
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  trainer.query(points.batch(), {.precision = precision, .range = neural::OutputRange::raw}, answers);
+  const std::size_t outputs = trainer.model().config.mlp.outputs;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), 4096), std::uint64_t{0},
+      [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t negative) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          bool below = false;
+          for (float& a : answers.subspan(outputs * i, outputs)) {
+            if (!(a >= 0.0f && a <= kGreatest)) {
+              below = true;
+              a = 0.0f;
+            }
+            a = std::min(a * units.scale, units.greatest);
+          }
+          if (below) ++negative;
+        }
+        return negative;
+      },
+      std::plus<>());
 }
 
 }  // namespace
@@ -119,7 +148,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
 
 CacheSession::~CacheSession() = default;
 
-/// Groups grow in powers of two, so that any power of two is the end of one.
+/// Groups grow in powers of two, so that every power of two ends a group.
 std::uint64_t CacheSession::group_end(std::uint64_t step) const {
   const std::uint64_t paths =
       std::uint64_t{options_.cache.batch} * static_cast<std::uint64_t>(options_.cache.samples_per_point);
@@ -192,7 +221,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     const RecordRequest wish = request(steps_, count);
     records_->trace(wish, group);
     const double stepped = statistics_.train_step_seconds;
-    settle();  // the steps of the group before, which a device made meanwhile
+    settle();  // the steps of the group before, which a device computed meanwhile
     look_at_answers();
     const double waited = statistics_.train_step_seconds - stepped;
     records_->finish(wish, answer_tail, group);
@@ -239,7 +268,7 @@ CacheState CacheSession::export_state() const {
 }
 
 void CacheSession::import_state(const CacheState& state) {
-  // Of a training that ended with an exception a device may still hold some.
+  // After training that ended with an exception a device may still compute some.
   for (; steps_under_way_ > 0; --steps_under_way_) trainer_->finish();
   trainer_->backend().import_state(state.model);
   steps_ = state.steps;

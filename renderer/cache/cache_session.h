@@ -1,5 +1,5 @@
 #pragma once
-// A cache in a renderer: set up for a scene, trained, asked.
+// A cache in a renderer: set up for a scene, trained and queried.
 
 #include <functional>
 #include <memory>
@@ -14,39 +14,39 @@ namespace gatelight::renderer {
 
 class CacheSession {
  public:
-  /// Scouts unless a setup is given, and builds the model. World, camera and options outlive it. Runs in the
-  /// caller's arena, as all that follows. A setup out of a file decides how large the model is:
-  /// `expect_model` throws where the file does not hold as much, before there is memory for it. Throws
+  /// Scouts unless a setup is given, and builds the model. World, camera and options must outlive the
+  /// session. All functions run in the caller's arena. A setup from a file decides the size of the model:
+  /// `expect_model` is called before memory is allocated, and throws where the file holds less. Throws
   /// neural::BadConfiguration, Unavailable.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, const CacheSetup* setup = nullptr,
                const std::function<void(const neural::Model&)>& expect_model = {});
   ~CacheSession();
 
-  /// What training may be told and asked between steps.
+  /// Callbacks of training, called between groups of steps.
   struct Watch {
     std::function<void(int done, int steps, double loss)> progress;
     std::function<bool()> stop;
-    std::function<void()> after_group;  ///< of steps: a state exported here goes on with the same bits
+    std::function<void()> after_group;  ///< a state exported here resumes with the same bits
   };
-  /// Learns until `state.steps` reaches `steps`, or until stopped or out of time. Paths for the records of a
-  /// group of steps are traced in one go; between groups it is asked, told and stopped. The same bits for any
-  /// number of threads. Throws TrainingDiverged when the loss grows without end or answers leave all bounds.
+  /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
+  /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
+  /// of threads. Throws TrainingDiverged when the loss or the answers grow without bound.
   void train(std::uint64_t steps, const Watch& watch);
-  /// The last step between groups at which training was as good as ever: where one may go back to by training
-  /// anew where it diverged later. 0: there is none.
+  /// The last step between groups at which training was as good as ever. After divergence, training from the
+  /// start up to it gives a good state. 0: there is none.
   std::uint64_t good_steps() const { return guard_.good_steps; }
-  /// As before the first step.
+  /// Resets to the state before the first step.
   void start_anew();
   std::uint64_t steps() const { return steps_; }
-  /// Waits for the steps that a device is still making, so that statistics and an exported state tell of the
-  /// same steps. Between groups only; train ends so. Throws NumericalError as train.
+  /// Waits for the steps that a device is still computing, so that statistics and an exported state belong to
+  /// the same step. Call it between groups only; train() ends with it. Throws as train() does.
   void settle();
-  /// The last step, not beyond `steps`, at which training from here on is between groups.
+  /// The last step, at most `steps`, that lies between groups of the training from here on.
   std::uint64_t last_group_end(std::uint64_t steps) const;
 
-  /// All that training changes, to come back to: what is trained after that has the bits of a training that
-  /// did not go beyond it in between.
+  /// All that training changes. After a return to it, training gives the same bits as if it had never gone
+  /// on.
   struct Bookmark {
     CacheState state;
     CacheStatistics statistics;
@@ -56,12 +56,13 @@ class CacheSession {
   Bookmark bookmark() const;
   void return_to(const Bookmark& bookmark);
 
-  /// Answers in the picture's units: radiance over reflectance (3 floats a point) or openness (1). Not finite
-  /// or negative ones become zero; returns for how many points. One thread at a time.
+  /// Answers in the picture's units: radiance over reflectance (3 floats per point) or transmittance of
+  /// occlusion rays (1). Negative answers and those that are not finite become zero; returns the number of
+  /// such points. Not thread-safe.
   std::uint64_t answer(const SurfacePoints& points, std::span<float> answers) const;
 
   CacheState export_state() const;
-  /// The setup must be this session's.
+  /// The state's setup must be this session's.
   void import_state(const CacheState& state);
 
   const neural::Model& model() const { return trainer_->model(); }
@@ -70,9 +71,9 @@ class CacheSession {
   const CacheSetup& setup() const { return setup_; }
   std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
-  /// Of scouting and training.
+  /// Rays of scouting and training.
   RayCounts rays() const;
-  /// Everything about the cache but what rendering adds.
+  /// All statistics of the cache except those of rendering.
   const CacheStatistics& statistics() const { return statistics_; }
 
  private:
@@ -89,12 +90,12 @@ class CacheSession {
   std::unique_ptr<CachedPaths> paths_;
   std::unique_ptr<RecordSource> records_;
   std::uint64_t steps_ = 0;
-  std::uint64_t steps_under_way_ = 0;  ///< of these
+  std::uint64_t steps_under_way_ = 0;  ///< of steps_: given to a device, not finished
   TriangleCounts counts_;
   TrainingGuard guard_;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
-  RayCounts abandoned_rays_;  ///< of steps from which it returned
+  RayCounts abandoned_rays_;  ///< of steps that return_to() undid
   CacheStatistics statistics_;
   CacheStatistics first_statistics_;  ///< before the first step
 };

@@ -1,6 +1,6 @@
 #pragma once
-// All of a cache that is not an option: what was decided before the first step, and what training has
-// changed. Checkpoints and cache files hold it.
+// The state of a cache: what was decided before the first step, and what training has changed. Checkpoints
+// and cache files store it.
 
 #include <cstdint>
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace gatelight::renderer {
 
-/// Not more than 64 paths are traced for one record.
+/// At most 64 paths are traced for one record.
 inline constexpr float kLeastRecordsPerPath = 1.0f / 64.0f;
 
-/// Found by the scouting paths; decides the layout of the features and the scale of targets.
+/// Found by scouting. Decides the layout of the features and the scale of targets.
 struct CacheSetup {
   std::vector<neural::Sides> sides;     ///< which sides of each instance of the scene have storage
   float node_spacing = 0.1f;            ///< metres; of the layout before any memory budget
-  std::vector<float> spacing_scales;    ///< for each instance: its node spacing over that one
+  std::vector<float> spacing_scales;    ///< for each instance: its spacing over node_spacing
   float target_scale = 1.0f;            ///< targets are radiance times this
   float records_per_path = 1.0f;        ///< of paths that run to their end
   float records_per_short_path = 1.0f;  ///< of paths that end in the cache's answer
@@ -27,11 +27,11 @@ struct CacheSetup {
 struct CacheState {
   CacheSetup setup;
   neural::ModelState model;
-  std::uint64_t steps = 0;  ///< of this training: keys of the next step's random numbers
-  /// Steps that trained each triangle with storage, or, where candidates are compared, began a path there;
-  /// empty unless counted.
+  std::uint64_t steps = 0;  ///< of this training; keys the next step's random numbers
+  /// For each triangle with storage: steps that trained it or, where candidates are compared, that began a
+  /// path there. Empty unless counted.
   std::vector<std::uint32_t> triangle_counts;
-  TrainingGuard guard;  ///< in checkpoints alone: further training has another camera, batch or loss
+  TrainingGuard guard;  ///< only in checkpoints: other training has another camera, batch or loss
 };
 
 }  // namespace gatelight::renderer

@@ -13,11 +13,11 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Tiles that are asked for together: some ten thousand points, enough for the kernels' threads and for a
-/// device that wants them by the thousand, few enough to stay in the last-level cache.
+/// Tiles whose queries are answered together: some ten thousand points. This is enough for the kernels'
+/// threads and for a device, and still fits into the last-level cache.
 constexpr int kTilesTogether = 256;
 
-/// A colour that stands for a number.
+/// A pseudorandom colour for a number.
 Color color_of(std::uint32_t number) {
   const std::uint32_t h = hash(number + 1u);
   return Color(static_cast<float>(h & 255u), static_cast<float>(h >> 8 & 255u),
@@ -25,8 +25,8 @@ Color color_of(std::uint32_t number) {
          255.0f;
 }
 
-/// The squared error over the squared luminance of the answer, as the relative loss counts it, of values
-/// times `scale`. In double: such squares leave single precision.
+/// The relative loss of values times `scale`: squared error over the squared luminance of the answer. In
+/// double, because such squares leave the range of single precision.
 float relative_error(const Color& answer, const Color& target, float scale) {
   const Eigen::Array3d y = answer.cast<double>() * static_cast<double>(scale);
   const Eigen::Array3d t = target.cast<double>() * static_cast<double>(scale);
@@ -50,7 +50,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
     : world_(world),
       context_(context),
       session_(session),
-      // The cache's own picture shows what it says everywhere, even where it never learned.
+      // The view of the cache shows its answers everywhere, even where it has never learned.
       stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
       paths_(world, cached_paths_options(context.options), stored_),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
@@ -88,7 +88,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         make_camera_samples(tile.pixels, sample, options, context_.camera, context_.filter, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
         tile.results.resize(tile.pixels.size());
-        Worker& worker = workers_.local();
+        CachedWorker& worker = workers_.local();
         occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
       });
       std::size_t asked = 0;
@@ -112,10 +112,10 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
       start = Clock::now();
       for_each_tile(count, [&](std::size_t t) {
         Tile& tile = tiles_[t];
-        Worker& worker = workers_.local();
+        CachedWorker& worker = workers_.local();
         occlusion ? finish_occlusion(tile) : finish_paths(tile);
         if (!tile.first_hits.empty()) describe_answers(tile, worker);
-        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.samples);
+        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.counts);
       });
       for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
       statistics_.render_trace_seconds += seconds_since(start);
@@ -124,10 +124,10 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
   }
 }
 
-void CachedPass::trace_paths(Tile& tile, Worker& worker) const {
+void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {
   tile.starts.resize(tile.samples.size());
   for (std::size_t i = 0; i < tile.samples.size(); ++i) tile.starts[i].sample = tile.samples[i];
-  paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.counts, worker.scratch);
+  paths_.trace(tile.starts, {}, plan_, tile.paths, tile.first_hits, worker.rays, worker.scratch);
 }
 
 void CachedPass::finish_paths(Tile& tile) const {
@@ -136,7 +136,7 @@ void CachedPass::finish_paths(Tile& tile) const {
       std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {
-    // Without a record's or an answer's point there is nothing that the cache would show.
+    // Paths without a record or an answer are black.
     const bool traced = plan_.query_at == QueryAt::none;
     const std::vector<std::int32_t>& at = traced ? tile.paths.first_records : tile.paths.first_queries;
     const float* const values = traced ? tile.paths.targets.data() : answers.data();
@@ -149,12 +149,12 @@ void CachedPass::finish_paths(Tile& tile) const {
   for (std::size_t i = 0; i < tile.radiance.size(); ++i) tile.results[i].radiance = tile.radiance[i];
 }
 
-void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
+void CachedPass::trace_occlusion(Tile& tile, CachedWorker& worker) const {
   PathBatch& paths = tile.paths;
   paths.queries.clear();
   paths.first_queries.assign(tile.samples.size(), kNone);
   paths.unstored_hits = 0;
-  // Where the cache has no storage one ray is traced, as the reference does.
+  // Without storage one ray is traced, as in the reference.
   const auto ask = [&](std::size_t i, const Hit& hit, const Surface& surface, const Ray& ray) {
     const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
     if (!stored_(neural::surface_index(hit.instance, side))) {
@@ -165,7 +165,7 @@ void CachedPass::trace_occlusion(Tile& tile, Worker& worker) const {
     paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
     return true;
   };
-  ao_.trace(tile.samples, tile.results, tile.first_hits, worker.counts, worker.occlusion, ask);
+  ao_.trace(tile.samples, tile.results, tile.first_hits, worker.rays, worker.occlusion, ask);
 }
 
 void CachedPass::finish_occlusion(Tile& tile) const {
@@ -176,15 +176,15 @@ void CachedPass::finish_occlusion(Tile& tile) const {
   }
 }
 
-/// Traces the tile's paths to their ends. For each path the record of worker.check at the vertex where the
-/// cache was asked first: up to there both paths are the same.
-std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& worker) const {
+/// Traces the tile's paths to their ends. Returns for each path the record of worker.check at the vertex of
+/// its first query: up to there both paths are the same.
+std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, CachedWorker& worker) const {
   PathBatch& check = worker.check;
   if (check.queries.inputs() != session_.inputs()) check = PathBatch(session_.inputs());
   PathPlan plan = plan_;
   plan.query_at = QueryAt::none;
   plan.records = true;
-  paths_.trace(tile.starts, {}, plan, check, {}, worker.counts, worker.scratch);
+  paths_.trace(tile.starts, {}, plan, check, {}, worker.rays, worker.scratch);
   check.resolve({}, {});
   std::vector<std::int32_t> records(tile.starts.size(), kNone);
   for (const PathVertex& v : check.vertices) {
@@ -197,7 +197,7 @@ std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, Worker& wo
   return records;
 }
 
-void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
+void CachedPass::describe_answers(Tile& tile, CachedWorker& worker) const {
   const std::size_t outputs = session_.outputs();
   const neural::Model& model = session_.model();
   const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
@@ -233,19 +233,6 @@ void CachedPass::describe_answers(Tile& tile, Worker& worker) const {
       first.node = color_of(nodes->nodes[nearest]);
     }
   }
-}
-
-SampleCounts CachedPass::counts() const {
-  SampleCounts sum;
-  for (const Worker& w : workers_) sum.add(w.samples);
-  keep_first(sum.located);
-  return sum;
-}
-
-RayCounts CachedPass::rays() const {
-  RayCounts sum;
-  for (const Worker& w : workers_) sum.add(w.counts);
-  return sum;
 }
 
 void CachedPass::add_to(CacheStatistics& statistics) const {

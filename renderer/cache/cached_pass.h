@@ -1,8 +1,6 @@
 #pragma once
-// Passes of the integrators with a cache: many tiles are traced up to where they ask, asked together, and
+// Passes of the integrators with a cache. Many tiles are traced up to their queries, answered together, and
 // finished.
-
-#include <tbb/enumerable_thread_specific.h>
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_paths.h"
@@ -11,15 +9,21 @@
 
 namespace gatelight::renderer {
 
-class CachedPass : public Pass {
+struct CachedWorker {
+  CachedPaths::Scratch scratch;
+  AoIntegrator::Scratch occlusion;
+  PathBatch check;  ///< for the layer cache-error
+  RayCounts rays;
+  SampleCounts counts;
+};
+
+class CachedPass : public WorkerPass<CachedWorker> {
  public:
-  /// options.integrator is nao or nrc. The session outlives it and is asked by nobody else meanwhile.
+  /// options.integrator is nao or nrc. The session must outlive the pass, which uses it exclusively.
   CachedPass(const World& world, const PassContext& context, CacheSession& session);
 
   void run(std::uint32_t first, std::uint32_t end, Film& film,
            const std::function<void(double)>& report) override;
-  SampleCounts counts() const override;
-  RayCounts rays() const override;
   void add_to(CacheStatistics& statistics) const override;
 
  private:
@@ -34,20 +38,13 @@ class CachedPass : public Pass {
     PathBatch paths;
     std::size_t first_query = 0;
   };
-  struct Worker {
-    CachedPaths::Scratch scratch;
-    AoIntegrator::Scratch occlusion;
-    PathBatch check;  ///< of the error variable
-    RayCounts counts;
-    SampleCounts samples;
-  };
 
-  void trace_paths(Tile& tile, Worker& worker) const;
-  void trace_occlusion(Tile& tile, Worker& worker) const;
+  void trace_paths(Tile& tile, CachedWorker& worker) const;
+  void trace_occlusion(Tile& tile, CachedWorker& worker) const;
   void finish_paths(Tile& tile) const;
   void finish_occlusion(Tile& tile) const;
-  std::vector<std::int32_t> check_records(const Tile& tile, Worker& worker) const;
-  void describe_answers(Tile& tile, Worker& worker) const;
+  std::vector<std::int32_t> check_records(const Tile& tile, CachedWorker& worker) const;
+  void describe_answers(Tile& tile, CachedWorker& worker) const;
 
   const World& world_;
   PassContext context_;
@@ -60,7 +57,6 @@ class CachedPass : public Pass {
   std::vector<Tile> tiles_;
   SurfacePoints queries_;
   std::vector<float> answers_;
-  tbb::enumerable_thread_specific<Worker> workers_;
   CacheStatistics statistics_;
 };
 

@@ -10,13 +10,13 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Where the wide lobes are answered, the narrow ones are followed with this times the root of their
-/// throughput: what a varnish of 4 % reflects is always looked at once, as one ray and one question are cheap
-/// beside the noise of leaving them out, and rarely twice.
+/// Where the cache answers the wide lobes, the narrow ones are followed with a probability of this times the
+/// square root of their throughput. So the reflection of a varnish of 4 % is always followed once and rarely
+/// twice: one ray and one query cost less than the noise of leaving them out.
 constexpr float kNarrowSurvival = 5.0f;
 
-/// Light at a vertex is summed up as it is worth at the path's start. Where hundreds of media inside each
-/// other lie between the two, single precision does not hold both, and the vertex is no record.
+/// Light at a vertex is summed up in units of the path's start. With hundreds of nested media between the
+/// two, single precision does not hold both, and the vertex makes no record.
 constexpr float kLeastScale = 1e-20f;
 
 }  // namespace
@@ -131,8 +131,8 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   }
 
   if (!options_.held.emission()) {
-    // All direct light is sampled here, of all lobes; what the chosen direction brings from further on counts
-    // for the narrow ones alone.
+    // All direct light of all lobes is sampled here. Indirect light of the sampled direction counts only for
+    // the narrow lobes.
     add_light(path, m, *m.bsdf, LightKinds::all, nullptr, index, scratch);
     const std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
     if (!drawn) return false;
@@ -190,7 +190,7 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
 bool CachedPaths::advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
                           std::int32_t vertex) const {
   if (drawn.through_pane) {
-    // What is behind the pane belongs to the vertex before it, whose light samples saw it too.
+    // Light from behind the pane belongs to the vertex before the pane, whose light samples saw it too.
     path.links *= links.emission;
   } else {
     path.vertex = vertex;

@@ -1,18 +1,18 @@
 #pragma once
-// What the cache stands for, in one place. A vertex x of a path reflects towards wo
+// Defines the light that the cache holds. A vertex x of a path reflects towards wo
 //
 //     R(x, wo) = integral of f(wo, wi) |cos| (E(wi) + S(wi)) dwi,
 //
-// E what the surface or sky met by wi emits (panes are looked through), S what the surface met by wi reflects
-// in turn, and f = wide lobes + narrow lobes (Bsdf::wide_part). The cache answers with the part H of R, over
-// the reflectance of the wide lobes:
+// where E is the emission of the surface or sky in direction wi (seen through panes), S is the light that
+// this surface reflects, and f = wide lobes + narrow lobes (Bsdf::wide_part). The cache answers with the part
+// H of R, divided by the reflectance of the wide lobes:
 //
 //     all        wide (E + S)
 //     no_delta   wide (E + S) without the light of punctual lights, which only light samples find
 //     indirect   wide S
 //
-// A record's target, the end of a path in the cache and a picture are all made of the terms below, so that
-// they cannot disagree: R = H + the rest, for every choice.
+// Targets of records, ends of paths in the cache and pictures all use the terms below, so they cannot
+// disagree: R = H + the rest, for every choice.
 
 #include "renderer/light/lights.h"
 #include "renderer/settings/cache_options.h"
@@ -31,13 +31,13 @@ struct HeldLight {
   // The wide lobes' share of S always is; nothing of the narrow lobes ever is.
 };
 
-/// The factor between an answer and radiance: the wide lobes' directional albedo, kept from zero so that
-/// targets can be divided by it.
+/// The factor from an answer to radiance: the wide lobes' directional albedo, bounded from below because
+/// targets are divided by it.
 inline Color cache_reflectance(const Color& wide_albedo) {
   constexpr float kLeast = 1e-3f;
   return wide_albedo.max(kLeast);
 }
-/// Below this there is nothing to learn or to answer.
+/// With a smaller albedo there is nothing to learn.
 inline bool worth_caching(const Color& wide_albedo) {
   return wide_albedo.maxCoeff() >= 1e-3f;
 }

@@ -6,15 +6,15 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Of scales: something a hundredth as far as the rest, something eight times as far.
+/// Bounds of the scales: an instance at a hundredth of the typical distance, and one at eight times that.
 constexpr int kLeastExponent = -7;
 constexpr int kGreatestExponent = 3;
 
-/// Of an instance for each point on it. A hundred times what its visible part takes when all of it is seen:
+/// Nodes of an instance for each point on it. This is a hundred times what a wholly visible instance needs;
 /// it keeps a facade beside the camera from taking all memory.
 constexpr double kMostNodes = 3.0;
 
-/// Zero of nothing.
+/// Zero where there are no values.
 float median(std::vector<float> values) {
   if (values.empty()) return 0.0f;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

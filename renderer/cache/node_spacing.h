@@ -1,5 +1,5 @@
 #pragma once
-// How far apart the nodes of each instance shall lie: as far as the camera's picture of it allows.
+// The node spacing of each instance, from the width of a pixel on it.
 
 #include <cstdint>
 #include <span>
@@ -11,25 +11,25 @@
 namespace gatelight::renderer {
 
 struct NodeSpacing {
-  float spacing = 0.0f;       ///< metres, where the middle one of the points lies
-  std::vector<float> scales;  ///< for each instance: its spacing over that one; powers of two
+  float spacing = 0.0f;       ///< metres, for the median width of a pixel
+  std::vector<float> scales;  ///< for each instance: its spacing over `spacing`; powers of two
 };
 
-/// Widths that a pixel has on the instances of a scene.
+/// Widths of a pixel on the instances of a scene.
 class PixelWidths {
  public:
   explicit PixelWidths(std::size_t instances) : seen_(instances), met_(instances) {}
 
   /// A point that the camera sees, straight or through panes.
   void add_seen(std::uint32_t instance, float pixel_width) { seen_[instance].push_back(pixel_width); }
-  /// A vertex of a path; asked of instances that the camera does not see itself.
+  /// A vertex of a path; used for instances that the camera does not see.
   void add_met(std::uint32_t instance, float pixel_width) { met_[instance].push_back(pixel_width); }
 
   /// The spacing of an instance is `pixels` times the median width of a pixel on it, rounded to the overall
-  /// one times a power of two: paths begin as often in each of its patches wherever it stands. It is greater
-  /// where little of a large instance is near: its area (square metres, one for each instance) holds no more
-  /// than a few nodes for each point that was added. Instances that nothing met have a scale of 1. Zero where
-  /// no width is above zero.
+  /// spacing times a power of two. So paths begin about equally often in each of its patches, at any
+  /// distance. The spacing is larger where only a small part of a large instance is near: its area (`areas`,
+  /// square metres) then has at most a few nodes for each point that was added. Instances without points have
+  /// a scale of 1. The spacing is zero where no width is above zero.
   NodeSpacing spacing(float pixels, std::span<const double> areas) const;
 
  private:

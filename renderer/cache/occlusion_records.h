@@ -1,5 +1,6 @@
 #pragma once
-// Ambient occlusion at training points as records: what AoIntegrator measures, one or more rays a point.
+// Records of ambient occlusion at training points: what AoIntegrator estimates, with one or more rays per
+// point.
 
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/record_batch.h"
@@ -9,7 +10,7 @@ namespace gatelight::renderer {
 
 class OcclusionRecords : public RecordSource {
  public:
-  /// All outlive it. distance: metres, may be infinite.
+  /// The references must outlive it. distance: metres, may be infinite.
   OcclusionRecords(const World& world, const TrainingPoints& points, const RenderOptions& options,
                    const StoredSurfaces& stored, float distance, const PointInputs& inputs);
 

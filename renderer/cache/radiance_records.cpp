@@ -5,15 +5,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Scattering events that Russian roulette lets nobody reach: 0.95 to this power is 1e-22.
+/// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
-
-template <typename Size>
-std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
-  std::vector<std::size_t> offsets(blocks.size() + 1, 0);
-  for (std::size_t b = 0; b < blocks.size(); ++b) offsets[b + 1] = offsets[b] + size(blocks[b]);
-  return offsets;
-}
 
 }  // namespace
 
@@ -28,9 +21,9 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
   request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
   double per_point =
       static_cast<double>(request.self_training ? setup.records_per_short_path : setup.records_per_path);
-  // The first records of a point's paths are one.
+  // The first records of a point's paths are merged into one.
   per_point += (options_.cache.samples_per_point - 1) * (per_point - std::min(per_point, 1.0));
-  // A few points more than enough: the number of records varies, and what is too much is left out.
+  // A few points more than needed: the number of records varies, and excess records are left out.
   request.points = points_for(1.03 * static_cast<double>(records), per_point);
   return request;
 }
@@ -40,8 +33,8 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   PathPlan plan;
   plan.records = true;
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
-  // A vertex near the end of a path of limited length would teach less light than the first one, at the same
-  // nodes: such paths teach at their first vertex alone.
+  // In a path of limited length later vertices have less light than the first, at the same nodes. So only the
+  // first vertex becomes a record.
   plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
   plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;
@@ -81,27 +74,7 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
     const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
     if (times > 1) batch.paths[b].average_first_records(times);
   });
-
-  const std::vector<std::size_t> record_offsets =
-      offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
-  batch.dealing = Dealing(record_offsets.back(), request.most_records, request.batches);
-  const std::size_t kept = batch.dealing.kept();
-  if (batch.records.inputs() != inputs_) batch.records = SurfacePoints(inputs_);
-  batch.records.resize(kept);
-  batch.targets.resize(3 * kept);
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
-    const PathBatch& paths = batch.paths[b];
-    for (std::size_t i = 0; i < paths.records.size(); ++i) {
-      const std::size_t j = record_offsets[b] + i;
-      if (!batch.dealing.keeps(j)) continue;
-      const std::size_t at = batch.dealing.place(j);
-      batch.records.copy(paths.records, i, 1, at);
-      for (std::size_t c = 0; c < 3; ++c)
-        batch.targets[3 * at + c] = paths.targets[3 * i + c] * request.target_scale;
-    }
-  });
-  batch.paths_traced = batch.starts.starts.size();
-  batch.records_made = record_offsets.back();
+  batch.deal(request, inputs_, 3);
 }
 
 RayCounts RadianceRecords::rays() const {

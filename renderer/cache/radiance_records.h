@@ -1,5 +1,5 @@
 #pragma once
-// Path vertices as training records: the light that each reflects towards the one before it.
+// Path vertices as training records: the light that each reflects towards its predecessor.
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -11,7 +11,7 @@ namespace gatelight::renderer {
 
 class RadianceRecords : public RecordSource {
  public:
-  /// All outlive it.
+  /// The references must outlive it.
   RadianceRecords(const CachedPaths& paths, const TrainingPoints& points, const RenderOptions& options,
                   const PointInputs& inputs);
 

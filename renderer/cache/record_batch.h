@@ -1,15 +1,15 @@
 #pragma once
-// The records of a few training steps in the making, and those who make them.
+// The records of some training steps, and the interface of the sources that make them.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "neural/base/batch.h"
-#include "renderer/cache/answers.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 
@@ -17,8 +17,8 @@ namespace gatelight::renderer {
 
 struct CacheSetup;
 
-/// Where the records of several batches lie, and which are kept: of n records at most `most` (0: all), evenly
-/// spread, are dealt to the batches in turn, so that each batch has records from the whole picture.
+/// Deals records to batches. Of n records at most `most` (0: all) are kept, evenly spread. They go to the
+/// batches in turn, so that each batch has records from the whole picture.
 class Dealing {
  public:
   Dealing() = default;
@@ -27,7 +27,7 @@ class Dealing {
   std::uint64_t kept() const { return most_; }
   std::uint64_t batches() const { return batches_; }
   bool keeps(std::uint64_t j) const { return kept_before(j + 1) > kept_before(j); }
-  /// Of a record that is kept.
+  /// The place of a record that is kept.
   std::uint64_t place(std::uint64_t j) const {
     const std::uint64_t k = kept_before(j);
     return begin(k % batches_) + k / batches_;
@@ -45,29 +45,9 @@ class Dealing {
   std::uint64_t batches_ = 1;
 };
 
-/// Records of one or more batches.
-struct RecordBatch {
-  TrainingStarts starts;
-  std::vector<PathBatch> paths;  ///< one for each block of starts
-  SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
-  std::vector<float> answers;
-  SurfacePoints records;
-  std::vector<float> targets;  ///< outputs for each record, times the scale of targets
-  std::uint64_t paths_traced = 0;
-  std::uint64_t records_made = 0;  ///< before those beyond the batches' size were left out
-  Dealing dealing;                 ///< of `records`
-
-  neural::TrainingBatch batch(std::uint64_t m) const {
-    const std::uint64_t begin = dealing.begin(m);
-    const std::uint64_t size = dealing.begin(m + 1) - begin;
-    const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
-    return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
-  }
-};
-
-/// What some steps of training need of their records.
+/// A request for the records of some training steps.
 struct RecordRequest {
-  std::uint64_t step = 0;        ///< the first one: keys the random numbers
+  std::uint64_t step = 0;        ///< first step; keys the random numbers
   std::size_t points = 0;        ///< training points
   std::size_t most_records = 0;  ///< more are thinned out evenly; 0: all are kept
   std::uint64_t batches = 1;     ///< one for each step
@@ -76,22 +56,57 @@ struct RecordRequest {
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 
-/// The number of points that leave about so many records.
+/// Where each block begins in an array of the points of all blocks; the last entry is their number.
+template <typename Size>
+std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
+  std::vector<std::size_t> offsets(blocks.size() + 1, 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) offsets[b + 1] = offsets[b] + size(blocks[b]);
+  return offsets;
+}
+
+/// Records of one or more batches.
+struct RecordBatch {
+  TrainingStarts starts;
+  std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
+  SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
+  std::vector<float> answers;
+  SurfacePoints records;
+  std::vector<float> targets;  ///< outputs for each record, times the scale of targets
+  std::uint64_t paths_traced = 0;
+  Dealing dealing;  ///< of `records`
+
+  neural::TrainingBatch batch(std::uint64_t m) const {
+    const std::uint64_t begin = dealing.begin(m);
+    const std::uint64_t size = dealing.begin(m + 1) - begin;
+    const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
+    return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
+  }
+  /// Deals the records of all `paths` to the batches, with `outputs` targets each, times the request's scale.
+  void deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
+};
+
+/// The number of points that make about so many records.
 inline std::size_t points_for(double records, double records_per_point) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(records / records_per_point)));
 }
 
+/// An answer is the network's output times `scale`, at most `greatest`.
+struct AnswerUnits {
+  float scale = 1.0f;
+  float greatest = std::numeric_limits<float>::max();
+};
+
 /// Answers in radiance over reflectance: 3 floats for each point.
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
 
-/// Makes records in two parts, so that tracing can go on while the step before is learned: trace() needs
-/// nothing of the cache, finish() asks it. The same bits for any number of threads.
+/// Makes records in two parts, so that tracing can overlap with the training of the steps before: trace()
+/// does not use the cache, finish() queries it. Gives the same bits for any number of threads.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
-  /// Asks for about `records` records, from `step` on. The caller fills in most_records, batches and counts.
+  /// A request for about `records` records, from `step` on. The caller sets most_records, batches and counts.
   virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
-  /// The units of the answers that a cache of these records gives.
+  /// The units of answers of a cache that learned these records.
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual void trace(const RecordRequest& request, RecordBatch& batch) = 0;
   virtual void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) = 0;

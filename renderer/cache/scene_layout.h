@@ -1,5 +1,5 @@
 #pragma once
-// A scene as the cache knows it: welded meshes, instances, and the sides that have storage.
+// The layout of a scene for the cache: welded meshes, instances, and the sides that have storage.
 
 #include <span>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace gatelight::renderer {
 
-/// The meshes of a scene with one vertex for each position. Spans of layouts point into it.
+/// The meshes of a scene with one vertex for each position. Layouts have spans into this object.
 class WeldedMeshes {
  public:
   explicit WeldedMeshes(const scene::Scene& scene);
-  /// One of the sides and scales of the node spacing for each instance; no scales: 1.
+  /// `sides` and `spacing_scales` have one entry for each instance; without scales all are 1.
   neural::SurfaceLayout layout(const scene::Scene& scene, const std::vector<neural::Sides>& sides,
                                const std::vector<float>& spacing_scales = {}) const;
 
@@ -23,10 +23,10 @@ class WeldedMeshes {
   std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles_;
 };
 
-/// Sides that a material lets light meet: both where it is double-sided or transmits, else the front.
+/// Sides that light can reach: both where the material is double-sided or transmits, else the front.
 neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& instance);
 
-/// The surface whose triangle a ray in `direction` met.
+/// The surface (neural::surface_index) that a ray in `direction` hit.
 std::uint32_t seen_surface(const scene::Scene& scene, const Hit& hit, const Vec3& direction);
 
 inline bool has_side(neural::Sides sides, std::uint32_t side) {

@@ -12,19 +12,19 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Paths that are followed to their end, and camera rays beside them: a thing of a thousandth of the picture
-/// is missed by the first with a probability of 1e-14.
+/// Paths that are followed to their ends, and additional camera rays. An object of a thousandth of the
+/// picture is missed by the former with a probability of 1e-14.
 constexpr std::size_t kPaths = std::size_t{1} << 15;
 constexpr std::size_t kCameraRays = std::size_t{1} << 17;
-/// No step of training has this number: its random numbers are the scouts' own.
+/// No training step has this number, so scouting has random numbers of its own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the height of the picture (see README.md, "What a scene requires"). Occlusion is sharper
-/// than light, and cheaper to learn.
+/// Node spacing over the height of the picture (README.md, "What a scene requires"). Occlusion is sharper
+/// than radiance and cheaper to learn.
 constexpr float kRadianceSpacing = 0.03f;
 constexpr float kOcclusionSpacing = 0.015f;
 
-/// Square metres of each instance.
+/// The area of each instance in square metres.
 std::vector<double> areas_of(const scene::Scene& scene) {
   std::vector<double> areas(scene.instances.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t i) {
@@ -38,7 +38,7 @@ std::vector<double> areas_of(const scene::Scene& scene) {
   return areas;
 }
 
-/// Records that each path left.
+/// The number of records of each path.
 std::vector<int> records_by_path(const PathBatch& batch) {
   std::vector<int> records(batch.paths(), 0);
   for (const PathVertex& v : batch.vertices) {
@@ -47,14 +47,14 @@ std::vector<int> records_by_path(const PathBatch& batch) {
   return records;
 }
 
-/// Records of a path, for the number of paths that a step traces. Where there is nothing to learn from nobody
-/// has to look for it.
+/// Mean number of records of a path, from which a step chooses its number of paths. 1 where there are no
+/// records at all.
 float records_per_path(double records, double paths) {
   return records > 0.0 ? static_cast<float>(std::max(records / paths, double{kLeastRecordsPerPath})) : 1.0f;
 }
 
-/// Mean of numbers of which none counts for more than a hundred times the median of those above zero: one
-/// path that met a tiny lamp in a mirror does not say how bright a scene is.
+/// Mean of the values, each limited to a hundred times the median of those above zero. One path that hits a
+/// tiny lamp in a mirror must not decide the brightness of a scene.
 double robust_mean(const std::vector<double>& values) {
   std::vector<double> lit;
   for (const double v : values) {
@@ -100,7 +100,6 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     widths.add_seen(hit.instance, cone.width + cone.spread * hit.t);
     ++hits;
   }
-  report.paths = starts.starts.size();
 
   if (options.integrator == Integrator::nrc) {
     const CachedPaths paths(world, cached_paths_options(plain), everything);
@@ -112,7 +111,6 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     records.trace(request, batch);
     records.finish(request, {}, batch);
     report.rays.add(records.rays());
-    report.paths += batch.paths_traced;
 
     double all = 0.0;
     double few = 0.0;
@@ -155,7 +153,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     unsigned sides = possible;
     if (options.cache.scout) {
       sides = met[i] & possible;
-      // A back that materials do not tell apart from the front is stored with it.
+      // A back that materials do not distinguish from the front shares its storage.
       if (met[i] != 0 && sides == 0) sides = possible;
     }
     report.setup.sides[i] = static_cast<neural::Sides>(sides);
@@ -163,7 +161,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
   const float of_height = options.integrator == Integrator::nao ? kOcclusionSpacing : kRadianceSpacing;
   NodeSpacing found = widths.spacing(of_height * static_cast<float>(options.height), areas_of(scene));
   if (options.cache.node_spacing) {
-    // One for all, as it was asked for.
+    // The given spacing holds for all instances.
     found.spacing = *options.cache.node_spacing;
     std::fill(found.scales.begin(), found.scales.end(), 1.0f);
   }

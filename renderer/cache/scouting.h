@@ -1,6 +1,6 @@
 #pragma once
-// A look at the scene before anything is learned: paths are traced and thrown away. They tell which sides of
-// which instances light and eyes meet, how bright it is, and how far it reaches.
+// Traces paths before training, to find out which sides of which instances light and camera reach, how bright
+// the scene is, and how wide a pixel is on its surfaces.
 
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
@@ -10,12 +10,10 @@ namespace gatelight::renderer {
 
 struct ScoutReport {
   CacheSetup setup;
-  std::uint64_t paths = 0;
   RayCounts rays;
 };
 
-/// Reads the picture's region and options; the same bits for any number of threads. For ambient occlusion
-/// only primary hits are looked at.
+/// Gives the same bits for any number of threads. For ambient occlusion only primary hits are used.
 ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
                   const RenderOptions& options);
 

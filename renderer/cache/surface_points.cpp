@@ -12,35 +12,31 @@ Float3 float3(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-template <typename T>
-void copy_range(const std::vector<T>& from, std::size_t begin, std::size_t count, std::vector<T>& to,
-                std::size_t at) {
-  if (!from.empty())
-    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(begin), count,
-                to.begin() + static_cast<std::ptrdiff_t>(at));
-}
-
 }  // namespace
 
 PointInputs::PointInputs(const neural::ModelConfig& config)
-    : gate(config.encoding == neural::FeatureEncoding::gate),
-      positions(neural::uses_input(config, neural::InputSource::position)),
+    : positions(neural::uses_input(config, neural::InputSource::position)),
       directions(neural::uses_input(config, neural::InputSource::direction)),
       normals(neural::uses_input(config, neural::InputSource::normal)),
       albedos(neural::uses_input(config, neural::InputSource::albedo)),
       roughnesses(neural::uses_input(config, neural::InputSource::roughness)) {}
 
+template <class Visit>
+void SurfacePoints::each_array(const PointInputs& inputs, Visit visit) {
+  using neural::QueryBatch;
+  visit(&SurfacePoints::surfaces_, &QueryBatch::surfaces);
+  visit(&SurfacePoints::triangles_, &QueryBatch::triangles);
+  visit(&SurfacePoints::barycentrics_, &QueryBatch::barycentrics);
+  if (inputs.positions) visit(&SurfacePoints::positions_, &QueryBatch::positions);
+  if (inputs.directions) visit(&SurfacePoints::directions_, &QueryBatch::directions);
+  if (inputs.normals) visit(&SurfacePoints::normals_, &QueryBatch::normals);
+  if (inputs.albedos) visit(&SurfacePoints::albedos_, &QueryBatch::albedos);
+  if (inputs.roughnesses) visit(&SurfacePoints::roughnesses_, &QueryBatch::roughnesses);
+}
+
 void SurfacePoints::resize(std::size_t size) {
   size_ = size;
-  // Surfaces and triangles are kept whatever the encoding: counts and reports read them.
-  surfaces_.resize(size);
-  triangles_.resize(size);
-  barycentrics_.resize(size);
-  if (inputs_.positions) positions_.resize(size);
-  if (inputs_.directions) directions_.resize(size);
-  if (inputs_.normals) normals_.resize(size);
-  if (inputs_.albedos) albedos_.resize(size);
-  if (inputs_.roughnesses) roughnesses_.resize(size);
+  each_array(inputs_, [&](auto array, auto) { (this->*array).resize(size); });
 }
 
 void SurfacePoints::push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
@@ -57,14 +53,9 @@ void SurfacePoints::push_back(const Hit& hit, std::uint32_t side, const Vec3& wo
 }
 
 void SurfacePoints::copy(const SurfacePoints& from, std::size_t begin, std::size_t count, std::size_t at) {
-  copy_range(from.surfaces_, begin, count, surfaces_, at);
-  copy_range(from.triangles_, begin, count, triangles_, at);
-  copy_range(from.barycentrics_, begin, count, barycentrics_, at);
-  copy_range(from.positions_, begin, count, positions_, at);
-  copy_range(from.directions_, begin, count, directions_, at);
-  copy_range(from.normals_, begin, count, normals_, at);
-  copy_range(from.albedos_, begin, count, albedos_, at);
-  copy_range(from.roughnesses_, begin, count, roughnesses_, at);
+  each_array(inputs_, [&](auto array, auto) {
+    std::copy_n((from.*array).data() + begin, count, (this->*array).data() + at);
+  });
 }
 
 bool SurfacePoints::same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const {
@@ -76,18 +67,9 @@ bool SurfacePoints::same_point(std::size_t i, const SurfacePoints& other, std::s
 }
 
 neural::QueryBatch SurfacePoints::batch(std::size_t begin, std::size_t count) const {
-  const auto part = [&]<class T>(const std::vector<T>& values) {
-    return values.empty() ? std::span<const T>() : std::span<const T>(values).subspan(begin, count);
-  };
   neural::QueryBatch batch;
-  batch.surfaces = part(surfaces_);
-  batch.triangles = part(triangles_);
-  batch.barycentrics = part(barycentrics_);
-  batch.positions = part(positions_);
-  batch.directions = part(directions_);
-  batch.normals = part(normals_);
-  batch.albedos = part(albedos_);
-  batch.roughnesses = part(roughnesses_);
+  each_array(inputs_,
+             [&](auto array, auto view) { batch.*view = std::span(this->*array).subspan(begin, count); });
   batch.size = count;
   return batch;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Points on surfaces as the cache takes them: growing arrays, of which a QueryBatch is a view.
+// Points on surfaces in the form of the cache: growing arrays, with a QueryBatch as their view.
 
 #include <cstddef>
 #include <vector>
@@ -11,9 +11,8 @@
 
 namespace gatelight::renderer {
 
-/// The inputs that a model reads. Others are not stored.
+/// The inputs that a model reads beside surface, triangle and barycentrics. Others are not stored.
 struct PointInputs {
-  bool gate = true;  ///< surface, triangle, barycentrics
   bool positions = false;
   bool directions = false;
   bool normals = false;
@@ -25,7 +24,7 @@ struct PointInputs {
   bool operator==(const PointInputs&) const = default;
 };
 
-/// Which side of its triangle a viewer sees: neural::surface_index's side.
+/// The side of a triangle that a viewer sees, as neural::surface_index takes it.
 constexpr std::uint32_t side_of(bool front, bool mirrors) {
   return front != mirrors ? 0u : 1u;
 }
@@ -40,7 +39,7 @@ class SurfacePoints {
   void clear() { resize(0); }
   void resize(std::size_t size);
 
-  /// wo: unit, away from the surface, in the world. side: 0 or 1.
+  /// wo: unit, away from the surface, in world space. side: 0 or 1.
   void push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
                  const Color& albedo);
 
@@ -52,7 +51,7 @@ class SurfacePoints {
   std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
   const neural::Float2& barycentrics(std::size_t i) const { return barycentrics_[i]; }
 
-  /// Whether point i is point j of the other, but for rounding.
+  /// Whether point i equals point j of `other`, up to rounding.
   bool same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const;
 
   /// Valid until the next change. The second: `count` points from `begin` on.
@@ -60,6 +59,11 @@ class SurfacePoints {
   neural::QueryBatch batch(std::size_t begin, std::size_t count) const;
 
  private:
+  /// Calls visit(array member, view member) for each stored array. Surfaces, triangles and barycentrics are
+  /// stored for every encoding: counts and reports read them.
+  template <class Visit>
+  static void each_array(const PointInputs& inputs, Visit visit);
+
   PointInputs inputs_;
   std::size_t size_ = 0;
   std::vector<std::uint32_t> surfaces_;

@@ -12,22 +12,22 @@
 namespace gatelight::renderer {
 namespace {
 
-// A running mean of the loss that grows tenfold over its least value is noticed. Single bright records raise
-// one step's loss a thousandfold, so that the mean is slow and no step counts for more than tenfold; a loss
-// that has gone to nothing may double as it likes.
+// Training has diverged when a running mean of the loss is ten times its least value. Single bright records
+// raise one step's loss a thousandfold; so the mean is slow, and a step counts for at most ten times the
+// mean. Losses below kFloor may vary freely.
 constexpr double kDecay = 0.995;
-constexpr std::uint64_t kFirstLooked = 200;  ///< steps of this run: another camera or batch has another loss
+constexpr std::uint64_t kFirstLooked = 200;  ///< steps of this run; another camera or batch has another loss
 constexpr double kFactor = 10.0;
 constexpr double kFloor = 1e-2;
 
-// And what no training that learns anything reaches, looked at between groups: answers that are a hundred
-// times as bright as any group's targets, or a loss 130 times that of answering one everywhere. (Answers of
-// nothing where rare light of t falls come to 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) A
-// loss alone would not tell: the relative one goes to one for answers without bounds.
+// Bounds that training which learns anything stays within, checked between groups: answers 100 times as
+// bright as any group's targets, and a loss 130 times that of the constant answer 1. (Answers of zero where
+// rare light of t arrives reach 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) The loss alone is
+// not enough: the relative loss tends to one for unbounded answers.
 constexpr double kGreatestBrightness = 100.0;
 constexpr double kGreatestLoss = 130.0;
-/// As good as ever: the running mean is within so much of its least, and the group's own within so much of
-/// that.
+/// A state is good where the running mean is within this factor of its least value, and the group's mean
+/// within this factor of the running mean.
 constexpr double kGoodAverage = 1.25;
 constexpr double kGoodGroup = 2.0;
 

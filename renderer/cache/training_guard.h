@@ -1,5 +1,5 @@
 #pragma once
-// Notices a training that diverges.
+// Detects training that diverges.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace gatelight::renderer {
 
-/// What training has shown so far. Both functions throw TrainingDiverged.
+/// Running statistics of training. Both functions throw TrainingDiverged.
 struct TrainingGuard {
   double loss_average = 0.0;  ///< a slow mean
-  double loss_least = 0.0;    ///< that it has had
-  std::uint64_t steps = 0;    ///< looked at
-  double group_loss = 0.0;    ///< sum over the steps since answers were looked at
+  double loss_least = 0.0;    ///< least value of loss_average
+  std::uint64_t steps = 0;    ///< seen by look_at_loss()
+  double group_loss = 0.0;    ///< sum over the steps since look_at_answers()
   std::uint64_t group_steps = 0;
   double brightest = 1.0;        ///< greatest mean magnitude of a group's targets
-  std::uint64_t good_steps = 0;  ///< CacheState::steps when training was last as good as ever; 0: never
+  std::uint64_t good_steps = 0;  ///< CacheState::steps of the last good state; 0: none
   friend bool operator==(const TrainingGuard&, const TrainingGuard&) = default;
 
-  /// Called after each step: refuses a loss that is not finite, and losses that grow without end.
+  /// Call it after each step. Throws for a loss that is not finite and for losses that grow without bound.
   void look_at_loss(const neural::StepStatistics& step, std::uint64_t number);
-  /// The most points that are asked.
+  /// Largest number of points that look_at_answers() queries.
   static constexpr std::size_t kLookedAt = 1024;
-  /// Called between groups, after `steps_done` steps: refuses losses and answers that no training reaches.
-  /// `targets` are those of the group, `some` are points of it.
+  /// Call it between groups, after `steps_done` steps. Throws for losses and answers beyond what training can
+  /// reach. `targets` are those of the group, `some` are some of its points.
   void look_at_answers(std::span<const float> targets, const neural::QueryBatch& some,
                        const neural::Trainer& trainer, std::uint64_t steps_done);
 };

@@ -14,7 +14,7 @@
 namespace gatelight::renderer {
 namespace {
 
-// Purposes of the random numbers of a start that are not a path's.
+// Sampler dimensions of a start, beyond those of its path.
 constexpr std::uint32_t kSurfaceChoice = 0xffff0000u;
 constexpr std::uint32_t kSurfacePoint = kSurfaceChoice + 1;
 constexpr std::uint32_t kSurfaceDirection = kSurfaceChoice + 2;
@@ -25,8 +25,8 @@ std::uint32_t step_seed(const RenderOptions& options, std::uint64_t step) {
   return hash(seed + static_cast<std::uint32_t>(step >> 32));
 }
 
-/// Whether start `index` of a step is one of the fraction that run to their end: evenly spread, from another
-/// place each step.
+/// Whether start `index` belongs to the fraction that run to their end. They are evenly spread, with another
+/// offset in each step.
 bool runs_to_its_end(std::size_t index, float fraction, std::uint32_t seed) {
   const double offset = static_cast<double>(sampling::to_unit_float(hash(seed ^ 0x3c6ef372u)));
   const double f = static_cast<double>(fraction);
@@ -34,7 +34,7 @@ bool runs_to_its_end(std::size_t index, float fraction, std::uint32_t seed) {
          std::floor(static_cast<double>(index) * f + offset);
 }
 
-/// Stratified over the step.
+/// Seeds a start; samples are stratified over the step.
 void key(const RenderOptions& options, std::uint32_t seed, std::size_t index, PathStart& start) {
   const auto number = static_cast<std::uint32_t>(index);
   start.sample.sampler = Sampler(options.sampler, seed, 0, 0, number);
@@ -186,7 +186,7 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
     for (std::size_t c = 0; c < most; ++c) {
       random = hash(random + 0x9e3779b9u);
       const auto place = static_cast<std::size_t>((std::uint64_t{random} * size) >> 32);
-      // A triangle without storage is never counted: it would win ever after.
+      // A triangle without storage is never counted, so it would always win.
       if (numbers[place] == kNoTriangle) continue;
       candidates.push_back(numbers[place]);
       places.push_back(place);

@@ -1,5 +1,5 @@
 #pragma once
-// Where training paths begin.
+// The points where training paths begin.
 
 #include <span>
 #include <vector>
@@ -12,34 +12,35 @@
 
 namespace gatelight::renderer {
 
-/// The starts of one step, in blocks of neighbours: those of block b are starts[offsets[b]] to
+/// The starts of one group of steps, in blocks of neighbours. Block b is starts[offsets[b]] to
 /// starts[offsets[b + 1]].
 struct TrainingStarts {
   std::vector<PathStart> starts;
-  std::vector<Hit> hits;  ///< of the starts' rays; empty where these are still to be traced
+  std::vector<Hit> hits;  ///< of the starts' rays; empty where they are not traced yet
   std::vector<std::size_t> offsets;
 
   std::size_t blocks() const { return offsets.size() - 1; }
 };
 
-/// Points of the picture, stratified anew each step, or points on surfaces. All numbers are keyed by (seed,
-/// step, start, dimension).
+/// Points of the picture, stratified anew each step, or points on surfaces. Random numbers are keyed by
+/// (seed, step, start, dimension).
 class TrainingPoints {
  public:
-  /// World, camera, options and layout outlive it. region: of the picture. sides: those of each instance that
-  /// have storage. layout: of the features; null for a hash grid.
+  /// World, camera, options and layout must outlive it. sides: those of each instance that have storage.
+  /// layout: of the features; null for a hash grid.
   TrainingPoints(const World& world, const Camera& camera, const PixelRect& region,
                  const RenderOptions& options, std::span<const neural::Sides> sides,
                  const neural::GateLayout* layout);
 
-  /// About `count` points, each of them options.cache.samples_per_point times in a row. need_hits: trace
+  /// Chooses about `count` points, each options.cache.samples_per_point times in a row. need_hits: trace
   /// camera rays now. counts: how often each triangle with storage was trained; empty unless candidates are
   /// compared.
   void choose(std::uint64_t step, std::size_t count, bool need_hits, std::span<const std::uint32_t> counts,
               TrainingStarts& result, RayCounts& rays) const;
 
   static constexpr std::uint32_t kNoTriangle = ~0u;
-  /// Of the triangle's side that a ray met among all with storage, or kNoTriangle. With a layout only.
+  /// Index, among all triangles with storage, of the side of the triangle that a ray hit; or kNoTriangle.
+  /// Needs a layout.
   std::uint32_t triangle_number(const Hit& hit, const Vec3& direction) const;
 
  private:
@@ -53,7 +54,7 @@ class TrainingPoints {
   PixelRect region_;
   const RenderOptions& options_;
   const neural::GateLayout* layout_;
-  /// Triangles with storage by area, each side counted.
+  /// Triangles with storage; by_area_ counts each side.
   struct Triangle {
     std::uint32_t instance;
     std::uint32_t primitive;

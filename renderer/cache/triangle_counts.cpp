@@ -19,7 +19,7 @@ void TriangleCounts::add(const RecordBatch& group, std::uint64_t batch, std::uin
     if (surface.triangle_count > 0) count(surface.first_triangle + group.records.triangle(i));
   }
   if (!starts_) return;
-  // Paths that begin at a mirror leave no record there, and its triangles would be chosen ever after.
+  // Paths that begin at a mirror make no record there, so its triangles would always be chosen.
   for (std::size_t i = 0; i < group.starts.hits.size(); ++i) {
     if (!group.starts.hits[i]) continue;
     const Vec3& direction = group.starts.starts[i].sample.camera_ray.ray.direction;

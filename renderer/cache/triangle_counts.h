@@ -12,14 +12,15 @@ class TriangleCounts {
  public:
   /// Counts nothing.
   TriangleCounts() = default;
-  /// Triangles of records count, and those where paths begin if `starts` is not null. Both outlive it.
+  /// Counts triangles of records and, unless `starts` is null, those where paths begin. Both must outlive it.
   TriangleCounts(const neural::GateLayout& layout, const TrainingPoints* starts);
 
-  /// Counts a batch that is learned after `step` steps: each triangle once, however many records lie on it.
+  /// Counts a batch that is learned after `step` steps: each triangle once, regardless of its number of
+  /// records.
   void add(const RecordBatch& group, std::uint64_t batch, std::uint64_t step);
   /// One number for each triangle of the layout; empty where nothing is counted.
   const std::vector<std::uint32_t>& values() const { return counts_; }
-  /// Goes on from these numbers if they are of the same layout.
+  /// Continues from these numbers if they are of the same layout.
   void restart(const std::vector<std::uint32_t>& counts);
 
  private:

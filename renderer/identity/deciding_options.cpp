@@ -7,7 +7,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// What is new follows these: cells of a sweep are named after the texts in their order.
+/// New options follow these: the names of a sweep's cells depend on the order of the texts.
 constexpr const char* kOrder =
     "integrator size region seed max-depth min-depth sampler filter filter-width mis direct "
     "light-selection clamp ao-distance aov train-steps batch train-path-length samples-per-point "

@@ -5,11 +5,6 @@
 #include <algorithm>
 
 namespace gatelight::renderer {
-namespace {
-
-constexpr const char* kScene = "scene";
-
-}  // namespace
 
 void add_texts(neural::Metadata& metadata, const std::string& prefix, const NamedTexts& texts) {
   for (const NamedText& t : texts) metadata[fmt::format("{}.{}", prefix, t.name)] = t.text;
@@ -41,17 +36,12 @@ std::string list_differences(const neural::Metadata& metadata, const std::string
   return differences;
 }
 
-void add_scene(neural::Metadata& metadata, const SceneFingerprint& scene) {
-  for (const FingerprintPart& part : kFingerprintParts)
-    metadata[fmt::format("{}.{}", kScene, part.name)] = scene.*part.digest;
-}
-
-void expect_scene(const neural::SafetensorsReader& file, const SceneFingerprint& scene,
+void expect_scene(const neural::SafetensorsReader& file, const NamedTexts& scene,
                   const std::vector<std::string>& ignored) {
   std::string parts;
-  for (const FingerprintPart& part : kFingerprintParts) {
+  for (const NamedText& part : scene) {
     const auto found = file.metadata().find(fmt::format("{}.{}", kScene, part.name));
-    const bool same = found != file.metadata().end() && found->second == scene.*part.digest;
+    const bool same = found != file.metadata().end() && found->second == part.text;
     if (same || std::find(ignored.begin(), ignored.end(), part.name) != ignored.end()) continue;
     parts += fmt::format("{}{}", parts.empty() ? "" : ", ", part.name);
   }

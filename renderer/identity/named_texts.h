@@ -1,32 +1,33 @@
 #pragma once
-// Small facts of a run as texts, in the metadata of a file and beside those of another run.
+// Facts of a run as named texts: stored in the metadata of files, and compared with those of another run.
 
 #include <string>
 #include <vector>
 
 #include "neural/file/safetensors.h"
-#include "renderer/identity/scene_fingerprint.h"
 
 namespace gatelight::renderer {
 
 struct NamedText {
   std::string name;
   std::string text;
+  friend bool operator==(const NamedText&, const NamedText&) = default;
 };
 using NamedTexts = std::vector<NamedText>;
 
-/// Under "PREFIX.NAME".
+/// Stores the texts under "PREFIX.NAME".
 void add_texts(neural::Metadata& metadata, const std::string& prefix, const NamedTexts& texts);
 
-/// "seed: file 1, expected 2; filter: file nothing, expected box": where the metadata under the prefix
-/// differs. Empty where it does not.
+/// The differences between the metadata under the prefix and `expected`: "seed: file 1, expected 2; filter:
+/// file nothing, expected box". Empty: there are none.
 std::string list_differences(const neural::Metadata& metadata, const std::string& prefix,
                              const NamedTexts& expected);
 
+/// The prefix of a scene's fingerprint.
+inline constexpr const char* kScene = "scene";
 /// Throws neural::CacheFileError naming the parts in which the scene of the file differs. Parts named in
-/// `ignored` may.
-void add_scene(neural::Metadata& metadata, const SceneFingerprint& scene);
-void expect_scene(const neural::SafetensorsReader& file, const SceneFingerprint& scene,
+/// `ignored` may differ.
+void expect_scene(const neural::SafetensorsReader& file, const NamedTexts& scene,
                   const std::vector<std::string>& ignored = {});
 
 }  // namespace gatelight::renderer

@@ -31,7 +31,7 @@ void add_numbers(DigestRecord& record, const Eigen::DenseBase<Dense>& values) {
   }
 }
 
-/// An array with its length: two arrays of a mesh never pass for one.
+/// An array with its length: two arrays of a mesh are never mistaken for one.
 template <class Values>
 void add_array(DigestRecord& record, const Values& values) {
   record.add(std::uint64_t{values.size()});
@@ -72,7 +72,7 @@ void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
 }
 
 void add_material(DigestRecord& record, const scene::Material& material) {
-  // Every member by name: with one more in the struct this does not compile.
+  // Names every member: a new one in the struct stops this from compiling.
   const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
                metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
                alpha_mode, alpha_cutoff, double_sided, unlit, ior, specular, specular_texture, specular_color,
@@ -171,21 +171,11 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
   }
   for (const scene::PunctualLight& light : scene.lights) add_light(lights, light);
 
-  return {.geometry = hexadecimal(geometry.digest()),
-          .attributes = hexadecimal(attributes.digest()),
-          .materials = hexadecimal(materials.digest()),
-          .lights = hexadecimal(lights.digest()),
-          .environment = hexadecimal(digest_environment(environment))};
-}
-
-std::string differing_parts(const SceneFingerprint& a, const SceneFingerprint& b) {
-  std::string text;
-  for (const FingerprintPart& part : kFingerprintParts) {
-    if (a.*part.digest == b.*part.digest) continue;
-    text += text.empty() ? "" : ", ";
-    text += part.name;
-  }
-  return text;
+  return {{"geometry", hexadecimal(geometry.digest())},
+          {"attributes", hexadecimal(attributes.digest())},
+          {"materials", hexadecimal(materials.digest())},
+          {"lights", hexadecimal(lights.digest())},
+          {"environment", hexadecimal(digest_environment(environment))}};
 }
 
 }  // namespace gatelight::renderer

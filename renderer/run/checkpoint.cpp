@@ -15,7 +15,6 @@
 #include "neural/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/film/film_samples.h"
-#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -35,7 +34,7 @@ constexpr const char* kHasCache = "cache";
 constexpr const char* kNonFinite = "nonfinite_samples";
 constexpr const char* kGuard = "training_guard";
 
-/// What adds up over the runs that make a picture: the same member of each of the statistics.
+/// Visits what adds up over the runs of a picture: the same member of each of the statistics.
 template <class Visit, class... Statistics>
 void each_sum(Visit&& visit, Statistics&... s) {
   visit("render-seconds", s.render_seconds...);
@@ -63,7 +62,7 @@ void each_sum(Visit&& visit, Statistics&... s) {
   visit("cache-unstored-hits", s.cache.unstored_hits...);
 }
 
-/// What the last run that trained has to say.
+/// Visits what only the last run that trained determines.
 template <class Visit, class... Statistics>
 void each_last(Visit&& visit, Statistics&... s) {
   visit("cache-touched-nodes", s.cache.touched_nodes...);
@@ -100,16 +99,6 @@ Number number_at(const SafetensorsReader& file, const std::string& key) {
   return value;
 }
 
-std::vector<std::uint32_t> to_words(const std::vector<NonFiniteSample>& samples) {
-  std::vector<std::uint32_t> words;
-  for (const NonFiniteSample& s : samples) {
-    for (const std::uint32_t word :
-         {static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y), s.sample, s.seed})
-      words.push_back(word);
-  }
-  return words;
-}
-
 using GuardValues = std::array<double, 7>;
 
 GuardValues to_values(const TrainingGuard& guard) {
@@ -125,8 +114,7 @@ GuardValues to_values(const TrainingGuard& guard) {
 
 TrainingGuard read_guard(SafetensorsReader& file, std::uint64_t steps) {
   GuardValues values{};
-  const std::uint64_t shape[] = {values.size()};
-  file.read(kGuard, TensorType::f64, shape, std::as_writable_bytes(std::span(values)));
+  read_array(file, kGuard, TensorType::f64, values);
   const auto refuse = [&](std::size_t i, const std::string& expected) {
     file.fail(fmt::format("tensor '{}': element {} is {}, expected {}", kGuard, i, values[i], expected));
   };
@@ -139,16 +127,15 @@ TrainingGuard read_guard(SafetensorsReader& file, std::uint64_t steps) {
   return {values[0], values[1], count(2), values[3], count(4), values[5], count(6)};
 }
 
+/// A sample is four words in the file.
+constexpr std::size_t kSampleWords = sizeof(NonFiniteSample) / sizeof(std::uint32_t);
+
 std::vector<NonFiniteSample> read_nonfinite(SafetensorsReader& file) {
-  std::vector<std::uint32_t> words(file.length(kNonFinite, TensorType::u32));
-  const std::uint64_t shape[] = {words.size()};
-  file.read(kNonFinite, TensorType::u32, shape, std::as_writable_bytes(std::span(words)));
-  if (words.size() % 4 != 0)
-    file.fail(fmt::format("tensor '{}': {} numbers, expected four a sample", kNonFinite, words.size()));
-  std::vector<NonFiniteSample> samples;
-  for (std::size_t i = 0; i < words.size(); i += 4)
-    samples.push_back(
-        {static_cast<int>(words[i]), static_cast<int>(words[i + 1]), words[i + 2], words[i + 3]});
+  const std::uint64_t words = file.length(kNonFinite, TensorType::u32);
+  if (words % kSampleWords != 0)
+    file.fail(fmt::format("tensor '{}': {} numbers, expected four a sample", kNonFinite, words));
+  std::vector<NonFiniteSample> samples(words / kSampleWords);
+  file.read(kNonFinite, TensorType::u32, {{words}}, std::as_writable_bytes(std::span(samples)));
   return samples;
 }
 
@@ -179,15 +166,16 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   FilmState sums;
   if (progress.samples > 0) sums = film.export_state();
   each_array(sums, [&](const char* name, TensorType type, const auto& values) {
-    tensors.push_back({name, type, {values.size()}, std::as_bytes(std::span(values))});
+    tensors.push_back(view_array(name, type, values));
   });
   GuardValues guard{};
   if (cache) {
     guard = to_values(cache->state.guard);
-    tensors.push_back({kGuard, TensorType::f64, {guard.size()}, std::as_bytes(std::span(guard))});
+    tensors.push_back(view_array(kGuard, TensorType::f64, guard));
   }
-  const std::vector<std::uint32_t> nonfinite = to_words(statistics.nonfinite_samples);
-  tensors.push_back({kNonFinite, TensorType::u32, {nonfinite.size()}, std::as_bytes(std::span(nonfinite))});
+  const std::span nonfinite(statistics.nonfinite_samples);
+  tensors.push_back(
+      {kNonFinite, TensorType::u32, {kSampleWords * nonfinite.size()}, std::as_bytes(nonfinite)});
 
   neural::Metadata metadata = content.model.metadata;
   metadata["format"] = kFormat;
@@ -197,7 +185,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   metadata[kFirstStep] = fmt::format("{}", progress.first_step);
   metadata[kHasCache] = cache ? "yes" : "no";
   add_texts(metadata, kOptions, identity.options);
-  add_scene(metadata, identity.scene);
+  add_texts(metadata, kScene, identity.scene);
   const auto add = [&](const char* name, const auto& value) {
     metadata[fmt::format("{}.{}", kStatistics, name)] = fmt::format("{}", value);
   };
@@ -205,10 +193,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   each_last(add, statistics);
   metadata[neural::kDigestKey] = neural::content_digest(tensors, metadata);
 
-  AtomicFile file(path);
-  neural::write_safetensors([&](std::span<const std::byte> bytes) { file.write(bytes.data(), bytes.size()); },
-                            path, tensors, metadata);
-  file.commit();
+  neural::write_safetensors(path, tensors, metadata);
 }
 
 Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
@@ -244,10 +229,9 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
   if (progress_.samples > 0) {
     FilmState sums = film.export_state();  // of the sizes that are expected
     each_array(sums, [&](const char* name, TensorType type, auto& values) {
-      const std::uint64_t shape[] = {values.size()};
-      file_.read(name, type, shape, std::as_writable_bytes(std::span(values)));
+      read_array(file_, name, type, values);
     });
-    // What is not finite never gets there: a picture that went on from it would show it.
+    // A film never holds a value that is not finite; the resumed picture would show it.
     const auto bad =
         std::find_if(sums.radiance.begin(), sums.radiance.end(), [](double x) { return !std::isfinite(x); });
     if (bad != sums.radiance.end())

@@ -1,6 +1,6 @@
 #pragma once
-// All that is needed to go on with a picture after the program was ended, in one file: the film's sums, what
-// the statistics count, and the cache with its optimiser.
+// All that is needed to resume a picture, in one file: the film's sums, the statistics, and the cache with
+// its optimiser.
 
 #include <filesystem>
 #include <optional>
@@ -8,12 +8,12 @@
 #include "neural/file/safetensors.h"
 #include "renderer/cache/cache_state.h"
 #include "renderer/film/film.h"
-#include "renderer/identity/named_texts.h"
+#include "renderer/identity/scene_fingerprint.h"
 #include "renderer/render.h"
 
 namespace gatelight::renderer {
 
-/// What a picture must have in common with a checkpoint to be gone on with.
+/// What a picture must have in common with a checkpoint that it resumes.
 struct CheckpointIdentity {
   NamedTexts options;  ///< deciding_options()
   SceneFingerprint scene;
@@ -21,44 +21,44 @@ struct CheckpointIdentity {
 };
 
 struct CheckpointProgress {
-  Phase phase = Phase::render;   ///< train or render
-  int samples = 0;               ///< finished for every pixel; 0 while it trains
-  std::uint64_t first_step = 0;  ///< of its training: those of a loaded cache come before
+  Phase phase = Phase::render;  ///< train or render
+  int samples = 0;              ///< finished for every pixel; 0 while it trains
+  std::uint64_t first_step =
+      0;  ///< number of its first training step; the steps of a loaded cache come before
 };
 
-/// Adds what `earlier` counted of the same picture.
+/// Adds the statistics of earlier runs of the same picture.
 void add_earlier(RenderStatistics& statistics, const RenderStatistics& earlier);
 
-/// A cache with what is needed to write it.
+/// A cache, and what is needed to write it.
 struct CheckpointCache {
   const CacheState& state;
   const neural::Model& model;
   const neural::TrainingOptions& options;
 };
 
-/// Written under a temporary name, fsynced and renamed: whenever the program ends, the old or the new file is
-/// there. Throws OutputError.
+/// Writes a checkpoint atomically: whenever the program ends, the old or the new file is there. Throws
+/// OutputError.
 void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentity& identity,
                       const CheckpointProgress& progress, const RenderStatistics& statistics,
                       const Film& film, const std::optional<CheckpointCache>& cache);
 
-/// A checkpoint that has been read as far as its digest says that it is undamaged. All members throw
-/// neural::CacheFileError with the file, the value and what was expected.
+/// A checkpoint whose digest has been checked. All members throw neural::CacheFileError, which names the
+/// file, the value and what was expected.
 class Checkpoint {
  public:
   explicit Checkpoint(const std::filesystem::path& path);
 
   const CheckpointProgress& progress() const { return progress_; }
   bool has_cache() const { return cache_setup_.has_value(); }
-  /// The model is made after it. Throws where there is no cache.
+  /// The model is built from it. Throws where there is no cache.
   const CacheSetup& cache_setup() const;
 
-  /// Refuses, naming what differs, a checkpoint of other options, of another scene, or of more samples than
-  /// are wanted.
+  /// Throws, naming what differs, for other options, another scene, or more samples than `spp`.
   void expect(const CheckpointIdentity& identity, int spp) const;
-  /// Sets the film, and of the statistics what is counted over the whole picture.
+  /// Sets the film and the statistics that count over the whole picture.
   void restore(Film& film, RenderStatistics& statistics);
-  /// Refuses a checkpoint whose tensors are not of this model, before there is memory for it.
+  /// Throws where the tensors are not of this model. Call it before memory for them is allocated.
   void expect_model(const neural::Model& model, const neural::TrainingOptions& options) const;
   /// Throws where there is no cache.
   CacheState read_cache(const neural::Model& model, const neural::TrainingOptions& options);

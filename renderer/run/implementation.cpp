@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/cache/cache_report.h"
 #include "renderer/cache/cached_pass.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
@@ -54,10 +54,10 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       camera(view, options.width, options.height),
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
-  const neural::FlushDenormals flush;  // the arena's threads too, as it is made here
+  const neural::FlushDenormals flush;  // also on the arena's threads, as the arena is made here
   require_threads(threads);
   const Clock::time_point start = Clock::now();
-  // What was loaded has learned enough, unless the caller says otherwise.
+  // A loaded cache needs no more steps, unless the caller asks for some.
   if (!options.cache.train_steps && options.cache.cache_in.empty()) {
     steps_chosen = true;
     options.cache.train_steps = choose_training_steps(
@@ -120,6 +120,33 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
   }
   add_earlier(sum, earlier);
   return sum;
+}
+
+Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(scene, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+const RenderStatistics& Renderer::statistics() const {
+  return implementation_->statistics;
+}
+
+CacheReport Renderer::report_cache() {
+  const neural::FlushDenormals flush;
+  Implementation& self = *implementation_;
+  CacheReport report;
+  self.arena.execute(
+      [&] { report = renderer::report_cache(*self.world, self.camera, self.region, self.options); });
+  return report;
+}
+
+CacheStatistics Renderer::set_up_cache() {
+  const neural::FlushDenormals flush;
+  Implementation& self = *implementation_;
+  CacheStatistics statistics;
+  self.arena.execute(
+      [&] { statistics = CacheSession(*self.world, self.camera, self.region, self.options).statistics(); });
+  return statistics;
 }
 
 }  // namespace gatelight::renderer

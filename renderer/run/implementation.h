@@ -1,5 +1,5 @@
 #pragma once
-// What Renderer holds, and the parts that a picture and a series of pictures have in common.
+// Renderer's members, and the steps that a picture and a series of pictures share.
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -20,35 +20,35 @@
 
 namespace gatelight::renderer {
 
-/// A cache on its way. Without a session for integrators that have none.
+/// A cache in training. Integrators without a cache have no session.
 struct Training {
   std::unique_ptr<CacheSession> session;
-  std::uint64_t first_step = 0;  ///< those of a loaded cache come before
+  std::uint64_t first_step = 0;  ///< the steps of a loaded cache come before
   int steps = 0;                 ///< wanted for the next picture
   int all_steps = 0;             ///< of the last one
   bool chosen = false;           ///< by the picture's pixels and samples
   bool complete = false;
   bool stopped = false;  ///< by the caller
-  std::string diverged;  ///< why it went back to its last good state, if it did
+  std::string diverged;  ///< why training returned to its last good state; else empty
 };
 
 struct Renderer::Implementation {
   Implementation(const scene::Scene& scene_in, const RenderOptions& options_in);
 
-  /// Of the scene with its environment.
+  /// The fingerprint of the scene with its environment.
   SceneFingerprint scene_fingerprint();
   CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
-  /// In the state of the checkpoint or of the cache file where there is one; new otherwise.
+  /// Starts from the checkpoint or the cache file where there is one, else from a new cache.
   Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
-  /// Up to training.steps.
+  /// Trains up to training.steps.
   void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
-  /// After training diverged: back to the last good state, by training up to it once more, which costs
-  /// nothing as long as all goes well. False where there is none, but what a new cache begins with. `earlier`
-  /// is cleared where it tells of steps beyond that state.
+  /// After training diverged: returns to the last good state by training up to it again. So normal training
+  /// costs nothing extra. False where there is no good state. `earlier` is cleared where it counts steps
+  /// beyond that state.
   bool return_to_good(Training& training, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
   std::unique_ptr<Pass> make_pass(Training& training);
-  /// Of this run and those before it.
+  /// Statistics of this run and of the earlier ones.
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
                           const RenderStatistics& earlier) const;
 

@@ -1,5 +1,6 @@
 // Renderer::render: one picture from start to end.
 
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -10,7 +11,7 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
-#include "renderer/run/checkpoint_keeper.h"
+#include "renderer/machine/clock.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
 #include "renderer/settings/resolved_options.h"
@@ -45,9 +46,13 @@ class Renderer::Implementation::PictureRun {
     if (keeps || (caches && !(cache.cache_in.empty() && cache.cache_out.empty())))
       fingerprint_ = renderer_.scene_fingerprint();
     if (!keeps) return;
-    keeper_.emplace(options_.checkpoint, renderer_.identity(fingerprint_));
-    found_ = keeper_->find(options_.spp);
-    if (found_) found_->restore(film_, earlier_);
+    const std::string& file = options_.checkpoint.file;
+    identity_ = renderer_.identity(fingerprint_);
+    check_writable(file);
+    if (!options_.checkpoint.resume || !std::filesystem::exists(file)) return;
+    found_.emplace(file);
+    found_->expect(*identity_, options_.spp);
+    found_->restore(film_, earlier_);
   }
 
   void train() {
@@ -56,28 +61,27 @@ class Renderer::Implementation::PictureRun {
     if (training_.complete) return;
     try {
       renderer_.train(training_, callbacks_, [&] {
-        if (!keeper_ || !keeper_->due()) return;
+        if (!checkpoint_due()) return;
         training_.session->settle();
         keep(Phase::train, sum_up(), true);
       });
     } catch (const TrainingDiverged& error) {
-      // A picture and a cache file of the last good state are worth more than none. The checkpoint stays.
+      // The last good state still gives a picture and a cache file. The checkpoint is kept.
       if (!renderer_.return_to_good(training_, found(), earlier_, callbacks_)) throw;
       training_.diverged = error.what();
-      keeper_.reset();
+      identity_.reset();
     }
-    // Training that a time limit ended is not to be repeated: where it ended is part of the picture.
-    if (keeper_) keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
+    // Training that a time limit ended is not repeated: its end decides the picture.
+    keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
   }
 
   void write_cache() const {
     if (!training_.session || !whole() || options_.cache.cache_out.empty()) return;
     try_writing(false, [&] {
-      write_cache_file(
-          options_.cache.cache_out, training_.session->export_state(), training_.session->model(),
-          training_options(options_),
-          meaning_of(options_, resolve_ao_distance(options_.ao_distance, renderer_.scene.bounds)),
-          fingerprint_);
+      write_cache_file(options_.cache.cache_out, training_.session->export_state(),
+                       training_.session->model(), training_options(options_),
+                       {options_, resolve_ao_distance(options_.ao_distance, renderer_.scene.bounds)},
+                       fingerprint_);
     });
   }
 
@@ -88,8 +92,8 @@ class Renderer::Implementation::PictureRun {
       try {
         loop.run_pass(options_.spp);
       } catch (const neural::DeviceLost& error) {
-        // Every pixel is the mean of its own samples: the part of a pass that was made is a picture, but none
-        // that a checkpoint could go on from. The last one stays.
+        // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
+        // not resume from it; the last checkpoint is kept.
         if (loop.done() == 0) throw;
         device_lost_ = error.what();
         return;
@@ -100,7 +104,7 @@ class Renderer::Implementation::PictureRun {
         callbacks_.snapshot(film_.resolve());
       }
       if (loop.over()) return;
-      if (keeper_ && whole() && keeper_->due()) keep(Phase::render, sum_up(loop, pass), true);
+      if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
     }
   }
 
@@ -109,27 +113,39 @@ class Renderer::Implementation::PictureRun {
     statistics = sum_up(loop, pass);
     statistics.interrupted = loop.done() < options_.spp || !whole();
     statistics.device_lost = device_lost_;
-    if (keeper_ && whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
+    if (whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
     loop.report_end();
   }
 
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
-  /// A picture with half a cache is for looking at, and no part of the whole one.
+  /// A picture from an incomplete cache is a preview; it is never resumed.
   bool whole() const { return !training_.session || training_.complete; }
-  /// Before the first pass.
+  /// Statistics before the first pass.
   RenderStatistics sum_up() const { return renderer_.sum_up(0, 0.0, nullptr, training_, earlier_); }
   RenderStatistics sum_up(const SampleLoop& loop, const Pass& pass) const {
     return renderer_.sum_up(loop.done(), loop.seconds(), &pass, training_, earlier_);
   }
-  /// Writes a checkpoint. `again`: another one will be tried.
+  bool checkpoint_due() const {
+    return identity_ && seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds;
+  }
+  /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
   void keep(Phase phase, const RenderStatistics& sum, bool again) {
+    if (!identity_) return;
     const CheckpointProgress progress{phase, phase == Phase::render ? sum.spp : 0, training_.first_step};
     try_writing(again, [&] {
-      keeper_->write(progress, sum, film_, training_.session.get(), training_options(options_));
+      const neural::TrainingOptions training = training_options(options_);
+      std::optional<CacheState> state;
+      std::optional<CheckpointCache> cache;
+      if (training_.session) {
+        state = training_.session->export_state();
+        cache.emplace(CheckpointCache{*state, training_.session->model(), training});
+      }
+      write_checkpoint(options_.checkpoint.file, *identity_, progress, sum, film_, cache);
     });
+    last_checkpoint_ = Clock::now();  // after a failure too, so that the next try is not immediate
   }
 
-  /// A full disk, or too little memory for a copy of the state, is to cost a file but not the picture.
+  /// A full disk, or too little memory for a copy of the state, costs the file but not the picture.
   void try_writing(bool again, const std::function<void()>& write) const {
     if (!callbacks_.output_failed) return write();
     try {
@@ -146,7 +162,8 @@ class Renderer::Implementation::PictureRun {
   const Callbacks& callbacks_;
   Film film_;
   SceneFingerprint fingerprint_;
-  std::optional<CheckpointKeeper> keeper_;
+  std::optional<CheckpointIdentity> identity_;  ///< empty: no checkpoints are written
+  Clock::time_point last_checkpoint_ = Clock::now();
   std::optional<Checkpoint> found_;
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;

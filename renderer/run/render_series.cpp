@@ -57,7 +57,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
   training.all_steps = train_steps.back();
   CacheSession& session = *training.session;
   for (std::size_t point = 0; point < train_steps.size(); ++point) {
-    // A point within a group of steps ends that group early, for its own picture alone.
+    // A point within a group of steps ends that group early, for its own picture only.
     const auto steps = static_cast<std::uint64_t>(train_steps[point]);
     const std::uint64_t between_groups =
         session.last_group_end(training.first_step + steps) - training.first_step;

@@ -7,8 +7,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A pass is as many samples as take about this long, so that time limits, signals and snapshots are served
-/// soon.
+/// A pass takes about this long, so that time limits, signals and snapshots are handled soon.
 constexpr double kPassSeconds = 0.7;
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// Pass after pass over one film: how many samples each takes, and what is told and asked meanwhile.
+// Runs pass after pass over one film: chooses the samples of each pass, reports progress, and checks for the
+// end.
 
 #include <tbb/task_arena.h>
 
@@ -14,25 +15,25 @@ namespace gatelight::renderer {
 
 class SampleLoop {
  public:
-  /// `spp` is what progress counts up to. All but it outlive the loop, whose clock starts now.
+  /// `spp` is the goal that progress reports. The references must outlive the loop. Its clock starts now.
   SampleLoop(tbb::task_arena& arena, const RenderOptions& options, const Callbacks& callbacks, Pass& pass,
              Film& film, int spp);
 
-  /// The film holds so many samples of an earlier run.
+  /// The film already holds so many samples of an earlier run.
   void begin_at(int done) { done_ = done; }
-  /// As callbacks.stop does.
+  /// Stops the loop, as callbacks.stop does.
   void stop() { stop_ = true; }
 
-  /// One pass, to `goal` samples at most. Throws NumericalError under NanPolicy::error.
+  /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
-  /// Samples of every pixel.
+  /// Finished samples of every pixel.
   int done() const { return done_; }
-  /// Stopped, or out of time.
+  /// Whether the loop was stopped or the time is over.
   bool over() const;
   double seconds() const { return seconds_since(start_) - left_out_; }
-  /// Time that the caller has spent on something else.
+  /// Excludes time that the caller spent on something else.
   void leave_out(double seconds) { left_out_ += seconds; }
-  /// Tells that it has ended.
+  /// Reports the end as progress.
   void report_end() const;
 
  private:

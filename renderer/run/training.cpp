@@ -1,4 +1,4 @@
-// How a cache comes to a renderer: loaded or new, trained, and back to its last good state.
+// A renderer's cache: loaded or new, trained, and returned to its last good state.
 
 #include <algorithm>
 #include <optional>
@@ -27,7 +27,7 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
     training.first_step = found->progress().first_step;
   } else if (!file.empty()) {
     CacheFile cache(file);
-    cache.expect(meaning_of(options, resolve_ao_distance(options.ao_distance, scene.bounds)), fingerprint,
+    cache.expect({options, resolve_ao_distance(options.ao_distance, scene.bounds)}, fingerprint,
                  scene.instances.size());
     make_session(&cache.setup(),
                  [&](const neural::Model& model) { cache.expect_model(model, training_options(options)); });
@@ -79,7 +79,7 @@ bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* fo
   std::optional<CacheState> state;
   if (found) state = found->read_cache(session.model(), learning);
   if (!state || state->steps > good) {
-    // A checkpoint may be later than the last good step: from the start, then.
+    // A checkpoint may be later than the last good step: training then starts again.
     earlier = {};
     state.reset();
     if (loaded) state = CacheFile(options.cache.cache_in).read_state(session.model(), learning);

@@ -8,7 +8,8 @@
 #include "renderer/machine/errors.h"
 #include "renderer/settings/option_table.h"
 
-// Structures are taken apart as in option_table.cpp: what has no flag is there for checkpoints.
+// Structured bindings name every member, as in option_table.cpp. Members without a flag are here for
+// checkpoints.
 
 namespace gatelight::renderer {
 namespace {
@@ -42,7 +43,7 @@ constexpr Need kSelfTraining{[](const RenderOptions& o) { return o.cache.self_tr
                              "--self-training STEP"};
 constexpr Need kSpread{[](const RenderOptions& o) { return o.cache.query_at == QueryAt::spread; },
                        "--query-at spread"};
-/// The bare answer is that of the first vertex, or what should have been it.
+/// The view of the cache is at the first vertex, or its reference.
 constexpr Need kFinalView{[](const RenderOptions& o) {
                             return o.cache.view == CacheView::final || o.cache.query_at == QueryAt::primary ||
                                    o.cache.query_at == QueryAt::none;
@@ -120,7 +121,7 @@ void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options)
   group.add(
       {.name = "self-training",
        .unit = "STEP|off",
-       .help = "From this step on training paths end in the cache's own answer; off: all run to their end",
+       .help = "First step whose training paths end in the cache's own answer; off: all run to their end",
        .value = [&options]() -> OptionValue {
          if (options.start_step < 0) return "off";
          return value_of(options.start_step);
@@ -136,14 +137,14 @@ void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options)
                    "Vertices that become records before the cache answers for the rest of the path"),
             {kNrc, kSelfTraining});
   group.add(number("self-training-full", full_fraction, kFraction, "FRACTION",
-                   "Part of the training paths that run to their end all the same, 0 to 1"),
+                   "Part of the training paths that still run to their end, 0 to 1"),
             {kNrc, kSelfTraining});
   group.add(number("self-training-attenuation", attenuation, kFraction, "FACTOR",
                    "Multiplies the cache's answer at the end of a training path, 0 to 1"),
             {kNrc, kSelfTraining});
 }
 
-/// Two flags of it stand in another group.
+/// Two of its flags are in another group.
 void add_training_options(OptionGroup& group, neural::TrainingOptions& options) {
   auto& [loss, adam, update, feature_step, precision, average, start_at_mean, max_target, count_triangles,
          seed] = options;
@@ -195,10 +196,9 @@ void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
                    "Paths whose mean becomes the record of a training point"));
   group.add(choice("training-points", options.source,
                    "Where training paths start: at what the camera sees, or anywhere on the surfaces"));
-  group.add(
-      number("candidates", options.candidates, {1, 1024}, "M",
-             "Points to choose a training point from; the more, the more even are the triangles trained"),
-      {kTriangles});
+  group.add(number("candidates", options.candidates, {1, 1024}, "M",
+                   "Candidates for each training point; with more, triangles are trained more evenly"),
+            {kTriangles});
   add_self_training_options(group, options.self_training);
   add_training_options(group, options.training);
 }
@@ -282,7 +282,7 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
   };
   group.add({.name = "cache-memory",
              .unit = "MIB",
-             .help = "Features take at most so much, in MiB, and are as fine as fits; 0: no limit",
+             .help = "Largest memory of the features, in MiB; they are as fine as fits; 0: no limit",
              .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
              .read = read_memory,
              .deciding = [&options] { return fmt::format("{}", options.memory_bytes); }});
@@ -313,12 +313,10 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
 
 void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, answers"};
-  group.add(
-      choice(
-          "cache-holds", options.holds,
-          "Reflected light that the cache stands for: all, all but what comes straight from point, spot and "
-          "directional lights, or what has been scattered once more"),
-      {kNrc});
+  group.add(choice("cache-holds", options.holds,
+                   "Reflected light that the cache holds: all, all but direct light of point, spot and "
+                   "directional lights, or indirect light only"),
+            {kNrc});
   group.add(
       choice(
           "query-at", options.query_at,
@@ -339,7 +337,7 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
                    "Arithmetic of answers in the picture; bf16 is faster where the processor has it"));
   group.add({.name = "device",
              .unit = "cpu|vulkan[:INDEX|NAME]",
-             .help = "What trains and answers",
+             .help = "Device that trains and evaluates the cache",
              .value = [&options] { return options.device; },
              .read = [&options](const std::string& text) { options.device = read_device(text); }});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What options choose between. The words for the choices are in words.h.
+// The enumerations of the options. words.h has their words.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@ enum class Integrator : std::uint8_t {
   nao,   ///< ambient occlusion answered by the cache
   nrc,   ///< radiance answered by the cache
 };
-/// Whether it learns.
+/// Whether the integrator has a cache.
 constexpr bool uses_cache(Integrator integrator) {
   return integrator == Integrator::nao || integrator == Integrator::nrc;
 }
@@ -29,9 +29,9 @@ enum class Aov : std::uint8_t {
   instance_id,
   sample_count,
   variance,
-  // Of the cache, at the vertex where it is first asked; black without one.
-  cache_answer,    ///< what it says, before reflectance
-  cache_error,     ///< squared relative error of the answer against one record traced there: the loss's heat
+  // Of the cache, at the vertex of its first query; black without one.
+  cache_answer,    ///< its answer, before reflectance
+  cache_error,     ///< squared relative error of the answer against one record traced there
   training_count,  ///< steps that trained the triangle
   resolution,      ///< R of the instance's first level
   nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours

@@ -43,7 +43,7 @@ Option any_words(const char* name, std::vector<std::string>& member, const char*
 
 void put_first(std::vector<Option>& options, const std::string& names) {
   const auto place = [list = " " + names + " "](const Option& option) {
-    return list.find(" " + option.name + " ");  // npos is last
+    return list.find(" " + option.name + " ");  // npos sorts last
   };
   std::stable_sort(options.begin(), options.end(),
                    [&](const Option& a, const Option& b) { return place(a) < place(b); });

@@ -1,5 +1,6 @@
 #pragma once
-// An option as the command line, recipes and checkpoints know it, bound to the member that it sets.
+// The description of an option for the command line, recipes and checkpoints, bound to the member that it
+// sets.
 
 #include <functional>
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace gatelight::renderer {
 
-/// What an option is set to. std::monostate: nothing.
+/// The value of an option. std::monostate: none.
 using OptionValue = std::variant<std::monostate, bool, std::int64_t, float, double, std::string,
                                  std::vector<int>, std::vector<float>, std::vector<std::string>>;
 
@@ -22,7 +23,7 @@ std::string text_of(const OptionValue& value);
 
 enum class InRecipe : std::uint8_t { always, unless_reproducible, never };
 
-/// Where it is not met, an option has no effect: it is refused, and left out of recipes.
+/// A condition without which an option has no effect. The option is then refused, and left out of recipes.
 struct Need {
   bool (*met)(const RenderOptions&);
   const char* expected;  ///< "--encoding gate"
@@ -30,38 +31,38 @@ struct Need {
 
 struct Option {
   std::string name;  ///< of the flag, without its dashes
-  std::string unit;  ///< stands for the word in the help; empty: the flag takes none
+  std::string unit;  ///< placeholder of the value in the help; empty: the flag takes no value
   std::string help;
   std::function<OptionValue()> value;            ///< in recipes
   std::function<void(const std::string&)> read;  ///< throws BadOption
   std::function<std::string()> write;            ///< what read() takes, where it is not the value's text
-  bool* toggle = nullptr;                        ///< in place of read(): a flag without a word
-  std::vector<std::string>* list = nullptr;      ///< in place of read(): the flag may be given several times
+  bool* toggle = nullptr;                        ///< instead of read(): a flag without a value
+  std::vector<std::string>* list = nullptr;      ///< instead of read(): the flag may be given several times
 
   // On the command line.
-  std::string group = "Options";  ///< of the help; empty: it is not in the help
+  std::string group = "Options";  ///< heading in the help; empty: it is not in the help
   std::string letter;             ///< "-o"
   std::string default_text;       ///< in the help, where it is not text()
   bool required = false;
   bool positional = false;
-  int words = 1;          ///< that a list takes each time
-  bool of_cache = false;  ///< means nothing without one
+  int words = 1;          ///< values that a list takes each time
+  bool of_cache = false;  ///< has no effect without a cache
   std::vector<Need> needs;
 
   // In files.
   InRecipe in_recipe = InRecipe::always;
-  bool decides = true;                              ///< the picture's bits: checkpoints remember it
-  std::function<std::string()> deciding;            ///< its text there, where it is not text()
-  std::string if_none;                              ///< its text there for nothing
-  std::optional<neural::FeatureEncoding> encoding;  ///< it is there with this one alone
+  bool decides = true;                              ///< it decides the picture's bits: checkpoints store it
+  std::function<std::string()> deciding;            ///< its text in checkpoints, where it is not text()
+  std::string if_none;                              ///< its text in checkpoints without a value
+  std::optional<neural::FeatureEncoding> encoding;  ///< it is stored for this encoding only
 
   std::string flag() const { return "--" + name; }
-  /// Others are there for checkpoints alone.
+  /// Options without a flag exist for checkpoints only.
   bool has_flag() const { return read || toggle || list; }
   std::string text() const { return write ? write() : text_of(value()); }
 };
 
-/// Options that stand together in the help.
+/// Options with a common heading in the help.
 struct OptionGroup {
   std::vector<Option>& options;
   std::string name;
@@ -90,7 +91,7 @@ OptionValue value_of(const Value& value) {
   }
 }
 
-/// A member without a flag, which decides bits.
+/// A member without a flag that decides bits.
 template <class Member>
 Option hidden(const char* name, const Member& member) {
   return {.name = name, .value = [&member] { return value_of(member); }, .in_recipe = InRecipe::never};
@@ -119,8 +120,8 @@ Option number(const std::string& name, Number& member, const RangeOf<Number>& ra
   return {.name = name, .unit = unit, .help = help, .value = [&] { return value_of(member); }, .read = read};
 }
 
-/// A number, or `none`, a word that stands for no number and is said as such; "": there is none, and nothing
-/// is said.
+/// A number, or the word `none` for no number. With an empty `none` there is no such word, and no number has
+/// no text.
 template <class Number>
 Option number_or(const std::string& none, const std::string& name, std::optional<Number>& member,
                  const RangeOf<Number>& range, const std::string& unit, const char* help) {
@@ -156,17 +157,17 @@ Option choice(const std::string& name, Enumeration& member, const char* help) {
   return choice(name, member, Choices<Enumeration>(kWords<Enumeration>), help);
 }
 
-/// Any word; an empty one says nothing.
+/// Any word; an empty one counts as no value.
 Option any_word(const char* name, std::string& member, const char* unit, const char* help);
-/// A flag without a word.
+/// A flag without a value.
 Option toggle(const char* name, bool& member, const char* help);
-/// Any word, and as often as is liked.
+/// Any word; the flag may be given several times.
 Option any_words(const char* name, std::vector<std::string>& member, const char* unit, const char* help);
 
 inline constexpr RealRange kNotNegative{0.0, 3.4e38};
 inline constexpr Choice<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
-/// Options whose names are in `names`, a list with spaces, come first, in their order.
+/// Moves the options named in `names` (separated by spaces) to the front, in that order.
 void put_first(std::vector<Option>& options, const std::string& names);
 
 }  // namespace gatelight::renderer

@@ -6,8 +6,8 @@
 #include <array>
 #include <limits>
 
-// Structures are taken apart member by member: with one more in the struct this does not compile, and whoever
-// adds it describes it here.
+// Structured bindings name every member of the structs: a new member does not compile until it is described
+// here.
 
 namespace gatelight::renderer {
 namespace {
@@ -48,10 +48,12 @@ void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& check
     files.add(decides_nothing(option, InRecipe::unless_reproducible));
   };
   add(any_word("checkpoint", file, "FILE",
-               "Keep all that is needed to go on after the program was ended in this file"));
-  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS", "Time between two writes of it"));
-  add(toggle("resume", resume,
-             "Go on with the checkpoint where it is there: the same picture as without the break"));
+               "Write a file from which --resume continues after the program has ended"));
+  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
+             "Time between two writes of the checkpoint"));
+  add(toggle(
+      "resume", resume,
+      "Continue from the checkpoint if it exists; the picture is the same as without the interruption"));
 }
 
 Option size_option(int& width, int& height) {
@@ -112,14 +114,14 @@ OptionValue environment_value(const EnvironmentOptions& environment) {
   return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
 }
 
-/// Checkpoints know them as the chosen camera and the scene's fingerprint.
+/// Checkpoints store the chosen camera and the scene's fingerprint instead.
 void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment) {
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
   auto& [name, look_at, fov_degrees] = camera;  // flags of the application set look_at
   add(any_word("camera", name, "NAME|INDEX", "Camera of the file, by name or index (default: the first)"))
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
-  // Beyond these, tangents leave single precision.
+  // Beyond these bounds tangents leave the range of single precision.
   add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
                 "Vertical field of view; overrides the camera's"));
   auto& [file, constant, rotation_degrees, scale] = environment;  // one flag sets file and constant
@@ -133,19 +135,19 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
 }
 
-/// What instruction sets were chosen is known to checkpoints from elsewhere.
+/// Checkpoints store the chosen instruction sets separately.
 void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};
   machine.add(decides_nothing(
-      number("threads", threads, {0, 1024}, "N", "0: all that the machine and the control group allow"),
+      number("threads", threads, {0, 1024}, "N", "0: as many as the machine and the control group allow"),
       InRecipe::unless_reproducible));
   const auto read_limit = [&](const std::string& text) {
     memory_limit_bytes = static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
   };
   machine.add(decides_nothing({.name = "memory-limit",
                                .unit = "MIB",
-                               .help = "Refuse to need more memory than this, in MiB; 0: no limit",
+                               .help = "Largest memory, in MiB; more is refused; 0: no limit",
                                .value = [&] { return value_of(memory_limit_bytes >> 20); },
                                .read = read_limit},
                               InRecipe::unless_reproducible));
@@ -181,8 +183,8 @@ std::vector<Option> option_table(RenderOptions& options) {
 
   OptionGroup light{table, "Light transport"};
   light.add(choice("integrator", integrator,
-                   "What a pixel is: radiance (path) or ambient occlusion (ao) by sampling alone, or what a "
-                   "cache learned of them answers (nrc, nao)"));
+                   "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache "
+                   "that is trained first (nrc, nao)"));
   light.add(number("max-depth", max_depth, kDepth, "N",
                    "Largest number of scattering events; 1: emission and direct light"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));

@@ -1,5 +1,5 @@
 #pragma once
-// Every option of a picture, once: flags and their help, recipes and checkpoints are made of these tables.
+// All options of a picture. Flags, their help, recipes and checkpoints are made from these tables.
 
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace gatelight::renderer {
 /// In the order of the help, bound to the members of `options`, which must outlive them.
 std::vector<Option> option_table(RenderOptions& options);
 
-/// Parts of it.
+/// Parts of the table.
 void add_cache_options(std::vector<Option>& table, CacheOptions& options);
 void add_cache_file_options(std::vector<Option>& table, CacheOptions& options);
 

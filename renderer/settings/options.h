@@ -1,5 +1,5 @@
 #pragma once
-// What a picture is asked to be. Plain data with defaults; the command line binds its flags to these members.
+// The options of a picture, with their defaults. The command line binds its flags to these members.
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace gatelight::renderer {
 
-/// A file that holds all that is needed to go on with a picture, bit for bit, after the program was ended.
+/// A file from which a picture resumes, bit for bit, after the program has ended.
 struct CheckpointOptions {
   std::string file;  ///< empty: none
   double every_seconds = 60.0;
-  bool resume = false;  ///< go on with `file` where it is there
+  bool resume = false;  ///< resume from `file` where it exists
 };
 
 /// A view given by hand, in the file's coordinates; replaces the file's cameras.
@@ -39,7 +39,7 @@ struct RenderOptions {
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;
-  double time_limit_seconds = 0.0;  ///< 0: none; rendering stops after the pass that reaches it
+  double time_limit_seconds = 0.0;  ///< 0: no limit; rendering stops after the pass that reaches it
   int max_depth = 8;                ///< scattering events; 1 is emission and direct light
   int min_depth = 2;                ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
@@ -54,7 +54,7 @@ struct RenderOptions {
   float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed
   std::vector<Aov> aovs;
   NanPolicy nan_policy = NanPolicy::drop;
-  std::size_t memory_limit_bytes = 0;  ///< 0: none; building beyond it throws OutOfMemory
+  std::size_t memory_limit_bytes = 0;  ///< 0: no limit; building beyond it throws OutOfMemory
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512
   CameraOptions camera;
   EnvironmentOptions environment;

@@ -9,16 +9,8 @@ float resolve_ao_distance(float option, const scene::Box& bounds) {
 
 float resolve_filter_width(PixelFilter filter, float option) {
   if (option > 0.0f) return option;
-  switch (filter) {
-    case PixelFilter::box:
-      return 1.0f;
-    case PixelFilter::tent:
-      return 2.0f;
-    case PixelFilter::gaussian:
-    case PixelFilter::blackman_harris:
-      break;
-  }
-  return 3.0f;
+  if (filter == PixelFilter::box) return 1.0f;
+  return filter == PixelFilter::tent ? 2.0f : 3.0f;
 }
 
 }  // namespace gatelight::renderer

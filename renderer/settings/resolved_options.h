@@ -1,5 +1,5 @@
 #pragma once
-// What options mean where they leave something open.
+// Values of options that depend on others or on the scene.
 
 #include "renderer/settings/options.h"
 #include "scene/math.h"

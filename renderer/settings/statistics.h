@@ -1,5 +1,5 @@
 #pragma once
-// What a run did: filled by the renderer, written by the application.
+// Statistics of a run: filled by the renderer, written by the application.
 
 #include <cstdint>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gatelight::renderer {
 
-/// Where a sample was not finite. Enough to draw it again.
+/// A sample that was not finite. It can be reproduced from these values.
 struct NonFiniteSample {
   int x = 0;
   int y = 0;
@@ -19,7 +19,7 @@ struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
-  double seconds = 0.0;  ///< spent tracing them, summed over threads
+  double seconds = 0.0;  ///< of tracing, summed over threads
 
   void add(const RayCounts& other) {
     camera += other.camera;
@@ -35,20 +35,20 @@ struct RayCounts {
   }
 };
 
-/// What the cache learned and answered; zero for integrators without one. Seconds are wall time.
+/// Statistics of the cache; zero for integrators without one. Seconds are wall time.
 struct CacheStatistics {
-  int steps = 0;  ///< trained for this picture; those of a loaded cache not counted
+  int steps = 0;  ///< trained for this picture, without those of a loaded cache
   int steps_wanted = 0;
-  bool steps_chosen = false;   ///< by the picture's pixels and samples, not by the caller
+  bool steps_chosen = false;   ///< from the picture's pixels and samples, not by the caller
   std::uint64_t records = 0;   ///< learned
-  std::uint64_t rejected = 0;  ///< not finite
+  std::uint64_t rejected = 0;  ///< left out because they were not finite
   std::uint64_t unstored = 0;  ///< on surfaces without storage
   std::uint64_t training_paths = 0;
   std::uint64_t touched_nodes = 0;  ///< by the last step
   double loss = 0.0;                ///< mean of the last steps, at most 64
   double scout_seconds = 0.0;
   double setup_seconds = 0.0;  ///< from scouting to the first step: layout, parameters, optimiser
-  double train_seconds = 0.0;  ///< the whole phase, scouting and setting up not counted
+  double train_seconds = 0.0;  ///< the whole phase, without scouting and setup
   double train_trace_seconds = 0.0;
   double train_query_seconds = 0.0;  ///< answers at the ends of training paths
   double train_step_seconds = 0.0;
@@ -59,11 +59,11 @@ struct CacheStatistics {
   std::uint64_t unstored_hits = 0;     ///< vertices without storage where the path was traced on
   std::uint64_t nodes = 0;
   std::uint64_t surfaces_stored = 0;    ///< sides of instances with storage
-  std::uint64_t surfaces_possible = 0;  ///< with two sides where materials show two
+  std::uint64_t surfaces_possible = 0;  ///< two per instance where materials show both
   float node_spacing = 0.0f;            ///< metres, resolved
   float target_scale = 1.0f;            ///< targets are radiance times this
-  double records_per_path = 0.0;        ///< that scouting found
-  bool direction_input = false;         ///< what the network reads beside the features
+  double records_per_path = 0.0;        ///< found by scouting
+  bool direction_input = false;         ///< inputs of the network beside the features
   bool normal_input = false;
   bool albedo_input = false;
   std::vector<std::uint64_t> resolution_histogram;  ///< instances by R
@@ -71,7 +71,7 @@ struct CacheStatistics {
   std::size_t optimizer_bytes = 0;
   std::size_t layout_bytes = 0;
   std::string backend;
-  std::string diverged;  ///< why training went back to its last good state, of `steps`; else empty
+  std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
 };
 
 struct RenderStatistics {
@@ -83,7 +83,7 @@ struct RenderStatistics {
   std::uint64_t samples = 0;  ///< camera paths in all
   int threads = 0;
   std::string isa;                    ///< that Embree chose
-  std::vector<std::string> warnings;  ///< of what was built: input that was taken otherwise than it says
+  std::vector<std::string> warnings;  ///< of building: input that was not taken literally
   RayCounts rays;
   std::size_t geometry_bytes = 0;
   std::size_t bvh_bytes = 0;
@@ -94,7 +94,7 @@ struct RenderStatistics {
   std::uint64_t clamped = 0;
   CacheStatistics cache;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
-  std::string device_lost;   ///< why the device no longer answers, where that ended the picture; else empty
+  std::string device_lost;   ///< why the device was lost, where that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer

@@ -35,7 +35,7 @@ bool inside(double value, const RealRange& range) {
 
 constexpr double kLeastFloat = std::numeric_limits<float>::min();
 
-/// Smaller ones are flushed to zero wherever they are used.
+/// Smaller values are flushed to zero wherever they are used.
 bool vanishes(double value) {
   return value != 0.0 && std::abs(value) < kLeastFloat;
 }
@@ -68,6 +68,20 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+/// `size` numbers with separators between them, or nothing.
+template <typename Number, std::size_t size>
+std::optional<std::array<Number, size>> read_numbers(std::string_view text, char separator) {
+  const std::vector<std::string_view> parts = split(text, separator);
+  std::array<Number, size> numbers{};
+  if (parts.size() != size) return std::nullopt;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::optional<Number> number = read_number<Number>(parts[i]);
+    if (!number) return std::nullopt;
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range) {
@@ -93,39 +107,24 @@ float parse_float(const std::string& flag, const std::string& text, const RealRa
 }
 
 std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range) {
-  const std::vector<std::string_view> parts = split(text, ',');
-  std::array<float, 3> values{};
-  bool good = parts.size() == values.size();
-  for (std::size_t i = 0; good && i < values.size(); ++i) {
-    const std::optional<double> value = read_number<double>(parts[i]);
-    good = value && inside(*value, range);
-    if (good) values[i] = static_cast<float>(*value);
-  }
-  if (!good) refuse(flag, text, fmt::format("three numbers a,b,c, each {}", describe(range)));
-  return values;
+  const auto values = read_numbers<double, 3>(text, ',');
+  if (!values || !std::all_of(values->begin(), values->end(), [&](double x) { return inside(x, range); }))
+    refuse(flag, text, fmt::format("three numbers a,b,c, each {}", describe(range)));
+  const auto& [a, b, c] = *values;
+  return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
 }
 
 std::array<int, 2> parse_size(const std::string& flag, const std::string& text) {
-  const std::vector<std::string_view> parts = split(text, 'x');
-  if (parts.size() == 2) {
-    const std::optional<int> width = read_number<int>(parts[0]);
-    const std::optional<int> height = read_number<int>(parts[1]);
-    const auto good = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= 65536; };
-    if (good(width) && good(height)) return {*width, *height};
-  }
-  refuse(flag, text, "a size WxH in pixels, each from 1 to 65536, such as 960x540");
+  const auto size = read_numbers<int, 2>(text, 'x');
+  if (!size || !std::all_of(size->begin(), size->end(), [](int n) { return n >= 1 && n <= 65536; }))
+    refuse(flag, text, "a size WxH in pixels, each from 1 to 65536, such as 960x540");
+  return *size;
 }
 
 std::array<int, 4> parse_region(const std::string& flag, const std::string& text) {
-  const std::vector<std::string_view> parts = split(text, ',');
-  std::array<int, 4> region{};
-  bool good = parts.size() == region.size();
-  for (std::size_t i = 0; good && i < region.size(); ++i) {
-    const std::optional<int> value = read_number<int>(parts[i]);
-    good = value && *value >= 0;
-    if (good) region[i] = *value;
-  }
-  if (!good || region[0] >= region[2] || region[1] >= region[3]) {
+  const auto region = read_numbers<int, 4>(text, ',').value_or(std::array<int, 4>{});
+  const auto& [x0, y0, x1, y1] = region;
+  if (x0 < 0 || y0 < 0 || x0 >= x1 || y0 >= y1) {
     refuse(flag, text, "a region x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1 (x1, y1 excluded)");
   }
   return region;
@@ -141,10 +140,7 @@ std::vector<std::string> split_list(const std::string& flag, const std::string& 
 }
 
 bool looks_like_triple(const std::string& text) {
-  const std::vector<std::string_view> parts = split(text, ',');
-  return parts.size() == 3 && std::all_of(parts.begin(), parts.end(), [](std::string_view part) {
-           return read_number<double>(part).has_value();
-         });
+  return read_numbers<double, 3>(text, ',').has_value();
 }
 
 std::string join_names(std::span<const std::string_view> names) {

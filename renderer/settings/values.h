@@ -1,6 +1,6 @@
 #pragma once
-// Words of the command line and of files into values. Each function throws BadOption, whose message names the
-// flag, the word and what was expected.
+// Parses values of the command line and of files. Each function throws BadOption, whose message names the
+// flag, the text and what was expected.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct IntegerRange {
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
 
-/// NaN is in no range, infinity only where `infinity` says so.
+/// NaN is in no range, infinity only where `infinity` is set.
 struct RealRange {
   double min = 0.0;
   double max = std::numeric_limits<double>::max();
@@ -32,7 +32,7 @@ inline constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = 
 
 std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range);
 double parse_real(const std::string& flag, const std::string& text, const RealRange& range);
-/// Also what single precision would make of it is in the range, and not zero unless the text says so.
+/// The value rounded to single precision must be in the range too, and must not vanish.
 float parse_float(const std::string& flag, const std::string& text, const RealRange& range);
 std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range);
 /// "WxH", each from 1 to 65536.
@@ -43,10 +43,10 @@ std::array<int, 4> parse_region(const std::string& flag, const std::string& text
 /// "a,b,c". Empty words are refused.
 std::vector<std::string> split_list(const std::string& flag, const std::string& text);
 
-/// Whether the text is three numbers, rather than the name of a file.
+/// Whether the text is three numbers rather than the name of a file.
 bool looks_like_triple(const std::string& text);
 
-/// A word and what it stands for.
+/// A word and its value.
 template <typename Value>
 struct Choice {
   std::string_view name;

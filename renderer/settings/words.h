@@ -1,6 +1,5 @@
 #pragma once
-// The words that stand for choices on the command line and in files: one table for each enumeration, read
-// both ways.
+// The words of the enumerations on the command line and in files: one table each, for both directions.
 
 #include <span>
 #include <string>

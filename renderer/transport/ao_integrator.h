@@ -1,6 +1,6 @@
 #pragma once
 // Reference ambient occlusion at the primary hit: the cosine-weighted fraction of the hemisphere about the
-// smooth normal that nothing hides within a distance. Background counts as open.
+// smooth normal that is unoccluded within a distance. The background is unoccluded.
 
 #include <functional>
 #include <span>
@@ -22,10 +22,10 @@ class AoIntegrator {
   /// distance: metres, may be infinite.
   AoIntegrator(const World& world, float distance) : world_(world), distance_(distance) {}
 
-  /// Whether a sample's result comes from elsewhere: no ray is traced for it.
+  /// Returns whether the sample's result comes from elsewhere, so that no occlusion ray is needed.
   using Elsewhere = std::function<bool(std::size_t sample, const Hit&, const Surface&, const Ray&)>;
 
-  /// As PathIntegrator::trace.
+  /// Like PathIntegrator::trace. `elsewhere` may be empty.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
              std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch,
              const Elsewhere& elsewhere = {}) const;

@@ -13,11 +13,11 @@
 
 namespace gatelight::renderer {
 
-/// Collects rays, each with a number of its caller's, and traces them together. Its memory is kept.
+/// Collects rays, each with a number that the caller chooses, and traces them together. Memory is reused.
 class OcclusionRays {
  public:
-  /// Cosine-weighted about the smooth normal, `distance` metres long. False where the direction lies below
-  /// the surface: occluded.
+  /// Adds a cosine-weighted ray about the smooth normal, `distance` metres long. Returns false where the
+  /// direction lies below the surface, which counts as occluded.
   bool add(const Surface& surface, const CameraSample& sample, float distance, std::size_t number) {
     Ray ray;
     ray.direction = Basis(surface.smooth_normal)
@@ -32,7 +32,8 @@ class OcclusionRays {
     return true;
   }
 
-  /// Traces all and forgets them. arrive(number, open): the share of light that passes, 0 or 1 but for panes.
+  /// Traces and removes all rays. Calls arrive(number, open) for each; `open` is the transmittance, 0 or 1
+  /// except through panes.
   template <typename Arrive>
   void trace(const World& world, RayCounts& counts, Arrive arrive) {
     counts.shadow += rays_.size();

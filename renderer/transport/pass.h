@@ -1,5 +1,7 @@
 #pragma once
-// A pass adds some samples to every pixel: what the render loop knows of an integrator.
+// A pass adds samples to every pixel. It is the render loop's interface to an integrator.
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +13,7 @@
 
 namespace gatelight::renderer {
 
-/// What a pass belongs to. All outlive it.
+/// What a pass renders. All members outlive it.
 struct PassContext {
   const TileGrid& tiles;
   const RenderOptions& options;
@@ -23,14 +25,34 @@ class Pass {
  public:
   virtual ~Pass() = default;
   /// Adds the samples first <= s < end to the film, in order for each pixel. Runs in the caller's arena;
-  /// `report` is told the fraction done, from any thread.
+  /// Calls report(fraction done) from any thread.
   virtual void run(std::uint32_t first, std::uint32_t end, Film& film,
                    const std::function<void(double)>& report) = 0;
-  /// Of all runs so far.
+  /// Sums over all runs so far.
   virtual SampleCounts counts() const = 0;
   virtual RayCounts rays() const = 0;
-  /// Adds what all runs asked of a cache; a pass without a cache adds nothing.
+  /// Adds the cache statistics of all runs; a pass without a cache adds nothing.
   virtual void add_to(CacheStatistics&) const {}
+};
+
+/// A pass with one Worker for each thread. Worker has the members `RayCounts rays` and `SampleCounts counts`.
+template <class Worker>
+class WorkerPass : public Pass {
+ public:
+  SampleCounts counts() const final {
+    SampleCounts sum;
+    for (const Worker& w : workers_) sum.add(w.counts);
+    keep_first(sum.located);
+    return sum;
+  }
+  RayCounts rays() const final {
+    RayCounts sum;
+    for (const Worker& w : workers_) sum.add(w.rays);
+    return sum;
+  }
+
+ protected:
+  tbb::enumerable_thread_specific<Worker> workers_;
 };
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,6 @@
 #pragma once
 // Unbiased path tracing: next-event estimation and BSDF sampling joined by multiple importance sampling
-// (Veach 1997), Russian roulette. Knows nothing of any cache.
+// (Veach 1997), Russian roulette. It does not use the cache.
 
 #include <span>
 
@@ -11,7 +11,7 @@
 
 namespace gatelight::renderer {
 
-/// What the path tracer reads of the options.
+/// The options that the path tracer reads.
 struct PathIntegratorOptions {
   MisRule mis;
   int max_depth = 8;  ///< scattering events
@@ -27,7 +27,7 @@ class PathIntegrator {
  public:
   struct Scratch;
 
-  /// The world outlives it.
+  /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
       : walk_{world, options.mis}, options_(options) {}
 
@@ -36,7 +36,7 @@ class PathIntegrator {
              std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
  private:
-  /// `radiance` is the path's; `first` is where its first hit is kept, or null.
+  /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
   bool scatter(Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
                Scratch& scratch) const;
 
@@ -44,7 +44,7 @@ class PathIntegrator {
   PathIntegratorOptions options_;
 };
 
-/// A light sample on its way through the scene.
+/// A light sample whose shadow ray has not been traced yet.
 struct PendingLight {
   Color contribution{0.0f, 0.0f, 0.0f};
   std::uint32_t index = 0;

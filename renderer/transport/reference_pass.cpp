@@ -22,7 +22,7 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
   tbb::parallel_for(
       tbb::blocked_range<int>(0, tiles.count(), 1),
       [&](const tbb::blocked_range<int>& range) {
-        Worker& w = workers_.local();
+        ReferenceWorker& w = workers_.local();
         for (int tile = range.begin(); tile < range.end(); ++tile) {
           tiles.pixels(tile, w.pixels);
           w.results.resize(w.pixels.size());
@@ -40,19 +40,6 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
         }
       },
       tbb::simple_partitioner());
-}
-
-SampleCounts ReferencePass::counts() const {
-  SampleCounts sum;
-  for (const Worker& w : workers_) sum.add(w.counts);
-  keep_first(sum.located);
-  return sum;
-}
-
-RayCounts ReferencePass::rays() const {
-  RayCounts sum;
-  for (const Worker& w : workers_) sum.add(w.rays);
-  return sum;
 }
 
 }  // namespace gatelight::renderer

@@ -1,7 +1,5 @@
 #pragma once
-// Passes of the integrators without a cache: tile by tile, each tile one batch a sample.
-
-#include <tbb/enumerable_thread_specific.h>
+// Passes of the integrators without a cache. Each sample of a tile is one batch.
 
 #include "renderer/transport/ao_integrator.h"
 #include "renderer/transport/pass.h"
@@ -9,32 +7,29 @@
 
 namespace gatelight::renderer {
 
-class ReferencePass : public Pass {
+struct ReferenceWorker {
+  std::vector<Pixel> pixels;
+  std::vector<CameraSample> samples;
+  std::vector<SampleResult> results;
+  std::vector<FirstHit> first_hits;
+  PathIntegrator::Scratch path;
+  AoIntegrator::Scratch ao;
+  RayCounts rays;
+  SampleCounts counts;
+};
+
+class ReferencePass : public WorkerPass<ReferenceWorker> {
  public:
   /// options.integrator is path or ao.
   ReferencePass(const World& world, const PassContext& context);
 
   void run(std::uint32_t first, std::uint32_t end, Film& film,
            const std::function<void(double)>& report) override;
-  SampleCounts counts() const override;
-  RayCounts rays() const override;
 
  private:
-  struct Worker {
-    std::vector<Pixel> pixels;
-    std::vector<CameraSample> samples;
-    std::vector<SampleResult> results;
-    std::vector<FirstHit> first_hits;
-    PathIntegrator::Scratch path;
-    AoIntegrator::Scratch ao;
-    RayCounts rays;
-    SampleCounts counts;
-  };
-
   PassContext context_;
   PathIntegrator path_;
   AoIntegrator ao_;
-  tbb::enumerable_thread_specific<Worker> workers_;
 };
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,6 @@
 #pragma once
-// What all integrators that follow light do alike at a vertex: multiple importance sampling (Veach 1997) of
-// lights and directions, shadow rays, absorption, and the seeds of decisions that need no low discrepancy.
+// What all path-tracing integrators share at a vertex: multiple importance sampling (Veach 1997) of lights
+// and directions, shadow rays, absorption, and the seeds of decisions that need no low discrepancy.
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,10 @@ namespace gatelight::renderer {
 /// level that stays in the cache, and their detail is averaged by the hemisphere anyway.
 inline constexpr float kDiffuseSpread = 0.25f;
 
-/// Panes do not count as scattering events; after this many surfaces more than events a path ends.
+/// Panes do not count as scattering events. A path ends after this many more surfaces than scattering events.
 inline constexpr int kMaxPassed = 1024;
 
-/// The weights of the two techniques that find light.
+/// MIS weights of light sampling and BSDF sampling.
 struct MisRule {
   DirectLight direct = DirectLight::mis;
   MisHeuristic heuristic = MisHeuristic::power;
@@ -41,21 +41,21 @@ struct MisRule {
   }
 };
 
-/// The vertex that chose a ray's direction, panes not counted: what emission found by the ray is weighted
-/// with.
+/// The vertex that sampled a ray's direction; panes do not count. The MIS weight of emission that the ray
+/// finds depends on it.
 struct Departure {
   Vec3 position = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();  ///< as next-event estimation saw it there
+  Vec3 normal = Vec3::Zero();  ///< that next-event estimation used there
   float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
   float pdf = 0.0f;            ///< of the direction, per solid angle
   bool delta = true;  ///< the direction came from the camera or a delta lobe: no light sample competes
   int panes = 0;      ///< between `position` and the ray's origin
 
-  /// Whether a light sample from `position` could have brought what the ray meets.
+  /// Whether a light sample from `position` could have found the same light.
   bool competes() const { return !delta && panes <= Accel::kMaxPanes; }
 };
 
-/// Weight of the emission of a surface that a ray in `direction` met at distance t.
+/// MIS weight of the emission of a surface that a ray in `direction` hit.
 inline float emission_weight(const World& world, const MisRule& mis, const Departure& departure,
                              const Hit& hit, const Surface& surface, const Vec3& direction) {
   if (!departure.competes() || surface.unlit) return 1.0f;
@@ -64,7 +64,7 @@ inline float emission_weight(const World& world, const MisRule& mis, const Depar
                                                    hit.primitive, direction, departure.travelled + hit.t));
 }
 
-/// The same for a ray that left the scene.
+/// The same for a ray that leaves the scene.
 inline float sky_weight(const World& world, const MisRule& mis, const Departure& departure,
                         const Vec3& direction) {
   if (!departure.competes()) return 1.0f;
@@ -72,9 +72,9 @@ inline float sky_weight(const World& world, const MisRule& mis, const Departure&
                          world.lights.pdf_environment(departure.position, departure.normal, direction));
 }
 
-/// From a surface to a light sample. It ends before the light by what rounding may move both: a fraction of
-/// the distance instead would let what is close to a far lamp shine through, and a large lamp close by shadow
-/// itself.
+/// The ray from a surface to a light sample. It ends before the light by the rounding error of both ends.
+/// With a fraction of the distance instead, occluders close to a far lamp would be missed, and a large lamp
+/// nearby would shadow itself.
 inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uint32_t seed) {
   Ray ray;
   ray.origin = surface.spawn(light.wi);
@@ -85,22 +85,23 @@ inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uin
   return ray;
 }
 
-/// Per metre. Colour c after distance d: c = exp(-absorption d); a black channel absorbs within a thousandth
-/// of the distance.
+/// Absorption per metre. Light has the colour c = exp(-absorption d) after the distance d. A black channel
+/// absorbs within a thousandth of the distance.
 inline Color absorption_of(const scene::Material& m) {
   if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
   // Finite, so that no distance makes it NaN.
   return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }
 
-/// Russian roulette by the root of what is left: in bright rooms, where long paths carry much, roulette by
-/// the throughput itself costs more noise than it saves time (Country Kitchen: a tenth more noise in the same
-/// time). The throughput is of power: BsdfSample::radiance_scale, which comes back, is not in it.
+/// Survival probability of Russian roulette: the square root of the throughput. In bright rooms, where long
+/// paths carry much light, the throughput itself costs more noise than it saves time (Country Kitchen: a
+/// tenth more noise in the same time). The throughput leaves out BsdfSample::radiance_scale, which is no
+/// loss.
 inline float survival_probability(const Color& throughput) {
   return std::min(0.95f, std::sqrt(throughput.maxCoeff()));
 }
 
-/// Decisions of a path at a vertex, from the path's running seed.
+/// Random numbers for a path's decisions at a vertex, from its current seed.
 inline float roulette_number(std::uint32_t seed) {
   return sampling::to_unit_float(hash(seed ^ 0x68bc21ebu));
 }

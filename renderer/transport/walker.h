@@ -1,7 +1,7 @@
 #pragma once
-// A path on its way through the scene, whoever adds up its light: a ray arrives (meet, or sky), a light is
-// sampled (light_at), a direction is drawn (draw, survives), and the next ray leaves (advance). Next-event
-// estimation and BSDF sampling are joined by multiple importance sampling (Veach 1997).
+// The walk of a path through the scene, which all path-tracing integrators share: a ray arrives (meet, or
+// sky), a light is sampled (light_at), a direction is drawn (draw, survives), and the next ray leaves
+// (advance). Next-event estimation and BSDF sampling are joined by multiple importance sampling (Veach 1997).
 
 #include <cstdint>
 #include <optional>
@@ -11,53 +11,53 @@
 
 namespace gatelight::renderer {
 
-/// What paths walk through, and how the two techniques that find light are weighted.
+/// The scene of a walk and its MIS rule.
 struct Walk {
   const World& world;
   MisRule mis;
 };
 
-/// What shines at the end of a ray.
+/// Emission that a ray finds.
 struct Emission {
   Color radiance{0.0f, 0.0f, 0.0f};
-  float weight = 0.0f;  ///< of multiple importance sampling
+  float weight = 0.0f;  ///< MIS weight
 
   bool any() const { return (radiance > 0.0f).any(); }
 };
 
 /// A path at a surface.
 struct Meeting {
-  Ray& ray;  ///< that came here; the next one is written over it
+  Ray& ray;  ///< the arriving ray; advance() replaces it by the next one
   const Hit& hit;
   Surface surface;
   Vec3 wo;                         ///< unit, back along the ray
   float cone_width;                ///< metres
-  Color passed{1.0f, 1.0f, 1.0f};  ///< share of the light that the medium before the surface lets through
+  Color passed{1.0f, 1.0f, 1.0f};  ///< transmittance of the medium before the surface
   Emission emission;
-  std::uint32_t dimensions = 0;      ///< the first of this vertex's, of the sampler
+  std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
   std::optional<Bsdf> bsdf;          ///< none: the path ends here
-  Vec3 light_normal = Vec3::Zero();  ///< as light sampling takes it
+  Vec3 light_normal = Vec3::Zero();  ///< for light sampling
 };
 
-/// A light sample, as next-event estimation brings it to a surface.
+/// A light sample at a surface, from next-event estimation.
 struct LightAt {
   LightSample light;
   BsdfValue value;      ///< towards it
-  float weight = 0.0f;  ///< of multiple importance sampling, over the density; 0: no light
+  float weight = 0.0f;  ///< MIS weight over the pdf; 0: no light
 };
 
 enum class LightKinds : std::uint8_t {
   all,
-  delta,   ///< those that no direction of a BSDF ever finds
-  shapes,  ///< a sample of all, dropped where it is one of those
+  delta,   ///< lights that BSDF sampling cannot find
+  shapes,  ///< a sample of all lights, dropped where it is a delta light
 };
 
-/// A direction that a path may go on in. Its weight is of power: radiance_scale is not in it.
+/// A sampled direction. Its weight leaves out radiance_scale.
 struct Drawn : BsdfSample {
   bool through_pane = false;  ///< straight through a thin sheet: no scattering event
-  float survival = 1.0f;      ///< of Russian roulette; the weight is divided by it
+  float survival = 1.0f;      ///< probability in Russian roulette; the weight is divided by it
 
-  /// What the weight would be of a part of the surface's lobes, deltas apart.
+  /// The weight of a part of the surface's lobes for this direction. Delta lobes have none.
   Color weight_of(const Bsdf& part) const {
     return part.evaluate(wi).value / (pdf * survival * radiance_scale);
   }
@@ -65,18 +65,18 @@ struct Drawn : BsdfSample {
 
 struct Walker {
   RayCone cone;
-  Color throughput{1.0f, 1.0f, 1.0f};  ///< of power
+  Color throughput{1.0f, 1.0f, 1.0f};  ///< without radiance_scale
   Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
   Departure departure;
-  /// Product of BsdfSample::radiance_scale: not a loss of power. In double, since hundreds of media inside
-  /// each other leave single precision before they come back to 1.
+  /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
+  /// media it leaves the range of single precision before it returns to 1.
   double radiance_scale = 1.0;
   Sampler sampler;
   std::uint32_t index = 0;  ///< into the starts
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
-  std::int32_t surfaces = 0;   ///< met so far: the block of sampler dimensions
-  bool emission_only = false;  ///< what comes next is looked at for its emission alone, through panes
+  std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
+  bool emission_only = false;  ///< from here on the path only passes panes and counts emission
 
   Walker() = default;
   Walker(const CameraSample& start, std::size_t which)
@@ -87,9 +87,9 @@ struct Walker {
     departure.position = start.camera_ray.ray.origin;
   }
 
-  /// What radiance where the path is is worth at its start, losses of power apart.
+  /// Factor from radiance at the path's position to radiance at its start, without losses of power.
   float scale() const { return static_cast<float>(radiance_scale); }
-  /// The same with them.
+  /// The same with the losses.
   Color carried() const { return throughput * scale(); }
 
   /// The ray leaves the scene.
@@ -99,9 +99,9 @@ struct Walker {
     return sky;
   }
 
-  /// The ray arrives at a surface. From max_depth scattering events on there is still what the light samples
-  /// of the vertex before saw behind panes: these are looked through for emission alone, since half of a
-  /// weighted sum of both would be too dark.
+  /// The ray arrives at a surface. After max_depth scattering events the path still passes panes and counts
+  /// emission behind them: light samples of the vertex before saw it too, and one part of the MIS sum alone
+  /// would be too dark.
   Meeting meet(const Walk& walk, Ray& ray, const Hit& hit, int max_depth) {
     const float cone_width = cone.width + cone.spread * hit.t;
     Meeting m{ray, hit, walk.world.surfaces.at(hit, ray.direction, cone_width, texture_level_number(seed)),
@@ -125,7 +125,7 @@ struct Walker {
     return m;
   }
 
-  /// Next-event estimation for `bsdf`: the surface's, or a part of it. Its shadow ray is shadow_ray()'s.
+  /// Next-event estimation for `bsdf`, the surface's or a part of it. shadow_ray() makes the shadow ray.
   LightAt light_at(const Walk& walk, const Meeting& m, const Bsdf& bsdf,
                    LightKinds kinds = LightKinds::all) const {
     LightAt at;
@@ -142,7 +142,7 @@ struct Walker {
     return at;
   }
 
-  /// A direction of `bsdf`: the surface's, or a part of it. None: the path ends.
+  /// Samples a direction of `bsdf`, the surface's or a part of it. Nothing: the path ends.
   std::optional<Drawn> draw(const Meeting& m, const Bsdf& bsdf) {
     BsdfSample sample = bsdf.sample(sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
                                     sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
@@ -164,13 +164,13 @@ struct Walker {
     return true;
   }
 
-  /// The same by what is left of the power, from min_depth scattering events on.
+  /// Russian roulette by the throughput, from min_depth scattering events on.
   bool survives(int min_depth, Drawn& drawn) {
     if (depth + (drawn.through_pane ? 0 : 1) < min_depth) return true;
     return survives_by(survival_probability(throughput), drawn);
   }
 
-  /// The next ray leaves. False: the path ends, since it has passed too much without scattering.
+  /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
   bool advance(const Walk& walk, const Meeting& m, const Drawn& drawn) {
     if (drawn.through_pane) {
       departure.travelled += m.hit.t;

@@ -20,11 +20,10 @@ struct RayLog {
   std::vector<Ray> shadow;
 };
 
-/// The memory in which one thread follows its paths. `Pending` is a light sample on its way through the
-/// scene.
+/// The memory of one thread. `Pending` is a light sample whose shadow ray has not been traced yet.
 template <typename Path, typename Pending>
 struct Waves {
-  RayLog* log = nullptr;  ///< none is kept where there is no log
+  RayLog* log = nullptr;  ///< null: rays are not logged
   std::vector<Path> paths;
   std::vector<Ray> rays;  ///< one for each path
   std::vector<Hit> hits;
@@ -33,19 +32,19 @@ struct Waves {
   std::vector<Color> transmittance;
 };
 
-/// How many hits ahead of shading their data is asked for.
+/// Data is prefetched so many hits ahead of shading.
 inline constexpr std::size_t kTriangleAhead = 8;
 inline constexpr std::size_t kVerticesAhead = 4;
 
-/// Asks for the data of hits that are shaded soon after the one at `index`.
+/// Prefetches the data of hits that are shaded soon after the one at `index`.
 inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::size_t index) {
   if (index + kTriangleAhead < hits.size()) surfaces.prefetch_triangle(hits[index + kTriangleAhead]);
   if (index + kVerticesAhead < hits.size()) surfaces.prefetch_vertices(hits[index + kVerticesAhead]);
 }
 
-/// Follows the paths until none is left. `first_hits` is empty, or has the hits of the first rays.
-/// scatter(path, ray, hit): gives the path its next ray, or returns false where it ends; adds shadow rays and
-/// what waits for them. arrive(pending, transmittance): a light sample arrives.
+/// Follows the paths until none is left. `first_hits` is empty or has the hits of the first rays.
+/// scatter(path, ray, hit) makes the next ray of the path, or returns false where the path ends; it adds
+/// shadow rays with their pending light samples. arrive(pending, transmittance) is called for each of these.
 template <typename Path, typename Pending, typename Scatter, typename Arrive>
 void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
                  RayCounts& counts, Scatter scatter, Arrive arrive) {

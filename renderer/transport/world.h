@@ -1,5 +1,5 @@
 #pragma once
-// A scene made ready for light: what an integrator reads. Nothing in it changes while a picture is made.
+// A scene prepared for rendering. It does not change while a picture is made.
 
 #include "renderer/light/environment.h"
 #include "renderer/light/lights.h"
@@ -12,7 +12,7 @@
 
 namespace gatelight::renderer {
 
-/// Later members refer to earlier ones: a world stays where it was built.
+/// Later members refer to earlier ones, so a world cannot be moved.
 struct World {
   /// Works in the caller's arena. The scene must outlive the world. Throws what the members throw.
   explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},

@@ -13,7 +13,7 @@ void load(const std::filesystem::path& path) {
   const MadeCache& made = made_cache();
   try {
     renderer::CacheFile file(path);
-    file.expect(renderer::meaning_of(made.options, made.options.ao_distance), kFingerprint, made.instances);
+    file.expect({made.options, made.options.ao_distance}, kFingerprint, made.instances);
     const auto model = made.model(file.setup());
     file.expect_model(*model, made.training());
     made.use(model, file.read_state(*model, made.training()));

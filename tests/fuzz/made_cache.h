@@ -35,7 +35,8 @@ struct MadeCache {
 
 const MadeCache& made_cache();
 
-inline const renderer::SceneFingerprint kFingerprint = {"a1", "b2", "c3", "d4", "e5"};
+inline const renderer::SceneFingerprint kFingerprint = {
+    {"geometry", "a1"}, {"attributes", "b2"}, {"materials", "c3"}, {"lights", "d4"}, {"environment", "e5"}};
 
 renderer::CheckpointIdentity made_identity();
 /// Of 2x2 pixels, without samples.

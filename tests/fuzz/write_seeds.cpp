@@ -22,8 +22,7 @@ int main(int argc, char** argv) {
   const auto model = made.model(state.setup);
   for (const char* name : {"cache_file", "checkpoint"}) std::filesystem::create_directories(corpus / name);
   renderer::write_cache_file(corpus / "cache_file" / "cache", state, *model, made.training(),
-                             renderer::meaning_of(made.options, made.options.ao_distance),
-                             fuzz::kFingerprint);
+                             {made.options, made.options.ao_distance}, fuzz::kFingerprint);
 
   renderer::Film film = fuzz::made_film();
   for (int pixel = 0; pixel < 4; ++pixel) {

@@ -118,7 +118,7 @@ TEST(CacheStatistics, AreSummedUpForPeople) {
 
 renderer::CacheReport some_report() {
   renderer::CacheReport report;
-  report.statistics.cache = some_statistics();
+  report.statistics = some_statistics();
   for (std::uint64_t i = 0; i < 20; ++i) {
     report.instances.push_back({.name = "instance " + std::to_string(i),
                                 .triangles = 10,
@@ -126,7 +126,7 @@ renderer::CacheReport some_report() {
                                 .sides = 1,
                                 .nodes = 1000 * i});
   }
-  report.statistics.cache.direction_input = true;
+  report.statistics.direction_input = true;
   report.bytes_without_scouting = 8 << 20;
   return report;
 }

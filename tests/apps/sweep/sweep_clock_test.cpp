@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/sweep/tasks.h"
-
 namespace gatelight::apps {
 namespace {
 

@@ -12,7 +12,6 @@
 
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "apps/sweep/machine.h"
 #include "apps/sweep/measure.h"
 #include "apps/terminal/errors.h"
 #include "renderer/cache/cache_report.h"
@@ -227,9 +226,9 @@ TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsRemembered) {
   const std::string file = (folder / "memory.json").string();
   const std::uint64_t bytes = GateMemoryStore(file).bytes("k", *scene_, options);
   const renderer::CacheReport report = renderer::Renderer(*scene_, options).report_cache();
-  EXPECT_EQ(bytes, report.statistics.cache.nodes * 3 * 4);
-  EXPECT_LE(bytes, report.statistics.cache.parameter_bytes);
-  EXPECT_GT(bytes + 64 * 1024, report.statistics.cache.parameter_bytes) << "the network is small";
+  EXPECT_EQ(bytes, report.statistics.nodes * 3 * 4);
+  EXPECT_LE(bytes, report.statistics.parameter_bytes);
+  EXPECT_GT(bytes + 64 * 1024, report.statistics.parameter_bytes) << "the network is small";
   EXPECT_TRUE(GateMemoryStore(file).knows("k"));
   EXPECT_FALSE(GateMemoryStore(file).knows("other"));
   // Another key is another cache; a known one is not asked for again.

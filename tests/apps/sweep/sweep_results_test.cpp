@@ -12,7 +12,7 @@
 
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_record.h"
-#include "apps/sweep/machine.h"
+#include "apps/sweep/identity.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/sweep/report.h"
-#include "apps/terminal/results.h"
+#include "apps/terminal/terminal.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 1;

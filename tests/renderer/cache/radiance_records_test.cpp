@@ -100,12 +100,10 @@ TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
   const RenderOptions options;
   const Made all(viewed, options, {.step = 1, .points = 1000});
   const std::size_t n = all.batch.records.size();
-  EXPECT_EQ(all.batch.records_made, n);
   for (const std::size_t most : {std::size_t{1}, std::size_t{777}, n / 2, n - 1, n, n + 1}) {
     const Made some(viewed, options, {.step = 1, .points = 1000, .most_records = most});
     ASSERT_EQ(some.batch.records.size(), std::min(most, n));
     ASSERT_EQ(some.batch.targets.size(), 3 * some.batch.records.size());
-    EXPECT_EQ(some.batch.records_made, n);
     // Each is one of all, in their order, with its own target; the gaps are as equal as they can be.
     std::size_t at = 0;
     std::size_t last = 0;

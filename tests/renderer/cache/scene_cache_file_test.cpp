@@ -25,7 +25,14 @@ using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
 
-const SceneFingerprint kScene = {"a1", "b2", "c3", "d4", "e5"};
+const SceneFingerprint kScene = {
+    {"geometry", "a1"}, {"attributes", "b2"}, {"materials", "c3"}, {"lights", "d4"}, {"environment", "e5"}};
+const RenderOptions kNrc = [] {
+  RenderOptions options;
+  options.integrator = Integrator::nrc;
+  options.cache.min_roughness = 0.3f;
+  return options;
+}();
 
 TEST(SceneCacheFile, EverythingComesBackToTheBit) {
   const TemporaryFolder folder;
@@ -35,12 +42,12 @@ TEST(SceneCacheFile, EverythingComesBackToTheBit) {
       SCOPED_TRACE(name);
       CacheState state = any_cache_state(*model, options, 1);
       if (name.size() % 2 == 0) state.triangle_counts.clear();
-      write_cache_file(folder / "a", state, *model, options, {}, kScene);
+      write_cache_file(folder / "a", state, *model, options, {kNrc}, kScene);
       CacheFile file(folder / "a");
       EXPECT_TRUE(same_bits(file.setup(), state.setup));
       EXPECT_TRUE(same_bits(file.read_state(*model, options), state));
       const std::string bytes = read_file(folder / "a");
-      write_cache_file(folder / "a", state, *model, options, {}, kScene);
+      write_cache_file(folder / "a", state, *model, options, {kNrc}, kScene);
       EXPECT_EQ(read_file(folder / "a"), bytes);
       EXPECT_EQ(folder.count_files(), 1u);
     }
@@ -51,8 +58,10 @@ TEST(SceneCacheFile, WhatMeansSomethingElseIsRefusedByName) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
-  const CacheMeaning nrc{.min_roughness = 0.3f};
-  const CacheMeaning nao{.integrator = Integrator::nao, .ao_distance = 0.5f};
+  const CacheMeaning nrc{kNrc};
+  RenderOptions occlusion;
+  occlusion.integrator = Integrator::nao;
+  const CacheMeaning nao{occlusion, 0.5f};
   write_cache_file(folder / "nrc", state, *model, {}, nrc, kScene);
   write_cache_file(folder / "nao", state, *model, {}, nao, kScene);
   const auto opening = [&](const char* name, const CacheMeaning& meaning, const SceneFingerprint& scene,
@@ -62,34 +71,32 @@ TEST(SceneCacheFile, WhatMeansSomethingElseIsRefusedByName) {
   EXPECT_EQ(opening("nrc", nrc, kScene, 5), "");
   EXPECT_EQ(opening("nao", nao, kScene, 5), "");
 
-  CacheMeaning other = nrc;
-  other.holds = CacheHolds::indirect;
-  const std::string one = opening("nrc", other, kScene, 5);
+  RenderOptions other = kNrc;
+  other.cache.holds = CacheHolds::indirect;
+  const std::string one = opening("nrc", {other}, kScene, 5);
   expect_message(one, {(folder / "nrc").string(), "cache-holds", "no-delta", "indirect"});
   EXPECT_FALSE(tests::has_name(one, "cache-roughness"));
-  other.min_roughness = 0.1f;
-  expect_message(opening("nrc", other, kScene, 5),
+  other.cache.min_roughness = 0.1f;
+  expect_message(opening("nrc", {other}, kScene, 5),
                  {"cache-holds", "no-delta", "indirect", "cache-roughness", "0.3", "0.1"});
-  other = nrc;
-  other.encoding = FeatureEncoding::hash_grid;
-  expect_message(opening("nrc", other, kScene, 5), {"encoding", "gate", "hashgrid"});
-  other = nrc;
-  other.node_spacing = 0.2f;
-  expect_message(opening("nrc", other, kScene, 5), {"node-spacing", "0.1", "0.2"});
-  other.node_spacing = state.setup.node_spacing;
-  EXPECT_EQ(opening("nrc", other, kScene, 5), "");
+  other = kNrc;
+  other.cache.encoding = FeatureEncoding::hash_grid;
+  expect_message(opening("nrc", {other}, kScene, 5), {"encoding", "gate", "hashgrid"});
+  other = kNrc;
+  other.cache.node_spacing = 0.2f;
+  expect_message(opening("nrc", {other}, kScene, 5), {"node-spacing", "0.1", "0.2"});
+  other.cache.node_spacing = state.setup.node_spacing;
+  EXPECT_EQ(opening("nrc", {other}, kScene, 5), "");
   expect_message(opening("nrc", nao, kScene, 5),
                  {"integrator", "nrc", "nao", "ao-distance", "0.5", "cache-holds", "no-delta"});
-  other = nao;
-  other.ao_distance = 0.25f;
-  expect_message(opening("nao", other, kScene, 5), {"ao-distance", "0.5", "0.25"});
+  expect_message(opening("nao", {occlusion, 0.25f}, kScene, 5), {"ao-distance", "0.5", "0.25"});
 
   expect_message(opening("nrc", nrc, kScene, 4), {"5", "4"});
   SceneFingerprint scene = kScene;
-  scene.lights = scene.environment = "f6";
+  scene[3].text = scene[4].text = "f6";
   expect_message(opening("nrc", nrc, scene, 5), {"lights", "environment"});
   EXPECT_EQ(opening("nao", nao, scene, 5), "") << "light does not change occlusion";
-  scene.geometry = "f6";
+  scene[0].text = "f6";
   expect_message(opening("nao", nao, scene, 5), {"geometry"});
 }
 
@@ -97,7 +104,7 @@ TEST(SceneCacheFile, AnotherNetworkIsRefusedButNotAnotherLearningRate) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
-  write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+  write_cache_file(folder / "a", state, *model, {}, {kNrc}, kScene);
   TrainingOptions options;
   options.loss = neural::Loss::l2;
   options.adam.learning_rate = 1e-3f;
@@ -119,7 +126,7 @@ TEST(SceneCacheFile, NumbersThatNoSetupHasAreRefused) {
   const auto opening = [&](const std::function<void(CacheState&)>& change) {
     CacheState state = any_cache_state(*model, {}, 1);
     change(state);
-    write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+    write_cache_file(folder / "a", state, *model, {}, {kNrc}, kScene);
     return refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*model, {}); });
   };
   expect_message(opening([](CacheState& s) { s.setup.sides[3] = static_cast<neural::Sides>(4); }),
@@ -145,7 +152,7 @@ TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
-  write_cache_file(folder / "a", state, *model, {}, {}, kScene);
+  write_cache_file(folder / "a", state, *model, {}, {kNrc}, kScene);
   const std::string bytes = read_file(folder / "a");
   const auto opening = [&](const std::string& content) {
     std::filesystem::remove(folder / "b");

@@ -89,7 +89,6 @@ TEST(SurfacePoints, AModelSaysWhichInputsItReads) {
   config.encoding = neural::FeatureEncoding::hash_grid;
   config.auxiliary = {{neural::InputSource::normal}, {neural::InputSource::albedo}};
   expected = PointInputs();
-  expected.gate = false;
   expected.positions = expected.normals = expected.albedos = true;
   EXPECT_EQ(PointInputs(config), expected);
 }

@@ -22,7 +22,13 @@ using tests::refusal;
 using tests::TemporaryFolder;
 
 CheckpointIdentity identity() {
-  return {{{"seed", "1"}, {"size", "3x2"}}, {"a1", "b2", "c3", "d4", "e5"}, 5};
+  return {{{"seed", "1"}, {"size", "3x2"}},
+          {{"geometry", "a1"},
+           {"attributes", "b2"},
+           {"materials", "c3"},
+           {"lights", "d4"},
+           {"environment", "e5"}},
+          5};
 }
 
 Film blank_film(bool with_first_hits) {
@@ -159,9 +165,9 @@ TEST(Checkpoint, WhatDiffersIsRefusedByName) {
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
                  {"/a", "seed", "1", "other"});
   other = identity();
-  other.scene.materials = "other";
+  other.scene[2].text = "other";
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials"});
-  other.scene.lights = "other";
+  other.scene[3].text = "other";
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(other, 64); }),
                  {"materials", "lights"});
   expect_message(refusal<neural::CacheFileError>([&] { checkpoint.expect(identity(), 16); }),

@@ -1,4 +1,4 @@
-#include "apps/reports/json_file.h"
+#include "apps/reports/json.h"
 
 #include <fstream>
 

@@ -1,4 +1,4 @@
-#include "apps/sweep/cell_command.h"
+#include "apps/sweep/planned.h"
 
 #include "apps/terminal/text.h"
 
