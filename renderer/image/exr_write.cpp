@@ -4,16 +4,53 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
-#include <vector>
+#include <system_error>
 
 namespace gatelight::renderer {
 namespace {
+
+/// OpenEXR goes back to fill in the table of line offsets, so the stream must seek.
+class StdioStream final : public Imf::OStream {
+ public:
+  explicit StdioStream(std::FILE* stream) : Imf::OStream("stream"), stream_(stream) {}
+
+  void write(const char* data, int bytes) override {
+    if (std::fwrite(data, 1, static_cast<std::size_t>(bytes), stream_) != static_cast<std::size_t>(bytes)) {
+      fail();
+    }
+  }
+  std::uint64_t tellp() override {
+    const long position = std::ftell(stream_);
+    if (position < 0) fail();
+    return static_cast<std::uint64_t>(position);
+  }
+  /// The library finishes a file in a destructor, which hides errors.
+  void check() const {
+    if (error_ != 0) throw_error();
+  }
+  void seekp(std::uint64_t position) override {
+    if (std::fseek(stream_, static_cast<long>(position), SEEK_SET) != 0) fail();
+  }
+
+ private:
+  [[noreturn]] void throw_error() const {
+    throw std::system_error(error_, std::generic_category(), "stream");
+  }
+  [[noreturn]] void fail() {
+    if (error_ == 0) error_ = errno;
+    throw_error();
+  }
+
+  std::FILE* stream_;
+  int error_ = 0;
+};
 
 /// Keeps finite radiance finite. The conversion of `half` turns values beyond its range into infinity.
 half to_half(float value) {
@@ -44,7 +81,7 @@ Imf::Header make_header(const Picture& picture) {
 
 }  // namespace
 
-std::string encode_exr(const Picture& picture, bool all_float) {
+void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
   Imf::Header header = make_header(picture);
   Imf::FrameBuffer frame;
   const std::size_t width = static_cast<std::size_t>(picture.width);
@@ -73,13 +110,13 @@ std::string encode_exr(const Picture& picture, bool all_float) {
     }
   }
 
-  Imf::StdOSStream output;
+  StdioStream output(stream);
   {
     Imf::OutputFile file(output, header);
     file.setFrameBuffer(frame);
     file.writePixels(picture.height);
   }
-  return output.str();
+  output.check();
 }
 
 }  // namespace gatelight::renderer

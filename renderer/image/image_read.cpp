@@ -17,11 +17,22 @@
 namespace gatelight::renderer {
 namespace {
 
+std::vector<std::string> channel_names(int channels) {
+  switch (channels) {
+    case 1:
+      return {"Y"};
+    case 2:
+      return {"Y", "A"};
+    case 3:
+      return {"R", "G", "B"};
+    default:
+      return {"R", "G", "B", "A"};
+  }
+}
+
 Picture one_layer(int width, int height, int channels) {
   Picture picture{.width = width, .height = height};
-  Layer beauty{.channels = {"R", "G", "B", "A"}};
-  if (channels < 3) beauty.channels = {"Y", "A"};
-  beauty.channels.resize(static_cast<std::size_t>(channels));
+  Layer beauty{.channels = channel_names(channels)};
   beauty.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                        static_cast<std::size_t>(channels));
   picture.layers.push_back(std::move(beauty));

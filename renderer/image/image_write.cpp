@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "renderer/image/exr.h"
@@ -14,21 +13,20 @@
 namespace gatelight::renderer {
 namespace {
 
-// Pictures are encoded in memory, so that AtomicFile reports every error of the disk.
-
-std::string encode_png(const Picture& picture, const ImageWriteOptions& options) {
+void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions& options) {
   const std::vector<std::uint8_t> bytes = display_bytes(picture, options);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
   if (!output) throw std::runtime_error(OIIO::geterror());
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  // The PNG is encoded in memory, so that AtomicFile reports every error of the disk.
   std::vector<unsigned char> encoded;
   OIIO::Filesystem::IOVecOutput memory(encoded);
   if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
       !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) || !output->close()) {
     throw std::runtime_error(output->geterror());
   }
-  return {encoded.begin(), encoded.end()};
+  file.write(encoded.data(), encoded.size());
 }
 
 void require_writable_format(const std::filesystem::path& path) {
@@ -56,7 +54,7 @@ std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWrite
   const std::size_t channels = beauty.channels.size();
   const std::size_t pixels =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  const float scale = std::exp2(options.exposure);
+  const float scale = exposure_scale(options.exposure);
   std::vector<std::uint8_t> bytes(3 * pixels);
   for (std::size_t p = 0; p < pixels; ++p) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -76,16 +74,19 @@ void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options) {
   require_writable_format(path);
   AtomicFile file(path);
-  std::string bytes;
   try {
-    const bool exr = image_format(path) == ImageFormat::exr;
-    bytes = exr ? encode_exr(picture, options.exr_float) : encode_png(picture, options);
+    if (image_format(path) == ImageFormat::exr) {
+      write_exr(picture, file.stream(), options.exr_float);
+    } else {
+      write_png(picture, file, options);
+    }
+  } catch (const OutputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw OutputError(fmt::format("cannot write '{}': {}", path.string(), error.what()));
   }
-  file.write(bytes.data(), bytes.size());
   file.commit();
 }
 

@@ -30,4 +30,8 @@ std::uint8_t display_byte(float x, float scale, Tonemap tonemap) {
   return static_cast<std::uint8_t>(std::lround(255.0f * linear_to_srgb(unit(shown))));
 }
 
+float exposure_scale(float stops) {
+  return std::exp2(stops);
+}
+
 }  // namespace gatelight::renderer

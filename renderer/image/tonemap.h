@@ -16,8 +16,10 @@ enum class Tonemap : std::uint8_t {
 /// to [0, 1]. Input and output are linear; each channel is separate.
 float filmic(float x);
 
-/// The byte of one channel: x times `scale`, through the curve and sRGB, rounded to nearest. The scale of an
-/// exposure is 2^stops.
-std::uint8_t display_byte(float x, float scale, Tonemap tonemap);
+/// The byte of one channel: x times exposure_scale, through the curve and sRGB, rounded to nearest.
+std::uint8_t display_byte(float x, float exposure_scale, Tonemap tonemap);
+
+/// 2^stops, the exposure_scale of display_byte().
+float exposure_scale(float stops);
 
 }  // namespace gatelight::renderer

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gatelight::renderer::flip {
 
@@ -32,7 +31,7 @@ RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
 
 RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap) {
   RgbPlanes planes = read_planes(named, measure);
-  const float scale = std::exp2(exposure);
+  const float scale = exposure_scale(exposure);
   for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
     *plane = plane->unaryExpr([&](float x) {
       const float exposed = x * scale;
