@@ -38,16 +38,9 @@ using Rgba8 = std::array<std::uint8_t, 4>;
 /// A pixel of the file, with grey and alpha expanded.
 Rgba8 texel_of(const scene::Image& image, std::size_t texel) {
   const std::uint8_t* p = image.pixels.data() + texel * static_cast<std::size_t>(image.channels);
-  switch (image.channels) {
-    case 1:
-      return {p[0], p[0], p[0], 255};
-    case 2:
-      return {p[0], p[0], p[0], p[1]};
-    case 3:
-      return {p[0], p[1], p[2], 255};
-    default:
-      return {p[0], p[1], p[2], p[3]};
-  }
+  const bool grey = image.channels < 3;
+  const std::uint8_t alpha = image.channels == 2 ? p[1] : image.channels == 4 ? p[3] : 255;
+  return {p[0], grey ? p[0] : p[1], grey ? p[0] : p[2], alpha};
 }
 
 FloatLevel to_float(const scene::Image& image, Encoding encoding) {

@@ -191,6 +191,16 @@ TEST(BsdfProperties, NothingIsEverNotANumber) {
   }
 }
 
+/// As renderer/bsdf/README.md says.
+TEST(BsdfProperties, ALobeIsADeltaBelowTheRoughness003) {
+  SurfaceMaterial metal;
+  metal.metallic = 1.0f;
+  const BsdfCase mirror{.name = "metal", .material = metal};
+  EXPECT_TRUE(flat_bsdf(mirror, 0.0f, incident(0.6f)).is_delta());
+  EXPECT_TRUE(flat_bsdf(mirror, 0.0299f, incident(0.6f)).is_delta());
+  EXPECT_FALSE(flat_bsdf(mirror, 0.0301f, incident(0.6f)).is_delta());
+}
+
 TEST(BsdfProperties, SmoothLimitIsTheDelta) {
   const float smooth = kDeltaRoughness;
   Random random(6);

@@ -240,6 +240,14 @@ TEST(Formats, UnknownExtensionNamesFileAndSupportedOnes) {
   expect_message(refusal<UnknownFormat>([] { check_image_output("none"); }), {"none"});
 }
 
+TEST(Formats, AnOutputWithoutAFolderIsNamedBeforeAnythingIsRendered) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "missing" / "a.exr";
+  expect_message(refusal<OutputError>([&] { check_image_output(file); }), {file.string()});
+  check_image_output(folder / "a.exr");
+  EXPECT_EQ(folder.count_files(), 0u);
+}
+
 TEST(Formats, UnreadableFilesAreNamedInOneLine) {
   const TemporaryFolder folder;
   const std::string missing = (folder / "missing.exr").string();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/sampling/alias_table.h"
 #include "renderer/sampling/warp.h"
 #include "tests/support/statistics.h"
 
@@ -194,24 +193,6 @@ TEST(LightTreeTest, SurvivesEqualAndExtremeLights) {
   }
   EXPECT_TRUE(LightTree(std::vector<LightBounds>(3)).empty());
   EXPECT_TRUE(LightTree(std::vector<LightBounds>{}).empty());
-}
-
-TEST(AliasTableTest, ChoicesFollowTheWeights) {
-  constexpr int kSamples = 200000;
-  testing::Random random(7);
-  for (const std::vector<double>& weights :
-       {std::vector<double>{1.0}, {0.0, 2.0}, {1.0, 2.0, 3.0, 0.0, 4.0}, {1e-9, 1.0, 1e9, 1e9}}) {
-    const AliasTable table(weights);
-    std::vector<double> observed(weights.size(), 0.0);
-    std::vector<double> expected;
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
-      expected.push_back(kSamples * static_cast<double>(table.probability(i)));
-    }
-    for (int s = 0; s < kSamples; ++s) observed[table.sample(random.uniform())] += 1.0;
-    EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, 4)));
-  }
-  EXPECT_TRUE(AliasTable(std::vector<double>{0.0, 0.0}).empty());
-  EXPECT_TRUE(AliasTable(std::vector<double>{}).empty());
 }
 
 }  // namespace
