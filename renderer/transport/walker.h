@@ -37,6 +37,14 @@ struct Meeting {
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
   std::optional<Bsdf> bsdf;          ///< none: the path ends here
   Vec3 light_normal = Vec3::Zero();  ///< for light sampling
+
+  /// `u_level` in [0, 1) chooses between mip levels.
+  Meeting(const World& world, Ray& arriving, const Hit& where, float width, float u_level)
+      : ray(arriving),
+        hit(where),
+        surface(world.surfaces.at(hit, ray.direction, width, u_level)),
+        wo(-ray.direction),
+        cone_width(width) {}
 };
 
 /// A light sample at a surface, from next-event estimation.
@@ -103,9 +111,7 @@ struct Walker {
   /// emission behind them: light samples of the vertex before saw it too, and one part of the MIS sum alone
   /// would be too dark.
   Meeting meet(const Walk& walk, Ray& ray, const Hit& hit, int max_depth) {
-    const float cone_width = cone.width + cone.spread * hit.t;
-    Meeting m{ray, hit, walk.world.surfaces.at(hit, ray.direction, cone_width, texture_level_number(seed)),
-              -ray.direction, cone_width};
+    Meeting m(walk.world, ray, hit, cone.width + cone.spread * hit.t, texture_level_number(seed));
     if ((absorption > 0.0f).any()) {
       m.passed = (-absorption * hit.t).exp();
       throughput *= m.passed;
