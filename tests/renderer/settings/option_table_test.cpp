@@ -60,6 +60,7 @@ TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
   for (const Option& option : option_table(options)) {
     EXPECT_TRUE(names.insert(option.name).second) << option.name;
     EXPECT_EQ(option.has_flag(), !option.help.empty()) << option.name;
+    EXPECT_EQ(option.unit.find(' '), std::string::npos) << option.name;
     EXPECT_TRUE(option.has_flag() || option.decides) << option.name << " is good for nothing";
   }
 }

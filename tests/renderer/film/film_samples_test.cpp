@@ -1,0 +1,132 @@
+#include "renderer/film/film_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Maker {
+  RenderOptions options;
+  Camera camera{scene::Camera{}, 8, 8};
+  FilterSampler filter{PixelFilter::box, 1.0f};
+
+  std::vector<CameraSample> samples(const std::vector<Pixel>& pixels, std::uint32_t sample) const {
+    std::vector<CameraSample> result(3);  // what was there goes
+    make_camera_samples(pixels, sample, options, camera, filter, result);
+    return result;
+  }
+};
+
+TEST(CameraSamples, EachPixelHasOneWithinIt) {
+  const Maker maker;
+  const std::vector<Pixel> pixels = {{0, 0}, {7, 0}, {3, 5}};
+  const std::vector<CameraSample> samples = maker.samples(pixels, 0);
+  ASSERT_EQ(samples.size(), 3u);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto x = static_cast<float>(pixels[i].x);
+    const auto y = static_cast<float>(pixels[i].y);
+    const Vec3 d = samples[i].ray().direction;
+    const Vec3 low = maker.camera.ray(x, y + 1.0f).ray.direction;
+    const Vec3 high = maker.camera.ray(x + 1.0f, y).ray.direction;
+    EXPECT_GE(d.x() / d.z(), high.x() / high.z());
+    EXPECT_LE(d.x() / d.z(), low.x() / low.z());
+    EXPECT_GE(d.y() / d.z(), high.y() / high.z());
+    EXPECT_LE(d.y() / d.z(), low.y() / low.z());
+    EXPECT_EQ(samples[i].ray().seed, samples[i].seed);
+  }
+}
+
+TEST(CameraSamples, DependOnPixelSampleAndSeedAlone) {
+  Maker maker;
+  const CameraSample one = maker.samples({{2, 3}}, 5).front();
+  EXPECT_EQ(maker.samples({{1, 1}, {2, 3}}, 5)[1].ray().direction, one.ray().direction);
+  std::set<std::uint32_t> seeds = {one.seed, maker.samples({{2, 3}}, 6).front().seed,
+                                   maker.samples({{3, 2}}, 5).front().seed,
+                                   maker.samples({{2, 5}}, 3).front().seed};
+  maker.options.seed += 1;
+  const CameraSample other = maker.samples({{2, 3}}, 5).front();
+  seeds.insert(other.seed);
+  EXPECT_EQ(seeds.size(), 5u);
+  EXPECT_NE(other.ray().direction, one.ray().direction);
+}
+
+TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
+  Film film({0, 0, 2, 1}, 2, 1, {});
+  SampleCounts counts;
+  const std::vector<Pixel> pixels = {{0, 0}, {1, 0}};
+  RenderOptions options;
+  options.seed = 9;
+  const std::vector<SampleResult> good = {{Color(1, 2, 3)}, {Color(4, 5, 6)}};
+  const std::vector<SampleResult> bad = {{Color(1, kInfinity, 3)}, {Color(4, 5, 8)}};
+  add_to_film(pixels, 6, options, good, {}, film, counts);
+  add_to_film(pixels, 7, options, bad, {}, film, counts);
+  const std::vector<float> mean = film.resolve().layers[0].values;
+  EXPECT_EQ(mean, (std::vector<float>{1, 2, 3, 4, 5, 7}));
+  EXPECT_EQ(counts.nonfinite, 1u);
+  EXPECT_EQ(counts.clamped, 0u);
+  ASSERT_EQ(counts.located.size(), 1u);
+  EXPECT_EQ(counts.located[0].x, 0);
+  EXPECT_EQ(counts.located[0].sample, 7u);
+  EXPECT_EQ(counts.located[0].seed, 9u);
+}
+
+TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
+  Film film({0, 0, 2, 1}, 2, 1, {});
+  SampleCounts counts;
+  const std::vector<Pixel> pixels = {{0, 0}, {1, 0}};
+  RenderOptions options;
+  options.clamp = 2.0f;
+  const std::vector<SampleResult> results = {{Color(8, 8, 8)}, {Color(1.5f, 1.5f, 1.5f)}};
+  add_to_film(pixels, 0, options, results, {}, film, counts);
+  const std::vector<float> mean = film.resolve().layers[0].values;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(mean[i], i < 3 ? 2.0f : 1.5f, 1e-6f);
+  EXPECT_EQ(counts.clamped, 1u);
+}
+
+TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
+  const Aov aovs[] = {Aov::depth};
+  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  SampleCounts counts;
+  FirstHit hit;
+  hit.hit = true;
+  hit.depth = 4.0f;
+  const std::vector<SampleResult> results = {{Color(kInfinity, 0, 0)}};
+  add_to_film(std::vector<Pixel>{{0, 0}}, 0, {}, results, {&hit, 1}, film, counts);
+  EXPECT_FLOAT_EQ(film.resolve().find("depth")->values[0], 4.0f);
+}
+
+TEST(FilmSamples, TheFirst16NonFiniteOnesAreKeptInTheOrderOfThePicture) {
+  SampleCounts all;
+  for (int part = 0; part < 2; ++part) {
+    SampleCounts counts{.nonfinite = 10, .clamped = 1};
+    for (int i = 0; i < 10; ++i) counts.located.push_back({9 - i, 1 - part, 3u, 0});
+    all.add(counts);
+  }
+  EXPECT_EQ(all.nonfinite, 20u);
+  EXPECT_EQ(all.clamped, 2u);
+  keep_first(all.located);
+  ASSERT_EQ(all.located.size(), 16u);
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_EQ(all.located[static_cast<std::size_t>(i)].y, i / 10);
+    EXPECT_EQ(all.located[static_cast<std::size_t>(i)].x, i % 10);
+  }
+}
+
+TEST(FilmSamples, AFilmOfNothingButNonFiniteSamplesKeepsFewPlaces) {
+  Film film({0, 0, 16, 16}, 16, 16, {});
+  SampleCounts counts;
+  const std::vector<Pixel> pixels(256, Pixel{0, 0});
+  const std::vector<SampleResult> results(256, SampleResult{Color::Constant(kInfinity)});
+  for (std::uint32_t s = 0; s < 8; ++s) add_to_film(pixels, s, {}, results, {}, film, counts);
+  EXPECT_EQ(counts.nonfinite, 2048u);
+  EXPECT_LE(counts.located.size(), 256u);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
