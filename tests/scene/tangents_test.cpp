@@ -88,6 +88,17 @@ TEST(Tangents, FlatMeshesGetAFrameForEachTriangle) {
   for (const Vec4& t : mesh.tangents) EXPECT_NEAR(t.head<3>().norm(), 1.0f, 1e-5f);
 }
 
+TEST(Tangents, OfFlatTrianglesWithoutAPictureLieInTheTriangle) {
+  Mesh mesh = quad({{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
+  mesh.normals.clear();
+  for (Vec3& p : mesh.positions) p.z() = -p.x();  // a ramp
+  generate_tangents(mesh, slot());
+  for (const Vec4& t : mesh.tangents) {
+    EXPECT_NEAR(t.head<3>().norm(), 1.0f, 1e-5f);
+    EXPECT_NEAR(t.head<3>().dot(Vec3(1, 0, 1)), 0.0f, 1e-5f);
+  }
+}
+
 TEST(Tangents, DegenerateCoordinatesStillGiveAFrame) {
   Mesh mesh = quad({{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
   mesh.positions[2] = mesh.positions[1];

@@ -257,6 +257,19 @@ TEST_F(KernelParity, TargetsBeyondTheGreatestAreClampedAndCounted) {
   }
 }
 
+TEST_F(KernelParity, TheLastTargetIsClampedToo) {
+  const ModelCase c = find_model_case("nrc");
+  TrainingOptions options;
+  options.max_target = 6.0f;
+  for (const std::size_t size : {1u, 2u, 5u, 15u, 48u, 49u}) {
+    OwnedBatch batch = make_batch(*c.model, size, 5);
+    batch.targets.back() = 7.0f;
+    for (const Isa isa : cpu::available_isas())
+      EXPECT_EQ(cpu::make_cpu_backend(c.model, options, isa)->train(batch.training()).clipped, 1u)
+          << isa_name(isa) << ", " << size;
+  }
+}
+
 // One record for each float of each input, and for each way not to be finite.
 TEST_F(KernelParity, EachInputThatIsNotFiniteRejectsItsRecordAlone) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

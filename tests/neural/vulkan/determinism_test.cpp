@@ -116,6 +116,18 @@ TEST_F(VulkanDeterminism, StatesComeBackFromImportAndGoOnWithTheSameBits) {
   }
 }
 
+TEST_F(VulkanDeterminism, AnImportedInitialStateStartsAtTheMeanAgain) {
+  const ModelCase c = find_model_case("nrc");
+  const TrainingOptions options;
+  const OwnedBatch batch = make_batch(*c.model, 100, 4);
+  const auto backend = make_vulkan_backend(test_machine(), c.model, options);
+  backend->train(batch.training());
+  const ModelState once = backend->export_state();
+  backend->import_state(initial_state(*c.model, options));
+  backend->train(batch.training());
+  EXPECT_TRUE(same_bits(backend->export_state(), once));
+}
+
 TEST_F(VulkanDeterminism, ACacheMovesBetweenDevices) {
   const ModelCase c = find_model_case("nrc");
   const TrainingOptions options;

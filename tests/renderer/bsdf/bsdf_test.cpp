@@ -191,6 +191,20 @@ TEST(BsdfProperties, NothingIsEverNotANumber) {
   }
 }
 
+TEST(BsdfProperties, NothingIsReflectedInThePlaneOfTheShadingNormal) {
+  const Vec3 ng = Vec3(0.6f, 0.0f, 0.8f);
+  for (const BsdfCase& c : colored_cases()) {
+    SurfaceMaterial material = c.material;
+    material.roughness = 0.5f;
+    const Bsdf bsdf(material, ng, Vec3::UnitZ(), ng, Vec3::UnitZ(), c.front);
+    const BsdfValue value = bsdf.evaluate(Vec3::UnitX());
+    const bool layer = material.clearcoat > 0.0f || (material.sheen_color > 0.0f).any();
+    if (layer) continue;  // the coat has a normal of its own
+    EXPECT_TRUE((value.value == 0.0f).all()) << c.name;
+    EXPECT_EQ(value.pdf, 0.0f) << c.name;
+  }
+}
+
 /// As renderer/bsdf/README.md says.
 TEST(BsdfProperties, ALobeIsADeltaBelowTheRoughness003) {
   SurfaceMaterial metal;

@@ -371,6 +371,22 @@ TEST(CacheSession, MirrorsAreCountedWherePathsBegin) {
     EXPECT_EQ(session.triangle_counts()[walls.first_triangle + t], 12u);
 }
 
+TEST(CacheSession, TrianglesAreCountedOnlyWhereSomethingReadsTheCounts) {
+  const ViewedWorld viewed(room());
+  const auto counted = [&](int candidates, const std::vector<Aov>& aovs, neural::FeatureEncoding encoding) {
+    RenderOptions options = small(Integrator::nrc);
+    options.cache.candidates = candidates;
+    options.cache.encoding = encoding;
+    options.aovs = aovs;
+    const CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    return !session.triangle_counts().empty();
+  };
+  EXPECT_FALSE(counted(1, {}, neural::FeatureEncoding::gate));
+  EXPECT_TRUE(counted(16, {}, neural::FeatureEncoding::gate));
+  EXPECT_TRUE(counted(1, {Aov::training_count}, neural::FeatureEncoding::gate));
+  EXPECT_FALSE(counted(1, {}, neural::FeatureEncoding::hash_grid));
+}
+
 TEST(CacheSession, WithNothingToLearnFromItStillRuns) {
   SceneBuilder builder;
   builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));

@@ -146,6 +146,20 @@ TEST(Scouting, AGivenSpacingIsKept) {
   EXPECT_EQ(setup.spacing_scales, std::vector<float>(setup.sides.size(), 1.0f)) << "everywhere";
 }
 
+TEST(Scouting, NodesOfOcclusionLieTwiceAsClose) {
+  SceneBuilder builder;
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-9, -9, 0),
+               Vec3(18, 0, 0), Vec3(0, 18, 0));
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
+  const ViewedWorld viewed(builder, {.constant = Color::Ones()});
+  RenderOptions options = nrc();
+  options.width = viewed.region.width();
+  options.height = viewed.region.height();
+  const float of_radiance = scouted(viewed, options).setup.node_spacing;
+  options.integrator = Integrator::nao;
+  EXPECT_NEAR(scouted(viewed, options).setup.node_spacing, 0.5f * of_radiance, 0.02f * of_radiance);
+}
+
 TEST(Scouting, NodesLieCloserOnWhatIsNearTheCamera) {
   SceneBuilder builder;
   const int grey = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));

@@ -40,6 +40,8 @@ inline void expect_same(const Result& a, const Result& b) {
   ASSERT_EQ(a.picture.layers.size(), b.picture.layers.size());
   for (std::size_t i = 0; i < a.picture.layers.size(); ++i)
     EXPECT_TRUE(a.picture.layers[i].values == b.picture.layers[i].values) << a.picture.layers[i].name;
+  EXPECT_EQ(a.picture.full_width, b.picture.full_width);
+  EXPECT_EQ(a.picture.full_height, b.picture.full_height);
   const RenderStatistics& x = a.statistics;
   const RenderStatistics& y = b.statistics;
   EXPECT_EQ(x.spp, y.spp);

@@ -11,6 +11,7 @@
 #include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 #include "tests/renderer/image/kinds_of_pictures.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/messages.h"
 #include "tests/support/room.h"
 #include "tests/support/temporary_folder.h"
@@ -27,6 +28,7 @@ using kinds::picture_of;
 using kinds::Result;
 using testing::room;
 using tests::expect_message;
+using tests::FileSizeLimit;
 using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
@@ -42,6 +44,20 @@ Result render(const scene::Scene& scene, const RenderOptions& options, int stop_
   result.picture = renderer.render(callbacks);
   result.statistics = renderer.statistics();
   return result;
+}
+
+TEST(FullDisk, WithoutACallbackItEndsTheRun) {
+  const scene::Scene s = room();
+  RenderOptions options = testing::small_picture();
+  const TemporaryFolder folder;
+  options.checkpoint.file = folder / "picture";
+  const FileSizeLimit limit(512);
+  std::atomic<bool> told{false};
+  Callbacks callbacks;
+  EXPECT_THROW(Renderer(s, options).render(callbacks), OutputError);
+  callbacks.output_failed = [&](const std::exception_ptr&, bool) { told = true; };
+  EXPECT_NO_THROW(Renderer(s, options).render(callbacks));
+  EXPECT_TRUE(told);
 }
 
 class Resume : public ::testing::TestWithParam<Kind> {};
