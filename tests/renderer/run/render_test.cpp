@@ -35,6 +35,28 @@ TEST(Render, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
+TEST(Render, RaysAreCountedOnceWhateverThreadTracesThem) {
+  const scene::Scene s = room();
+  RenderOptions options = small_picture();
+  const auto rays = [&](Integrator integrator, int threads) {
+    options.integrator = integrator;
+    options.threads = threads;
+    Renderer renderer(s, options);
+    renderer.render();
+    return renderer.statistics().rays;
+  };
+  for (const Integrator integrator : {Integrator::path, Integrator::ao}) {
+    const RayCounts one = rays(integrator, 1);
+    const RayCounts three = rays(integrator, 3);
+    EXPECT_EQ(one.camera, 50u * 40u * 6u);
+    EXPECT_EQ(three.camera, one.camera);
+    EXPECT_EQ(three.bounce, one.bounce);
+    EXPECT_EQ(three.shadow, one.shadow);
+    EXPECT_EQ(one.bounce > 0, integrator == Integrator::path);
+    EXPECT_GT(one.shadow, 0u);
+  }
+}
+
 TEST(Render, SeedsAndSamplersDiffer) {
   const scene::Scene s = room();
   RenderOptions options = small_picture();
