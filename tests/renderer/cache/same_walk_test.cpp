@@ -20,6 +20,7 @@ struct BothWays {
   std::vector<Color> cached_paths;
   RayCounts path_tracer_rays;
   RayCounts cached_paths_rays;
+  std::vector<float> targets;  ///< of the records
 };
 
 BothWays trace(const ViewedWorld& viewed, int max_depth, int min_depth, bool records) {
@@ -56,6 +57,7 @@ BothWays trace(const ViewedWorld& viewed, int max_depth, int min_depth, bool rec
   both.cached_paths.resize(samples.size());
   batch.resolve({}, both.cached_paths);
   for (const float target : batch.targets) EXPECT_TRUE(std::isfinite(target));
+  both.targets = batch.targets;
   return both;
 }
 
@@ -108,6 +110,26 @@ BothWays sheets(float ior, int layers, bool lamp_inside) {
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
   // Without roulette each path that gets out brings exactly 1.
   return trace(viewed, 60000, 60000, true);
+}
+
+/// In equilibrium the radiance inside is that of the sky times the squared index of refraction.
+TEST(SameWalk, ARecordInsideGlassLearnsTheRadianceInsideGlass) {
+  SceneBuilder builder;
+  scene::Material glass;
+  glass.metallic = 0.0f;
+  glass.roughness = 0.0f;
+  glass.ior = 1.5f;
+  glass.transmission = 1.0f;
+  glass.thickness = 1.0f;
+  builder.box(builder.material(glass), Vec3(-20, -20, -1), Vec3(20, 20, 1));
+  const int white = builder.material(SceneBuilder::lambert(Color::Ones()));
+  builder.box(white, Vec3(-19, -19, -0.5f), Vec3(19, 19, 0.5f));
+  builder.scene().cameras.push_back(testing::view_from(Vec3(0, 0, 5), Vec3::Zero(), 0.2f));
+  const ViewedWorld viewed(builder, {.constant = Color::Ones()});
+  const BothWays both = trace(viewed, 60000, 60000, true);
+  expect_same(both);
+  ASSERT_GT(both.targets.size(), 100u);
+  for (const float target : both.targets) EXPECT_NEAR(target, 2.25f, 1e-3f);
 }
 
 TEST(SameWalk, SheetsInsideEachOtherLoseNoLight) {

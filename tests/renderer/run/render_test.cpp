@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "tests/support/room.h"
@@ -154,6 +156,26 @@ TEST(Render, AnEmptySceneShowsTheSky) {
   const Picture picture = Renderer(empty, options).render();
   for (std::size_t i = 0; i < picture.layers[0].values.size(); ++i) {
     ASSERT_EQ(picture.layers[0].values[i], (std::array{0.25f, 0.5f, 1.0f})[i % 3]);
+  }
+}
+
+TEST(Render, OfSamplesThatAreNotFiniteTheFirst16AreLocatedWhateverThreadTracesThem) {
+  scene::Scene s = room();
+  s.materials[1].emission.setConstant(scene::kInfinity);  // the lamp
+  RenderOptions options = small_picture();
+  std::vector<std::array<std::uint32_t, 3>> first;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    Renderer renderer(s, options);
+    renderer.render();
+    ASSERT_GT(renderer.statistics().nonfinite, 16u);
+    std::vector<std::array<std::uint32_t, 3>> located;
+    for (const NonFiniteSample& n : renderer.statistics().nonfinite_samples)
+      located.push_back({static_cast<std::uint32_t>(n.y), static_cast<std::uint32_t>(n.x), n.sample});
+    EXPECT_EQ(located.size(), 16u);
+    EXPECT_TRUE(std::is_sorted(located.begin(), located.end()));
+    if (threads == 1) first = located;
+    EXPECT_EQ(located, first);
   }
 }
 
