@@ -272,6 +272,21 @@ TEST(MemoryBudget, CellsOfDifferentScalesAreNotMerged) {
   }
 }
 
+TEST(MemoryBudget, AScaleOfAllInstancesIsOneOfTheSpacing) {
+  for (const std::uint64_t budget : {20'000u, 200'000u}) {
+    GateOptions options;
+    options.memory_budget = budget;
+    Scene scene;
+    const GateLayoutReport one = build_gate_layout(scene.surfaces, options).report;
+    for (const float scale : {0x1p-40f, 0x1p40f}) {
+      for (SurfaceInstance& instance : scene.surfaces.instances) instance.spacing_scale = scale;
+      const GateLayout layout = build_gate_layout(scene.surfaces, options);
+      EXPECT_EQ(layout.report.node_spacing * scale, one.node_spacing);
+      EXPECT_LE(testing::feature_bytes(layout, options), budget);
+    }
+  }
+}
+
 TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
   const Mesh mesh = testing::sphere(8, 0.5f);
   const SurfaceLayout scene = many_instances(mesh, 40000);

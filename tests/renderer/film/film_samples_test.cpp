@@ -56,6 +56,25 @@ TEST(CameraSamples, DependOnPixelSampleAndSeedAlone) {
   EXPECT_NE(other.ray().direction, one.ray().direction);
 }
 
+TEST(FirstHit, HoldsThePositionInTheFilesCoordinates) {
+  Hit hit;
+  hit.t = 4.0f;
+  hit.instance = 7;
+  hit.primitive = 9;
+  Surface surface;
+  surface.position = Vec3(1, 2, 3);
+  surface.shading_normal = Vec3::UnitY();
+  surface.material.base_color = Color(0.1f, 0.2f, 0.3f);
+  const FirstHit first = first_hit(hit, surface, Vec3(1000, 0, -1000));
+  EXPECT_TRUE(first.hit);
+  EXPECT_EQ(first.position, Vec3(1001, 2, -997));
+  EXPECT_EQ(first.normal, Vec3(0, 1, 0));
+  EXPECT_TRUE((first.albedo == Color(0.1f, 0.2f, 0.3f)).all());
+  EXPECT_EQ(first.depth, 4.0f);
+  EXPECT_EQ(first.instance, 7u);
+  EXPECT_EQ(first.primitive, 9u);
+}
+
 TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
   Film film({0, 0, 2, 1}, 2, 1, {});
   SampleCounts counts;

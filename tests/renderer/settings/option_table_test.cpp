@@ -63,6 +63,9 @@ TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
     EXPECT_EQ(option.unit.find(' '), std::string::npos) << option.name;
     EXPECT_TRUE(option.has_flag() || option.decides) << option.name << " is good for nothing";
   }
+  for (const char* of_each_part : {"spp", "camera", "environment", "checkpoint", "integrator", "train-steps",
+                                   "encoding", "query-at", "device", "cache-in", "threads"})
+    EXPECT_TRUE(names.contains(of_each_part)) << of_each_part;
 }
 
 TEST(OptionTable, EachReadsWhatItWrites) {
