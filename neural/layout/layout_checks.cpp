@@ -24,10 +24,11 @@ void require_positive(const char* what, float value) {
   require(value > 0.0f && std::isfinite(value), what, value, "a positive number");
 }
 
+using Range = tbb::blocked_range<std::size_t>;
+
 /// The first bad index below count, or kNotFound.
 template <class Bad>
 std::size_t find_first(std::size_t count, const Bad& bad) {
-  using Range = tbb::blocked_range<std::size_t>;
   return tbb::parallel_reduce(
       Range(0, count, 16384), kNotFound,
       [&](const Range& range, std::size_t first) {
