@@ -148,6 +148,20 @@ TEST(Buffers, OutsideTheFolderAreRefused) {
   }
 }
 
+TEST(Buffers, EndAtTheirByteLengthWhateverTheFileHolds) {
+  GltfBuilder file = triangle_file();
+  file.root["buffers"] = {{{"byteLength", file.bin.size()}, {"uri", "data.bin"}}};
+  const TemporaryFolder folder;
+  file.bin.push_back(0);
+  write_bytes(folder.path() / "data.bin", file.bin);
+  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  EXPECT_EQ(refusal(folder.path() / "test.gltf"), "");
+  json& last = file.root["bufferViews"].back();
+  last["byteLength"] = last["byteLength"].get<int>() + 1;
+  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  expect_refused(folder.path() / "test.gltf", {});
+}
+
 TEST(Buffers, WithoutASourceAreRefusedWhenRead) {
   GltfBuilder file = triangle_file();
   file.root["buffers"] = {{{"byteLength", 1000}}};

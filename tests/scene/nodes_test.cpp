@@ -167,6 +167,8 @@ TEST(Cameras, StandWhereTheirNodesPutThem) {
   EXPECT_TRUE(top.orthographic);
   EXPECT_EQ(top.half_height, 2.0f);
   EXPECT_EQ(top.half_width, 3.0f);
+  file.root["cameras"][0]["perspective"].erase("aspectRatio");
+  EXPECT_EQ(file.load().cameras[0].aspect, 0.0f) << "the picture's";
 }
 
 TEST(Lights, CarryIntensityPlaceAndCone) {

@@ -61,6 +61,9 @@ TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
     EXPECT_TRUE(names.insert(option.name).second) << option.name;
     EXPECT_EQ(option.has_flag(), !option.help.empty()) << option.name;
     EXPECT_EQ(option.unit.find(' '), std::string::npos) << option.name;
+    if (option.name == "spp" || option.name == "batch") {
+      EXPECT_EQ(option.of_cache, option.name == "batch");
+    }
     EXPECT_TRUE(option.has_flag() || option.decides) << option.name << " is good for nothing";
   }
   for (const char* of_each_part : {"spp", "camera", "environment", "checkpoint", "integrator", "train-steps",

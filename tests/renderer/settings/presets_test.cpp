@@ -80,6 +80,17 @@ TEST(Presets, PreviewAsksAtTheFirstVertexAndFinalAfterAGather) {
   EXPECT_LT(preview.spp, final.spp);
 }
 
+TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
+  for (const CachePreset preset : {CachePreset::paper_nao, CachePreset::paper_nrc}) {
+    RenderOptions options;
+    options.cache.samples_per_point = 7;
+    options.cache.cache_in = "learned by other rules";
+    apply_preset(preset, options);
+    EXPECT_EQ(options.cache.samples_per_point, CacheOptions().samples_per_point);
+    EXPECT_EQ(options.cache.cache_in, "");
+  }
+}
+
 TEST(Presets, WhatIsNoneOfTheirBusinessStays) {
   for (const CachePreset preset :
        {CachePreset::preview, CachePreset::final, CachePreset::paper_nao, CachePreset::paper_nrc}) {
