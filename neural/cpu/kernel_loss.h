@@ -92,16 +92,14 @@ GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uin
   return sum4(total);
 }
 
-// Whether all rows of a tile are valid and no target exceeds max_target.
-GATELIGHT_INLINE bool plain(const float* targets, uint32_t outputs, float max_target, const float* valid,
-                            uint32_t count) {
+// Whether all rows of a full tile are valid and no target exceeds max_target.
+GATELIGHT_INLINE bool plain(const float* targets, uint32_t outputs, float max_target, const float* valid) {
+  static_assert(kTile % kLanes == 0);
   Float least = broadcast(1.0f);
-  for (uint32_t s = 0; s < count; s += kLanes) least = min(least, load(valid + s));
+  for (uint32_t s = 0; s < kTile; s += kLanes) least = min(least, load(valid + s));
   Float greatest = zero();
-  uint32_t i = 0;
-  for (; i + kLanes <= count * outputs; i += kLanes) greatest = max(greatest, absolute(load(targets + i)));
-  for (; i < count * outputs; ++i)
-    if (__builtin_fabsf(targets[i]) > max_target) return false;
+  for (uint32_t i = 0; i < kTile * outputs; i += kLanes)
+    greatest = max(greatest, absolute(load(targets + i)));
   return all(less(zero(), least)) && !any(less(broadcast(max_target), greatest));
 }
 
@@ -110,7 +108,7 @@ GATELIGHT_INLINE double loss_of(uint32_t outputs, bool relative, float max_targe
                                 const float* valid, uint32_t count, uint32_t rows, float* y,
                                 uint32_t& clipped) {
   if constexpr (kOutputs == 1 || kOutputs == 3) {
-    if (count == kTile && plain(targets, kOutputs, max_target, valid, count)) {
+    if (count == kTile && plain(targets, kOutputs, max_target, valid)) {
       constexpr uint32_t kFrom = kTile - (kOutputs == 1 ? 3 : 1);
       const double total = loss_plain_rows<kOutputs>(relative, targets, kFrom, y);
       return total + loss_rows<kOutputs>(outputs, relative, max_target, targets + kFrom * kOutputs,

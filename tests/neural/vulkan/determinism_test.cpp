@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "neural/trainer.h"
+#include "neural/vulkan/feature_store.h"
 #include "tests/neural/vulkan/agreement.h"
 #include "tests/support/held_state.h"
 
@@ -114,6 +115,14 @@ TEST_F(VulkanDeterminism, StatesComeBackFromImportAndGoOnWithTheSameBits) {
       EXPECT_TRUE(same_bits(other->export_state(), gone_on));
     }
   }
+}
+
+TEST(VulkanMemory, CountsOfTrianglesTakeEightBytesForEach) {
+  const ModelCase c = find_model_case("nrc");
+  TrainingOptions options;
+  const std::uint64_t without = vulkan::feature_bytes(*c.model, options);
+  options.count_triangles = true;
+  EXPECT_EQ(vulkan::feature_bytes(*c.model, options), without + 8 * c.model->gate.triangle_count);
 }
 
 TEST_F(VulkanDeterminism, AnImportedInitialStateStartsAtTheMeanAgain) {

@@ -92,6 +92,9 @@ TEST_P(LdrFlipShapes, EveryPixelAgreesWithTheWholeConvolutions) {
   const FlipResult result = ldr(a, b, {.pixels_per_degree = ppd});
   EXPECT_EQ(result.width, width);
   EXPECT_EQ(result.height, height);
+  EXPECT_EQ(result.start_exposure, 0.0);
+  EXPECT_EQ(result.stop_exposure, 0.0);
+  EXPECT_EQ(result.exposures, 0);
   EXPECT_LT(largest_difference(result.errors, reference::ldr_flip(as_image(a), as_image(b), ppd)), 1e-4);
   EXPECT_GT(result.summary.mean, 0.01) << "there is something to compare";
 }

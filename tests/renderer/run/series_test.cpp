@@ -79,7 +79,9 @@ TEST_P(SeriesOf, EachPictureIsThatOfARunThatEndsThere) {
   options.threads = 1;
   for (std::size_t point = 0; point < 6; ++point) {
     SCOPED_TRACE(point);
-    expect_same(results[point], render_point(s, options, series, point));
+    const Result alone = render_point(s, options, series, point);
+    expect_same(results[point], alone);
+    EXPECT_EQ(results[point].statistics.cache.loss, alone.statistics.cache.loss);
     EXPECT_FALSE(results[point].statistics.interrupted);
     EXPECT_FALSE(results[point].statistics.cache.steps_chosen);
     if (point > 0) {

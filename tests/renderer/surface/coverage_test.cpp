@@ -45,6 +45,22 @@ scene::Image texel(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   return {.name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {red, green, blue, 255}};
 }
 
+/// Shadow rays end at these: their light arrives by other directions too.
+TEST(Panes, OfVarnishedRoughOrThickGlassPassNothing) {
+  const auto passed = [](auto change) {
+    scene::Material material = SceneBuilder::clear_glass();
+    material.alpha_mode = scene::AlphaMode::blend;
+    change(material);
+    return through(pane_of(material)).maxCoeff();
+  };
+  EXPECT_GT(passed([](scene::Material&) {}), 0.9f);
+  EXPECT_EQ(passed([](scene::Material& m) { m.clearcoat = 0.5f; }), 0.0f);
+  EXPECT_EQ(passed([](scene::Material& m) { m.sheen_color = Color(0.5f, 0.0f, 0.0f); }), 0.0f);
+  EXPECT_EQ(passed([](scene::Material& m) { m.roughness = 0.1f; }), 0.0f);
+  EXPECT_EQ(passed([](scene::Material& m) { m.thickness = 1.0f; }), 0.0f);
+  EXPECT_EQ(passed([](scene::Material& m) { m.transmission = 0.0f; }), 0.0f);
+}
+
 TEST(Panes, ATextureTintsAsTheFactorDoes) {
   scene::Material textured = SceneBuilder::clear_glass();
   textured.base_color_texture.texture = 0;
