@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/gltf_builder.h"
@@ -159,7 +160,15 @@ TEST(Buffers, EndAtTheirByteLengthWhateverTheFileHolds) {
   json& last = file.root["bufferViews"].back();
   last["byteLength"] = last["byteLength"].get<int>() + 1;
   write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
-  expect_refused(folder.path() / "test.gltf", {});
+  expect_refused(folder.path() / "test.gltf", {"bufferViews[1]"});
+  last["byteLength"] = 24;
+  const std::size_t held = file.bin.size();
+  file.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+      {"buffer", 0}, {"byteLength", held}, {"byteStride", 4}, {"count", 6}, {"mode", "ATTRIBUTES"}};
+  file.root["extensionsUsed"] = {"EXT_meshopt_compression"};
+  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  expect_refused(folder.path() / "test.gltf",
+                 {fmt::format("{} bytes at 0", held), fmt::format("at most {}", held - 1)});
 }
 
 TEST(Buffers, WithoutASourceAreRefusedWhenRead) {
