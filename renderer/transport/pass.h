@@ -42,6 +42,7 @@ class WorkerPass : public Pass {
   SampleCounts counts() const final {
     SampleCounts sum;
     for (const Worker& w : workers_) sum.add(w.counts);
+    keep_first(sum.located);
     return sum;
   }
   RayCounts rays() const final {
