@@ -2,12 +2,15 @@
 
 #include "renderer/render.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 
+#include "renderer/machine/errors.h"
+#include "tests/support/messages.h"
 #include "tests/support/room.h"
 
 namespace gatelight::renderer {
@@ -163,6 +166,7 @@ TEST(Render, OfSamplesThatAreNotFiniteTheFirst16AreLocatedWhateverThreadTracesTh
   scene::Scene s = room();
   s.materials[1].emission.setConstant(scene::kInfinity);  // the lamp
   RenderOptions options = small_picture();
+  options.spp = 1;
   std::vector<std::array<std::uint32_t, 3>> first;
   for (const int threads : {1, 3}) {
     options.threads = threads;
@@ -176,6 +180,10 @@ TEST(Render, OfSamplesThatAreNotFiniteTheFirst16AreLocatedWhateverThreadTracesTh
     EXPECT_TRUE(std::is_sorted(located.begin(), located.end()));
     if (threads == 1) first = located;
     EXPECT_EQ(located, first);
+    RenderOptions strict = options;
+    strict.nan_policy = NanPolicy::error;
+    tests::expect_message(tests::refusal<NumericalError>([&] { Renderer(s, strict).render(); }),
+                          {fmt::format("pixel {},{}", located[0][1], located[0][0]), "sample 0"});
   }
 }
 
