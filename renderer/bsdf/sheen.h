@@ -45,6 +45,8 @@ class SheenTables {
 
   static const SheenTables& get();
   Row row(float roughness) const;
+  /// For the kernels: [roughness][cosine][divisor, albedo].
+  const float* values() const { return values_[0][0].data(); }
 
  private:
   SheenTables();

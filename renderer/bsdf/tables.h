@@ -80,6 +80,10 @@ class GgxTables {
     return row;
   }
 
+  /// For the kernels: [roughness][cosine][4] and [roughness][4], with the parts of GgxAlbedo.
+  const float* values() const { return values_[0][0].data(); }
+  const float* means() const { return &means_[0].loss; }
+
  private:
   GgxTables();
   // With the Schlick weight w of the cosine itself: loss; b - w (1 - loss); b_scaled - w; scale.

@@ -162,7 +162,8 @@ void CachedPass::trace_occlusion(Tile& tile, CachedWorker& worker) const {
       return false;
     }
     paths.first_queries[i] = static_cast<std::int32_t>(paths.queries.size());
-    paths.queries.push_back(hit, side, -ray.direction, surface, surface.material.base_color);
+    paths.queries.push_back(
+        surface_point(hit, side, -ray.direction, surface, surface.material.base_color));
     return true;
   };
   ao_.trace(tile.samples, tile.results, tile.first_hits, worker.rays, worker.occlusion, ask);

@@ -32,6 +32,21 @@ StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural
   }
 }
 
+std::uint32_t CachedPaths::side_at(const Hit& hit, bool front) const {
+  return side_of(front, walk_.world.scene.instances[hit.instance].mirrors);
+}
+
+bool CachedPaths::wide_as_a_whole(const SurfaceMaterial& m) const {
+  const auto is_wide = [&](float roughness) {
+    return roughness >= std::max(options_.min_roughness, kDeltaRoughness) && roughness <= 1.0f;
+  };
+  return is_wide(m.roughness) && (!(m.clearcoat > 0.0f) || is_wide(m.clearcoat_roughness));
+}
+
+bool CachedPaths::may_teach(const Path& path, const PathPlan& plan) const {
+  return plan.records && (plan.most_records == kNone || path.records < plan.most_records);
+}
+
 bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
   if (plan.end_after_records != kNone) return !path.to_its_end && path.records >= plan.end_after_records;
   switch (plan.query_at) {
@@ -73,19 +88,18 @@ void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf
   scratch.pending.push_back({vertex, direct, held});
 }
 
-bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& plan, PathBatch& batch,
-                          std::span<FirstHit> first_hits, Scratch& scratch) const {
+Step CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
+                          PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const {
   if (!hit) {
     add_emission(path, path.sky(walk_, ray.direction), batch);
-    return false;
+    return {};
   }
-  const Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
+  Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
   FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
   if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   add_emission(path, m.emission, batch);
-  if (!m.bsdf) return false;
-  if (first) first->albedo = m.bsdf->albedo();
+  if (m.ends) return {};
 
   if (plan.query_at == QueryAt::spread) {
     // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
@@ -97,20 +111,88 @@ bool CachedPaths::scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& 
       path.spread += distance / std::sqrt(path.departure.pdf * cosine);
     }
   }
-  if (path.emission_only) {
-    std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
-    return drawn && path.survives(plan.min_depth, *drawn) &&
-           advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone);
+  const std::uint32_t side = side_at(hit, m.surface.front);
+  const bool has_storage = stored_(neural::surface_index(hit.instance, side));
+  if (path.shades_wide(m) && wide_as_a_whole(m.surface.material)) {
+    const bool answered = has_storage && ends_here(path, plan);
+    if (!answered || (options_.held.emission() && !delta_apart_)) {
+      PathBlock& block = scratch.blocks[answered ? kAnswers : kScatters];
+      path.wait(m, number, plan.min_depth, block);
+      return {false, &block};
+    }
   }
-  const bool wide = m.bsdf->has_wide(options_.min_roughness);
+  const Bsdf& bsdf = m.set_up_bsdf();
+  if (first) first->albedo = bsdf.albedo();
+  if (path.emission_only) {
+    std::optional<Drawn> drawn = path.draw(m, bsdf);
+    return {drawn && path.survives(plan.min_depth, *drawn) &&
+            advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone)};
+  }
+  const bool wide = bsdf.has_wide(options_.min_roughness);
   const bool ends = wide && ends_here(path, plan);
-  const std::uint32_t side = side_of(m.surface.front, walk_.world.scene.instances[hit.instance].mirrors);
-  const bool stored = (ends || (wide && plan.records)) && stored_(neural::surface_index(hit.instance, side));
-  if (ends && stored) return answer(path, m, side, batch, scratch);
+  if (ends && has_storage) return {answer(path, m, side, batch, scratch)};
   if (ends) ++batch.unstored_hits;
-  const bool teaches =
-      plan.records && stored && (plan.most_records == kNone || path.records < plan.most_records);
-  return continue_from(path, m, side, teaches, plan, batch, scratch);
+  const bool teaches = wide && has_storage && may_teach(path, plan);
+  return {continue_from(path, m, side, teaches, plan, batch, scratch)};
+}
+
+void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
+                        std::span<FirstHit> first_hits, Scratch& scratch) const {
+  const ShadingBlock& points = block.points;
+  const bool answers = &block == &scratch.blocks[kAnswers];
+  answers ? walk_.shading.albedo(block.points) : walk_.shading.scatter(block.points);
+  for (int lane = 0; lane < points.count; ++lane) {
+    const std::uint32_t number = block.path[lane];
+    Path& path = scratch.paths[number];
+    const Hit& hit = scratch.hits[number];
+    if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    if (answers) {
+      ask(path, point_at(block, lane, hit), batch);
+    } else {
+      scratch.goes_on[number] =
+          continue_from(path, block, lane, hit, scratch.rays[number], plan, batch, scratch);
+    }
+  }
+}
+
+SurfacePoint CachedPaths::point_at(const PathBlock& block, int lane, const Hit& hit) const {
+  const ShadingBlock& p = block.points;
+  return {hit,
+          side_at(hit, block.front[lane]),
+          lane_vector(p.wo, lane),
+          lane_vector(p.position, lane),
+          lane_vector(p.shading_normal, lane),
+          lane_color(p.albedo, lane),
+          p.roughness[lane]};
+}
+
+std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const {
+  const auto index = static_cast<std::int32_t>(batch.vertices.size());
+  PathVertex& v =
+      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
+  if (!worth_caching(point.albedo)) return index;
+  v.reflectance = cache_reflectance(point.albedo) * path.scale();
+  v.query = static_cast<std::int32_t>(batch.queries.size());
+  batch.queries.push_back(point);
+  if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
+  return index;
+}
+
+std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool& record,
+                                     PathBatch& batch) const {
+  record = record && worth_caching(point.albedo) && path.scale() > kLeastScale &&
+           path.scale() < 1.0f / kLeastScale;
+  const auto index = static_cast<std::int32_t>(batch.vertices.size());
+  PathVertex& v =
+      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
+  if (!record) return index;
+  v.reflectance = cache_reflectance(point.albedo) * path.scale();
+  v.record = static_cast<std::int32_t>(batch.records.size());
+  batch.records.push_back(point);
+  batch.targets.resize(3 * batch.records.size(), 0.0f);
+  if (path.records == 0) batch.first_records[path.index] = v.record;
+  path.records += 1;
+  return index;
 }
 
 bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch,
@@ -120,15 +202,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (has_narrow) part = m.bsdf->wide_part(roughness);
   const Color& wide_albedo = part ? part->albedo() : m.bsdf->albedo();
-  const auto index = static_cast<std::int32_t>(batch.vertices.size());
-  PathVertex& v =
-      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
-  if (worth_caching(wide_albedo)) {
-    v.reflectance = cache_reflectance(wide_albedo) * path.scale();
-    v.query = static_cast<std::int32_t>(batch.queries.size());
-    batch.queries.push_back(m.hit, side, m.wo, m.surface, wide_albedo);
-    if (batch.first_queries[path.index] == kNone) batch.first_queries[path.index] = v.query;
-  }
+  const std::int32_t index = ask(path, surface_point(m.hit, side, m.wo, m.surface, wide_albedo), batch);
 
   if (!options_.held.emission()) {
     // All direct light of all lobes is sampled here. Indirect light of the sampled direction counts only for
@@ -146,11 +220,10 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
     return advance(path, m, *drawn, {drawn->weight, scattered}, index);
   }
 
-  const bool delta_apart = delta_lights_ && !options_.held.light_sample(true);
-  if (delta_apart) add_light(path, m, *m.bsdf, LightKinds::delta, nullptr, index, scratch);
+  if (delta_apart_) add_light(path, m, *m.bsdf, LightKinds::delta, nullptr, index, scratch);
   if (!has_narrow) return false;
   const Bsdf narrow = m.bsdf->narrow_part(roughness);
-  add_light(path, m, narrow, delta_apart ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
+  add_light(path, m, narrow, delta_apart_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, narrow);
   if (!drawn) return false;
   const float survival = std::min(1.0f, kNarrowSurvival * std::sqrt(path.throughput.maxCoeff()));
@@ -164,19 +237,7 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (record && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;
-  record = record && worth_caching(wide.albedo()) && path.scale() > kLeastScale &&
-           path.scale() < 1.0f / kLeastScale;
-  const auto index = static_cast<std::int32_t>(batch.vertices.size());
-  PathVertex& v =
-      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
-  if (record) {
-    v.reflectance = cache_reflectance(wide.albedo()) * path.scale();
-    v.record = static_cast<std::int32_t>(batch.records.size());
-    batch.records.push_back(m.hit, side, m.wo, m.surface, wide.albedo());
-    batch.targets.resize(3 * batch.records.size(), 0.0f);
-    if (path.records == 0) batch.first_records[path.index] = v.record;
-    path.records += 1;
-  }
+  const std::int32_t index = add_vertex(path, surface_point(m.hit, side, m.wo, m.surface, wide.albedo()), record, batch);
   add_light(path, m, *m.bsdf, LightKinds::all, record ? &wide : nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
   if (!drawn) return false;
@@ -187,8 +248,29 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   return advance(path, m, *drawn, {drawn->weight, drawn->weight, held}, index);
 }
 
-bool CachedPaths::advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
-                          std::int32_t vertex) const {
+bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& ray,
+                                const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
+  const ShadingBlock& p = block.points;
+  const SurfacePoint point = point_at(block, lane, hit);
+  const bool stored = stored_(neural::surface_index(hit.instance, point.side));
+  if (!stored && (point.albedo > 0.0f).any() && ends_here(path, plan)) ++batch.unstored_hits;
+  bool record = stored && may_teach(path, plan);
+  const std::int32_t index = add_vertex(path, point, record, batch);
+  const Color direct = lane_color(p.direct, lane) * path.scale();
+  if ((direct > 0.0f).any()) {
+    const bool held = record && options_.held.light_sample(p.light_is_delta[lane] != 0);
+    scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
+    scratch.pending.push_back({index, direct, held ? direct : Color(Color::Zero())});
+  }
+  if (!p.alive[lane]) return false;
+  const Drawn drawn = drawn_at(p, lane);
+  if (!drawn.delta) path.wide_events += 1;
+  const bool held = record && !drawn.delta;
+  link(path, drawn, {drawn.weight, drawn.weight, held ? drawn.weight : Color(Color::Zero())}, index);
+  return path.Walker::advance(block, lane, drawn, hit.t, ray);
+}
+
+void CachedPaths::link(Path& path, const Drawn& drawn, const Links& links, std::int32_t vertex) const {
   if (drawn.through_pane) {
     // Light from behind the pane belongs to the vertex before the pane, whose light samples saw it too.
     path.links *= links.emission;
@@ -196,6 +278,11 @@ bool CachedPaths::advance(Path& path, const Meeting& m, const Drawn& drawn, cons
     path.vertex = vertex;
     path.links = links;
   }
+}
+
+bool CachedPaths::advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
+                          std::int32_t vertex) const {
+  link(path, drawn, links, vertex);
   return path.Walker::advance(walk_, m, drawn);
 }
 
@@ -212,9 +299,10 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
   }
   trace_waves(
       walk_.world, hits, scratch, counts,
-      [&](Path& path, Ray& ray, const Hit& hit) {
-        return scatter(path, ray, hit, plan, batch, first_hits, scratch);
+      [&](std::uint32_t number, Path& path, Ray& ray, const Hit& hit) {
+        return scatter(number, path, ray, hit, plan, batch, first_hits, scratch);
       },
+      [&](PathBlock& block) { shade(block, plan, batch, first_hits, scratch); },
       [&](const Pending& light, const Color& transmittance) {
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
         v.known += light.direct * transmittance;

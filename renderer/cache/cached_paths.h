@@ -66,10 +66,10 @@ class CachedPaths {
 
   /// The world and `stored` must outlive the object.
   CachedPaths(const World& world, const CachedPathsOptions& options, const StoredSurfaces& stored)
-      : walk_{world, options.mis},
+      : walk_(world, options.mis),
         options_(options),
         stored_(stored),
-        delta_lights_(world.lights.has_delta()) {}
+        delta_apart_(world.lights.has_delta() && !options.held.light_sample(true)) {}
 
   /// Traces the paths. `hits` is empty or has the nearest hit of each start's ray. `first_hits` is empty or
   /// as long as the starts. Afterwards the caller answers batch.queries and calls batch.resolve().
@@ -81,13 +81,33 @@ class CachedPaths {
   struct Links;
   struct Path;
   struct Pending;
-  bool scatter(Path& path, Ray& ray, const Hit& hit, const PathPlan& plan, PathBatch& batch,
-               std::span<FirstHit> first_hits, Scratch& scratch) const;
+  /// The kinds of blocks: paths that end in the cache there, and paths that go on.
+  enum BlockKind : std::uint8_t { kAnswers, kScatters };
+
+  Step scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
+               PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
+  /// Whether no lobe of a surface is narrow, so that its parts need not be told apart.
+  bool wide_as_a_whole(const SurfaceMaterial& material) const;
+  void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
+             Scratch& scratch) const;
+  std::uint32_t side_at(const Hit& hit, bool front) const;
+  /// The point of a lane.
+  SurfacePoint point_at(const PathBlock& block, int lane, const Hit& hit) const;
+  /// Adds a vertex that the cache answers, if it can. Returns its number.
+  std::int32_t ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const;
+  /// Adds a vertex that goes on. record: it becomes a record, if it can; then it stays true.
+  std::int32_t add_vertex(Path& path, const SurfacePoint& point, bool& record, PathBatch& batch) const;
+  /// Whether a vertex of a path may become a record, storage provided.
+  bool may_teach(const Path& path, const PathPlan& plan) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
+  /// For a lane: no lobe is narrow, and it is shaded.
+  bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& ray,
+                     const PathPlan& plan, PathBatch& batch, Scratch& scratch) const;
   bool continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record, const PathPlan& plan,
                      PathBatch& batch, Scratch& scratch) const;
   /// `links` apply from `vertex` on, unless the path only passes a pane.
+  void link(Path& path, const Drawn& drawn, const Links& links, std::int32_t vertex) const;
   bool advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
                std::int32_t vertex) const;
   void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
@@ -99,7 +119,7 @@ class CachedPaths {
   Walk walk_;
   CachedPathsOptions options_;
   const StoredSurfaces& stored_;
-  bool delta_lights_;
+  bool delta_apart_;  ///< the light of punctual lights is sampled where paths end in the cache
 };
 
 /// Factors from the light that a path finds next to the vertex that it left: scattering there, and the

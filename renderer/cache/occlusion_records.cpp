@@ -38,7 +38,7 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
       if (!stored_(neural::surface_index(hit.instance, side))) continue;
       // The rays of one point are consecutive: the first makes the record.
       if (i % times == 0) {
-        records.push_back(hit, side, -direction, surface, surface.material.base_color);
+        records.push_back(surface_point(hit, side, -direction, surface, surface.material.base_color));
         targets.push_back(0.0f);
       }
       rays.add(surface, start, distance_, targets.size() - 1);

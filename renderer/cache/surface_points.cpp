@@ -39,17 +39,16 @@ void SurfacePoints::resize(std::size_t size) {
   each_array(inputs_, [&](auto array, auto) { (this->*array).resize(size); });
 }
 
-void SurfacePoints::push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
-                              const Color& albedo) {
+void SurfacePoints::push_back(const SurfacePoint& p) {
   ++size_;
-  surfaces_.push_back(neural::surface_index(hit.instance, side));
-  triangles_.push_back(hit.primitive);
-  barycentrics_.push_back({hit.u, hit.v});
-  if (inputs_.positions) positions_.push_back(float3(surface.position));
-  if (inputs_.directions) directions_.push_back(float3(wo));
-  if (inputs_.normals) normals_.push_back(float3(surface.shading_normal));
-  if (inputs_.albedos) albedos_.push_back({albedo.x(), albedo.y(), albedo.z()});
-  if (inputs_.roughnesses) roughnesses_.push_back(surface.material.roughness);
+  surfaces_.push_back(neural::surface_index(p.hit.instance, p.side));
+  triangles_.push_back(p.hit.primitive);
+  barycentrics_.push_back({p.hit.u, p.hit.v});
+  if (inputs_.positions) positions_.push_back(float3(p.position));
+  if (inputs_.directions) directions_.push_back(float3(p.wo));
+  if (inputs_.normals) normals_.push_back(float3(p.normal));
+  if (inputs_.albedos) albedos_.push_back({p.albedo.x(), p.albedo.y(), p.albedo.z()});
+  if (inputs_.roughnesses) roughnesses_.push_back(p.roughness);
 }
 
 void SurfacePoints::copy(const SurfacePoints& from, std::size_t begin, std::size_t count, std::size_t at) {

@@ -29,6 +29,22 @@ constexpr std::uint32_t side_of(bool front, bool mirrors) {
   return front != mirrors ? 0u : 1u;
 }
 
+/// A point with all that a model may read.
+struct SurfacePoint {
+  const Hit& hit;
+  std::uint32_t side;  ///< 0 or 1
+  Vec3 wo;             ///< unit, away from the surface, in world space
+  Vec3 position;
+  Vec3 normal;  ///< that of shading
+  Color albedo;
+  float roughness;
+};
+
+inline SurfacePoint surface_point(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
+                                  const Color& albedo) {
+  return {hit, side, wo, surface.position, surface.shading_normal, albedo, surface.material.roughness};
+}
+
 class SurfacePoints {
  public:
   SurfacePoints() = default;
@@ -39,9 +55,7 @@ class SurfacePoints {
   void clear() { resize(0); }
   void resize(std::size_t size);
 
-  /// wo: unit, away from the surface, in world space. side: 0 or 1.
-  void push_back(const Hit& hit, std::uint32_t side, const Vec3& wo, const Surface& surface,
-                 const Color& albedo);
+  void push_back(const SurfacePoint& point);
 
   /// Copies `count` points of another with the same inputs: from its `begin` to our `at`. Ranges that do not
   /// overlap may be copied at the same time.

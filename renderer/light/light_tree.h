@@ -55,6 +55,10 @@ class LightTree {
 
   std::size_t bytes() const;
 
+  /// For the kernels: the nodes as 48 numbers each (Node), and the lower bound of squared distances.
+  const float* node_numbers() const { return nodes_.empty() ? nullptr : nodes_[0].centre_x; }
+  float nearest2() const { return nearest2_; }
+
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
@@ -70,7 +74,7 @@ class LightTree {
     float intensity[4];      ///< divided by the intensity of the whole tree
     std::uint32_t child[4];  ///< a node, or a light with the bit kLeaf
   };
-  static_assert(sizeof(Node) == 192);
+  static_assert(sizeof(Node) == 192);  // the kernels read 48 numbers
 
   Weights weigh(const Node& node, const Vec3& p, const Vec3& n) const;
 

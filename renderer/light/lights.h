@@ -57,6 +57,14 @@ class Lights {
   std::size_t emissive_triangles() const { return emissive_count_; }
   std::size_t bytes() const;
 
+  // For the kernels. Light `i` of the tree is triangle i, or placed light i - triangles().size().
+  const Environment& environment() const { return environment_; }
+  const EmissiveTriangles& triangles() const { return triangles_; }
+  const std::vector<scene::PunctualLight>& placed() const { return placed_; }
+  const std::vector<scene::PunctualLight>& distant() const { return distant_; }
+  /// Null where lights with a position are chosen by power.
+  const LightTree* tree() const { return local_.table.empty() ? &local_.tree : nullptr; }
+
  private:
   /// Lights with a position, in a tree or in a table. The other one is empty; both are empty if there is
   /// nothing to choose.

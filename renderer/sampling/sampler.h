@@ -73,6 +73,18 @@ class Sampler {
     key_ = static_cast<std::uint32_t>(sampling::mix_bits(pixel + seed) >> 32);
   }
 
+  /// The same sampler from its parts.
+  static Sampler from_parts(SamplerKind kind, std::uint32_t key, std::uint32_t index) {
+    Sampler sampler;
+    sampler.key_ = key;
+    sampler.index_ = index;
+    sampler.kind_ = kind;
+    return sampler;
+  }
+  SamplerKind kind() const { return kind_; }
+  std::uint32_t key() const { return key_; }
+  std::uint32_t index() const { return index_; }
+
   /// Uniform in [0, 1). Use a dimension for one purpose, either as a number or as a pair.
   float get_1d(std::uint32_t dimension) const {
     using namespace sampling;

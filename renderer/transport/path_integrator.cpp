@@ -4,29 +4,51 @@
 
 namespace gatelight::renderer {
 
-bool PathIntegrator::scatter(Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
-                             Scratch& scratch) const {
+Step PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
+                             FirstHit* first, Scratch& scratch) const {
   const auto add = [&](const Emission& emission) {
     if (emission.any()) radiance += path.carried() * emission.radiance * emission.weight;
   };
   if (!hit) {
     add(path.sky(walk_, ray.direction));
-    return false;
+    return {};
   }
-  const Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
+  Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
   if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   add(m.emission);
-  if (!m.bsdf) return false;
-  if (first) first->albedo = m.bsdf->albedo();
+  if (m.ends) return {};
+  if (path.shades_wide(m)) {
+    path.wait(m, number, options_.min_depth, scratch.blocks[0]);
+    return {false, &scratch.blocks[0]};
+  }
+  const Bsdf& bsdf = m.set_up_bsdf();
+  if (first) first->albedo = bsdf.albedo();
 
-  const LightAt at = path.light_at(walk_, m, *m.bsdf);
+  const LightAt at = path.light_at(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
   if ((contribution > 0.0f).any()) {
     scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
     scratch.pending.push_back({contribution, path.index});
   }
-  std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
-  return drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn);
+  std::optional<Drawn> drawn = path.draw(m, bsdf);
+  return {drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn)};
+}
+
+void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
+  const ShadingBlock& points = block.points;
+  walk_.shading.scatter(block.points);
+  for (int lane = 0; lane < points.count; ++lane) {
+    const std::uint32_t number = block.path[lane];
+    Walker& path = scratch.paths[number];
+    if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    const Color contribution = path.carried() * lane_color(points.direct, lane);
+    if ((contribution > 0.0f).any()) {
+      scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
+      scratch.pending.push_back({contribution, path.index});
+    }
+    scratch.goes_on[number] = points.alive[lane] && path.advance(block, lane, drawn_at(points, lane),
+                                                                 scratch.hits[number].t, scratch.rays[number]);
+  }
 }
 
 void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
@@ -41,10 +63,11 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   }
   trace_waves(
       walk_.world, {}, scratch, counts,
-      [&](Walker& path, Ray& ray, const Hit& hit) {
+      [&](std::uint32_t number, Walker& path, Ray& ray, const Hit& hit) {
         FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
-        return scatter(path, ray, hit, results[path.index].radiance, first, scratch);
+        return scatter(number, path, ray, hit, results[path.index].radiance, first, scratch);
       },
+      [&](PathBlock& block) { shade(block, first_hits, scratch); },
       [&](const PendingLight& light, const Color& transmittance) {
         results[light.index].radiance += light.contribution * transmittance;
       });

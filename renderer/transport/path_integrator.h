@@ -29,7 +29,7 @@ class PathIntegrator {
 
   /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
-      : walk_{world, options.mis}, options_(options) {}
+      : walk_(world, options.mis), options_(options) {}
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
@@ -37,8 +37,9 @@ class PathIntegrator {
 
  private:
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
-  bool scatter(Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
+  Step scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
                Scratch& scratch) const;
+  void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   Walk walk_;
   PathIntegratorOptions options_;

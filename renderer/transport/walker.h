@@ -15,6 +15,23 @@ namespace gatelight::renderer {
 struct Walk {
   const World& world;
   MisRule mis;
+  WideShading shading;
+
+  Walk(const World& where, const MisRule& rule)
+      : world(where),
+        mis(rule),
+        shading(world.lights, world.light_arrays, world.kernels, world.requirements.sheen, mis.direct,
+                mis.heuristic) {}
+};
+
+/// Paths that wait at surfaces until a block is full.
+struct PathBlock {
+  ShadingBlock points;
+  std::uint32_t path[ShadingBlock::kWidth];  ///< the caller's number
+  float cone_width[ShadingBlock::kWidth];    ///< metres
+  bool front[ShadingBlock::kWidth];          ///< Surface::front
+
+  bool full() const { return points.count == ShadingBlock::kWidth; }
 };
 
 /// Emission that a ray finds.
@@ -34,9 +51,10 @@ struct Meeting {
   float cone_width;                ///< metres
   Color passed{1.0f, 1.0f, 1.0f};  ///< transmittance of the medium before the surface
   Emission emission;
+  bool ends = false;                 ///< the path ends here
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
-  std::optional<Bsdf> bsdf;          ///< none: the path ends here
-  Vec3 light_normal = Vec3::Zero();  ///< for light sampling
+  std::optional<Bsdf> bsdf;          ///< set by set_up_bsdf()
+  Vec3 light_normal = Vec3::Zero();  ///< for light sampling; set by set_up_bsdf()
 
   /// `u_level` in [0, 1) chooses between mip levels.
   Meeting(const World& world, Ray& arriving, const Hit& where, float width, float u_level)
@@ -45,6 +63,13 @@ struct Meeting {
         surface(world.surfaces.at(hit, ray.direction, width, u_level)),
         wo(-ray.direction),
         cone_width(width) {}
+
+  const Bsdf& set_up_bsdf() {
+    bsdf.emplace(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
+                 surface.front);
+    if (!bsdf->transmits()) light_normal = surface.shading_normal;
+    return *bsdf;
+  }
 };
 
 /// A light sample at a surface, from next-event estimation.
@@ -122,13 +147,29 @@ struct Walker {
       m.emission.weight = emission_weight(walk.world, walk.mis, departure, hit, surface, ray.direction);
     if (depth >= max_depth) emission_only = true;
     const bool pane = surface.material.thin_walled && surface.material.transmission > 0.0f;
-    if (surface.unlit || (emission_only && !pane)) return m;
-
+    m.ends = surface.unlit || (emission_only && !pane);
     m.dimensions = dimension::kFirstVertex + dimension::kPerVertex * static_cast<std::uint32_t>(surfaces);
-    m.bsdf.emplace(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal,
-                   m.wo, surface.front);
-    if (!m.bsdf->transmits()) m.light_normal = surface.shading_normal;
     return m;
+  }
+
+  /// Whether the kernels can shade what comes next: light_at, draw, survives and advance in one.
+  bool shades_wide(const Meeting& m) const { return !emission_only && renderer::shades_wide(m.surface); }
+
+  /// Adds the path to a block that is not full. `which` is the caller's number of the path.
+  void wait(const Meeting& m, std::uint32_t which, int min_depth, PathBlock& block) const {
+    const int lane = block.points.count++;
+    block.path[lane] = which;
+    block.cone_width[lane] = m.cone_width;
+    block.front[lane] = m.surface.front;
+    ShadingBlock& points = block.points;
+    put_surface(points, lane, m.surface, m.wo);
+    points.sampler = sampler.kind();
+    points.sampler_key[lane] = sampler.key();
+    points.sampler_index[lane] = sampler.index();
+    points.dimensions[lane] = m.dimensions;
+    points.seed[lane] = seed;
+    points.events_before_roulette[lane] = static_cast<std::uint32_t>(min_depth - depth);
+    for (int c = 0; c < 3; ++c) points.throughput[c][lane] = throughput[c];
   }
 
   /// Next-event estimation for `bsdf`, the surface's or a part of it. shadow_ray() makes the shadow ray.
@@ -178,25 +219,62 @@ struct Walker {
 
   /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
   bool advance(const Walk& walk, const Meeting& m, const Drawn& drawn) {
+    if (drawn.transmitted && !m.surface.material.thin_walled) {
+      absorption = m.surface.front ? absorption_of(walk.world.surfaces.material(m.hit.instance))
+                                   : Color(0.0f, 0.0f, 0.0f);
+    }
+    return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width, m.surface.spawn(drawn.wi),
+                   m.ray);
+  }
+
+  /// The same for a lane of a block, after Walk::shading. `t` is the distance of its hit.
+  bool advance(const PathBlock& block, int lane, const Drawn& drawn, float t, Ray& ray) {
+    const ShadingBlock& p = block.points;
+    throughput *= drawn.weight;
+    const bool sheet = p.transmission[lane] * (1.0f - p.metallic[lane]) > 0.0f;
+    const Vec3 light_normal = sheet ? Vec3(Vec3::Zero()) : lane_vector(p.shading_normal, lane);
+    return advance(drawn, lane_vector(p.position, lane), light_normal, t, block.cone_width[lane],
+                   lane_vector(p.next_origin, lane), ray);
+  }
+
+ private:
+  bool advance(const Drawn& drawn, const Vec3& position, const Vec3& light_normal, float t, float cone_width,
+               const Vec3& origin, Ray& ray) {
     if (drawn.through_pane) {
-      departure.travelled += m.hit.t;
+      departure.travelled += t;
       departure.panes += 1;
     } else {
       depth += 1;
-      departure = {m.surface.position, m.light_normal, 0.0f, drawn.pdf, drawn.delta};
-      if (drawn.transmitted && !m.surface.material.thin_walled) {
-        absorption = m.surface.front ? absorption_of(walk.world.surfaces.material(m.hit.instance))
-                                     : Color(0.0f, 0.0f, 0.0f);
-      }
+      departure = {position, light_normal, 0.0f, drawn.pdf, drawn.delta};
     }
     surfaces += 1;
     if (surfaces > depth + kMaxPassed) return false;
     seed = next_seed(seed);
-    m.ray = {m.surface.spawn(drawn.wi), scene::kInfinity, drawn.wi, seed};
-    cone.width = m.cone_width;
+    ray = {origin, scene::kInfinity, drawn.wi, seed};
+    cone.width = cone_width;
     if (!drawn.through_pane) cone.spread += drawn.spread * kDiffuseSpread;
     return true;
   }
 };
+
+/// The sampled direction of a lane whose path goes on.
+inline Drawn drawn_at(const ShadingBlock& p, int lane) {
+  Drawn drawn;
+  drawn.wi = lane_vector(p.wi, lane);
+  drawn.weight = lane_color(p.weight, lane);
+  drawn.pdf = p.pdf[lane];
+  drawn.delta = p.is_delta[lane] != 0;
+  drawn.transmitted = p.transmitted[lane] != 0;
+  drawn.spread = p.spread[lane];
+  drawn.through_pane = drawn.delta && drawn.transmitted;
+  drawn.survival = p.survival[lane];
+  return drawn;
+}
+
+/// The shadow ray of a lane's light sample.
+inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
+  return {lane_vector(p.shadow_origin, lane), p.shadow_length[lane], lane_vector(p.light_direction, lane),
+          p.shadow_seed[lane]};
+}
 
 }  // namespace gatelight::renderer

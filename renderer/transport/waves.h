@@ -1,6 +1,6 @@
 #pragma once
 // Paths are followed breadth first, in waves: all rays of a depth are traced together in packets, then all
-// hits are shaded, then all shadow rays are traced.
+// hits are shaded, most of them in blocks, then all shadow rays are traced.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "renderer/settings/statistics.h"
 #include "renderer/transport/trace_timer.h"
-#include "renderer/transport/world.h"
+#include "renderer/transport/walker.h"
 
 namespace gatelight::renderer {
 
@@ -19,6 +19,9 @@ struct RayLog {
   std::vector<Ray> bounce;
   std::vector<Ray> shadow;
 };
+
+/// Kinds of blocks that an integrator may fill side by side.
+inline constexpr int kBlockKinds = 3;
 
 /// The memory of one thread. `Pending` is a light sample whose shadow ray has not been traced yet.
 template <typename Path, typename Pending>
@@ -30,6 +33,14 @@ struct Waves {
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
+  std::vector<std::uint8_t> goes_on;  ///< one for each path
+  PathBlock blocks[kBlockKinds];
+};
+
+/// What becomes of a path at its hit: it ends, it has its next ray, or it waits in a block.
+struct Step {
+  bool goes_on = false;
+  PathBlock* waits = nullptr;
 };
 
 /// Data is prefetched so many hits ahead of shading.
@@ -43,12 +54,17 @@ inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::s
 }
 
 /// Follows the paths until none is left. `first_hits` is empty or has the hits of the first rays.
-/// scatter(path, ray, hit) makes the next ray of the path, or returns false where the path ends; it adds
-/// shadow rays with their pending light samples. arrive(pending, transmittance) is called for each of these.
-template <typename Path, typename Pending, typename Scatter, typename Arrive>
+/// scatter(number, path, ray, hit) returns the path's Step; it adds shadow rays with their pending light
+/// samples. shade(block) does the same for the paths of a block and sets `goes_on` of each. arrive(pending,
+/// transmittance) is called for each light sample.
+template <typename Path, typename Pending, typename Scatter, typename Shade, typename Arrive>
 void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
-                 RayCounts& counts, Scatter scatter, Arrive arrive) {
-  auto& [log, paths, rays, hits, shadow_rays, pending, transmittance] = waves;
+                 RayCounts& counts, Scatter scatter, Shade shade, Arrive arrive) {
+  auto& [log, paths, rays, hits, shadow_rays, pending, transmittance, goes_on, blocks] = waves;
+  const auto empty = [&](PathBlock& block) {
+    shade(block);
+    block.points.count = 0;
+  };
   const auto append = [](std::vector<Ray>& to, const std::vector<Ray>& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
@@ -65,10 +81,19 @@ void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path
 
     shadow_rays.clear();
     pending.clear();
-    std::size_t alive = 0;
+    goes_on.resize(paths.size());
     for (std::size_t i = 0; i < paths.size(); ++i) {
       prefetch(world.surfaces, hits, i);
-      if (!scatter(paths[i], rays[i], hits[i])) continue;
+      const Step step = scatter(static_cast<std::uint32_t>(i), paths[i], rays[i], hits[i]);
+      goes_on[i] = step.goes_on;
+      if (step.waits && step.waits->full()) empty(*step.waits);
+    }
+    for (PathBlock& block : blocks) {
+      if (block.points.count > 0) empty(block);
+    }
+    std::size_t alive = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (!goes_on[i]) continue;
       if (alive != i) {
         paths[alive] = paths[i];
         rays[alive] = rays[i];

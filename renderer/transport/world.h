@@ -3,6 +3,8 @@
 
 #include "renderer/light/environment.h"
 #include "renderer/light/lights.h"
+#include "renderer/shading/light_arrays.h"
+#include "renderer/shading/wide_shading.h"
 #include "renderer/surface/accel.h"
 #include "renderer/surface/coverage.h"
 #include "renderer/surface/surface.h"
@@ -24,7 +26,9 @@ struct World {
         coverage(scene, textures),
         surfaces(scene, textures),
         accel(scene, coverage, acceleration),
-        lights(scene, textures, environment, selection) {}
+        lights(scene, textures, environment, selection),
+        light_arrays(lights),
+        kernels(choose_shading_kernels(acceleration.isa)) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -36,6 +40,8 @@ struct World {
   Surfaces surfaces;
   Accel accel;
   Lights lights;
+  LightArrays light_arrays;
+  const ShadingKernels& kernels;
 };
 
 }  // namespace gatelight::renderer

@@ -138,7 +138,7 @@ TEST_P(SidesOfKinds, AViewersSideIsTheOneOfTheCornersAndHasStorage) {
     EXPECT_EQ(side, side_by_corners(scene, ray.direction));
 
     SurfacePoints points;
-    points.push_back(hit, side, -ray.direction, surface, Color::Ones());
+    points.push_back(surface_point(hit, side, -ray.direction, surface, Color::Ones()));
     EXPECT_EQ(points.surface(0), neural::surface_index(0, side));
     EXPECT_GT(layout.surfaces[points.surface(0)].triangle_count, 0u);
     if (from_front) {

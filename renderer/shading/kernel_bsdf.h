@@ -1,0 +1,448 @@
+#pragma once
+// The opaque and thin-walled BSDF for all lanes: the wide side of renderer/bsdf, lobe by lobe. Microfacets and
+// clearcoat may be deltas. Part of kernel_table.cpp.
+
+#include "renderer/shading/kernel_math.h"
+#include "renderer/shading/kernel_sampler.h"
+#include "renderer/shading/kernels.h"
+
+namespace {
+
+using gatelight::renderer::BsdfTables;
+using gatelight::renderer::ShadingBlock;
+
+constexpr float kMinCosine = 1e-5f, kMinHalf2 = 1e-10f;
+constexpr float kDeltaAlpha = 0.03f * 0.03f;
+constexpr float kSchlickMean = 1.0f / 21.0f;
+constexpr float kCoatF0 = 0.04f;
+
+GATELIGHT_INLINE Float schlick_weight(Float cosine) {
+  const Float x = clamp(1.0f - cosine, 0.0f, 1.0f), x2 = x * x;
+  return x2 * x2 * x;
+}
+GATELIGHT_INLINE Float coat_fresnel(Float cosine) {
+  return kCoatF0 + (1.0f - kCoatF0) * schlick_weight(cosine);
+}
+GATELIGHT_INLINE Float multiple_part(Float mean_fresnel, Float mean_loss) {
+  return mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
+}
+/// The first of two neighbours in a table of `count` entries, and the share of the second. NaN gives 0.
+struct Place {
+  Int index;
+  Float share;
+  GATELIGHT_INLINE Place(Float x, int count) {
+    index = to_int(clamp(x, 0.0f, static_cast<float>(count - 2)));
+    share = x - to_float(index);
+  }
+};
+GATELIGHT_INLINE Float lerp(Float a, Float b, Float share) {
+  return a + share * (b - a);
+}
+
+struct Albedo {
+  Float loss, b, b_scaled, scale;
+};
+/// GgxTables::Row. A delta lobe loses nothing.
+struct GgxRow {
+  const float* values;
+  Int first;
+  Float mix, alpha, u_scale;
+  Mask smooth;
+
+  GATELIGHT_INLINE GgxRow() = default;
+  GATELIGHT_INLINE GgxRow(const BsdfTables& tables, Float roughness, Float roughness_alpha, Mask delta)
+      : values(tables.ggx), alpha(roughness_alpha), u_scale((1.0f + roughness_alpha) * 31.0f), smooth(delta) {
+    const Place place(roughness * 31.0f, 32);
+    first = place.index * 128u;
+    mix = place.share;
+  }
+  GATELIGHT_INLINE Albedo at(Float cosine) const {
+    const Place place(cosine * u_scale / (cosine + alpha), 32);
+    const Int at = first + place.index * 4u;
+    const auto part = [&](uint32_t k) __attribute__((always_inline)) {
+      const Float low = lerp(gather(values + k, at), gather(values + k + 4, at), place.share);
+      const Float high = lerp(gather(values + k + 128, at), gather(values + k + 132, at), place.share);
+      return lerp(low, high, mix);
+    };
+    const Float schlick = schlick_weight(cosine);
+    const Float loss = part(0);
+    Albedo a{loss, part(1) + (1.0f - loss) * schlick, part(2) + schlick, part(3)};
+    if (any(smooth))
+      a = {select(smooth, 0.0f, a.loss), select(smooth, schlick, a.b), select(smooth, schlick, a.b_scaled),
+           select(smooth, 1.0f, a.scale)};
+    return a;
+  }
+  /// The cosine-weighted mean; its scale has no meaning.
+  GATELIGHT_INLINE Albedo mean(const BsdfTables& tables) const {
+    const Int at = first >> 5;
+    const auto part = [&](uint32_t k, float of_delta) __attribute__((always_inline)) {
+      return select(smooth, of_delta,
+                    lerp(gather(tables.ggx_means + k, at), gather(tables.ggx_means + k + 4, at), mix));
+    };
+    return {part(0, 0.0f), part(1, kSchlickMean), part(2, kSchlickMean), 1.0f};
+  }
+};
+
+/// GgxLobe, with the perceptual roughness clamped to [0, 1].
+struct GgxLobe {
+  Float alpha, alpha2, cos_o, root_o, pdf_scale;
+  Mask delta;
+
+  GgxLobe() = default;
+  GATELIGHT_INLINE GgxLobe(Float roughness, Float cosine)
+      : alpha(roughness * roughness), alpha2(alpha * alpha), cos_o(cosine), delta(alpha < kDeltaAlpha) {
+    root_o = root(cos_o);
+    pdf_scale = 0.5f / (cos_o + root_o);
+  }
+  GATELIGHT_INLINE Float root(Float cosine) const {
+    return sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine);
+  }
+  struct Terms {
+    Float d, visibility;
+  };
+  GATELIGHT_INLINE Terms terms(Float3 n, Float3 h, Float h2, Float cos_i) const {
+    const Float nh = dot(n, h);
+    const Float3 c = cross(n, h);
+    const Float r = alpha2 * nh * nh + dot(c, c);
+    const Float d_below = kPi * r * r;
+    const Float v_below = cos_i * root_o + cos_o * root(cos_i);
+    const Float inverse = 1.0f / (d_below * v_below);
+    return {alpha2 * h2 * h2 * v_below * inverse, 0.5f * d_below * inverse};
+  }
+};
+
+/// SheenLobe and its row of SheenTables.
+struct SheenLobe {
+  const float* values;
+  Int first;
+  Float mix, exponent, scale;
+
+  SheenLobe() = default;
+  GATELIGHT_INLINE SheenLobe(const BsdfTables& tables, Float roughness) : values(tables.sheen) {
+    const Place place((roughness - 0.2f) * (15.0f / 0.8f), 16);
+    first = place.index * 64u;
+    mix = place.share;
+    exponent = 1.0f / (roughness * roughness);
+    scale = (2.0f + exponent) * (0.125f * kInvPi);
+  }
+  /// part 0: the divisor before the limit of one; part 1: the albedo.
+  GATELIGHT_INLINE Float lookup(uint32_t part, Float cosine) const {
+    const Place place(sqrt(cosine) * 31.0f, 32);
+    const Int at = first + place.index * 2u;
+    const Float low = lerp(gather(values + part, at), gather(values + part + 2, at), place.share);
+    const Float high = lerp(gather(values + part + 64, at), gather(values + part + 66, at), place.share);
+    return lerp(low, high, mix);
+  }
+  GATELIGHT_INLINE Float value(Float sin2_h, Float cos_o, Float cos_i) const {
+    const Float distribution = exp2(0.5f * exponent * log2(clamp(sin2_h, 1e-30f, 1.0f)));
+    return scale * distribution / (cos_o + cos_i - cos_o * cos_i) /
+           max(max(1.0f, lookup(0, cos_o)), max(1.0f, lookup(0, cos_i)));
+  }
+};
+
+/// bend_normal() of bsdf.cpp.
+GATELIGHT_INLINE Float3 bend_normal(Float3 n, Float3 ng, Float3 wo) {
+  const Float on = dot(wo, n), og = max(dot(wo, ng), 0.0f);
+  const Float mirrored = 2.0f * on * dot(n, ng) - og;
+  const Float lifted = min(0.9f * og, 0.01f);
+  const Mask stays = (mirrored >= lifted) & (on > 0.0f);
+  if (!any(~stays)) return n;
+  const Float tangent2 = 1.0f - mirrored * mirrored;
+  const Float stretch = sqrt((1.0f - lifted * lifted) / tangent2);
+  const Float3 tangent = n * (2.0f * on) - wo - ng * mirrored;
+  const Float3 half = wo + tangent * stretch + ng * lifted;
+  const Float length2 = dot(half, half);
+  const Float3 bent = select((tangent2 > 1e-6f) & (length2 > 1e-8f), half * (1.0f / sqrt(length2)), ng);
+  return select(stays, n, bent);
+}
+
+GATELIGHT_INLINE Float3 mirror(Float3 wo, Float3 n) {
+  return n * (2.0f * dot(wo, n)) - wo;
+}
+
+struct LaneValue {
+  Float3 value;
+  Float pdf;
+};
+struct LaneSample {
+  Float3 wi, weight;
+  Float pdf, spread;
+  Mask delta, transmitted;
+};
+
+/// Bsdf, without refraction.
+struct LaneBsdf {
+  Float3 wo, ng, ns, nc;
+  GgxLobe ggx, coat;
+  GgxRow row;
+  SheenLobe sheen;
+  Float scale_o, f90, base_scale, coat_weight;
+  Float3 f0, multiple_f0, multiple_f90, diffuse, tint, glass_f0, sheen_color;
+  Float glass_f90;
+  Float coupling[4];
+  Float3 albedo;
+  Float p_microfacet, p_diffuse, p_coat, p_sheen;
+  Mask thin, coated, has_sheen;
+  bool any_thin, any_coat, any_sheen;
+  Mask is_delta;
+
+  GATELIGHT_INLINE LaneBsdf(const ShadingBlock& block, const BsdfTables& tables, int at)
+      : wo(load(block.wo, at)),
+        ng(load(block.geometric_normal, at)),
+        ns(bend_normal(load(block.shading_normal, at), ng, wo)) {
+    set_up_base(block, tables, at);
+    set_up_layers(block, tables, at);
+    albedo = clamp(albedo, 0.0f, 1.0f);
+    p_microfacet = max(p_microfacet, 1e-3f * f90 * base_scale);
+    const Float total = p_microfacet + p_diffuse + p_coat + p_sheen;
+    const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
+    p_microfacet *= scale;
+    p_diffuse *= scale;
+    p_coat *= scale;
+    p_sheen *= scale;
+    is_delta = (p_diffuse == 0.0f) & (p_sheen == 0.0f) & (ggx.delta | (p_microfacet == 0.0f)) &
+               ((p_coat == 0.0f) | coat.delta);
+  }
+
+  GATELIGHT_INLINE void set_up_base(const ShadingBlock& block, const BsdfTables& tables, int at) {
+    const Float3 base = clamp(load(block.base_color, at), 0.0f, 1.0f);
+    const Float metallic = clamp(load(block.metallic + at), 0.0f, 1.0f);
+    const Float transmission = clamp(load(block.transmission + at), 0.0f, 1.0f);
+    const Float roughness = clamp(load(block.roughness + at), 0.0f, 1.0f);
+    const Float specular = clamp(load(block.specular + at), 0.0f, 1.0f);
+    const Float ior = max(load(block.ior + at), 0.0f);
+    const Float glass = (1.0f - metallic) * transmission;
+    const Float opaque = (1.0f - metallic) * (1.0f - transmission);
+    thin = glass > 0.0f;
+    any_thin = any(thin);
+
+    ggx = GgxLobe(roughness, max(dot(wo, ns), kMinCosine));
+    row = GgxRow(tables, roughness, ggx.alpha, ggx.delta);
+    const Albedo out = row.at(ggx.cos_o), mean = row.mean(tables);
+    scale_o = out.scale;
+
+    const Float root = (ior - 1.0f) / (ior + 1.0f);
+    const Float3 dielectric = clamp(load(block.specular_color, at) * (root * root), 0.0f, 1.0f) * specular;
+    f0 = base * metallic + dielectric * (opaque + glass);
+    f90 = metallic + (opaque + glass) * specular;
+
+    const Float most = largest(dielectric);
+    const Float part = multiple_part(most + (specular - most) * kSchlickMean, mean.loss);
+    multiple_f0 = dielectric * (opaque * part + glass);
+    multiple_f90 = repeat((opaque * part + glass) * specular);
+    const auto of_metal = [&](Float c) __attribute__((always_inline)) {
+      return metallic * multiple_part(c + (1.0f - c) * kSchlickMean, mean.loss);
+    };
+    const Float3 metal = {of_metal(base.x), of_metal(base.y), of_metal(base.z)};
+    multiple_f0 += metal * base;
+    multiple_f90 += metal;
+    const Float a = 1.0f - out.loss - out.b;
+    albedo = f0 * a + repeat(f90 * out.b) + multiple_f0 * (1.0f - out.b_scaled - a) +
+             multiple_f90 * (out.b_scaled - out.b);
+    p_microfacet = luminance(albedo);
+
+    coupling[0] = 1.0f - most;
+    coupling[1] = (1.0f - part) * most;
+    coupling[2] = (1.0f - part) * (most - specular);
+    coupling[3] = part * (most - specular);
+    const Float3 diffuse_albedo = base * (opaque * passed(out));
+    diffuse = diffuse_albedo * (kInvPi / max(passed(mean), 1e-6f));
+    p_diffuse = luminance(diffuse_albedo);
+    albedo += diffuse_albedo;
+
+    if (any_thin) {
+      tint = base * glass;
+      glass_f0 = dielectric;
+      glass_f90 = specular;
+      const Float3 transmitted =
+          tint * (repeat(1.0f - specular * out.b_scaled) - dielectric * (1.0f - out.b_scaled));
+      albedo += select_or_zero(thin, transmitted);
+      p_microfacet += select_or_zero(thin, luminance(transmitted));
+    }
+  }
+
+  GATELIGHT_INLINE void set_up_layers(const ShadingBlock& block, const BsdfTables& tables, int at) {
+    base_scale = 1.0f;
+    p_sheen = p_coat = 0.0f;
+    coat.delta = no_lanes();
+    sheen_color = clamp(load(block.sheen_color, at), 0.0f, 1.0f);
+    has_sheen = any_positive(sheen_color);
+    any_sheen = any(has_sheen);
+    if (any_sheen) {
+      sheen = SheenLobe(tables, clamp(load(block.sheen_roughness + at), 0.2f, 1.0f));
+      const Float reflected = sheen.lookup(1, ggx.cos_o);
+      p_sheen = luminance(sheen_color) * reflected;
+      base_scale = 1.0f - largest(sheen_color) * reflected;
+      albedo = albedo * base_scale + sheen_color * reflected;
+    }
+    coat_weight = clamp(load(block.clearcoat + at), 0.0f, 1.0f);
+    coated = coat_weight > 0.0f;
+    any_coat = any(coated);
+    if (any_coat) {
+      nc = bend_normal(load(block.coat_normal, at), ng, wo);
+      const Float roughness = clamp(load(block.clearcoat_roughness + at), 0.0f, 1.0f);
+      coat = GgxLobe(roughness, max(dot(wo, nc), kMinCosine));
+      const Albedo out = GgxRow(tables, roughness, coat.alpha, coat.delta).at(coat.cos_o);
+      p_coat = coat_weight * (kCoatF0 * (1.0f - out.loss - out.b) + out.b);
+      const Float kept = 1.0f - p_coat;
+      albedo = albedo * kept + repeat(p_coat);
+      base_scale *= kept;
+      sheen_color *= kept;
+      p_sheen *= kept;
+    }
+    p_microfacet *= base_scale;
+    p_diffuse *= base_scale;
+  }
+
+  GATELIGHT_INLINE Float passed(const Albedo& a) const {
+    return max(0.0f, coupling[0] + coupling[1] * a.loss + coupling[2] * a.b + coupling[3] * a.b_scaled);
+  }
+
+  struct Facet {
+    Float schlick, reflects;
+    Float3 transmitted;
+  };
+  /// Bsdf::facet of thin sheets.
+  GATELIGHT_INLINE Facet facet(Float cos_h) const {
+    Facet result;
+    result.schlick = schlick_weight(cos_h);
+    result.transmitted =
+        select_or_zero(thin, tint * (repeat(1.0f - glass_f90 * result.schlick) - glass_f0 * (1.0f - result.schlick)));
+    const Float r = luminance(f0 + (repeat(f90) - f0) * result.schlick), t = luminance(result.transmitted);
+    result.reflects = select(t > 0.0f, r / (r + t), 1.0f);
+    return result;
+  }
+
+  GATELIGHT_INLINE LaneValue evaluate(Float3 wi) const {
+    const Float side = dot(wi, ng), cos_n = dot(wi, ns);
+    const Mask front = (side > 0.0f) & (cos_n > 0.0f);
+    Mask behind = no_lanes();
+    Float cos_i = cos_n;
+    Float3 above = wi;  // on a thin sheet the mirror image of what goes through
+    if (any_thin) {
+      behind = thin & (side < 0.0f) & (cos_n < 0.0f);
+      cos_i = absolute(cos_n);
+      above = select(behind, wi - ns * (2.0f * cos_n), wi);
+    }
+    const Albedo in = row.at(max(cos_i, 0.0f));
+    const Float3 h = wo + above;
+    const Float h2 = dot(h, h);
+    const Mask facets = ~ggx.delta & (p_microfacet > 0.0f) & (h2 > kMinHalf2);
+    const GgxLobe::Terms terms = ggx.terms(ns, h, h2, cos_i);
+    const Float cos_h = 0.5f * sqrt(h2);
+    const Float schlick = schlick_weight(cos_h);
+    const Float excess = scale_o * in.scale - 1.0f;
+    const Float3 reflected = f0 + (repeat(f90) - f0) * schlick +
+                             (multiple_f0 + (multiple_f90 - multiple_f0) * schlick) * excess;
+    const Float shape = terms.d * terms.visibility * cos_i;
+    const Float chosen = p_microfacet * terms.d * ggx.pdf_scale;
+    LaneValue result{select_or_zero(facets, reflected * shape), select_or_zero(facets, chosen)};
+    if (any_thin) {
+      const Facet half = facet(cos_h);
+      const Float through = scale_o * in.scale;
+      result.value = select(behind, select_or_zero(facets, half.transmitted * (shape * through)), result.value);
+      result.pdf = result.pdf * select(behind, 1.0f - half.reflects, half.reflects);
+    }
+    result.value += select_or_zero(front, diffuse * (passed(in) * cos_i));
+    result.pdf += select_or_zero(front, p_diffuse * cos_i * kInvPi);
+    const Mask valid = front | behind;
+    result = {select_or_zero(valid, result.value * base_scale), select_or_zero(valid, result.pdf)};
+    if (any_coat) {
+      const Float cos_c = dot(wi, nc);
+      const Mask here = (side > 0.0f) & (p_coat > 0.0f) & ~coat.delta & (cos_c > 0.0f) & (h2 > kMinHalf2);
+      const GgxLobe::Terms t = coat.terms(nc, h, h2, cos_c);
+      result.value += repeat(select_or_zero(here, coat_weight * coat_fresnel(cos_h) * t.d * t.visibility * cos_c));
+      result.pdf += select_or_zero(here, p_coat * t.d * coat.pdf_scale);
+    }
+    if (any_sheen) {
+      const Mask here = front & (p_sheen > 0.0f) & (h2 > kMinHalf2);
+      const Float3 c = cross(ns, h);
+      const Float value = sheen.value(dot(c, c) / h2, ggx.cos_o, max(cos_i, 0.0f)) * cos_i;
+      result.value += select_or_zero(here, sheen_color * value);
+      result.pdf += select_or_zero(here, p_sheen * (0.5f * kInvPi));
+    }
+    return result;
+  }
+
+  GATELIGHT_INLINE LaneSample sample(Float u_lobe, Float2 u) const {
+    // The lobes share the unit interval in this order. Rounding leaves a remainder at its end; the last lobe
+    // with a share takes it.
+    const Float after_facets = p_microfacet, after_diffuse = after_facets + p_diffuse,
+                after_sheen = after_diffuse + p_sheen;
+    const Mask coat_has = p_coat > 0.0f, sheen_has = p_sheen > 0.0f, diffuse_has = p_diffuse > 0.0f;
+    const Mask facets = (u_lobe < after_facets) | ~(coat_has | sheen_has | diffuse_has);
+    const Mask in_diffuse = ~facets & diffuse_has & ((u_lobe < after_diffuse) | ~(coat_has | sheen_has));
+    const Mask in_sheen = ~facets & ~in_diffuse & sheen_has & ((u_lobe < after_sheen) | ~coat_has);
+    const Mask in_coat = ~(facets | in_diffuse | in_sheen);
+
+    LaneSample s;
+    Float3 normal = ns, local = sample_cosine_hemisphere(u.x, u.y);
+    if (any_sheen) local = select(in_sheen, sample_uniform_hemisphere(u.x, u.y), local);
+    Float alpha = ggx.alpha, cos_o = ggx.cos_o;
+    Mask smooth = ggx.delta;
+    if (any_coat) {
+      normal = select(in_coat, nc, ns);
+      alpha = select(in_coat, coat.alpha, alpha);
+      cos_o = select(in_coat, coat.cos_o, cos_o);
+      smooth = (in_coat & coat.delta) | (~in_coat & smooth);
+    }
+    const Mask mirrored = facets | in_coat;
+    s.delta = mirrored & smooth;
+    const Frame frame(normal);
+    Float3 h = frame.to_world(visible_normal(alpha, {dot(wo, frame.tangent), dot(wo, frame.bitangent), cos_o}, u));
+    h = select(smooth, normal, h);
+    s.wi = select(mirrored, mirror(wo, h), frame.to_world(local));
+    s.spread = select(mirrored, select_or_zero(~smooth, alpha), 1.0f);
+
+    Mask through = no_lanes();
+    Facet half;
+    if (any_thin) {
+      const Float oh = select(smooth, ggx.cos_o, dot(wo, h));
+      half = facet(oh);
+      through = facets & thin & ~(u_lobe / p_microfacet < half.reflects);
+      const Float3 straight = s.wi - ns * (2.0f * dot(s.wi, ns));
+      s.wi = select(through, select(smooth, -wo, straight), s.wi);
+    }
+    s.transmitted = dot(s.wi, ng) < 0.0f;
+    const Float towards = dot(s.wi, normal);
+    const Mask right_side =
+        (through & s.transmitted & (towards < 0.0f)) | (~through & ~s.transmitted & (towards > 0.0f));
+
+    const LaneValue value = evaluate(s.wi);
+    s.pdf = value.pdf;
+    s.weight = value.value * (1.0f / value.pdf);
+    if (any(s.delta)) {
+      const Float schlick = schlick_weight(ggx.cos_o);
+      const Float3 reflected = f0 + (repeat(f90) - f0) * schlick;
+      Float pdf = p_microfacet;
+      Float3 weight = reflected;
+      if (any_thin) {
+        pdf *= select(through, 1.0f - half.reflects, half.reflects);
+        weight = select(through, half.transmitted, weight);
+      }
+      weight *= base_scale;
+      if (any_coat) {
+        pdf = select(in_coat, p_coat, pdf);
+        weight = select(in_coat, repeat(coat_weight * coat_fresnel(coat.cos_o)), weight);
+      }
+      s.pdf = select(s.delta, pdf, s.pdf);
+      s.weight = select(s.delta, weight * (1.0f / pdf), s.weight);
+    }
+    const Mask valid = right_side & (s.pdf > 0.0f);
+    s.pdf = select_or_zero(valid, s.pdf);
+    s.weight = select_or_zero(valid, s.weight);
+    return s;
+  }
+
+  /// sample_visible_normal() of ggx.h.
+  static GATELIGHT_INLINE Float3 visible_normal(Float alpha, Float3 local, Float2 u) {
+    const Float3 stretched = normalize({alpha * local.x, alpha * local.y, local.z});
+    const CosSin phi = cos_sin_turn(u.x);
+    const Float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
+    const Float sine = sqrt(max(0.0f, 1.0f - z * z));
+    return normalize({alpha * (sine * phi.cos + stretched.x), alpha * (sine * phi.sin + stretched.y),
+                      max(z + stretched.z, 1e-7f)});
+  }
+};
+
+}  // namespace

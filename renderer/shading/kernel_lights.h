@@ -1,0 +1,368 @@
+#pragma once
+// Light samples for all lanes: the wide side of renderer/light (Lights::sample). Part of kernel_table.cpp.
+
+#include "renderer/shading/kernel_math.h"
+#include "renderer/shading/kernel_sampler.h"
+#include "renderer/shading/kernels.h"
+
+namespace {
+
+using gatelight::renderer::LaneLight;
+using gatelight::renderer::LightView;
+using gatelight::renderer::ShadingBlock;
+using gatelight::renderer::ShadingContext;
+
+GATELIGHT_INLINE Int state_of(LaneLight state) {
+  return Int(static_cast<uint32_t>(state));
+}
+
+/// A point that receives light. The normal is zero where light may arrive from all sides; `free` is 1 there.
+struct Receiver {
+  Float3 p, n;
+  Float free;
+};
+
+/// LightTree::weigh for one child of a node in each lane. field(i): the child's number i of a node, in the
+/// order of LightTree::Node.
+template <class Field>
+GATELIGHT_INLINE Float weigh(const Receiver& r, float nearest2, Field field) {
+  const Float3 d = Float3{field(0), field(1), field(2)} - r.p;
+  const Float radius = field(3);
+  const Float distance2 = dot(d, d), radius2 = radius * radius;
+  const Float strength = field(10) / max(max(distance2, radius2), nearest2);
+
+  const Float safe2 = max(distance2, 1e-37f);
+  const Float inverse = 1.0f / sqrt(safe2);
+  const Float ratio2 = radius2 / safe2;
+  const Mask inside = ratio2 >= 1.0f;
+  const Float sin_b = select(inside, 0.0f, radius * inverse);
+  const Float cos_b = select(inside, -1.0f, sqrt(max(0.0f, 1.0f - ratio2)));
+
+  const Float along = -dot(d, {field(4), field(5), field(6)});
+  const Float cos_w = max(along, field(9) * along) * inverse;
+  const Float sin_w = sqrt(max(0.0f, distance2 - along * along)) * inverse;
+  const Float cos_o = field(7);
+  const Float sin_o = sqrt(max(0.0f, 1.0f - cos_o * cos_o));
+  const Mask in_normals = cos_w > cos_o;
+  const Float cos_x = select(in_normals, 1.0f, cos_w * cos_o + sin_w * sin_o);
+  const Float sin_x = select(in_normals, 0.0f, sin_w * cos_o - cos_w * sin_o);
+  const Float cos_emitted = select(cos_x > cos_b, 1.0f, cos_x * cos_b + sin_x * sin_b);
+  const Float emitted = select_or_zero(cos_emitted > field(8), cos_emitted);
+
+  const Float up = dot(d, r.n);
+  const Float cos_i = up * inverse;
+  const Float sin_i = sqrt(max(0.0f, distance2 - up * up)) * inverse;
+  const Float cos_received = select(cos_i > cos_b, 1.0f, cos_i * cos_b + sin_i * sin_b);
+  return strength * (emitted * max(r.free, cos_received));
+}
+
+/// The weights of a node's four children.
+struct Weights {
+  Float of[4];
+};
+
+/// Of the root, which all lanes share.
+GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
+  Weights w;
+#pragma GCC unroll 1
+  for (int c = 0; c < 4; ++c)
+    w.of[c] =
+        weigh(r, view.nearest2, [&](int i) __attribute__((always_inline)) { return Float(view.tree[4 * i + c]); });
+  return w;
+}
+
+/// Of a different node for each lane. A node has its numbers in fours, so four lanes at a time weigh the four
+/// children of their receivers; reading the numbers of each lane one by one would take four times as many
+/// loads.
+struct NodeWeigher {
+  alignas(64) float receiver[7][kLanes];
+  const LightView& view;
+
+  GATELIGHT_INLINE NodeWeigher(const Receiver& r, const LightView& lights) : view(lights) {
+    const Float parts[7] = {r.p.x, r.p.y, r.p.z, r.n.x, r.n.y, r.n.z, r.free};
+    for (int i = 0; i < 7; ++i) store(receiver[i], parts[i]);
+  }
+
+  GATELIGHT_INLINE Weights operator()(Int node) const {
+    alignas(64) uint32_t nodes[kLanes];
+    alignas(64) float weights[4 * kLanes];
+    store(nodes, node);
+    constexpr int kGroup = kLanes / 4;  // receivers at a time
+#pragma GCC unroll 1
+    for (int first = 0; first < kLanes; first += kGroup) {
+      const auto part = [&](int i) __attribute__((always_inline)) {
+        return repeat_groups4([&](int r) __attribute__((always_inline)) { return &receiver[i][first + r]; });
+      };
+      const Receiver group = {{part(0), part(1), part(2)}, {part(3), part(4), part(5)}, part(6)};
+      const auto field = [&](int i) __attribute__((always_inline)) {
+        return load_groups4([&](int r) __attribute__((always_inline)) {
+          return view.tree + 48 * nodes[first + r] + 4 * i;
+        });
+      };
+      store(weights + 4 * first, weigh(group, view.nearest2, field));
+    }
+    Weights result;
+    for (uint32_t c = 0; c < 4; ++c) result.of[c] = gather(weights, lane_numbers() * 4u + c);
+    return result;
+  }
+};
+
+/// Random digits below those of a number that a choice has used up: choosing with probability p leaves steps
+/// of 2^-24 / p, which one more number fills. Without this a deep tree would run out of digits.
+struct Digits {
+  Int state;
+
+  GATELIGHT_INLINE Float refill(Float rest, Float inverse_probability) {
+    state = hash(state + 0x9e3779b9u);
+    return min(rest + to_unit_float(state) * (0x1p-24f * inverse_probability), kBelowOne);
+  }
+};
+
+/// LightTree::sample. Changes `chosen` and multiplies `probability` where `open` is set; returns the lanes
+/// for which no light is found.
+GATELIGHT_INLINE Mask descend(const LightView& view, const Receiver& r, Weights w, Mask open, Float u,
+                              Digits& digits, Int& chosen, Float& probability) {
+  const NodeWeigher weigh_node(r, view);
+  Mask lost = no_lanes();
+  Int node(0u);
+  while (any(open)) {
+    const Float w0 = w.of[0], w1 = w0 + w.of[1], w2 = w1 + w.of[2], w3 = w2 + w.of[3];
+    const Mask some = w3 > 0.0f;
+    lost |= open & ~some;
+    open &= some;
+    const Float target = u * w3;
+    const Mask past0 = target >= w0, past1 = target >= w1, past2 = target >= w2;
+    const Float low = select(past2, w2, select(past1, w1, select_or_zero(past0, w0)));
+    const Float value = select(past2, w.of[3], select(past1, w.of[2], select(past0, w.of[1], w.of[0])));
+    const Int slot = select(past2, Int(3u), select(past1, Int(2u), words_of(past0) & 1u));
+    const Float inverse = w3 / value;
+    u = digits.refill(min((target - low) / value, kBelowOne), inverse);
+    probability = select(open, probability / inverse, probability);
+    const Int child = gather(reinterpret_cast<const uint32_t*>(view.tree), node * 48u + 44u + slot);
+    const Mask leaf = mask_of(Int(0u) - (child >> 31));
+    chosen = select(open & leaf, child & 0x7fffffffu, chosen);
+    open &= ~leaf;
+    if (!any(open)) break;
+    node = select(open, child, Int(0u));
+    w = weigh_node(node);
+  }
+  return lost;
+}
+
+/// The result of a kind of light; lanes of other kinds hold anything.
+struct LanesOfLight {
+  Float3 wi, radiance;
+  Float distance, pdf, offset, cosine;
+  Float2 point;
+  Mask valid;
+};
+
+/// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
+GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, Int light, Float choice, Float2 u,
+                                               Mask here) {
+  const Int at = light * static_cast<uint32_t>(LightView::kTriangleFloats);
+  const auto field = [&](uint32_t i) __attribute__((always_inline)) { return gather(view.triangles + i, at); };
+  const Float3 corner = Float3{field(0), field(1), field(2)} - p;
+  const Float3 edge1{field(3), field(4), field(5)}, edge2{field(6), field(7), field(8)};
+  const Float area = field(12);
+  const Float3 pb = corner + edge1, pc = corner + edge2;
+  const Float a2 = dot(corner, corner), b2 = dot(pb, pb), c2 = dot(pc, pc);
+
+  // By area.
+  const Mask up = u.y > u.x;
+  const Float b0 = select(up, 0.5f * u.x, u.x - 0.5f * u.y);
+  LanesOfLight s;
+  s.point.x = select(up, u.y - 0.5f * u.x, 0.5f * u.y);
+  s.point.y = 1.0f - b0 - s.point.x;
+  Float pdf = 1.0f / area;
+  s.valid = here;
+
+  // By solid angle.
+  Mask solid = here & ~(area < 3e-4f * min(a2, min(b2, c2)));
+  if (any(solid)) {
+    const Float ia = 1.0f / sqrt(a2), ib = 1.0f / sqrt(b2), ic = 1.0f / sqrt(c2);
+    const Float3 a = corner * ia, b = pb * ib, c = pc * ic;
+    const Float g0 = absolute(dot(a, cross(edge1 * ib, edge2 * ic)));
+    const Float g1 = dot(a, c) + dot(b, c), g2 = 1.0f + dot(a, b);
+    const Float omega = 2.0f * arc_tangent(g0, g1 + g2);
+    solid &= (omega >= 3e-4f) & (omega <= 6.22f);
+    const CosSin half = cos_sin_turn(omega * u.x * (0.5f / kTwoPi));
+    const Float3 r = a * (g0 * half.cos - g1 * half.sin) + c * (g2 * half.sin);
+    const Float norm2 = dot(r, r);
+    const Float3 end = select(norm2 > 0.0f, r * (2.0f * dot(a, r) / norm2) - a, c);
+    const Float3 chord = end - b;
+    const Float whole = 0.5f * dot(chord, chord), part = u.y * whole, cos_end = 1.0f - whole;
+    const Float scale = sqrt(max(0.0f, u.y * (2.0f - part) / max(2.0f - whole, 1e-12f)));
+    const Float3 d = b * ((1.0f - part) - scale * cos_end) + end * scale;
+    const Float3 q = cross(d, edge2);
+    const Float determinant = dot(edge1, q);
+    Float b1 = clamp(-dot(corner, q) / determinant, 0.0f, 1.0f);
+    Float b2_ = clamp(-dot(d, cross(corner, edge1)) / determinant, 0.0f, 1.0f);
+    const Float sum = b1 + b2_;
+    const Float inside = select(sum > 1.0f, 1.0f / sum, 1.0f);
+    s.valid &= ~(solid & (determinant == 0.0f));
+    s.point.x = select(solid, b1 * inside, s.point.x);
+    s.point.y = select(solid, b2_ * inside, s.point.y);
+    pdf = select(solid, 1.0f / omega, pdf);
+  }
+  const Float3 to_light = corner + edge1 * s.point.x + edge2 * s.point.y;
+  s.distance = sqrt(dot(to_light, to_light));
+  s.wi = to_light * (1.0f / s.distance);
+  const Float along = -dot(s.wi, {field(9), field(10), field(11)});
+  s.cosine = max(along, field(17) * along);
+  s.pdf = choice * select(solid, pdf, pdf * s.distance * s.distance / s.cosine);
+  s.valid &= (s.distance > 0.0f) & (s.cosine > 0.0f) & (pdf > 0.0f) & (s.pdf > 0.0f) & (s.pdf < kInfinite);
+  s.radiance = {field(14), field(15), field(16)};
+  s.offset = field(13);
+  return s;
+}
+
+/// sample_placed of Lights, with punctual.h.
+GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int light, Float choice, Mask here) {
+  const Int at = light * static_cast<uint32_t>(LightView::kPlacedFloats);
+  const auto field = [&](uint32_t i) __attribute__((always_inline)) { return gather(view.placed + i, at); };
+  const Float3 to_light = Float3{field(0), field(1), field(2)} - p;
+  LanesOfLight s;
+  s.distance = sqrt(dot(to_light, to_light));
+  s.wi = to_light * (1.0f / s.distance);
+  const Float x = s.distance * field(9), x2 = x * x;
+  const Float window = clamp(1.0f - x2 * x2, 0.0f, 1.0f);
+  const Float cos_angle = -dot(s.wi, {field(3), field(4), field(5)});
+  const Float ramp = clamp((cos_angle - field(10)) / field(11), 0.0f, 1.0f);
+  const Float factor = window / (s.distance * s.distance) * select(field(12) > 0.0f, ramp * ramp, 1.0f);
+  s.radiance = Float3{field(6), field(7), field(8)} * factor;
+  s.pdf = choice;
+  s.offset = 1e-4f * s.distance;
+  s.cosine = 1.0f;
+  s.valid = here & (s.distance > 0.0f) & (largest(s.radiance) < kInfinite);
+  return s;
+}
+
+/// Lights::sample for the lanes from `at` on.
+GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext& context, int at) {
+  const LightView& view = context.lights;
+  const LaneSampler sampler{block.sampler, load(block.sampler_key + at), load(block.sampler_index + at)};
+  const Int dimensions = load(block.dimensions + at);
+  const Float u_choice = sampler.get_1d(dimensions + 2u);
+  const Float2 u = sampler.get_2d(dimensions + 3u);
+  Digits digits{load(block.seed + at) ^ 0x7f4a7c15u};
+
+  Receiver r;
+  r.p = load(block.position, at);
+  const Mask sheet = load(block.transmission + at) * (1.0f - load(block.metallic + at)) > 0.0f;
+  r.n = select_or_zero(~sheet, load(block.shading_normal, at));
+  r.free = select_or_zero(sheet, 1.0f);
+
+  Weights root;
+  Mask local = no_lanes();
+  if (view.tree != nullptr) {
+    root = weigh_root(r, view);
+    local = (root.of[0] + root.of[1]) + (root.of[2] + root.of[3]) > 0.0f;
+  }
+  Int suns(0u);
+  for (uint32_t i = 0; i < view.sun_count; ++i) {
+    const float* const sun = view.suns + LightView::kSunFloats * i;
+    suns += words_of(~(dot(r.n, {sun[0], sun[1], sun[2]}) > 0.0f)) & 1u;
+  }
+  const Int one_local = words_of(local) & 1u;
+  Mask sky = no_lanes();
+  if (view.sky == LightView::Sky::picture) sky = ~sky;
+  if (view.sky == LightView::Sky::constant) sky = (one_local + suns) == 0u;
+  const Int parts = one_local + suns + (words_of(sky) & 1u);
+  const Mask some = ~(parts == 0u);
+  const Float count = to_float(select(some, parts, Int(1u)));
+  const Float size = 1.0f / count;
+  const Float scaled = u_choice * count;
+  const Int part = to_int(scaled);  // u < 1 - 2^-24, so it is below `count` except for a vast number of suns
+  const Float rest = digits.refill(scaled - to_float(part), count);
+  const Mask to_local = some & local & (part == 0u);
+  const Int number = part - one_local;
+  const Mask to_sky = some & sky & (number == suns) & ~to_local;
+
+  Int state = state_of(LaneLight::none), light(0u);
+  Mask delta = no_lanes();
+  Float3 wi = load(block.geometric_normal, at), radiance = repeat(0.0f);
+  Float distance = 1.0f, pdf = 0.0f, offset = 0.0f, cosine = 1.0f;
+  Float2 point = u;
+  if (any(to_local)) {
+    Int chosen(0u);
+    Float probability = size;
+    const Mask found = to_local & ~descend(view, r, root, to_local, rest, digits, chosen, probability);
+    const auto take = [&](const LanesOfLight& s) __attribute__((always_inline)) {
+      wi = select(s.valid, s.wi, wi);
+      radiance = select(s.valid, s.radiance, radiance);
+      distance = select(s.valid, s.distance, distance);
+      pdf = select(s.valid, s.pdf, pdf);
+      offset = select(s.valid, s.offset, offset);
+      cosine = select(s.valid, s.cosine, cosine);
+    };
+    const Mask triangle = found & (chosen < Int(view.triangle_count));
+    if (any(triangle)) {
+      const LanesOfLight s =
+          sample_triangles(view, r.p, select(triangle, chosen, Int(0u)), probability, u, triangle);
+      take(s);
+      const Mask textured =
+          gather(view.triangles + 18, select(triangle, chosen, Int(0u)) *
+                                          static_cast<uint32_t>(LightView::kTriangleFloats)) > 0.0f;
+      state = select(s.valid, select(textured, state_of(LaneLight::triangle), state_of(LaneLight::done)), state);
+      light = select(s.valid, chosen, light);
+      point.x = select(s.valid, s.point.x, point.x);
+      point.y = select(s.valid, s.point.y, point.y);
+    }
+    const Mask placed = found & ~(chosen < Int(view.triangle_count));
+    if (any(placed)) {
+      const LanesOfLight s =
+          sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)), probability, placed);
+      take(s);
+      state = select(s.valid, state_of(LaneLight::done), state);
+      delta |= s.valid;
+    }
+  }
+  if (view.sun_count > 0) {
+    Int left = number;
+    const Mask to_suns = some & ~to_local & ~to_sky;
+    for (uint32_t i = 0; i < view.sun_count; ++i) {
+      const float* const sun = view.suns + LightView::kSunFloats * i;
+      const Mask above = ~(dot(r.n, {sun[0], sun[1], sun[2]}) > 0.0f);
+      const Mask taken = to_suns & above & (left == 0u);
+      left = left - (words_of(above) & 1u);
+      wi = select(taken, {-sun[0], -sun[1], -sun[2]}, wi);
+      radiance = select(taken, {sun[3], sun[4], sun[5]}, radiance);
+      distance = select(taken, kInfinite, distance);
+      pdf = select(taken, size, pdf);
+      state = select(taken, state_of(LaneLight::done), state);
+      delta |= taken;
+    }
+  }
+  if (any(to_sky)) {
+    distance = select(to_sky, kInfinite, distance);
+    if (view.sky == LightView::Sky::constant) {
+      Float3 d = Frame(r.n).to_world(sample_cosine_hemisphere(u.x, u.y));
+      Float density = max(0.0f, dot(d, r.n)) * kInvPi;
+      if (any(sheet)) {
+        d = select(sheet, sample_uniform_sphere(u.x, u.y), d);
+        density = select(sheet, 0.25f * kInvPi, density);
+      }
+      wi = select(to_sky, d, wi);
+      radiance = select(to_sky, {view.sky_radiance[0], view.sky_radiance[1], view.sky_radiance[2]}, radiance);
+      pdf = select(to_sky, size * density, pdf);
+      state = select(to_sky & (density > 0.0f), state_of(LaneLight::done), state);
+    } else {
+      pdf = select(to_sky, size, pdf);
+      state = select(to_sky, state_of(LaneLight::environment), state);
+    }
+  }
+  store(block.light_state + at, state);
+  store(block.light + at, light);
+  store(block.light_is_delta, at, delta);
+  store(block.light_point[0] + at, point.x);
+  store(block.light_point[1] + at, point.y);
+  store(block.light_direction, at, wi);
+  store(block.light_distance + at, distance);
+  store(block.light_radiance, at, radiance);
+  store(block.light_pdf + at, pdf);
+  store(block.light_offset + at, offset);
+  store(block.light_cosine + at, cosine);
+}
+
+}  // namespace

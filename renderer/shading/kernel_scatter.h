@@ -1,0 +1,77 @@
+#pragma once
+// Scattering at all lanes: direct light, a new direction, Russian roulette. The wide side of Walker. Part of
+// kernel_table.cpp.
+
+#include "renderer/shading/kernel_bsdf.h"
+#include "renderer/shading/kernel_lights.h"
+
+namespace {
+
+using gatelight::renderer::DirectLight;
+using gatelight::renderer::MisHeuristic;
+
+/// MisRule::light_weight.
+GATELIGHT_INLINE Float light_weight(const ShadingContext& context, Float light_pdf, Float bsdf_pdf) {
+  if (context.direct == DirectLight::nee) return 1.0f;
+  if (context.direct == DirectLight::bsdf) return 0.0f;
+  const Float ratio = bsdf_pdf / light_pdf;
+  return 1.0f / (1.0f + (context.heuristic == MisHeuristic::balance ? ratio : ratio * ratio));
+}
+
+GATELIGHT_INLINE void albedo_at(ShadingBlock& block, const ShadingContext& context, int at) {
+  store(block.albedo, at, LaneBsdf(block, context.tables, at).albedo);
+}
+
+GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& context, int at) {
+  const LaneBsdf bsdf(block, context.tables, at);
+  store(block.albedo, at, bsdf.albedo);
+  const Float3 position = load(block.position, at);
+  const Float offset = load(block.offset + at);
+  const Int seed = load(block.seed + at);
+  // Surface::spawn.
+  const auto spawn = [&](Float3 direction) __attribute__((always_inline)) {
+    return position + bsdf.ng * select(dot(bsdf.ng, direction) < 0.0f, -offset, offset);
+  };
+
+  // The light: Walker::light_at and shadow_ray().
+  const Float light_pdf = load(block.light_pdf + at);
+  const Mask lit = (load(block.light_state + at) == state_of(LaneLight::done)) & (light_pdf > 0.0f) & ~bsdf.is_delta;
+  if (any(lit)) {
+    const Float3 wi = load(block.light_direction, at);
+    const LaneValue value = bsdf.evaluate(wi);
+    const Mask delta = mask_of(load(block.light_is_delta + at));
+    const Float weight = select(delta, 1.0f, light_weight(context, light_pdf, value.pdf)) / light_pdf;
+    store(block.direct, at, select_or_zero(lit, value.value * load(block.light_radiance, at) * weight));
+    store(block.shadow_origin, at, spawn(wi));
+    const Float distance = load(block.light_distance + at);
+    const Float length = distance - (load(block.light_offset + at) + 2.0f * offset) / load(block.light_cosine + at);
+    store(block.shadow_length + at, select(length > 0.0f, length, 0.5f * distance));
+    store(block.shadow_seed + at, hash(seed ^ 0x5bd1e995u));
+  } else {
+    store(block.direct, at, repeat(0.0f));
+  }
+
+  // The direction: Walker::draw and survives.
+  const LaneSampler sampler{block.sampler, load(block.sampler_key + at), load(block.sampler_index + at)};
+  const Int dimensions = load(block.dimensions + at);
+  LaneSample s = bsdf.sample(sampler.get_1d(dimensions), sampler.get_2d(dimensions + 1u));
+  Mask alive = (s.pdf > 0.0f) & any_positive(s.weight);
+  const Int next = hash(seed + 0x9e3779b9u);
+  const Mask through_pane = s.delta & s.transmitted;
+  const Mask plays = to_float(load(block.events_before_roulette + at)) <= select_or_zero(~through_pane, 1.0f);
+  const Float survival =
+      select(plays, min(0.95f, sqrt(largest(load(block.throughput, at) * s.weight))), 1.0f);
+  alive &= ~plays | (to_unit_float(hash(next ^ 0x68bc21ebu)) < survival);
+  store(block.alive, at, alive);
+  store(block.is_delta, at, s.delta);
+  store(block.transmitted, at, s.transmitted);
+  store(block.wi, at, s.wi);
+  store(block.weight, at, s.weight * (1.0f / survival));
+  store(block.pdf + at, s.pdf);
+  store(block.spread + at, s.spread);
+  store(block.survival + at, survival);
+  store(block.next_origin, at, spawn(s.wi));
+  store(block.next_seed + at, next);
+}
+
+}  // namespace

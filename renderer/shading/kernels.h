@@ -1,0 +1,54 @@
+#pragma once
+// The wide kernels and the data that they read, as plain data.
+
+#include <stdint.h>
+
+#include "renderer/settings/choices.h"
+#include "renderer/shading/block.h"
+
+namespace gatelight::renderer {
+
+/// The lights of a scene for the kernels. The memory belongs to LightArrays.
+struct LightView {
+  static constexpr int kTriangleFloats = 20;
+  static constexpr int kPlacedFloats = 16;
+  static constexpr int kSunFloats = 6;
+  enum class Sky : uint8_t { none, constant, picture };
+
+  const float* tree = nullptr;  ///< nodes of LightTree, null without one
+  float nearest2 = 0.0f;        ///< LightTree::nearest2
+  const float* triangles = nullptr;
+  uint32_t triangle_count = 0;
+  const float* placed = nullptr;  ///< point and spot lights; they follow the triangles in the tree
+  const float* suns = nullptr;    ///< direction and irradiance
+  uint32_t sun_count = 0;
+  Sky sky = Sky::none;
+  float sky_radiance[3] = {0.0f, 0.0f, 0.0f};
+};
+
+/// The tables of the lobes.
+struct BsdfTables {
+  const float* ggx = nullptr;        ///< GgxTables::values
+  const float* ggx_means = nullptr;  ///< GgxTables::means
+  const float* sheen = nullptr;      ///< SheenTables::values; null in scenes without sheen
+};
+
+struct ShadingContext {
+  LightView lights;
+  BsdfTables tables;
+  DirectLight direct = DirectLight::mis;
+  MisHeuristic heuristic = MisHeuristic::power;
+};
+
+struct ShadingKernels {
+  /// Chooses a light for each lane and samples a point on it: Lights::sample.
+  void (*sample_lights)(ShadingBlock&, const ShadingContext&);
+  /// Sets up the BSDF, evaluates it towards the light, samples a direction and decides on survival: Bsdf,
+  /// Walker::light_at, draw and survives.
+  void (*scatter)(ShadingBlock&, const ShadingContext&);
+  /// The directional albedo alone.
+  void (*albedo)(ShadingBlock&, const ShadingContext&);
+  int lanes;
+};
+
+}  // namespace gatelight::renderer

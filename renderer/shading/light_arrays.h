@@ -1,0 +1,30 @@
+#pragma once
+// The lights of a scene in the form of the kernels.
+
+#include <vector>
+
+#include "renderer/light/lights.h"
+#include "renderer/shading/kernels.h"
+
+namespace gatelight::renderer {
+
+/// Copies what it needs, except the tree. The lights must outlive it.
+class LightArrays {
+ public:
+  explicit LightArrays(const Lights& lights);
+  LightArrays(const LightArrays&) = delete;
+  LightArrays& operator=(const LightArrays&) = delete;
+
+  /// Null where the kernels do not know how lights are chosen.
+  const LightView* view() const { return usable_ ? &view_ : nullptr; }
+  std::size_t bytes() const { return (triangles_.size() + placed_.size() + suns_.size()) * sizeof(float); }
+
+ private:
+  bool usable_;
+  LightView view_;
+  std::vector<float> triangles_;
+  std::vector<float> placed_;
+  std::vector<float> suns_;
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,113 @@
+#include "renderer/shading/wide_shading.h"
+
+#include "neural/cpu/isa.h"
+#include "renderer/bsdf/sheen.h"
+#include "renderer/bsdf/tables.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/shading/kernel_tables.h"
+
+namespace gatelight::renderer {
+namespace {
+
+template <class Vector>
+void put(float (&a)[3][ShadingBlock::kWidth], int lane, const Vector& v) {
+  for (int c = 0; c < 3; ++c) a[c][lane] = v[c];
+}
+
+}  // namespace
+
+const ShadingKernels& choose_shading_kernels(const std::string& isa) {
+  using neural::cpu::Isa;
+  [[maybe_unused]] const Isa chosen = neural::cpu::select_isa(neural::cpu::parse_isa(isa));
+#if defined(__x86_64__)
+  if (chosen == Isa::avx512) return kAvx512Shading;
+  if (chosen == Isa::avx2) return kAvx2Shading;
+#endif
+  return kScalarShading;
+}
+
+void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo) {
+  put(block.position, lane, surface.position);
+  put(block.geometric_normal, lane, surface.geometric_normal);
+  put(block.shading_normal, lane, surface.shading_normal);
+  put(block.coat_normal, lane, surface.coat_normal);
+  put(block.wo, lane, wo);
+  block.offset[lane] = surface.offset;
+  const SurfaceMaterial& m = surface.material;
+  put(block.base_color, lane, m.base_color);
+  block.metallic[lane] = m.metallic;
+  block.roughness[lane] = m.roughness;
+  block.ior[lane] = m.ior;
+  block.specular[lane] = m.specular;
+  put(block.specular_color, lane, m.specular_color);
+  block.transmission[lane] = m.transmission;
+  block.clearcoat[lane] = m.clearcoat;
+  block.clearcoat_roughness[lane] = m.clearcoat_roughness;
+  put(block.sheen_color, lane, m.sheen_color);
+  block.sheen_roughness[lane] = m.sheen_roughness;
+}
+
+WideShading::WideShading(const Lights& lights, const LightArrays& arrays, const ShadingKernels& kernels,
+                         bool sheen, DirectLight direct, MisHeuristic heuristic)
+    : lights_(lights), kernels_(kernels), wide_lights_(arrays.view() != nullptr) {
+  if (wide_lights_) context_.lights = *arrays.view();
+  context_.tables = {GgxTables::get().values(), GgxTables::get().means(),
+                     sheen ? SheenTables::get().values() : nullptr};
+  context_.direct = direct;
+  context_.heuristic = heuristic;
+  bool textured = false;
+  for (std::size_t i = 0; i < lights.triangles().size(); ++i) textured |= !lights.triangles()[i].plain;
+  lights_are_complete_ = context_.lights.sky != LightView::Sky::picture && !textured;
+}
+
+void WideShading::scatter(ShadingBlock& block) const {
+  if (wide_lights_) {
+    kernels_.sample_lights(block, context_);
+    if (!lights_are_complete_) {
+      for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane);
+    }
+  } else {
+    for (int lane = 0; lane < block.count; ++lane) sample_light(block, lane);
+  }
+  kernels_.scatter(block, context_);
+}
+
+void WideShading::complete_light(ShadingBlock& block, int lane) const {
+  const Vec2 point(block.light_point[0][lane], block.light_point[1][lane]);
+  switch (static_cast<LaneLight>(block.light_state[lane])) {
+    case LaneLight::none:
+    case LaneLight::done:
+      return;
+    case LaneLight::triangle:
+      put(block.light_radiance, lane, lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
+      break;
+    case LaneLight::environment: {
+      const EnvironmentSample sky = lights_.environment().sample(point);
+      put(block.light_direction, lane, sky.wi);
+      put(block.light_radiance, lane, sky.radiance);
+      block.light_pdf[lane] *= sky.pdf;
+      break;
+    }
+  }
+  block.light_state[lane] = static_cast<std::uint32_t>(LaneLight::done);
+}
+
+void WideShading::sample_light(ShadingBlock& block, int lane) const {
+  const Sampler sampler =
+      Sampler::from_parts(block.sampler, block.sampler_key[lane], block.sampler_index[lane]);
+  const std::uint32_t dimensions = block.dimensions[lane];
+  const bool sheet = block.transmission[lane] * (1.0f - block.metallic[lane]) > 0.0f;
+  const Vec3 normal = sheet ? Vec3(Vec3::Zero()) : lane_vector(block.shading_normal, lane);
+  const LightSample s = lights_.sample(lane_vector(block.position, lane), normal,
+                                       sampler.get_1d(dimensions + 2), sampler.get_2d(dimensions + 3));
+  block.light_state[lane] = static_cast<std::uint32_t>(s.pdf > 0.0f ? LaneLight::done : LaneLight::none);
+  block.light_is_delta[lane] = s.delta ? ~0u : 0u;
+  put(block.light_direction, lane, s.wi);
+  block.light_distance[lane] = s.distance;
+  put(block.light_radiance, lane, s.radiance);
+  block.light_pdf[lane] = s.pdf;
+  block.light_offset[lane] = s.offset;
+  block.light_cosine[lane] = s.cosine;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,57 @@
+#pragma once
+// Shades blocks of up to 16 points: the kernels, and the scalar code for the lights that they leave open.
+
+#include <cstdint>
+#include <string>
+
+#include "renderer/light/lights.h"
+#include "renderer/settings/options.h"
+#include "renderer/shading/kernels.h"
+#include "renderer/shading/light_arrays.h"
+#include "renderer/surface/surface.h"
+
+namespace gatelight::renderer {
+
+/// The kernels of an instruction set: scalar (SSE2 or what the compiler was told), avx2, avx512, or auto, which
+/// is the choice of the cache's kernels (neural::cpu::select_isa). Throws Unavailable.
+const ShadingKernels& choose_shading_kernels(const std::string& isa);
+
+/// Whether the kernels have all lobes of a surface. They do not refract.
+inline bool shades_wide(const Surface& surface) {
+  return surface.material.thin_walled || !(surface.material.transmission > 0.0f);
+}
+
+/// Fills a lane's surface. `wo` is unit, away from the surface.
+void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo);
+
+/// Thread-safe after construction. The lights must outlive it.
+class WideShading {
+ public:
+  /// sheen: whether some surface has it; its tables take a while to build.
+  WideShading(const Lights& lights, const LightArrays& arrays, const ShadingKernels& kernels, bool sheen,
+              DirectLight direct, MisHeuristic heuristic);
+
+  /// Shades all lanes: light samples, BSDF values, new directions. The results are in the block.
+  void scatter(ShadingBlock& block) const;
+  /// The directional albedos alone.
+  void albedo(ShadingBlock& block) const { kernels_.albedo(block, context_); }
+
+ private:
+  void complete_light(ShadingBlock& block, int lane) const;
+  void sample_light(ShadingBlock& block, int lane) const;
+
+  const Lights& lights_;
+  const ShadingKernels& kernels_;
+  ShadingContext context_;
+  bool wide_lights_;
+  bool lights_are_complete_;  ///< no picture of the sky and no textured emitter
+};
+
+inline Vec3 lane_vector(const float (&a)[3][ShadingBlock::kWidth], int lane) {
+  return {a[0][lane], a[1][lane], a[2][lane]};
+}
+inline Color lane_color(const float (&a)[3][ShadingBlock::kWidth], int lane) {
+  return {a[0][lane], a[1][lane], a[2][lane]};
+}
+
+}  // namespace gatelight::renderer
