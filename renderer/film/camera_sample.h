@@ -14,6 +14,8 @@ struct CameraSample {
   CameraRay camera_ray;
   Sampler sampler;
   std::uint32_t seed = 0;  ///< a hash of (seed, pixel, sample), for decisions that need no low discrepancy
+  /// A light sample that adds less radiance than this is traced by Russian roulette. 0: all are traced.
+  float faint = 0.0f;
 
   /// The camera's ray. Its stochastic decisions use the seed of the sample.
   Ray ray() const {

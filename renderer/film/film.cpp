@@ -9,6 +9,7 @@
 #include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
+namespace { const std::uint32_t kFaintFrom = getenv("FF") ? atoi(getenv("FF")) : 4; }
 
 namespace {
 
@@ -174,6 +175,13 @@ Layer Film::layer(Aov aov) const {
       break;
   }
   return layer;
+}
+
+float Film::faint(int x, int y) const {
+  constexpr double kShare = 0.3;
+  const Radiance& r = radiance_[pixel(x, y)];
+  if (r.count < kFaintFrom) return 0.0f;
+  return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
 }
 
 Picture Film::resolve() const {

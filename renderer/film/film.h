@@ -38,6 +38,9 @@ class Film {
   /// The means so far. A pixel without samples is black.
   Picture resolve() const;
 
+  /// CameraSample::faint for a pixel's next sample: a share of its mean so far.
+  float faint(int x, int y) const;
+
   FilmState export_state() const;
   /// The state comes from a film with the same size and output variables.
   void import_state(const FilmState& state);

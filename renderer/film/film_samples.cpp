@@ -27,6 +27,10 @@ void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, co
   }
 }
 
+void set_faint(std::span<const Pixel> pixels, const Film& film, std::span<CameraSample> samples) {
+  for (std::size_t i = 0; i < pixels.size(); ++i) samples[i].faint = film.faint(pixels[i].x, pixels[i].y);
+}
+
 void SampleCounts::add(const SampleCounts& other) {
   nonfinite += other.nonfinite;
   clamped += other.clamped;

@@ -14,10 +14,13 @@
 
 namespace gatelight::renderer {
 
-/// Makes one sample for each pixel.
+/// Makes one sample for each pixel. CameraSample::faint stays 0.
 void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples);
+
+/// Sets CameraSample::faint from the samples that the film has.
+void set_faint(std::span<const Pixel> pixels, const Film& film, std::span<CameraSample> samples);
 
 /// Counts the samples that were dropped or clamped on the way to the film.
 struct SampleCounts {

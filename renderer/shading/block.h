@@ -23,13 +23,13 @@ struct alignas(64) ShadingBlock {
   using Words = uint32_t[kWidth];
 
   int count = 0;  ///< lanes in use; the others hold what was in them before
+  SamplerKind sampler = SamplerKind::sobol;  ///< of all lanes
 
   // The surface: those of Surface and SurfaceMaterial. Transmission is that of a thin sheet.
-  Floats position[3], geometric_normal[3], shading_normal[3], coat_normal[3], wo[3], offset;
+  alignas(64) Floats position[3], geometric_normal[3], shading_normal[3], coat_normal[3], wo[3], offset;
   Floats base_color[3], metallic, roughness, ior, specular, specular_color[3], transmission;
   Floats clearcoat, clearcoat_roughness, sheen_color[3], sheen_roughness;
   // The path.
-  SamplerKind sampler = SamplerKind::sobol;  ///< of all lanes
   Words sampler_key, sampler_index;
   Words dimensions;  ///< first sampler dimension of the vertex
   Words seed;

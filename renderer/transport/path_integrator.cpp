@@ -4,6 +4,16 @@
 
 namespace gatelight::renderer {
 
+/// Adds a light sample unless it is black or roulette ends it.
+template <class MakeRay>
+void PathIntegrator::add_light(const Walker& path, const Color& contribution, MakeRay make_ray, Scratch& scratch) {
+  const float largest = contribution.maxCoeff();
+  const float weight = largest > 0.0f ? path.shadow_weight(largest) : 0.0f;
+  if (!(weight > 0.0f)) return;
+  scratch.shadow_rays.push_back(make_ray());
+  scratch.pending.push_back({contribution * weight, path.index});
+}
+
 Step PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
                              FirstHit* first, Scratch& scratch) const {
   const auto add = [&](const Emission& emission) {
@@ -26,10 +36,7 @@ Step PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const
 
   const LightAt at = path.light_at(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
-  if ((contribution > 0.0f).any()) {
-    scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
-    scratch.pending.push_back({contribution, path.index});
-  }
+  add_light(path, contribution, [&] { return shadow_ray(m.surface, at.light, path.seed); }, scratch);
   std::optional<Drawn> drawn = path.draw(m, bsdf);
   return {drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn)};
 }
@@ -42,10 +49,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     Walker& path = scratch.paths[number];
     if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
     const Color contribution = path.carried() * lane_color(points.direct, lane);
-    if ((contribution > 0.0f).any()) {
-      scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
-      scratch.pending.push_back({contribution, path.index});
-    }
+    add_light(path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
     scratch.goes_on[number] = points.alive[lane] && path.advance(block, lane, drawn_at(points, lane),
                                                                  scratch.hits[number].t, scratch.rays[number]);
   }

@@ -29,6 +29,7 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
           if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
           for (std::uint32_t sample = first; sample < end; ++sample) {
             make_camera_samples(w.pixels, sample, options, context_.camera, context_.filter, w.samples);
+            set_faint(w.pixels, film, w.samples);
             if (options.integrator == Integrator::path) {
               path_.trace(w.samples, w.results, w.first_hits, w.rays, w.path);
             } else {

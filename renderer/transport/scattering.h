@@ -108,6 +108,9 @@ inline float roulette_number(std::uint32_t seed) {
 inline float texture_level_number(std::uint32_t seed) {
   return sampling::to_unit_float(hash(seed ^ 0x2545f491u));
 }
+inline float shadow_roulette_number(std::uint32_t seed) {
+  return sampling::to_unit_float(hash(seed ^ 0x1b873593u));
+}
 inline std::uint32_t next_seed(std::uint32_t seed) {
   return hash(seed + 0x9e3779b9u);
 }

@@ -106,6 +106,7 @@ struct Walker {
   double radiance_scale = 1.0;
   Sampler sampler;
   std::uint32_t index = 0;  ///< into the starts
+  float faint = 0.0f;       ///< CameraSample::faint
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
   std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
@@ -116,6 +117,7 @@ struct Walker {
       : cone(start.camera_ray.cone),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
+        faint(start.faint),
         seed(start.seed) {
     departure.position = start.camera_ray.ray.origin;
   }
@@ -187,6 +189,13 @@ struct Walker {
     at.value = bsdf.evaluate(at.light.wi);
     at.weight = (at.light.delta ? 1.0f : walk.mis.light_weight(at.light.pdf, at.value.pdf)) / at.light.pdf;
     return at;
+  }
+
+  /// Russian roulette of a light sample whose contribution to the picture has this largest channel: the factor
+  /// to its contribution, 0 where its shadow ray is not traced.
+  float shadow_weight(float contribution) const {
+    if (!(contribution < faint)) return 1.0f;
+    return shadow_roulette_number(seed) * faint < contribution ? faint / contribution : 0.0f;
   }
 
   /// Samples a direction of `bsdf`, the surface's or a part of it. Nothing: the path ends.
