@@ -88,18 +88,19 @@ void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf
   scratch.pending.push_back({vertex, direct, held});
 }
 
-Step CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
-                          PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const {
+PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit,
+                                const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
+                                Scratch& scratch) const {
   if (!hit) {
     add_emission(path, path.sky(walk_, ray.direction), batch);
-    return {};
+    return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
   FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
   if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   add_emission(path, m.emission, batch);
-  if (m.ends) return {};
+  if (m.ends) return nullptr;
 
   if (plan.query_at == QueryAt::spread) {
     // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
@@ -118,22 +119,26 @@ Step CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit&
     if (!answered || (options_.held.emission() && !delta_apart_)) {
       PathBlock& block = scratch.blocks[answered ? kAnswers : kScatters];
       path.wait(m, number, plan.min_depth, block);
-      return {false, &block};
+      return &block;
     }
   }
   const Bsdf& bsdf = m.set_up_bsdf();
   if (first) first->albedo = bsdf.albedo();
   if (path.emission_only) {
     std::optional<Drawn> drawn = path.draw(m, bsdf);
-    return {drawn && path.survives(plan.min_depth, *drawn) &&
-            advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone)};
+    if (drawn && path.survives(plan.min_depth, *drawn) &&
+        advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone))
+      scratch.go_on(number, ray);
+    return nullptr;
   }
   const bool wide = bsdf.has_wide(options_.min_roughness);
   const bool ends = wide && ends_here(path, plan);
-  if (ends && has_storage) return {answer(path, m, side, batch, scratch)};
-  if (ends) ++batch.unstored_hits;
+  if (ends && !has_storage) ++batch.unstored_hits;
   const bool teaches = wide && has_storage && may_teach(path, plan);
-  return {continue_from(path, m, side, teaches, plan, batch, scratch)};
+  if (ends && has_storage ? answer(path, m, side, batch, scratch)
+                          : continue_from(path, m, side, teaches, plan, batch, scratch))
+    scratch.go_on(number, ray);
+  return nullptr;
 }
 
 void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
@@ -143,14 +148,14 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   answers ? walk_.shading.albedo(block.points) : walk_.shading.scatter(block.points);
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
-    Path& path = scratch.paths[number];
+    Path& path = scratch.paths[scratch.path_of[number]];
     const Hit& hit = scratch.hits[number];
     if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
     if (answers) {
       ask(path, point_at(block, lane, hit), batch);
     } else {
-      scratch.goes_on[number] =
-          continue_from(path, block, lane, hit, scratch.rays[number], plan, batch, scratch);
+      Ray next;
+      if (continue_from(path, block, lane, hit, next, plan, batch, scratch)) scratch.go_on(number, next);
     }
   }
 }
@@ -248,7 +253,7 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   return advance(path, m, *drawn, {drawn->weight, drawn->weight, held}, index);
 }
 
-bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& ray,
+bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
                                 const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
   const ShadingBlock& p = block.points;
   const SurfacePoint point = point_at(block, lane, hit);
@@ -267,7 +272,7 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (!drawn.delta) path.wide_events += 1;
   const bool held = record && !drawn.delta;
   link(path, drawn, {drawn.weight, drawn.weight, held ? drawn.weight : Color(Color::Zero())}, index);
-  return path.Walker::advance(block, lane, drawn, hit.t, ray);
+  return path.Walker::advance(block, lane, drawn, hit.t, next);
 }
 
 void CachedPaths::link(Path& path, const Drawn& drawn, const Links& links, std::int32_t vertex) const {

@@ -84,8 +84,8 @@ class CachedPaths {
   /// The kinds of blocks: paths that end in the cache there, and paths that go on.
   enum BlockKind : std::uint8_t { kAnswers, kScatters };
 
-  Step scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
-               PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
+  PathBlock* scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
+                     PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
   /// Whether no lobe of a surface is narrow, so that its parts need not be told apart.
   bool wide_as_a_whole(const SurfaceMaterial& material) const;
   void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
@@ -102,7 +102,7 @@ class CachedPaths {
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
   /// For a lane: no lobe is narrow, and it is shaded.
-  bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& ray,
+  bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
                      const PathPlan& plan, PathBatch& batch, Scratch& scratch) const;
   bool continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record, const PathPlan& plan,
                      PathBatch& batch, Scratch& scratch) const;

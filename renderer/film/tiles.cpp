@@ -8,7 +8,7 @@ constexpr std::array<Pixel, kTile* kTile> kTileOrder = [] {
   std::array<Pixel, kTile * kTile> order{};
   for (int i = 0; i < kTile * kTile; ++i) {
     Pixel& p = order[static_cast<std::size_t>(i)];
-    for (int bit = 0; bit < 4; ++bit) {
+    for (int bit = 0; (1 << bit) < kTile; ++bit) {
       p.x |= (i >> (2 * bit) & 1) << bit;
       p.y |= (i >> (2 * bit + 1) & 1) << bit;
     }

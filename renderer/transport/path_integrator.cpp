@@ -14,22 +14,22 @@ void PathIntegrator::add_light(const Walker& path, const Color& contribution, Ma
   scratch.pending.push_back({contribution * weight, path.index});
 }
 
-Step PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
-                             FirstHit* first, Scratch& scratch) const {
+PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit,
+                                   Color& radiance, FirstHit* first, Scratch& scratch) const {
   const auto add = [&](const Emission& emission) {
     if (emission.any()) radiance += path.carried() * emission.radiance * emission.weight;
   };
   if (!hit) {
     add(path.sky(walk_, ray.direction));
-    return {};
+    return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
   if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   add(m.emission);
-  if (m.ends) return {};
+  if (m.ends) return nullptr;
   if (path.shades_wide(m)) {
     path.wait(m, number, options_.min_depth, scratch.blocks[0]);
-    return {false, &scratch.blocks[0]};
+    return &scratch.blocks[0];
   }
   const Bsdf& bsdf = m.set_up_bsdf();
   if (first) first->albedo = bsdf.albedo();
@@ -38,7 +38,9 @@ Step PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
   add_light(path, contribution, [&] { return shadow_ray(m.surface, at.light, path.seed); }, scratch);
   std::optional<Drawn> drawn = path.draw(m, bsdf);
-  return {drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn)};
+  if (drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn))
+    scratch.go_on(number, ray);
+  return nullptr;
 }
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
@@ -46,12 +48,14 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
   walk_.shading.scatter(block.points);
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
-    Walker& path = scratch.paths[number];
+    Walker& path = scratch.paths[scratch.path_of[number]];
     if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
     const Color contribution = path.carried() * lane_color(points.direct, lane);
     add_light(path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
-    scratch.goes_on[number] = points.alive[lane] && path.advance(block, lane, drawn_at(points, lane),
-                                                                 scratch.hits[number].t, scratch.rays[number]);
+    if (!points.alive[lane]) continue;
+    Ray next;
+    if (path.advance(block, lane, drawn_at(points, lane), scratch.hits[number].t, next))
+      scratch.go_on(number, next);
   }
 }
 

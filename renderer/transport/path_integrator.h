@@ -37,8 +37,8 @@ class PathIntegrator {
 
  private:
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
-  Step scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance, FirstHit* first,
-               Scratch& scratch) const;
+  PathBlock* scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
+                     FirstHit* first, Scratch& scratch) const;
   template <class MakeRay>
   static void add_light(const Walker& path, const Color& contribution, MakeRay make_ray, Scratch& scratch);
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -28,19 +30,23 @@ template <typename Path, typename Pending>
 struct Waves {
   RayLog* log = nullptr;  ///< null: rays are not logged
   std::vector<Path> paths;
-  std::vector<Ray> rays;  ///< one for each path
+  // The wave: rays, the path of each, and their hits.
+  std::vector<Ray> rays;
+  std::vector<std::uint32_t> path_of;
   std::vector<Hit> hits;
+  // The next wave.
+  std::vector<Ray> next_rays;
+  std::vector<std::uint32_t> next_path_of;
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
-  std::vector<std::uint8_t> goes_on;  ///< one for each path
-  PathBlock blocks[kBlockKinds];
-};
+  PathBlock blocks[kBlockKinds];  ///< of paths that wait to be shaded
 
-/// What becomes of a path at its hit: it ends, it has its next ray, or it waits in a block.
-struct Step {
-  bool goes_on = false;
-  PathBlock* waits = nullptr;
+  /// The path of ray `number` has its next ray.
+  void go_on(std::uint32_t number, const Ray& next) {
+    next_rays.push_back(next);
+    next_path_of.push_back(path_of[number]);
+  }
 };
 
 /// Data is prefetched so many hits ahead of shading.
@@ -53,64 +59,59 @@ inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::s
   if (index + kVerticesAhead < hits.size()) surfaces.prefetch_vertices(hits[index + kVerticesAhead]);
 }
 
-/// Follows the paths until none is left. `first_hits` is empty or has the hits of the first rays.
-/// scatter(number, path, ray, hit) returns the path's Step; it adds shadow rays with their pending light
-/// samples. shade(block) does the same for the paths of a block and sets `goes_on` of each. arrive(pending,
-/// transmittance) is called for each light sample.
+/// Follows the paths until none is left; `paths` and `rays` are the first wave. `first_hits` is empty or has
+/// the hits of its rays. scatter(number, path, ray, hit) shades the hit of a ray: it calls go_on() where the
+/// path has its next ray, and adds shadow rays with their pending light samples. Or it returns a block in
+/// which the path waits. shade(block) does the same for all rays of a block. arrive(pending, transmittance) is
+/// called for each light sample.
 template <typename Path, typename Pending, typename Scatter, typename Shade, typename Arrive>
 void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
                  RayCounts& counts, Scatter scatter, Shade shade, Arrive arrive) {
-  auto& [log, paths, rays, hits, shadow_rays, pending, transmittance, goes_on, blocks] = waves;
+  const auto append = [](std::vector<Ray>& to, const std::vector<Ray>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
   const auto empty = [&](PathBlock& block) {
     shade(block);
     block.points.count = 0;
   };
-  const auto append = [](std::vector<Ray>& to, const std::vector<Ray>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  for (bool first = true; !paths.empty(); first = false) {
-    hits.resize(paths.size());
+  waves.path_of.resize(waves.paths.size());
+  std::iota(waves.path_of.begin(), waves.path_of.end(), 0u);
+  for (bool first = true; !waves.rays.empty(); first = false) {
+    const std::vector<Ray>& rays = waves.rays;
+    std::vector<Hit>& hits = waves.hits;
+    hits.resize(rays.size());
     if (first && !first_hits.empty()) {
       std::copy(first_hits.begin(), first_hits.end(), hits.begin());
     } else {
-      (first ? counts.camera : counts.bounce) += paths.size();
+      (first ? counts.camera : counts.bounce) += rays.size();
       const TraceTimer timer(counts);
       world.accel.intersect(rays, hits, first);
-      if (log) append(first ? log->camera : log->bounce, rays);
+      if (waves.log) append(first ? waves.log->camera : waves.log->bounce, rays);
     }
 
-    shadow_rays.clear();
-    pending.clear();
-    goes_on.resize(paths.size());
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    waves.shadow_rays.clear();
+    waves.pending.clear();
+    waves.next_rays.clear();
+    waves.next_path_of.clear();
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
       prefetch(world.surfaces, hits, i);
-      const Step step = scatter(static_cast<std::uint32_t>(i), paths[i], rays[i], hits[i]);
-      goes_on[i] = step.goes_on;
-      if (step.waits && step.waits->full()) empty(*step.waits);
+      PathBlock* const block = scatter(i, waves.paths[waves.path_of[i]], waves.rays[i], hits[i]);
+      if (block && block->full()) empty(*block);
     }
-    for (PathBlock& block : blocks) {
+    for (PathBlock& block : waves.blocks) {
       if (block.points.count > 0) empty(block);
     }
-    std::size_t alive = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      if (!goes_on[i]) continue;
-      if (alive != i) {
-        paths[alive] = paths[i];
-        rays[alive] = rays[i];
-      }
-      ++alive;
-    }
-    paths.resize(alive);
-    rays.resize(alive);
+    waves.rays.swap(waves.next_rays);
+    waves.path_of.swap(waves.next_path_of);
 
-    counts.shadow += shadow_rays.size();
-    transmittance.resize(shadow_rays.size());
+    counts.shadow += waves.shadow_rays.size();
+    waves.transmittance.resize(waves.shadow_rays.size());
     {
       const TraceTimer timer(counts);
-      world.accel.transmittance(shadow_rays, transmittance);
+      world.accel.transmittance(waves.shadow_rays, waves.transmittance);
     }
-    if (log) append(log->shadow, shadow_rays);
-    for (std::size_t i = 0; i < pending.size(); ++i) arrive(pending[i], transmittance[i]);
+    if (waves.log) append(waves.log->shadow, waves.shadow_rays);
+    for (std::size_t i = 0; i < waves.pending.size(); ++i) arrive(waves.pending[i], waves.transmittance[i]);
   }
 }
 
