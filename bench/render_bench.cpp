@@ -129,7 +129,7 @@ void replay(benchmark::State& state, const SceneCase& which,
 
 const int render_registered = [] {
   using Log = renderer::RayLog;
-  for (const SceneCase* which : {&kSponza, &kKitchen}) {
+  for (const SceneCase* which : {&kKitchen, &kSalle, &kBistro, &kLiving, &kSponza}) {
     const std::string scene = which->name;
     const auto add = [&](const std::string& name, auto&& function) {
       benchmark::RegisterBenchmark((name + "/" + scene).c_str(), function)

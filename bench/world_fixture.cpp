@@ -52,8 +52,9 @@ const BareEmbree& WorldFixture::bare() const {
 
 std::filesystem::path file_of(const SceneCase& which) {
   const char* folder = std::getenv("GATELIGHT_SCENES");
-  if (!folder) return {};
-  std::filesystem::path file = std::filesystem::path(folder) / which.file;
+  const std::filesystem::path own = which.file;
+  if (!folder && own.is_relative()) return {};
+  std::filesystem::path file = own.is_absolute() ? own : folder / own;
   return std::filesystem::exists(file) ? file : std::filesystem::path{};
 }
 

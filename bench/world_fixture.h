@@ -19,8 +19,13 @@ struct SceneCase {
   scene::Color sky;
 };
 
-inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {0.65f, 0.8f, 1.0f}};
+inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {1.3f, 1.6f, 2.0f}};
 inline const SceneCase kKitchen{"kitchen", "country-kitchen/country-kitchen.glb", "", {0.0f, 0.0f, 0.0f}};
+
+inline const SceneCase kSalle{"salle-de-bain", "salle-de-bain/salle-de-bain.glb", "", {0.0f, 0.0f, 0.0f}};
+inline const SceneCase kBistro{"bistro", "bistro-exterior/bistro-exterior.glb", "", {1.3f, 1.6f, 2.0f}};
+/// In the repository.
+inline const SceneCase kLiving{"living-room", GATELIGHT_DATA "/living-room.glb", "", {0.0f, 0.0f, 0.0f}};
 
 inline constexpr const char* kNoScene = "GATELIGHT_SCENES does not name a folder with this scene";
 

@@ -297,7 +297,46 @@ GATELIGHT_INLINE Float gather(const float* p, Int i) {
 #endif
 }
 
-/// Four words from each of kLanes / 4 addresses, one after the other.
+/// Four numbers for each lane, as four vectors.
+struct Float4 {
+  Float c[4];
+};
+
+/// Four vectors hold four numbers for each of kLanes / 4 lanes: vector j those of the lanes j, j + 4, j + 8 ...
+/// This sorts them by number.
+GATELIGHT_INLINE Float4 transpose4(Float r0, Float r1, Float r2, Float r3) {
+#if defined(__AVX2__)
+  const auto low = [](Float a, Float b) __attribute__((always_inline)) {
+    return GATELIGHT_SIMD(unpacklo_ps)(a.v, b.v);
+  };
+  const auto high = [](Float a, Float b) __attribute__((always_inline)) {
+    return GATELIGHT_SIMD(unpackhi_ps)(a.v, b.v);
+  };
+  const auto join_low = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
+    return Float((FloatRegister)GATELIGHT_SIMD(unpacklo_epi64)((IntRegister)a, (IntRegister)b));
+  };
+  const auto join_high = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
+    return Float((FloatRegister)GATELIGHT_SIMD(unpackhi_epi64)((IntRegister)a, (IntRegister)b));
+  };
+#else
+  const auto low = [](Float a, Float b) __attribute__((always_inline)) {
+    return __builtin_shufflevector(a.v, b.v, 0, 4, 1, 5);
+  };
+  const auto high = [](Float a, Float b) __attribute__((always_inline)) {
+    return __builtin_shufflevector(a.v, b.v, 2, 6, 3, 7);
+  };
+  const auto join_low = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
+    return Float(__builtin_shufflevector(a, b, 0, 1, 4, 5));
+  };
+  const auto join_high = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
+    return Float(__builtin_shufflevector(a, b, 2, 3, 6, 7));
+  };
+#endif
+  const FloatRegister a = low(r0, r1), b = low(r2, r3), c = high(r0, r1), d = high(r2, r3);
+  return {{join_low(a, b), join_high(a, b), join_low(c, d), join_high(c, d)}};
+}
+
+/// Four numbers from each of kLanes / 4 addresses: address(0), address(1) ...
 template <class Address>
 GATELIGHT_INLINE Float load_groups4(Address address) {
 #if defined(__AVX512F__)
@@ -311,7 +350,7 @@ GATELIGHT_INLINE Float load_groups4(Address address) {
   return load(address(0));
 #endif
 }
-/// One word from each of kLanes / 4 addresses, each four times.
+/// One number from each of kLanes / 4 addresses, each four times.
 template <class Address>
 GATELIGHT_INLINE Float repeat_groups4(Address address) {
 #if defined(__AVX512F__)
@@ -325,5 +364,19 @@ GATELIGHT_INLINE Float repeat_groups4(Address address) {
   return *address(0);
 #endif
 }
+
+/// Indices in memory, for several reads of the same records.
+struct Records {
+  alignas(64) uint32_t first[kLanes];  ///< number of a record's first float
+
+  GATELIGHT_INLINE explicit Records(Int i) { store(first, i); }
+  /// The four floats at p[first + offset] of each lane. A quarter of the reads of four gathers.
+  GATELIGHT_INLINE Float4 four(const float* p, uint32_t offset) const {
+    const auto row = [&](int j) __attribute__((always_inline)) {
+      return load_groups4([&](int k) __attribute__((always_inline)) { return p + offset + first[j + 4 * k]; });
+    };
+    return transpose4(row(0), row(1), row(2), row(3));
+  }
+};
 
 }  // namespace

@@ -178,7 +178,7 @@ Layer Film::layer(Aov aov) const {
 }
 
 float Film::faint(int x, int y) const {
-  constexpr double kShare = 0.3;
+  static const double kShare = getenv("FK") ? atof(getenv("FK")) : 0.3;
   const Radiance& r = radiance_[pixel(x, y)];
   if (r.count < kFaintFrom) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);

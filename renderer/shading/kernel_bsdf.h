@@ -58,11 +58,11 @@ struct GgxRow {
   }
   GATELIGHT_INLINE Albedo at(Float cosine) const {
     const Place place(cosine * u_scale / (cosine + alpha), 32);
-    const Int at = first + place.index * 4u;
-    const auto part = [&](uint32_t k) __attribute__((always_inline)) {
-      const Float low = lerp(gather(values + k, at), gather(values + k + 4, at), place.share);
-      const Float high = lerp(gather(values + k + 128, at), gather(values + k + 132, at), place.share);
-      return lerp(low, high, mix);
+    const Records rows(first + place.index * 4u);
+    const Float4 low0 = rows.four(values, 0), low1 = rows.four(values, 4);
+    const Float4 high0 = rows.four(values, 128), high1 = rows.four(values, 132);
+    const auto part = [&](int k) __attribute__((always_inline)) {
+      return lerp(lerp(low0.c[k], low1.c[k], place.share), lerp(high0.c[k], high1.c[k], place.share), mix);
     };
     const Float schlick = schlick_weight(cosine);
     const Float loss = part(0);
@@ -74,10 +74,10 @@ struct GgxRow {
   }
   /// The cosine-weighted mean; its scale has no meaning.
   GATELIGHT_INLINE Albedo mean(const BsdfTables& tables) const {
-    const Int at = first >> 5;
-    const auto part = [&](uint32_t k, float of_delta) __attribute__((always_inline)) {
-      return select(smooth, of_delta,
-                    lerp(gather(tables.ggx_means + k, at), gather(tables.ggx_means + k + 4, at), mix));
+    const Records rows(first >> 5);
+    const Float4 low = rows.four(tables.ggx_means, 0), high = rows.four(tables.ggx_means, 4);
+    const auto part = [&](int k, float of_delta) __attribute__((always_inline)) {
+      return select(smooth, of_delta, lerp(low.c[k], high.c[k], mix));
     };
     return {part(0, 0.0f), part(1, kSchlickMean), part(2, kSchlickMean), 1.0f};
   }

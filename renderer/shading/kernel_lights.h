@@ -57,16 +57,14 @@ GATELIGHT_INLINE Float weigh(const Receiver& r, float nearest2, Field field) {
 }
 
 /// The weights of a node's four children.
-struct Weights {
-  Float of[4];
-};
+using Weights = Float4;
 
 /// Of the root, which all lanes share.
 GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
   Weights w;
 #pragma GCC unroll 1
   for (int c = 0; c < 4; ++c)
-    w.of[c] =
+    w.c[c] =
         weigh(r, view.nearest2, [&](int i) __attribute__((always_inline)) { return Float(view.tree[4 * i + c]); });
   return w;
 }
@@ -84,26 +82,24 @@ struct NodeWeigher {
   }
 
   GATELIGHT_INLINE Weights operator()(Int node) const {
-    alignas(64) uint32_t nodes[kLanes];
-    alignas(64) float weights[4 * kLanes];
-    store(nodes, node);
-    constexpr int kGroup = kLanes / 4;  // receivers at a time
-#pragma GCC unroll 1
-    for (int first = 0; first < kLanes; first += kGroup) {
+    const Records nodes(node * 48u);
+    // Vector j has the lanes j, j + 4, j + 8 ...
+    const auto row = [&](int j) __attribute__((always_inline)) {
       const auto part = [&](int i) __attribute__((always_inline)) {
-        return repeat_groups4([&](int r) __attribute__((always_inline)) { return &receiver[i][first + r]; });
+        return repeat_groups4([&](int k) __attribute__((always_inline)) { return &receiver[i][j + 4 * k]; });
       };
-      const Receiver group = {{part(0), part(1), part(2)}, {part(3), part(4), part(5)}, part(6)};
       const auto field = [&](int i) __attribute__((always_inline)) {
-        return load_groups4([&](int r) __attribute__((always_inline)) {
-          return view.tree + 48 * nodes[first + r] + 4 * i;
+        return load_groups4([&](int k) __attribute__((always_inline)) {
+          return view.tree + nodes.first[j + 4 * k] + 4 * i;
         });
       };
-      store(weights + 4 * first, weigh(group, view.nearest2, field));
-    }
-    Weights result;
-    for (uint32_t c = 0; c < 4; ++c) result.of[c] = gather(weights, lane_numbers() * 4u + c);
-    return result;
+      return weigh(Receiver{{part(0), part(1), part(2)}, {part(3), part(4), part(5)}, part(6)}, view.nearest2,
+                   field);
+    };
+    Float rows[4];
+#pragma GCC unroll 1
+    for (int j = 0; j < 4; ++j) rows[j] = row(j);
+    return transpose4(rows[0], rows[1], rows[2], rows[3]);
   }
 };
 
@@ -126,14 +122,14 @@ GATELIGHT_INLINE Mask descend(const LightView& view, const Receiver& r, Weights 
   Mask lost = no_lanes();
   Int node(0u);
   while (any(open)) {
-    const Float w0 = w.of[0], w1 = w0 + w.of[1], w2 = w1 + w.of[2], w3 = w2 + w.of[3];
+    const Float w0 = w.c[0], w1 = w0 + w.c[1], w2 = w1 + w.c[2], w3 = w2 + w.c[3];
     const Mask some = w3 > 0.0f;
     lost |= open & ~some;
     open &= some;
     const Float target = u * w3;
     const Mask past0 = target >= w0, past1 = target >= w1, past2 = target >= w2;
     const Float low = select(past2, w2, select(past1, w1, select_or_zero(past0, w0)));
-    const Float value = select(past2, w.of[3], select(past1, w.of[2], select(past0, w.of[1], w.of[0])));
+    const Float value = select(past2, w.c[3], select(past1, w.c[2], select(past0, w.c[1], w.c[0])));
     const Int slot = select(past2, Int(3u), select(past1, Int(2u), words_of(past0) & 1u));
     const Float inverse = w3 / value;
     u = digits.refill(min((target - low) / value, kBelowOne), inverse);
@@ -154,17 +150,18 @@ struct LanesOfLight {
   Float3 wi, radiance;
   Float distance, pdf, offset, cosine;
   Float2 point;
-  Mask valid;
+  Mask valid, textured;
 };
 
 /// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
 GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, Int light, Float choice, Float2 u,
                                                Mask here) {
-  const Int at = light * static_cast<uint32_t>(LightView::kTriangleFloats);
-  const auto field = [&](uint32_t i) __attribute__((always_inline)) { return gather(view.triangles + i, at); };
-  const Float3 corner = Float3{field(0), field(1), field(2)} - p;
-  const Float3 edge1{field(3), field(4), field(5)}, edge2{field(6), field(7), field(8)};
-  const Float area = field(12);
+  const Records record(light * static_cast<uint32_t>(LightView::kTriangleFloats));
+  const auto four = [&](uint32_t i) __attribute__((always_inline)) { return record.four(view.triangles, 4 * i); };
+  const Float4 f0 = four(0), f1 = four(1), f2 = four(2), f3 = four(3), f4 = four(4);
+  const Float3 corner = Float3{f0.c[0], f0.c[1], f0.c[2]} - p;
+  const Float3 edge1{f0.c[3], f1.c[0], f1.c[1]}, edge2{f1.c[2], f1.c[3], f2.c[0]}, normal{f2.c[1], f2.c[2], f2.c[3]};
+  const Float area = f3.c[0];
   const Float3 pb = corner + edge1, pc = corner + edge2;
   const Float a2 = dot(corner, corner), b2 = dot(pb, pb), c2 = dot(pc, pc);
 
@@ -208,12 +205,13 @@ GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, 
   const Float3 to_light = corner + edge1 * s.point.x + edge2 * s.point.y;
   s.distance = sqrt(dot(to_light, to_light));
   s.wi = to_light * (1.0f / s.distance);
-  const Float along = -dot(s.wi, {field(9), field(10), field(11)});
-  s.cosine = max(along, field(17) * along);
+  const Float along = -dot(s.wi, normal);
+  s.cosine = max(along, f4.c[1] * along);
   s.pdf = choice * select(solid, pdf, pdf * s.distance * s.distance / s.cosine);
   s.valid &= (s.distance > 0.0f) & (s.cosine > 0.0f) & (pdf > 0.0f) & (s.pdf > 0.0f) & (s.pdf < kInfinite);
-  s.radiance = {field(14), field(15), field(16)};
-  s.offset = field(13);
+  s.radiance = {f3.c[2], f3.c[3], f4.c[0]};
+  s.offset = f3.c[1];
+  s.textured = f4.c[2] > 0.0f;
   return s;
 }
 
@@ -257,7 +255,7 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
   Mask local = no_lanes();
   if (view.tree != nullptr) {
     root = weigh_root(r, view);
-    local = (root.of[0] + root.of[1]) + (root.of[2] + root.of[3]) > 0.0f;
+    local = (root.c[0] + root.c[1]) + (root.c[2] + root.c[3]) > 0.0f;
   }
   Int suns(0u);
   for (uint32_t i = 0; i < view.sun_count; ++i) {
@@ -301,10 +299,7 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       const LanesOfLight s =
           sample_triangles(view, r.p, select(triangle, chosen, Int(0u)), probability, u, triangle);
       take(s);
-      const Mask textured =
-          gather(view.triangles + 18, select(triangle, chosen, Int(0u)) *
-                                          static_cast<uint32_t>(LightView::kTriangleFloats)) > 0.0f;
-      state = select(s.valid, select(textured, state_of(LaneLight::triangle), state_of(LaneLight::done)), state);
+      state = select(s.valid, select(s.textured, state_of(LaneLight::triangle), state_of(LaneLight::done)), state);
       light = select(s.valid, chosen, light);
       point.x = select(s.valid, s.point.x, point.x);
       point.y = select(s.valid, s.point.y, point.y);

