@@ -189,13 +189,13 @@ std::vector<Arithmetic> available_arithmetics() {
   return available;
 }
 
-Arithmetic arithmetic_of(neural::cpu::Isa isa) {
+Arithmetic arithmetic_of(neural::simd::Isa isa) {
   switch (isa) {
-    case neural::cpu::Isa::scalar:
+    case neural::simd::Isa::scalar:
       return Arithmetic::sse2;
-    case neural::cpu::Isa::avx2:
+    case neural::simd::Isa::avx2:
       return Arithmetic::avx2;
-    case neural::cpu::Isa::avx512:
+    case neural::simd::Isa::avx512:
       return Arithmetic::avx512;
   }
   return Arithmetic::sse2;

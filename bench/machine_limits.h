@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 
 namespace gatelight::bench {
 
@@ -21,7 +21,7 @@ enum class Arithmetic : std::uint8_t {
 std::string_view arithmetic_name(Arithmetic arithmetic);
 /// What the processor supports, slowest first.
 std::vector<Arithmetic> available_arithmetics();
-Arithmetic arithmetic_of(neural::cpu::Isa isa);
+Arithmetic arithmetic_of(neural::simd::Isa isa);
 
 /// An amount of work and the seconds it took.
 struct Work {

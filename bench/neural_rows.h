@@ -22,7 +22,7 @@ inline tbb::task_arena& all_threads() {
 
 /// The arithmetic whose limit a row is compared with: that of the instruction set in use.
 inline Arithmetic arithmetic_in_use(bool bf16 = false) {
-  const Arithmetic arithmetic = arithmetic_of(neural::cpu::select_isa());
+  const Arithmetic arithmetic = arithmetic_of(neural::simd::select_isa());
   return bf16 && arithmetic == Arithmetic::avx512 && available_arithmetics().back() == Arithmetic::bf16
              ? Arithmetic::bf16
              : arithmetic;

@@ -38,7 +38,7 @@ struct BucketScratch {
 
 class CpuBackend final : public Backend {
  public:
-  CpuBackend(std::shared_ptr<const Model> model, const TrainingOptions& options, Isa isa)
+  CpuBackend(std::shared_ptr<const Model> model, const TrainingOptions& options, simd::Isa isa)
       : model_(std::move(model)),
         options_(options),
         isa_(isa),
@@ -66,7 +66,7 @@ class CpuBackend final : public Backend {
   ModelState export_state() const override;
   void import_state(const ModelState& state) override;
 
-  std::string name() const override { return fmt::format("cpu {}", isa_name(isa_)); }
+  std::string name() const override { return fmt::format("cpu {}", simd::isa_name(isa_)); }
   std::uint64_t parameter_bytes() const override {
     return features_.parameter_bytes() + layout_.network_count() * sizeof(float);
   }
@@ -88,7 +88,7 @@ class CpuBackend final : public Backend {
 
   std::shared_ptr<const Model> model_;
   TrainingOptions options_;
-  Isa isa_;
+  simd::Isa isa_;
   const KernelTable& table_;
   const ParameterLayout& layout_;
   KernelEncoder encoder_;
@@ -403,14 +403,14 @@ void CpuBackend::import_state(const ModelState& state) {
 }  // namespace
 
 std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, const TrainingOptions& options,
-                                          std::optional<Isa> isa) {
+                                          std::optional<simd::Isa> isa) {
   check_options(*model, options);
   // Kernels gather the words of levels with signed 32-bit offsets.
   constexpr std::size_t kMostLevels = (std::size_t{1} << 31) / (sizeof(GateSurfaceLevel) / 4);
   if (model->gate.levels.size() >= kMostLevels)
     throw BadConfiguration(fmt::format("levels of all surfaces: {}, expected less than {}",
                                        model->gate.levels.size(), kMostLevels));
-  return std::make_unique<CpuBackend>(std::move(model), options, select_isa(isa));
+  return std::make_unique<CpuBackend>(std::move(model), options, simd::select_isa(isa));
 }
 
 NetworkPass network_pass(Backend& cpu_backend, std::span<const float> inputs,

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "neural/model/backend.h"
 
 namespace gatelight::neural::cpu {
@@ -12,7 +12,7 @@ namespace gatelight::neural::cpu {
 /// Makes a backend that uses the task arena of the calling thread. Throws Unavailable if the ISA is not
 /// available.
 std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, const TrainingOptions& options,
-                                          std::optional<Isa> isa = std::nullopt);
+                                          std::optional<simd::Isa> isa = std::nullopt);
 
 /// Result of network_pass.
 struct NetworkPass {

@@ -85,14 +85,14 @@ KernelPoints kernel_points(const Model& model, const QueryBatch& batch) {
   return p;
 }
 
-const KernelTable& kernel_table([[maybe_unused]] Isa isa) {
+const KernelTable& kernel_table([[maybe_unused]] simd::Isa isa) {
 #if defined(__x86_64__)
   switch (isa) {
-    case Isa::avx512:
+    case simd::Isa::avx512:
       return __builtin_cpu_supports("avx512bf16") != 0 ? kAvx512Bf16Kernels : kAvx512Kernels;
-    case Isa::avx2:
+    case simd::Isa::avx2:
       return kAvx2Kernels;
-    case Isa::scalar:
+    case simd::Isa::scalar:
       break;
   }
 #endif

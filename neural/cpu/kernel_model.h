@@ -2,7 +2,7 @@
 // Converts the model's structs to those of the kernels.
 
 #include "neural/base/batch.h"
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "neural/cpu/kernels.h"
 #include "neural/model/model.h"
 
@@ -15,6 +15,6 @@ KernelEncoder kernel_encoder(const Model& model);
 KernelPoints kernel_points(const Model& model, const QueryBatch& batch);
 
 /// The functions of an instruction set; for AVX-512, those with BF16 instructions if the processor has them.
-const KernelTable& kernel_table(Isa isa);
+const KernelTable& kernel_table(simd::Isa isa);
 
 }  // namespace gatelight::neural::cpu

@@ -1,4 +1,4 @@
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 
 #include "neural/base/errors.h"
 
-namespace gatelight::neural::cpu {
+namespace gatelight::neural::simd {
 
 namespace {
 
@@ -86,4 +86,4 @@ Isa select_isa(std::optional<Isa> forced) {
   return choose_isa(forced, environment != nullptr ? environment : "", available_isas());
 }
 
-}  // namespace gatelight::neural::cpu
+}  // namespace gatelight::neural::simd

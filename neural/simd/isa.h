@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gatelight::neural::cpu {
+namespace gatelight::neural::simd {
 
 enum class Isa : std::uint8_t { scalar, avx2, avx512 };
 
@@ -26,4 +26,4 @@ Isa select_isa(std::optional<Isa> forced = std::nullopt);
 /// The same choice among `available` (slowest first), with the value of the variable given.
 Isa choose_isa(std::optional<Isa> forced, std::string_view environment, std::span<const Isa> available);
 
-}  // namespace gatelight::neural::cpu
+}  // namespace gatelight::neural::simd

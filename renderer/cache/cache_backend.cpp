@@ -15,9 +15,9 @@
 namespace gatelight::renderer {
 namespace {
 
-std::optional<neural::cpu::Isa> forced_isa(const RenderOptions& options) {
+std::optional<neural::simd::Isa> forced_isa(const RenderOptions& options) {
   if (options.isa == "auto") return std::nullopt;
-  return neural::cpu::parse_isa(options.isa);
+  return neural::simd::parse_isa(options.isa);
 }
 
 constexpr std::string_view kVulkan = "vulkan";
@@ -60,7 +60,7 @@ std::string cache_machine(const RenderOptions& options) {
   return on_device(options, [&] {
     if (const std::optional<std::string> device = vulkan_device(options))
       return fmt::format("vulkan {}", neural::vulkan::device_name(*device));
-    return std::string(neural::cpu::isa_name(neural::cpu::select_isa(forced_isa(options))));
+    return std::string(neural::simd::isa_name(neural::simd::select_isa(forced_isa(options))));
   });
 }
 

@@ -2,14 +2,14 @@
 // Up to 16 points of surfaces that are shaded together, as a structure of arrays. Plain data: the kernels,
 // which are compiled once for each instruction set, see nothing else of the renderer.
 
-#include <stdint.h>
+#include <cstdint>
 
 #include "renderer/settings/choices.h"
 
 namespace gatelight::renderer {
 
 /// How a lane's light sample came about.
-enum class LaneLight : uint32_t {
+enum class LaneLight : std::uint32_t {
   none,         ///< no light can reach the point
   done,         ///< the sample is complete
   triangle,     ///< complete but for the texture of the emissive triangle `light`, at `light_point`
@@ -20,7 +20,7 @@ enum class LaneLight : uint32_t {
 struct alignas(64) ShadingBlock {
   static constexpr int kWidth = 16;
   using Floats = float[kWidth];
-  using Words = uint32_t[kWidth];
+  using Words = std::uint32_t[kWidth];
 
   int count = 0;  ///< lanes in use; the others hold what was in them before
   SamplerKind sampler = SamplerKind::sobol;  ///< of all lanes

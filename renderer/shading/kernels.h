@@ -1,7 +1,7 @@
 #pragma once
 // The wide kernels and the data that they read, as plain data.
 
-#include <stdint.h>
+#include <cstdint>
 
 #include "renderer/settings/choices.h"
 #include "renderer/shading/block.h"
@@ -13,15 +13,15 @@ struct LightView {
   static constexpr int kTriangleFloats = 20;
   static constexpr int kPlacedFloats = 16;
   static constexpr int kSunFloats = 6;
-  enum class Sky : uint8_t { none, constant, picture };
+  enum class Sky : std::uint8_t { none, constant, picture };
 
   const float* tree = nullptr;  ///< nodes of LightTree, null without one
   float nearest2 = 0.0f;        ///< LightTree::nearest2
   const float* triangles = nullptr;
-  uint32_t triangle_count = 0;
+  std::uint32_t triangle_count = 0;
   const float* placed = nullptr;  ///< point and spot lights; they follow the triangles in the tree
   const float* suns = nullptr;    ///< direction and irradiance
-  uint32_t sun_count = 0;
+  std::uint32_t sun_count = 0;
   Sky sky = Sky::none;
   float sky_radiance[3] = {0.0f, 0.0f, 0.0f};
 };

@@ -1,6 +1,6 @@
 #include "renderer/shading/wide_shading.h"
 
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
 #include "renderer/sampling/sampler.h"
@@ -17,8 +17,8 @@ void put(float (&a)[3][ShadingBlock::kWidth], int lane, const Vector& v) {
 }  // namespace
 
 const ShadingKernels& choose_shading_kernels(const std::string& isa) {
-  using neural::cpu::Isa;
-  [[maybe_unused]] const Isa chosen = neural::cpu::select_isa(neural::cpu::parse_isa(isa));
+  using neural::simd::Isa;
+  [[maybe_unused]] const Isa chosen = neural::simd::select_isa(neural::simd::parse_isa(isa));
 #if defined(__x86_64__)
   if (chosen == Isa::avx512) return kAvx512Shading;
   if (chosen == Isa::avx2) return kAvx2Shading;
@@ -96,9 +96,7 @@ void WideShading::sample_light(ShadingBlock& block, int lane) const {
   const Sampler sampler =
       Sampler::from_parts(block.sampler, block.sampler_key[lane], block.sampler_index[lane]);
   const std::uint32_t dimensions = block.dimensions[lane];
-  const bool sheet = block.transmission[lane] * (1.0f - block.metallic[lane]) > 0.0f;
-  const Vec3 normal = sheet ? Vec3(Vec3::Zero()) : lane_vector(block.shading_normal, lane);
-  const LightSample s = lights_.sample(lane_vector(block.position, lane), normal,
+  const LightSample s = lights_.sample(lane_vector(block.position, lane), light_normal(block, lane),
                                        sampler.get_1d(dimensions + 2), sampler.get_2d(dimensions + 3));
   block.light_state[lane] = static_cast<std::uint32_t>(s.pdf > 0.0f ? LaneLight::done : LaneLight::none);
   block.light_is_delta[lane] = s.delta ? ~0u : 0u;

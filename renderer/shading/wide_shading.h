@@ -13,7 +13,7 @@
 namespace gatelight::renderer {
 
 /// The kernels of an instruction set: scalar (SSE2 or what the compiler was told), avx2, avx512, or auto, which
-/// is the choice of the cache's kernels (neural::cpu::select_isa). Throws Unavailable.
+/// is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
 const ShadingKernels& choose_shading_kernels(const std::string& isa);
 
 /// Whether the kernels have all lobes of a surface. They do not refract.
@@ -49,6 +49,11 @@ class WideShading {
 
 inline Vec3 lane_vector(const float (&a)[3][ShadingBlock::kWidth], int lane) {
   return {a[0][lane], a[1][lane], a[2][lane]};
+}
+/// The normal that next-event estimation uses: zero on a sheet, which light reaches from both sides.
+inline Vec3 light_normal(const ShadingBlock& block, int lane) {
+  const bool sheet = block.transmission[lane] * (1.0f - block.metallic[lane]) > 0.0f;
+  return sheet ? Vec3(Vec3::Zero()) : lane_vector(block.shading_normal, lane);
 }
 inline Color lane_color(const float (&a)[3][ShadingBlock::kWidth], int lane) {
   return {a[0][lane], a[1][lane], a[2][lane]};

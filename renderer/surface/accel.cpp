@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "renderer/machine/errors.h"
 #include "renderer/surface/embree.h"
 
@@ -123,15 +123,15 @@ const char* embree_isa(const std::string& isa) {
 }
 
 bool has_isa(const std::string& name) {
-  const std::optional<neural::cpu::Isa> isa = neural::cpu::parse_isa(name);
-  const std::vector<neural::cpu::Isa> there = neural::cpu::available_isas();
+  const std::optional<neural::simd::Isa> isa = neural::simd::parse_isa(name);
+  const std::vector<neural::simd::Isa> there = neural::simd::available_isas();
   return !isa || std::find(there.begin(), there.end(), *isa) != there.end();
 }
 
 }  // namespace
 
 std::string best_isa() {
-  return std::string(neural::cpu::isa_name(neural::cpu::available_isas().back()));
+  return std::string(neural::simd::isa_name(neural::simd::available_isas().back()));
 }
 
 std::string embree_version() {

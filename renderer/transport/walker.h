@@ -240,9 +240,7 @@ struct Walker {
   bool advance(const PathBlock& block, int lane, const Drawn& drawn, float t, Ray& ray) {
     const ShadingBlock& p = block.points;
     throughput *= drawn.weight;
-    const bool sheet = p.transmission[lane] * (1.0f - p.metallic[lane]) > 0.0f;
-    const Vec3 light_normal = sheet ? Vec3(Vec3::Zero()) : lane_vector(p.shading_normal, lane);
-    return advance(drawn, lane_vector(p.position, lane), light_normal, t, block.cone_width[lane],
+    return advance(drawn, lane_vector(p.position, lane), light_normal(p, lane), t, block.cone_width[lane],
                    lane_vector(p.next_origin, lane), ray);
   }
 

@@ -40,7 +40,7 @@ struct Waves {
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
-  PathBlock blocks[kBlockKinds];  ///< of paths that wait to be shaded
+  PathBlock blocks[kBlockKinds] = {};  ///< of paths that wait to be shaded; lanes without one hold zeros or old ones
 
   /// The path of ray `number` has its next ray.
   void go_on(std::uint32_t number, const Ray& next) {

@@ -20,7 +20,7 @@ using Backends = std::vector<std::unique_ptr<Backend>>;
 /// Scalar, AVX2 and AVX-512, as far as the processor has them.
 inline Backends fast_backends(const std::shared_ptr<const Model>& model, const TrainingOptions& options) {
   Backends backends;
-  for (const cpu::Isa isa : cpu::available_isas())
+  for (const simd::Isa isa : simd::available_isas())
     backends.push_back(cpu::make_cpu_backend(model, options, isa));
   return backends;
 }

@@ -93,7 +93,7 @@ TEST(Denormals, StepsAndAnswersHaveTheSameBitsWhateverTheThreadsModes) {
       const ModelState start = tiny_state(*c.model, options);
       OwnedBatch batch = make_batch(*c.model, 3001, 1, {.border = 0.3f});
       for (float& target : batch.targets) target *= 1e-38f;
-      for (const cpu::Isa isa : cpu::available_isas()) {
+      for (const simd::Isa isa : simd::available_isas()) {
         ModelState expected;
         std::vector<float> answers;
         for (const int threads : {1, 2, 7})

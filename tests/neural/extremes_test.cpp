@@ -12,7 +12,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using cpu::Isa;
+using simd::Isa;
 
 constexpr float kGreatest = std::numeric_limits<float>::max();
 
@@ -24,7 +24,7 @@ std::vector<ModelCase> usual_cases() {
 /// For every instruction set and every way to store features.
 void for_every_backend(const ModelCase& c, const TrainingOptions& options,
                        const std::function<void(Backend&)>& body) {
-  for (const Isa isa : cpu::available_isas())
+  for (const Isa isa : simd::available_isas())
     for (const FeaturePrecision precision :
          {FeaturePrecision::fp32, FeaturePrecision::fp16_masters, FeaturePrecision::fp16}) {
       TrainingOptions with = options;
@@ -122,7 +122,7 @@ TEST(Extremes, BarycentricsOfAnySizeAreClamped) {
   reference->import_state(state);
   std::vector<float> expected(batch.size() * 3), out(batch.size() * 3);
   reference->query(batch.points(), {QueryPrecision::fp32, OutputRange::raw}, expected);
-  for (const Isa isa : cpu::available_isas()) {
+  for (const Isa isa : simd::available_isas()) {
     const auto fast = cpu::make_cpu_backend(c.model, {}, isa);
     fast->import_state(state);
     fast->query(batch.points(), {QueryPrecision::fp32, OutputRange::raw}, out);
@@ -216,7 +216,7 @@ TEST(Extremes, OneNodeCanTakeAllRecords) {
   reference->import_state(state);
   EXPECT_EQ(reference->train(batch.training()).touched_nodes, 2u);  // one a level
   const ModelState expected = reference->export_state();
-  for (const Isa isa : cpu::available_isas()) {
+  for (const Isa isa : simd::available_isas()) {
     const auto fast = cpu::make_cpu_backend(c.model, options, isa);
     fast->import_state(state);
     EXPECT_EQ(fast->train(batch.training()).touched_nodes, 2u);
@@ -245,7 +245,7 @@ TEST(Extremes, StepsNeedNoTable) {
       reference->import_state(state);
       for (int step = 0; step < 3; ++step) reference->train(batch.training());
       const ModelState expected = reference->export_state();
-      for (const Isa isa : cpu::available_isas()) {
+      for (const Isa isa : simd::available_isas()) {
         SCOPED_TRACE(fmt::format("{} {} after {} steps", o.name, isa_name(isa), counter));
         const auto fast = cpu::make_cpu_backend(c.model, o.options, isa);
         fast->import_state(state);

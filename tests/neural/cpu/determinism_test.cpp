@@ -18,7 +18,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using cpu::Isa;
+using simd::Isa;
 
 constexpr int kThreads[] = {1, 2, 7};
 
@@ -67,7 +67,7 @@ Outcome train(const std::shared_ptr<const Model>& model, const TrainingOptions& 
 void expect_same_for_any_threads(const std::string& name, const std::shared_ptr<const Model>& model,
                                  const TrainingOptions& options, std::span<const OwnedBatch> batches,
                                  int steps) {
-  for (const Isa isa : cpu::available_isas()) {
+  for (const Isa isa : simd::available_isas()) {
     Outcome first;
     for (const int threads : kThreads) {
       SCOPED_TRACE(fmt::format("{} {} {} threads", name, isa_name(isa), threads));

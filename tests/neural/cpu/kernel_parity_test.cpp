@@ -11,7 +11,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using cpu::Isa;
+using simd::Isa;
 using reference::make_reference_backend;
 
 // Differences are relative to the greatest magnitude in the same tensor (or in a batch's answers). A float
@@ -90,7 +90,7 @@ class KernelParity : public ::testing::Test {
     const std::array expected = {answers(*reference, *c.model, batch, false),
                                  answers(*reference, *c.model, batch, true)};
     const std::string where = fmt::format("{}, {} points", c.name, batch.size());
-    for (const Isa isa : cpu::available_isas()) {
+    for (const Isa isa : simd::available_isas()) {
       SCOPED_TRACE(fmt::format("{}: {}", isa_name(isa), where));
       const auto fast = cpu::make_cpu_backend(c.model, options, isa);
       fast->import_state(state);
@@ -115,7 +115,7 @@ class KernelParity : public ::testing::Test {
     EXPECT_EQ(expected.rejected, batch.count(Fate::rejected));
     EXPECT_EQ(expected.unstored, batch.count(Fate::unstored));
     const std::string where = fmt::format("{}, {} records", name, batch.size());
-    for (const Isa isa : cpu::available_isas()) {
+    for (const Isa isa : simd::available_isas()) {
       SCOPED_TRACE(fmt::format("{}: {}", isa_name(isa), where));
       const auto fast = cpu::make_cpu_backend(model, options, isa);
       fast->import_state(state);
@@ -264,7 +264,7 @@ TEST_F(KernelParity, TheLastTargetIsClampedToo) {
   for (const std::size_t size : {1u, 2u, 5u, 15u, 48u, 49u}) {
     OwnedBatch batch = make_batch(*c.model, size, 5);
     batch.targets.back() = 7.0f;
-    for (const Isa isa : cpu::available_isas())
+    for (const Isa isa : simd::available_isas())
       EXPECT_EQ(cpu::make_cpu_backend(c.model, options, isa)->train(batch.training()).clipped, 1u)
           << isa_name(isa) << ", " << size;
   }
@@ -321,7 +321,7 @@ TEST_F(KernelParity, NodesWithoutWeightAreNotTouched) {
     const ModelState state = random_state(*c.model, options, 3, false);
     const auto reference = make_reference_backend(c.model, options);
     std::vector<std::unique_ptr<Backend>> fast;
-    for (const Isa isa : cpu::available_isas()) fast.push_back(cpu::make_cpu_backend(c.model, options, isa));
+    for (const Isa isa : simd::available_isas()) fast.push_back(cpu::make_cpu_backend(c.model, options, isa));
     OwnedBatch batch = make_batch(*c.model, 1, 3);
     for (std::uint32_t i = 0; i <= 8; ++i)
       for (std::uint32_t j = 0; i + j <= 8; ++j) {
@@ -347,7 +347,7 @@ TEST_F(KernelParity, LossesOfLaterStepsStayTogether) {
       options.loss = loss;
       const auto reference = make_reference_backend(c.model, options);
       std::vector<std::unique_ptr<Backend>> fast;
-      for (const Isa isa : cpu::available_isas())
+      for (const Isa isa : simd::available_isas())
         fast.push_back(cpu::make_cpu_backend(c.model, options, isa));
       for (std::uint64_t step = 0; step < 20; ++step) {
         const OwnedBatch batch =
@@ -356,7 +356,7 @@ TEST_F(KernelParity, LossesOfLaterStepsStayTogether) {
         for (std::size_t i = 0; i < fast.size(); ++i) {
           const double difference = std::abs(fast[i]->train(batch.training()).loss - expected) / expected;
           expect_within(kLaterLossTolerance, difference, "loss of 20 steps", *c.model,
-                        cpu::available_isas()[i], fmt::format("{} step {}", name, step));
+                        simd::available_isas()[i], fmt::format("{} step {}", name, step));
         }
       }
     }
@@ -375,7 +375,7 @@ TEST_F(KernelParity, AnswersInBf16) {
     reference->import_state(state);
     for (const bool averaged : {false, true}) {
       const std::vector<float> expected = answers(*reference, *c.model, batch, averaged);
-      for (const Isa isa : cpu::available_isas()) {
+      for (const Isa isa : simd::available_isas()) {
         SCOPED_TRACE(fmt::format("{}: {}", isa_name(isa), name));
         const auto fast = cpu::make_cpu_backend(c.model, options, isa);
         fast->import_state(state);
@@ -403,7 +403,7 @@ TEST_F(KernelParity, RangesClampTheRawAnswers) {
   ModelState state = random_state(*c.model, options, 4, true);
   for (std::uint32_t o = 0; o < 3; ++o) state.averages[c.model->parameters.layers.back().biases + o] = 0.4f;
   const OwnedBatch batch = make_batch(*c.model, 211, 4, {.nonfinite = 0.1f, .unstored = 0.1f});
-  for (const Isa isa : cpu::available_isas())
+  for (const Isa isa : simd::available_isas())
     for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16}) {
       const auto fast = cpu::make_cpu_backend(c.model, options, isa);
       fast->import_state(state);

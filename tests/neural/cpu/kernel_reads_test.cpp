@@ -72,7 +72,7 @@ TEST(KernelReads, NothingBehindTheEndOfABatch) {
     for (const std::size_t size : {1u, 15u, 16u, 48u, 50u, 96u, 768u}) {
       const OwnedBatch batch = make_batch(*c.model, size, 3);
       const EdgeBatch edge(batch);
-      for (const cpu::Isa isa : cpu::available_isas()) {
+      for (const simd::Isa isa : simd::available_isas()) {
         SCOPED_TRACE(fmt::format("{}, {}, {}", name, size, isa_name(isa)));
         const auto one = cpu::make_cpu_backend(c.model, {}, isa);
         const auto other = cpu::make_cpu_backend(c.model, {}, isa);

@@ -204,7 +204,7 @@ Models make_models(const Sphere& sphere) {
 }
 
 struct Arguments {
-  std::vector<cpu::Isa> isas = cpu::available_isas();
+  std::vector<simd::Isa> isas = simd::available_isas();
   std::uint64_t steps = 512;
   FeaturePrecision features = FeaturePrecision::fp32;
   QueryPrecision answers = QueryPrecision::fp32;
@@ -212,7 +212,7 @@ struct Arguments {
 };
 
 /// Prints a table for one instruction set. Returns whether all errors fell as they should.
-bool learn(const Models& models, const Sphere& sphere, cpu::Isa isa, const Arguments& arguments) {
+bool learn(const Models& models, const Sphere& sphere, simd::Isa isa, const Arguments& arguments) {
   const std::uint64_t steps = arguments.steps;
   TrainingOptions options;
   options.precision = arguments.features;
@@ -266,7 +266,7 @@ std::optional<Arguments> parse(int count, char** words, std::string& complaint) 
     }
     const std::string_view value = words[i];
     if (flag == "--isa") {
-      const std::optional<cpu::Isa> isa = cpu::parse_isa(value);
+      const std::optional<simd::Isa> isa = simd::parse_isa(value);
       if (!isa) {
         complaint = fmt::format("--isa {}: expected scalar, avx2 or avx512", value);
         return {};
@@ -305,7 +305,7 @@ int run(const Arguments& arguments) {
              models.gate->parameters.node_count, models.gate->parameters.features,
              models.hash_grid->parameters.node_count, models.hash_grid->parameters.features);
   bool good = true;
-  for (const cpu::Isa isa : arguments.isas) good = learn(models, sphere, isa, arguments) && good;
+  for (const simd::Isa isa : arguments.isas) good = learn(models, sphere, isa, arguments) && good;
   if (!good) fmt::print(stderr, "gatelight-learn-sphere: an error did not fall as it should\n");
   return good ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "neural/base/errors.h"
 #include "tests/support/messages.h"
 
-namespace gatelight::neural::cpu {
+namespace gatelight::neural::simd {
 namespace {
 
 using tests::expect_message;
@@ -90,4 +90,4 @@ TEST(Isa, AnUnknownWordIsRefusedWithThoseThatAreThere) {
 }
 
 }  // namespace
-}  // namespace gatelight::neural::cpu
+}  // namespace gatelight::neural::simd

@@ -87,7 +87,7 @@ TEST_F(VulkanAnswers, InBf16) {
     const ModelState state = random_state(*c.model, options, ++seed, true);
     const OwnedBatch batch = make_batch(*c.model, 197, seed, {.nonfinite = 0.1f, .unstored = 0.1f});
     const auto reference = reference::make_reference_backend(c.model, options);
-    const auto host = cpu::make_cpu_backend(c.model, options, cpu::Isa::scalar);
+    const auto host = cpu::make_cpu_backend(c.model, options, simd::Isa::scalar);
     const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
     for (Backend* backend : {reference.get(), host.get(), device.get()}) backend->import_state(state);
     for (const bool averaged : {false, true}) {

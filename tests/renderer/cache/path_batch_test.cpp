@@ -16,7 +16,7 @@ void push_point(SurfacePoints& points, std::uint32_t triangle, float u = 0.25f) 
   hit.v = 0.5f;
   hit.instance = 0;
   hit.primitive = triangle;
-  points.push_back(hit, 0, Vec3(0, 0, 1), Surface{}, Color::Ones());
+  points.push_back(surface_point(hit, 0, Vec3(0, 0, 1), Surface{}, Color::Ones()));
 }
 
 Color target(const PathBatch& batch, std::size_t record) {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "neural/base/errors.h"
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 #include "tests/renderer/image/kinds_of_pictures.h"
@@ -154,7 +154,7 @@ TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
   tests::expect_names(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
                       {"/picture", "integrator", "nrc", "path"});
   expect_message(resuming([](RenderOptions& o) { o.environment.constant.x() = 1.0f; }), {"environment"});
-  if (neural::cpu::available_isas().size() > 1) {
+  if (neural::simd::available_isas().size() > 1) {
     tests::expect_names(resuming([](RenderOptions& o) { o.isa = "scalar"; }),
                         {"/picture", "kernels", "scalar"});
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/cpu/isa.h"
+#include "neural/simd/isa.h"
 #include "renderer/bsdf/bsdf.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
@@ -72,8 +72,8 @@ inline void put_light(ShadingBlock& block, int lane, const Vec3& wi, bool delta,
 inline const std::vector<std::pair<std::string, const ShadingKernels*>>& all_kernels() {
   static const auto kernels = [] {
     std::vector<std::pair<std::string, const ShadingKernels*>> result;
-    for (const neural::cpu::Isa isa : neural::cpu::available_isas()) {
-      const std::string name(neural::cpu::isa_name(isa));
+    for (const neural::simd::Isa isa : neural::simd::available_isas()) {
+      const std::string name(neural::simd::isa_name(isa));
       result.emplace_back(name, &choose_shading_kernels(name));
     }
     return result;
