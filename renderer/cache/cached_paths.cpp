@@ -114,10 +114,10 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   }
   const std::uint32_t side = side_at(hit, m.surface.front);
   const bool has_storage = stored_(neural::surface_index(hit.instance, side));
-  if (path.shades_wide(m) && wide_as_a_whole(m.surface.material)) {
-    const bool answered = has_storage && ends_here(path, plan);
-    if (!answered || (options_.held.emission() && !delta_apart_)) {
-      PathBlock& block = scratch.blocks[answered ? kAnswers : kScatters];
+  if (path.shades_wide(m)) {
+    const bool answers = has_storage && ends_here(path, plan);
+    if (!answers || (options_.held.emission() && !delta_apart_ && wide_as_a_whole(m.surface.material))) {
+      PathBlock& block = scratch.blocks[answers ? kAnswers : kScatters];
       path.wait(m, number, plan.min_depth, block);
       return &block;
     }
@@ -152,7 +152,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     const Hit& hit = scratch.hits[number];
     if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
     if (answers) {
-      ask(path, point_at(block, lane, hit), batch);
+      ask(path, point_at(block, lane, hit, lane_color(points.albedo, lane)), batch);
     } else {
       Ray next;
       if (continue_from(path, block, lane, hit, next, plan, batch, scratch)) scratch.go_on(number, next);
@@ -160,14 +160,15 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   }
 }
 
-SurfacePoint CachedPaths::point_at(const PathBlock& block, int lane, const Hit& hit) const {
+SurfacePoint CachedPaths::point_at(const PathBlock& block, int lane, const Hit& hit,
+                                   const Color& wide_albedo) const {
   const ShadingBlock& p = block.points;
   return {hit,
           side_at(hit, block.front[lane]),
           lane_vector(p.wo, lane),
           lane_vector(p.position, lane),
           lane_vector(p.shading_normal, lane),
-          lane_color(p.albedo, lane),
+          wide_albedo,
           p.roughness[lane]};
 }
 
@@ -256,22 +257,25 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
 bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
                                 const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
   const ShadingBlock& p = block.points;
-  const SurfacePoint point = point_at(block, lane, hit);
+  const Color wide_albedo = lane_color(p.wide_albedo, lane);
+  const SurfacePoint point = point_at(block, lane, hit, wide_albedo);
   const bool stored = stored_(neural::surface_index(hit.instance, point.side));
-  if (!stored && (point.albedo > 0.0f).any() && ends_here(path, plan)) ++batch.unstored_hits;
-  bool record = stored && may_teach(path, plan);
+  const bool wide = (wide_albedo > 0.0f).any();
+  if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
+  bool record = stored && wide && may_teach(path, plan);
   const std::int32_t index = add_vertex(path, point, record, batch);
   const Color direct = lane_color(p.direct, lane) * path.scale();
   if ((direct > 0.0f).any()) {
     const bool held = record && options_.held.light_sample(p.light_is_delta[lane] != 0);
     scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
-    scratch.pending.push_back({index, direct, held ? direct : Color(Color::Zero())});
+    const Color wide_direct = lane_color(p.wide_direct, lane) * path.scale();
+    scratch.pending.push_back({index, direct, held ? wide_direct : Color(Color::Zero())});
   }
   if (!p.alive[lane]) return false;
   const Drawn drawn = drawn_at(p, lane);
-  if (!drawn.delta) path.wide_events += 1;
-  const bool held = record && !drawn.delta;
-  link(path, drawn, {drawn.weight, drawn.weight, held ? drawn.weight : Color(Color::Zero())}, index);
+  if (!drawn.delta && !(drawn.spread < options_.min_roughness * options_.min_roughness)) path.wide_events += 1;
+  const Color held = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
+  link(path, drawn, {drawn.weight, drawn.weight, held}, index);
   return path.Walker::advance(block, lane, drawn, hit.t, next);
 }
 

@@ -69,7 +69,9 @@ class CachedPaths {
       : walk_(world, options.mis),
         options_(options),
         stored_(stored),
-        delta_apart_(world.lights.has_delta() && !options.held.light_sample(true)) {}
+        delta_apart_(world.lights.has_delta() && !options.held.light_sample(true)) {
+    walk_.shading.tell_wide(options.min_roughness);
+  }
 
   /// Traces the paths. `hits` is empty or has the nearest hit of each start's ray. `first_hits` is empty or
   /// as long as the starts. Afterwards the caller answers batch.queries and calls batch.resolve().
@@ -86,13 +88,13 @@ class CachedPaths {
 
   PathBlock* scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
                      PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
-  /// Whether no lobe of a surface is narrow, so that its parts need not be told apart.
+  /// Whether no lobe of a surface is narrow, so that a path can end there in the cache.
   bool wide_as_a_whole(const SurfaceMaterial& material) const;
   void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
              Scratch& scratch) const;
   std::uint32_t side_at(const Hit& hit, bool front) const;
-  /// The point of a lane.
-  SurfacePoint point_at(const PathBlock& block, int lane, const Hit& hit) const;
+  /// The point of a lane. wide_albedo: of the wide lobes.
+  SurfacePoint point_at(const PathBlock& block, int lane, const Hit& hit, const Color& wide_albedo) const;
   /// Adds a vertex that the cache answers, if it can. Returns its number.
   std::int32_t ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const;
   /// Adds a vertex that goes on. record: it becomes a record, if it can; then it stays true.
@@ -101,7 +103,7 @@ class CachedPaths {
   bool may_teach(const Path& path, const PathPlan& plan) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
-  /// For a lane: no lobe is narrow, and it is shaded.
+  /// For a lane that is shaded.
   bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
                      const PathPlan& plan, PathBatch& batch, Scratch& scratch) const;
   bool continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record, const PathPlan& plan,

@@ -45,15 +45,18 @@ struct alignas(64) ShadingBlock {
 
   // The BSDF towards the light, times radiance, MIS weight and one over the pdf; zero without light.
   Floats direct[3];
+  Floats wide_direct[3];  ///< that of the wide lobes, where ShadingContext::tells_wide
   // The shadow ray.
   Floats shadow_origin[3], shadow_length;
   Words shadow_seed;
 
   Floats albedo[3];
+  Floats wide_albedo[3];  ///< of the wide lobes
   // The sampled direction: Drawn, and the next ray.
   Words alive;  ///< 0: the path ends
   Words is_delta, transmitted;
   Floats wi[3], weight[3], pdf, spread, survival;
+  Floats wide_weight[3];  ///< of the wide lobes for this direction; delta lobes have none
   Floats next_origin[3];
   Words next_seed;
 };

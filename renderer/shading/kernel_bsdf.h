@@ -10,6 +10,7 @@ namespace {
 
 using gatelight::renderer::BsdfTables;
 using gatelight::renderer::ShadingBlock;
+using gatelight::renderer::ShadingContext;
 
 constexpr float kMinCosine = 1e-5f, kMinHalf2 = 1e-10f;
 constexpr float kDeltaAlpha = 0.03f * 0.03f;
@@ -163,9 +164,10 @@ GATELIGHT_INLINE Float3 mirror(Float3 wo, Float3 n) {
 struct LaneValue {
   Float3 value;
   Float pdf;
+  Float3 wide;  ///< the value of the wide lobes, where LaneBsdf::tells_wide
 };
 struct LaneSample {
-  Float3 wi, weight;
+  Float3 wi, weight, wide_weight;
   Float pdf, spread;
   Mask delta, transmitted;
 };
@@ -183,16 +185,21 @@ struct LaneBsdf {
   Float3 albedo;
   Float p_microfacet, p_diffuse, p_coat, p_sheen;
   Mask thin, coated, has_sheen;
-  bool any_thin, any_coat, any_sheen;
+  bool any_thin, any_coat, any_sheen, tells_wide;
   Mask is_delta;
+  Mask wide_facets, wide_coat;  ///< where tells_wide
+  Float3 wide_albedo;
 
-  GATELIGHT_INLINE LaneBsdf(const ShadingBlock& block, const BsdfTables& tables, int at)
+  GATELIGHT_INLINE LaneBsdf(const ShadingBlock& block, const ShadingContext& context, int at)
       : wo(load(block.wo, at)),
         ng(load(block.geometric_normal, at)),
         ns(bend_normal(load(block.shading_normal, at), ng, wo)) {
+    const BsdfTables& tables = context.tables;
+    tells_wide = context.tells_wide;
     set_up_base(block, tables, at);
     set_up_layers(block, tables, at);
     albedo = clamp(albedo, 0.0f, 1.0f);
+    if (tells_wide) tell_wide(tables, context.min_roughness);
     p_microfacet = max(p_microfacet, 1e-3f * f90 * base_scale);
     const Float total = p_microfacet + p_diffuse + p_coat + p_sheen;
     const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
@@ -294,6 +301,27 @@ struct LaneBsdf {
     p_diffuse *= base_scale;
   }
 
+  /// Bsdf::wide_part.
+  GATELIGHT_INLINE void tell_wide(const BsdfTables& tables, float min_roughness) {
+    const Float least = Float(min_roughness) * min_roughness;
+    const auto is_wide = [&](const GgxLobe& lobe) __attribute__((always_inline)) {
+      return ~(lobe.delta | (lobe.alpha2 < least * least));
+    };
+    wide_facets = is_wide(ggx);
+    wide_coat = no_lanes();
+    // The albedo of the lobes that are apart from the microfacets: wide beside narrow ones, or narrow beside wide ones.
+    const Float coupled = select_or_zero(p_diffuse > 0.0f, kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale);
+    Float3 apart = select_or_zero(~wide_facets, diffuse * coupled);
+    if (any_sheen) apart += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
+    if (any_coat) {
+      wide_coat = is_wide(coat) & coated;
+      const Mask differs = (wide_coat & ~wide_facets) | (~wide_coat & coated & wide_facets);
+      apart += repeat(select_or_zero(differs, p_coat));
+    }
+    apart = {min(apart.x, albedo.x), min(apart.y, albedo.y), min(apart.z, albedo.z)};
+    wide_albedo = select(wide_facets, albedo - apart, apart);
+  }
+
   GATELIGHT_INLINE Float passed(const Albedo& a) const {
     return max(0.0f, coupling[0] + coupling[1] * a.loss + coupling[2] * a.b + coupling[3] * a.b_scaled);
   }
@@ -336,7 +364,9 @@ struct LaneBsdf {
                              (multiple_f0 + (multiple_f90 - multiple_f0) * schlick) * excess;
     const Float shape = terms.d * terms.visibility * cos_i;
     const Float chosen = p_microfacet * terms.d * ggx.pdf_scale;
-    LaneValue result{select_or_zero(facets, reflected * shape), select_or_zero(facets, chosen)};
+    LaneValue result;
+    result.value = select_or_zero(facets, reflected * shape);
+    result.pdf = select_or_zero(facets, chosen);
     if (any_thin) {
       const Facet half = facet(cos_h);
       const Float through = scale_o * in.scale;
@@ -346,12 +376,19 @@ struct LaneBsdf {
     result.value += select_or_zero(front, diffuse * (passed(in) * cos_i));
     result.pdf += select_or_zero(front, p_diffuse * cos_i * kInvPi);
     const Mask valid = front | behind;
-    result = {select_or_zero(valid, result.value * base_scale), select_or_zero(valid, result.pdf)};
+    result.value = select_or_zero(valid, result.value * base_scale);
+    result.pdf = select_or_zero(valid, result.pdf);
+    if (tells_wide) {
+      const Float3 matte = select_or_zero(front, diffuse * (passed(in) * cos_i * base_scale));
+      result.wide = select(wide_facets, result.value, matte);
+    }
     if (any_coat) {
       const Float cos_c = dot(wi, nc);
       const Mask here = (side > 0.0f) & (p_coat > 0.0f) & ~coat.delta & (cos_c > 0.0f) & (h2 > kMinHalf2);
       const GgxLobe::Terms t = coat.terms(nc, h, h2, cos_c);
-      result.value += repeat(select_or_zero(here, coat_weight * coat_fresnel(cos_h) * t.d * t.visibility * cos_c));
+      const Float value = coat_weight * coat_fresnel(cos_h) * t.d * t.visibility * cos_c;
+      result.value += repeat(select_or_zero(here, value));
+      if (tells_wide) result.wide += repeat(select_or_zero(here & wide_coat, value));
       result.pdf += select_or_zero(here, p_coat * t.d * coat.pdf_scale);
     }
     if (any_sheen) {
@@ -359,6 +396,7 @@ struct LaneBsdf {
       const Float3 c = cross(ns, h);
       const Float value = sheen.value(dot(c, c) / h2, ggx.cos_o, max(cos_i, 0.0f)) * cos_i;
       result.value += select_or_zero(here, sheen_color * value);
+      if (tells_wide) result.wide += select_or_zero(here, sheen_color * value);
       result.pdf += select_or_zero(here, p_sheen * (0.5f * kInvPi));
     }
     return result;
@@ -411,6 +449,7 @@ struct LaneBsdf {
     const LaneValue value = evaluate(s.wi);
     s.pdf = value.pdf;
     s.weight = value.value * (1.0f / value.pdf);
+    if (tells_wide) s.wide_weight = select_or_zero(~s.delta, value.wide * (1.0f / value.pdf));
     if (any(s.delta)) {
       const Float schlick = schlick_weight(ggx.cos_o);
       const Float3 reflected = f0 + (repeat(f90) - f0) * schlick;

@@ -19,12 +19,13 @@ GATELIGHT_INLINE Float light_weight(const ShadingContext& context, Float light_p
 }
 
 GATELIGHT_INLINE void albedo_at(ShadingBlock& block, const ShadingContext& context, int at) {
-  store(block.albedo, at, LaneBsdf(block, context.tables, at).albedo);
+  store(block.albedo, at, LaneBsdf(block, context, at).albedo);
 }
 
 GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& context, int at) {
-  const LaneBsdf bsdf(block, context.tables, at);
+  const LaneBsdf bsdf(block, context, at);
   store(block.albedo, at, bsdf.albedo);
+  if (bsdf.tells_wide) store(block.wide_albedo, at, bsdf.wide_albedo);
   const Float3 position = load(block.position, at);
   const Float offset = load(block.offset + at);
   const Int seed = load(block.seed + at);
@@ -41,7 +42,9 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
     const LaneValue value = bsdf.evaluate(wi);
     const Mask delta = mask_of(load(block.light_is_delta + at));
     const Float weight = select(delta, 1.0f, light_weight(context, light_pdf, value.pdf)) / light_pdf;
-    store(block.direct, at, select_or_zero(lit, value.value * load(block.light_radiance, at) * weight));
+    const Float3 light = load(block.light_radiance, at) * weight;
+    store(block.direct, at, select_or_zero(lit, value.value * light));
+    if (bsdf.tells_wide) store(block.wide_direct, at, select_or_zero(lit, value.wide * light));
     store(block.shadow_origin, at, spawn(wi));
     const Float distance = load(block.light_distance + at);
     const Float length = distance - (load(block.light_offset + at) + 2.0f * offset) / load(block.light_cosine + at);
@@ -49,6 +52,7 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
     store(block.shadow_seed + at, hash(seed ^ 0x5bd1e995u));
   } else {
     store(block.direct, at, repeat(0.0f));
+    store(block.wide_direct, at, repeat(0.0f));
   }
 
   // The direction: Walker::draw and survives.
@@ -67,6 +71,7 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
   store(block.transmitted, at, s.transmitted);
   store(block.wi, at, s.wi);
   store(block.weight, at, s.weight * (1.0f / survival));
+  if (bsdf.tells_wide) store(block.wide_weight, at, s.wide_weight * (1.0f / survival));
   store(block.pdf + at, s.pdf);
   store(block.spread + at, s.spread);
   store(block.survival + at, survival);

@@ -38,6 +38,8 @@ struct ShadingContext {
   BsdfTables tables;
   DirectLight direct = DirectLight::mis;
   MisHeuristic heuristic = MisHeuristic::power;
+  bool tells_wide = false;     ///< whether the outputs of the wide lobes are wanted
+  float min_roughness = 0.0f;  ///< perceptual; narrower lobes are not wide (Bsdf::has_narrow)
 };
 
 struct ShadingKernels {

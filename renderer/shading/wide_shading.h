@@ -30,6 +30,11 @@ class WideShading {
   /// sheen: whether some surface has it; its tables take a while to build.
   WideShading(const Lights& lights, const LightArrays& arrays, const ShadingKernels& kernels, bool sheen,
               DirectLight direct, MisHeuristic heuristic);
+  /// Also tells the part of the wide lobes (Bsdf::wide_part) in all results.
+  void tell_wide(float min_roughness) {
+    context_.tells_wide = true;
+    context_.min_roughness = min_roughness;
+  }
 
   /// Shades all lanes: light samples, BSDF values, new directions. The results are in the block.
   void scatter(ShadingBlock& block) const;

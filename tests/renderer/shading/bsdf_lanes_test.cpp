@@ -163,6 +163,48 @@ TEST(BsdfLanes, SamplesAreThoseOfTheScalarCode) {
   EXPECT_LT(pdfs.far, 1e-3 * pdfs.all);
 }
 
+TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
+  Random random(6);
+  Worst albedos, values, weights;
+  for (const float roughness : {0.0f, 0.25f, 0.6f}) {
+    ShadingContext context = tables_only();
+    context.tells_wide = true;
+    context.min_roughness = roughness;
+    for (int b = 0; b < kBlocks / 3; ++b) {
+      ShadingBlock block;
+      const std::vector<LanePoint> points = fill(block, random);
+      std::vector<Vec3> wis;
+      for (int lane = 0; lane < block.count; ++lane) {
+        wis.push_back(random_above(random, points[lane].surface.geometric_normal));
+        put_light(block, lane, wis[lane], true, 1.0f);
+      }
+      const ShadingBlock result = run_all(block, context, &ShadingKernels::scatter);
+      for (int lane = 0; lane < block.count; ++lane) {
+        const LanePoint& p = points[lane];
+        if (p.wo.dot(p.surface.geometric_normal) < 2e-3f || std::abs(wis[lane].dot(p.surface.geometric_normal)) < 1e-4f)
+          continue;
+        const Bsdf bsdf = p.bsdf();
+        const Bsdf wide = bsdf.wide_part(roughness);
+        const Color value = wide.evaluate(wis[lane]).value;
+        for (int c = 0; c < 3; ++c) {
+          albedos.meet(result.wide_albedo[c][lane], wide.albedo()[c], 1e-4, 0.1);
+          if (!bsdf.is_delta()) values.meet(result.wide_direct[c][lane], value[c], 2e-2, 1e-3);
+        }
+        if (!result.alive[lane]) continue;
+        const Color of_wide = result.is_delta[lane] ? Color(Color::Zero())
+                                                    : Color(wide.evaluate(lane_vector(result.wi, lane)).value / result.pdf[lane]);
+        for (int c = 0; c < 3; ++c) weights.meet(result.wide_weight[c][lane], of_wide[c], 2e-2, 1e-2);
+      }
+    }
+  }
+  record("wide albedo", albedos);
+  record("wide value", values);
+  record("wide weight", weights);
+  EXPECT_LT(albedos.far, 1e-4 * albedos.all);
+  EXPECT_LT(values.far, 5e-4 * values.all);
+  EXPECT_LT(weights.far, 1e-3 * weights.all);
+}
+
 TEST(BsdfLanes, RouletteIsThatOfTheScalarCode) {
   Random random(4);
   int ended = 0, survived = 0;
