@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "neural/simd/isa.h"
 #include "neural/model/backend.h"
+#include "neural/simd/isa.h"
 
 namespace gatelight::neural::cpu {
 

@@ -2,9 +2,9 @@
 // Converts the model's structs to those of the kernels.
 
 #include "neural/base/batch.h"
-#include "neural/simd/isa.h"
 #include "neural/cpu/kernels.h"
 #include "neural/model/model.h"
+#include "neural/simd/isa.h"
 
 namespace gatelight::neural::cpu {
 

@@ -45,11 +45,21 @@ struct Mask {
 #endif
   Register m;
 
-  friend GATELIGHT_INLINE Mask operator&(Mask a, Mask b) { return {static_cast<Register>(a.m & b.m)}; }
-  friend GATELIGHT_INLINE Mask operator|(Mask a, Mask b) { return {static_cast<Register>(a.m | b.m)}; }
-  friend GATELIGHT_INLINE Mask operator~(Mask a) { return {static_cast<Register>(~a.m)}; }
-  GATELIGHT_INLINE Mask& operator&=(Mask b) { return *this = *this & b; }
-  GATELIGHT_INLINE Mask& operator|=(Mask b) { return *this = *this | b; }
+  friend GATELIGHT_INLINE Mask operator&(Mask a, Mask b) {
+    return {static_cast<Register>(a.m & b.m)};
+  }
+  friend GATELIGHT_INLINE Mask operator|(Mask a, Mask b) {
+    return {static_cast<Register>(a.m | b.m)};
+  }
+  friend GATELIGHT_INLINE Mask operator~(Mask a) {
+    return {static_cast<Register>(~a.m)};
+  }
+  GATELIGHT_INLINE Mask& operator&=(Mask b) {
+    return *this = *this & b;
+  }
+  GATELIGHT_INLINE Mask& operator|=(Mask b) {
+    return *this = *this | b;
+  }
 };
 
 GATELIGHT_INLINE Mask no_lanes() {
@@ -231,7 +241,7 @@ GATELIGHT_INLINE Float clamp(Float a, Float low, Float high) {
 }
 /// Towards zero. The magnitude is below 2^31.
 GATELIGHT_INLINE Int to_int(Float a) {
-  return (Words)__builtin_convertvector(a.v, SignedWords);
+  return (Words) __builtin_convertvector(a.v, SignedWords);
 }
 /// The number counts as signed.
 GATELIGHT_INLINE Float to_float(Int a) {
@@ -241,7 +251,8 @@ GATELIGHT_INLINE Float to_float(Int a) {
 GATELIGHT_INLINE Int multiply_high(Int a, Int b) {
 #if defined(__AVX2__)
   const auto even = (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)a.v, (IntRegister)b.v);
-  const auto odd = (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)((Pairs)a.v >> 32), (IntRegister)((Pairs)b.v >> 32));
+  const auto odd =
+      (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)((Pairs)a.v >> 32), (IntRegister)((Pairs)b.v >> 32));
 #elif defined(__SSE2__)
   const auto even = (Pairs)_mm_mul_epu32((IntRegister)a.v, (IntRegister)b.v);
   const auto odd = (Pairs)_mm_mul_epu32((IntRegister)((Pairs)a.v >> 32), (IntRegister)((Pairs)b.v >> 32));
@@ -302,8 +313,8 @@ struct Float4 {
   Float c[4];
 };
 
-/// Four vectors hold four numbers for each of kLanes / 4 lanes: vector j those of the lanes j, j + 4, j + 8 ...
-/// This sorts them by number.
+/// Four vectors hold four numbers for each of kLanes / 4 lanes: vector j those of the lanes j, j + 4, j + 8
+/// ... This sorts them by number.
 GATELIGHT_INLINE Float4 transpose4(Float r0, Float r1, Float r2, Float r3) {
 #if defined(__AVX2__)
   const auto low = [](Float a, Float b) __attribute__((always_inline)) {
@@ -373,7 +384,8 @@ struct Records {
   /// The four floats at p[first + offset] of each lane. A quarter of the reads of four gathers.
   GATELIGHT_INLINE Float4 four(const float* p, uint32_t offset) const {
     const auto row = [&](int j) __attribute__((always_inline)) {
-      return load_groups4([&](int k) __attribute__((always_inline)) { return p + offset + first[j + 4 * k]; });
+      return load_groups4([&](int k)
+                              __attribute__((always_inline)) { return p + offset + first[j + 4 * k]; });
     };
     return transpose4(row(0), row(1), row(2), row(3));
   }

@@ -86,6 +86,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
         make_camera_samples(tile.pixels, sample, options, context_.camera, context_.filter, tile.samples);
+        set_faint(tile.pixels, film, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
         tile.results.resize(tile.pixels.size());
         CachedWorker& worker = workers_.local();

@@ -150,7 +150,8 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     const std::uint32_t number = block.path[lane];
     Path& path = scratch.paths[scratch.path_of[number]];
     const Hit& hit = scratch.hits[number];
-    if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    if (path.surfaces == 0 && !first_hits.empty())
+      first_hits[path.index].albedo = lane_color(points.albedo, lane);
     if (answers) {
       ask(path, point_at(block, lane, hit, lane_color(points.albedo, lane)), batch);
     } else {
@@ -243,7 +244,8 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (record && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;
-  const std::int32_t index = add_vertex(path, surface_point(m.hit, side, m.wo, m.surface, wide.albedo()), record, batch);
+  const std::int32_t index =
+      add_vertex(path, surface_point(m.hit, side, m.wo, m.surface, wide.albedo()), record, batch);
   add_light(path, m, *m.bsdf, LightKinds::all, record ? &wide : nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
   if (!drawn) return false;
@@ -264,16 +266,23 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
   bool record = stored && wide && may_teach(path, plan);
   const std::int32_t index = add_vertex(path, point, record, batch);
-  const Color direct = lane_color(p.direct, lane) * path.scale();
-  if ((direct > 0.0f).any()) {
+  Color direct = lane_color(p.direct, lane) * path.scale();
+  const float shadow_weight =
+      plan.faint > 0.0f
+          ? path.shadow_weight(direct.maxCoeff(),
+                               plan.faint * cache_reflectance(wide_albedo).maxCoeff() * path.scale())
+          : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
+  if (shadow_weight > 0.0f) {
+    direct *= shadow_weight;
     const bool held = record && options_.held.light_sample(p.light_is_delta[lane] != 0);
     scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
-    const Color wide_direct = lane_color(p.wide_direct, lane) * path.scale();
+    const Color wide_direct = lane_color(p.wide_direct, lane) * (path.scale() * shadow_weight);
     scratch.pending.push_back({index, direct, held ? wide_direct : Color(Color::Zero())});
   }
   if (!p.alive[lane]) return false;
   const Drawn drawn = drawn_at(p, lane);
-  if (!drawn.delta && !(drawn.spread < options_.min_roughness * options_.min_roughness)) path.wide_events += 1;
+  if (!drawn.delta && !(drawn.spread < options_.min_roughness * options_.min_roughness))
+    path.wide_events += 1;
   const Color held = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
   link(path, drawn, {drawn.weight, drawn.weight, held}, index);
   return path.Walker::advance(block, lane, drawn, hit.t, next);

@@ -38,6 +38,9 @@ struct PathPlan {
   int most_records = kNone;       ///< for each path; kNone: no limit
   int max_depth = 8;              ///< scattering events
   int min_depth = 2;              ///< before Russian roulette
+  /// Light samples whose light over the vertex's reflectance is below this are traced by Russian roulette.
+  /// 0: CameraSample::faint of the path decides.
+  float faint = 0.0f;
 };
 
 /// The start of a path: a camera ray, or any ray whose nearest hit is already known.

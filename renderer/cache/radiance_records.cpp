@@ -8,6 +8,9 @@ namespace {
 /// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
 
+/// PathPlan::faint over the mean target. The error of what is learned does not show it (README.md).
+constexpr float kFaintShare = 0.3f;
+
 }  // namespace
 
 RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints& points,
@@ -17,7 +20,8 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
 RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,
                                        std::uint64_t records) const {
   const int start = options_.cache.self_training.start_step;
-  RecordRequest request{.step = step, .target_scale = setup.target_scale};
+  RecordRequest request{
+      .step = step, .target_scale = setup.target_scale, .faint = kFaintShare / setup.target_scale};
   request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
   double per_point =
       static_cast<double>(request.self_training ? setup.records_per_short_path : setup.records_per_path);
@@ -38,6 +42,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
   plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;
+  plan.faint = request.faint;
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {

@@ -53,6 +53,7 @@ struct RecordRequest {
   std::uint64_t batches = 1;     ///< one for each step
   bool self_training = false;
   float target_scale = 1.0f;
+  float faint = 0.0f;  ///< PathPlan::faint
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 

@@ -22,7 +22,7 @@ struct alignas(64) ShadingBlock {
   using Floats = float[kWidth];
   using Words = std::uint32_t[kWidth];
 
-  int count = 0;  ///< lanes in use; the others hold what was in them before
+  int count = 0;                             ///< lanes in use; the others hold what was in them before
   SamplerKind sampler = SamplerKind::sobol;  ///< of all lanes
 
   // The surface: those of Surface and SurfaceMaterial. Transmission is that of a thin sheet.

@@ -1,6 +1,6 @@
 #pragma once
-// The opaque and thin-walled BSDF for all lanes: the wide side of renderer/bsdf, lobe by lobe. Microfacets and
-// clearcoat may be deltas. Part of kernel_table.cpp.
+// The opaque and thin-walled BSDF for all lanes: the wide side of renderer/bsdf, lobe by lobe. Microfacets
+// and clearcoat may be deltas. Part of kernel_table.cpp.
 
 #include "renderer/shading/kernel_math.h"
 #include "renderer/shading/kernel_sampler.h"
@@ -95,9 +95,7 @@ struct GgxLobe {
     root_o = root(cos_o);
     pdf_scale = 0.5f / (cos_o + root_o);
   }
-  GATELIGHT_INLINE Float root(Float cosine) const {
-    return sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine);
-  }
+  GATELIGHT_INLINE Float root(Float cosine) const { return sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine); }
   struct Terms {
     Float d, visibility;
   };
@@ -309,10 +307,13 @@ struct LaneBsdf {
     };
     wide_facets = is_wide(ggx);
     wide_coat = no_lanes();
-    // The albedo of the lobes that are apart from the microfacets: wide beside narrow ones, or narrow beside wide ones.
-    const Float coupled = select_or_zero(p_diffuse > 0.0f, kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale);
+    // The albedo of the lobes that are apart from the microfacets: wide beside narrow ones, or narrow beside
+    // wide ones.
+    const Float coupled =
+        select_or_zero(p_diffuse > 0.0f, kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale);
     Float3 apart = select_or_zero(~wide_facets, diffuse * coupled);
-    if (any_sheen) apart += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
+    if (any_sheen)
+      apart += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
     if (any_coat) {
       wide_coat = is_wide(coat) & coated;
       const Mask differs = (wide_coat & ~wide_facets) | (~wide_coat & coated & wide_facets);
@@ -334,8 +335,8 @@ struct LaneBsdf {
   GATELIGHT_INLINE Facet facet(Float cos_h) const {
     Facet result;
     result.schlick = schlick_weight(cos_h);
-    result.transmitted =
-        select_or_zero(thin, tint * (repeat(1.0f - glass_f90 * result.schlick) - glass_f0 * (1.0f - result.schlick)));
+    result.transmitted = select_or_zero(
+        thin, tint * (repeat(1.0f - glass_f90 * result.schlick) - glass_f0 * (1.0f - result.schlick)));
     const Float r = luminance(f0 + (repeat(f90) - f0) * result.schlick), t = luminance(result.transmitted);
     result.reflects = select(t > 0.0f, r / (r + t), 1.0f);
     return result;
@@ -360,8 +361,8 @@ struct LaneBsdf {
     const Float cos_h = 0.5f * sqrt(h2);
     const Float schlick = schlick_weight(cos_h);
     const Float excess = scale_o * in.scale - 1.0f;
-    const Float3 reflected = f0 + (repeat(f90) - f0) * schlick +
-                             (multiple_f0 + (multiple_f90 - multiple_f0) * schlick) * excess;
+    const Float3 reflected =
+        f0 + (repeat(f90) - f0) * schlick + (multiple_f0 + (multiple_f90 - multiple_f0) * schlick) * excess;
     const Float shape = terms.d * terms.visibility * cos_i;
     const Float chosen = p_microfacet * terms.d * ggx.pdf_scale;
     LaneValue result;
@@ -370,7 +371,8 @@ struct LaneBsdf {
     if (any_thin) {
       const Facet half = facet(cos_h);
       const Float through = scale_o * in.scale;
-      result.value = select(behind, select_or_zero(facets, half.transmitted * (shape * through)), result.value);
+      result.value =
+          select(behind, select_or_zero(facets, half.transmitted * (shape * through)), result.value);
       result.pdf = result.pdf * select(behind, 1.0f - half.reflects, half.reflects);
     }
     result.value += select_or_zero(front, diffuse * (passed(in) * cos_i));
@@ -427,7 +429,8 @@ struct LaneBsdf {
     const Mask mirrored = facets | in_coat;
     s.delta = mirrored & smooth;
     const Frame frame(normal);
-    Float3 h = frame.to_world(visible_normal(alpha, {dot(wo, frame.tangent), dot(wo, frame.bitangent), cos_o}, u));
+    Float3 h =
+        frame.to_world(visible_normal(alpha, {dot(wo, frame.tangent), dot(wo, frame.bitangent), cos_o}, u));
     h = select(smooth, normal, h);
     s.wi = select(mirrored, mirror(wo, h), frame.to_world(local));
     s.spread = select(mirrored, select_or_zero(~smooth, alpha), 1.0f);

@@ -64,8 +64,8 @@ GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
   Weights w;
 #pragma GCC unroll 1
   for (int c = 0; c < 4; ++c)
-    w.c[c] =
-        weigh(r, view.nearest2, [&](int i) __attribute__((always_inline)) { return Float(view.tree[4 * i + c]); });
+    w.c[c] = weigh(
+        r, view.nearest2, [&](int i) __attribute__((always_inline)) { return Float(view.tree[4 * i + c]); });
   return w;
 }
 
@@ -154,13 +154,16 @@ struct LanesOfLight {
 };
 
 /// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
-GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, Int light, Float choice, Float2 u,
-                                               Mask here) {
+GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, Int light, Float choice,
+                                               Float2 u, Mask here) {
   const Records record(light * static_cast<uint32_t>(LightView::kTriangleFloats));
-  const auto four = [&](uint32_t i) __attribute__((always_inline)) { return record.four(view.triangles, 4 * i); };
+  const auto four = [&](uint32_t i) __attribute__((always_inline)) {
+    return record.four(view.triangles, 4 * i);
+  };
   const Float4 f0 = four(0), f1 = four(1), f2 = four(2), f3 = four(3), f4 = four(4);
   const Float3 corner = Float3{f0.c[0], f0.c[1], f0.c[2]} - p;
-  const Float3 edge1{f0.c[3], f1.c[0], f1.c[1]}, edge2{f1.c[2], f1.c[3], f2.c[0]}, normal{f2.c[1], f2.c[2], f2.c[3]};
+  const Float3 edge1{f0.c[3], f1.c[0], f1.c[1]}, edge2{f1.c[2], f1.c[3], f2.c[0]},
+      normal{f2.c[1], f2.c[2], f2.c[3]};
   const Float area = f3.c[0];
   const Float3 pb = corner + edge1, pc = corner + edge2;
   const Float a2 = dot(corner, corner), b2 = dot(pb, pb), c2 = dot(pc, pc);
@@ -216,9 +219,12 @@ GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, 
 }
 
 /// sample_placed of Lights, with punctual.h.
-GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int light, Float choice, Mask here) {
+GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int light, Float choice,
+                                            Mask here) {
   const Int at = light * static_cast<uint32_t>(LightView::kPlacedFloats);
-  const auto field = [&](uint32_t i) __attribute__((always_inline)) { return gather(view.placed + i, at); };
+  const auto field = [&](uint32_t i) __attribute__((always_inline)) {
+    return gather(view.placed + i, at);
+  };
   const Float3 to_light = Float3{field(0), field(1), field(2)} - p;
   LanesOfLight s;
   s.distance = sqrt(dot(to_light, to_light));
@@ -299,15 +305,16 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       const LanesOfLight s =
           sample_triangles(view, r.p, select(triangle, chosen, Int(0u)), probability, u, triangle);
       take(s);
-      state = select(s.valid, select(s.textured, state_of(LaneLight::triangle), state_of(LaneLight::done)), state);
+      state = select(s.valid, select(s.textured, state_of(LaneLight::triangle), state_of(LaneLight::done)),
+                     state);
       light = select(s.valid, chosen, light);
       point.x = select(s.valid, s.point.x, point.x);
       point.y = select(s.valid, s.point.y, point.y);
     }
     const Mask placed = found & ~(chosen < Int(view.triangle_count));
     if (any(placed)) {
-      const LanesOfLight s =
-          sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)), probability, placed);
+      const LanesOfLight s = sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)),
+                                           probability, placed);
       take(s);
       state = select(s.valid, state_of(LaneLight::done), state);
       delta |= s.valid;

@@ -135,8 +135,8 @@ GATELIGHT_INLINE Float exp2(Float x) {
   const Float e =
       1.0f +
       f * (1.0f + f * (0.5f + f * (1.0f / 6.0f +
-                                   f * (1.0f / 24.0f + f * (1.0f / 120.0f +
-                                                            f * (1.0f / 720.0f + f * (1.0f / 5040.0f)))))));
+                                   f * (1.0f / 24.0f +
+                                        f * (1.0f / 120.0f + f * (1.0f / 720.0f + f * (1.0f / 5040.0f)))))));
   return select_or_zero(x >= -126.0f, e * float_of(biased << 23));
 }
 
@@ -161,8 +161,7 @@ GATELIGHT_INLINE Float3 sample_cosine_hemisphere(Float u, Float v) {
   const Float a = 2.0f * u - 1.0f, b = 2.0f * v - 1.0f;
   const Mask wide = absolute(a) > absolute(b);
   const Float radius = select(wide, a, b), other = select(wide, b, a);
-  const CosSin t =
-      cos_sin_octant(0.25f * kPi * select(radius == 0.0f, 0.0f, other / radius));
+  const CosSin t = cos_sin_octant(0.25f * kPi * select(radius == 0.0f, 0.0f, other / radius));
   const Float x = radius * select(wide, t.cos, t.sin), y = radius * select(wide, t.sin, t.cos);
   return {x, y, sqrt(max(0.0f, 1.0f - (x * x + y * y)))};
 }

@@ -36,7 +36,8 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
 
   // The light: Walker::light_at and shadow_ray().
   const Float light_pdf = load(block.light_pdf + at);
-  const Mask lit = (load(block.light_state + at) == state_of(LaneLight::done)) & (light_pdf > 0.0f) & ~bsdf.is_delta;
+  const Mask lit =
+      (load(block.light_state + at) == state_of(LaneLight::done)) & (light_pdf > 0.0f) & ~bsdf.is_delta;
   if (any(lit)) {
     const Float3 wi = load(block.light_direction, at);
     const LaneValue value = bsdf.evaluate(wi);
@@ -47,7 +48,8 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
     if (bsdf.tells_wide) store(block.wide_direct, at, select_or_zero(lit, value.wide * light));
     store(block.shadow_origin, at, spawn(wi));
     const Float distance = load(block.light_distance + at);
-    const Float length = distance - (load(block.light_offset + at) + 2.0f * offset) / load(block.light_cosine + at);
+    const Float length =
+        distance - (load(block.light_offset + at) + 2.0f * offset) / load(block.light_cosine + at);
     store(block.shadow_length + at, select(length > 0.0f, length, 0.5f * distance));
     store(block.shadow_seed + at, hash(seed ^ 0x5bd1e995u));
   } else {

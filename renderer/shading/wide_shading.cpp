@@ -79,7 +79,8 @@ void WideShading::complete_light(ShadingBlock& block, int lane) const {
     case LaneLight::done:
       return;
     case LaneLight::triangle:
-      put(block.light_radiance, lane, lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
+      put(block.light_radiance, lane,
+          lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
       break;
     case LaneLight::environment: {
       const EnvironmentSample sky = lights_.environment().sample(point);

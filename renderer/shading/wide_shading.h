@@ -12,8 +12,8 @@
 
 namespace gatelight::renderer {
 
-/// The kernels of an instruction set: scalar (SSE2 or what the compiler was told), avx2, avx512, or auto, which
-/// is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
+/// The kernels of an instruction set: scalar (SSE2 or what the compiler was told), avx2, avx512, or auto,
+/// which is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
 const ShadingKernels& choose_shading_kernels(const std::string& isa);
 
 /// Whether the kernels have all lobes of a surface. They do not refract.

@@ -6,9 +6,9 @@ namespace gatelight::renderer {
 
 /// Adds a light sample unless it is black or roulette ends it.
 template <class MakeRay>
-void PathIntegrator::add_light(const Walker& path, const Color& contribution, MakeRay make_ray, Scratch& scratch) {
-  const float largest = contribution.maxCoeff();
-  const float weight = largest > 0.0f ? path.shadow_weight(largest) : 0.0f;
+void PathIntegrator::add_light(const Walker& path, const Color& contribution, MakeRay make_ray,
+                               Scratch& scratch) {
+  const float weight = path.shadow_weight(contribution.maxCoeff(), path.faint);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(make_ray());
   scratch.pending.push_back({contribution * weight, path.index});
@@ -36,7 +36,8 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
 
   const LightAt at = path.light_at(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
-  add_light(path, contribution, [&] { return shadow_ray(m.surface, at.light, path.seed); }, scratch);
+  add_light(
+      path, contribution, [&] { return shadow_ray(m.surface, at.light, path.seed); }, scratch);
   std::optional<Drawn> drawn = path.draw(m, bsdf);
   if (drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn))
     scratch.go_on(number, ray);
@@ -49,9 +50,11 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
     Walker& path = scratch.paths[scratch.path_of[number]];
-    if (path.surfaces == 0 && !first_hits.empty()) first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    if (path.surfaces == 0 && !first_hits.empty())
+      first_hits[path.index].albedo = lane_color(points.albedo, lane);
     const Color contribution = path.carried() * lane_color(points.direct, lane);
-    add_light(path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
+    add_light(
+        path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
     if (!points.alive[lane]) continue;
     Ray next;
     if (path.advance(block, lane, drawn_at(points, lane), scratch.hits[number].t, next))

@@ -191,11 +191,13 @@ struct Walker {
     return at;
   }
 
-  /// Russian roulette of a light sample whose contribution to the picture has this largest channel: the factor
-  /// to its contribution, 0 where its shadow ray is not traced.
-  float shadow_weight(float contribution) const {
-    if (!(contribution < faint)) return 1.0f;
-    return shadow_roulette_number(seed) * faint < contribution ? faint / contribution : 0.0f;
+  /// Russian roulette of a light sample whose contribution has this largest channel: the factor to its
+  /// contribution, 0 where its shadow ray is not traced. `least`: contributions from here on are always
+  /// traced.
+  float shadow_weight(float contribution, float least) const {
+    if (!(contribution > 0.0f)) return 0.0f;
+    if (!(contribution < least)) return 1.0f;
+    return shadow_roulette_number(seed) * least < contribution ? least / contribution : 0.0f;
   }
 
   /// Samples a direction of `bsdf`, the surface's or a part of it. Nothing: the path ends.
@@ -232,8 +234,8 @@ struct Walker {
       absorption = m.surface.front ? absorption_of(walk.world.surfaces.material(m.hit.instance))
                                    : Color(0.0f, 0.0f, 0.0f);
     }
-    return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width, m.surface.spawn(drawn.wi),
-                   m.ray);
+    return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
+                   m.surface.spawn(drawn.wi), m.ray);
   }
 
   /// The same for a lane of a block, after Walk::shading. `t` is the distance of its hit.

@@ -40,7 +40,8 @@ struct Waves {
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
-  PathBlock blocks[kBlockKinds] = {};  ///< of paths that wait to be shaded; lanes without one hold zeros or old ones
+  PathBlock blocks[kBlockKinds] =
+      {};  ///< of paths that wait to be shaded; lanes without one hold zeros or old ones
 
   /// The path of ray `number` has its next ray.
   void go_on(std::uint32_t number, const Ray& next) {
@@ -62,8 +63,8 @@ inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::s
 /// Follows the paths until none is left; `paths` and `rays` are the first wave. `first_hits` is empty or has
 /// the hits of its rays. scatter(number, path, ray, hit) shades the hit of a ray: it calls go_on() where the
 /// path has its next ray, and adds shadow rays with their pending light samples. Or it returns a block in
-/// which the path waits. shade(block) does the same for all rays of a block. arrive(pending, transmittance) is
-/// called for each light sample.
+/// which the path waits. shade(block) does the same for all rays of a block. arrive(pending, transmittance)
+/// is called for each light sample.
 template <typename Path, typename Pending, typename Scatter, typename Shade, typename Arrive>
 void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
                  RayCounts& counts, Scatter scatter, Shade shade, Arrive arrive) {

@@ -88,9 +88,9 @@ inline std::vector<double> integrate_cells(const Bsdf& bsdf, int steps) {
 }
 
 /// Pearson's test of samples in cells over the sphere; wo is in the xz plane. `steps` of the quadrature: more
-/// for narrow lobes.
-inline testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples,
-                                                        testing::Random& random) {
+/// for narrow lobes. draw() returns the next BsdfSample.
+template <class Draw>
+testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples, Draw draw) {
   std::vector<double> expected = integrate_cells(bsdf, steps);
   std::vector<double> observed(expected.size() + 1);
   double sum = 0.0;
@@ -102,13 +102,18 @@ inline testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int st
   // The last cell is for deltas and for what was rejected below the surface.
   expected.push_back(std::max(0.0, 1.0 - sum) * samples);
   for (int i = 0; i < samples; ++i) {
-    const BsdfSample sample =
-        bsdf.sample(random.uniform_float(), {random.uniform_float(), random.uniform_float()});
+    const BsdfSample sample = draw();
     const bool counts = sample.pdf > 0.0f && !sample.delta;
     observed[counts ? cell_of(sample.wi) : expected.size() - 1] += 1.0;
   }
   if (observed.back() == 0.0 && expected.back() < 1e-3 * samples) expected.back() = 0.0;
   return testing::chi_square_test(observed, expected);
+}
+inline testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples,
+                                                        testing::Random& random) {
+  return samples_against_density(bsdf, steps, samples, [&] {
+    return bsdf.sample(random.uniform_float(), {random.uniform_float(), random.uniform_float()});
+  });
 }
 
 }  // namespace gatelight::renderer

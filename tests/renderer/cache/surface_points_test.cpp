@@ -28,7 +28,7 @@ void push(SurfacePoints& points, int number) {
   surface.geometric_normal = Vec3(-1.0f, -1.0f, -1.0f);
   surface.material.roughness = 0.1f * f;
   points.push_back(surface_point(hit, static_cast<std::uint32_t>(number % 2), Vec3(1.0f, 0.0f, f), surface,
-                   Color(0.3f * f, 0.2f * f, 0.1f * f)));
+                                 Color(0.3f * f, 0.2f * f, 0.1f * f)));
 }
 
 void expect_point(const neural::QueryBatch& batch, std::size_t i, int number) {

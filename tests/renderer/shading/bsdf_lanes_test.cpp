@@ -67,7 +67,8 @@ TEST(BsdfLanes, AlbedosAreThoseOfTheScalarCode) {
   EXPECT_LT(worst.far, 1e-4 * worst.all);
 }
 
-// A light of radiance 1 and pdf 1: `direct` is the value. With the balance heuristic the weight tells the pdf.
+// A light of radiance 1 and pdf 1: `direct` is the value. With the balance heuristic the weight tells the
+// pdf.
 TEST(BsdfLanes, ValuesAndPdfsAreThoseOfTheScalarCode) {
   Random random(2);
   ShadingContext context = tables_only();
@@ -132,8 +133,9 @@ TEST(BsdfLanes, SamplesAreThoseOfTheScalarCode) {
       const BsdfSample expected = p.sample(p.bsdf());
       const bool goes_on = expected.pdf > 0.0f && (expected.weight > 0.0f).any();
       ++lanes;
-      if (goes_on != (result.alive[lane] != 0) || (goes_on && (expected.delta != (result.is_delta[lane] != 0) ||
-                                                               expected.transmitted != (result.transmitted[lane] != 0)))) {
+      if (goes_on != (result.alive[lane] != 0) ||
+          (goes_on && (expected.delta != (result.is_delta[lane] != 0) ||
+                       expected.transmitted != (result.transmitted[lane] != 0)))) {
         ++other;  // a random number at the border between two lobes, or a direction in the horizon
         continue;
       }
@@ -181,7 +183,8 @@ TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
       const ShadingBlock result = run_all(block, context, &ShadingKernels::scatter);
       for (int lane = 0; lane < block.count; ++lane) {
         const LanePoint& p = points[lane];
-        if (p.wo.dot(p.surface.geometric_normal) < 2e-3f || std::abs(wis[lane].dot(p.surface.geometric_normal)) < 1e-4f)
+        if (p.wo.dot(p.surface.geometric_normal) < 2e-3f ||
+            std::abs(wis[lane].dot(p.surface.geometric_normal)) < 1e-4f)
           continue;
         const Bsdf bsdf = p.bsdf();
         const Bsdf wide = bsdf.wide_part(roughness);
@@ -191,8 +194,10 @@ TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
           if (!bsdf.is_delta()) values.meet(result.wide_direct[c][lane], value[c], 2e-2, 1e-3);
         }
         if (!result.alive[lane]) continue;
-        const Color of_wide = result.is_delta[lane] ? Color(Color::Zero())
-                                                    : Color(wide.evaluate(lane_vector(result.wi, lane)).value / result.pdf[lane]);
+        const Color of_wide =
+            result.is_delta[lane]
+                ? Color(Color::Zero())
+                : Color(wide.evaluate(lane_vector(result.wi, lane)).value / result.pdf[lane]);
         for (int c = 0; c < 3; ++c) weights.meet(result.wide_weight[c][lane], of_wide[c], 2e-2, 1e-2);
       }
     }

@@ -106,8 +106,8 @@ inline ShadingBlock run_all(const ShadingBlock& block, const ShadingContext& con
       const std::size_t word = (offsetof(ShadingBlock, position) + i) / 4;
       const auto lane = static_cast<int>(word % ShadingBlock::kWidth);
       if (lane < block.count && std::memcmp(a + i, b + i, 4) != 0) {
-        ADD_FAILURE() << all_kernels()[0].first << " and " << all_kernels()[k].first << " differ in word " << word
-                      << ", lane " << lane;
+        ADD_FAILURE() << all_kernels()[0].first << " and " << all_kernels()[k].first << " differ in word "
+                      << word << ", lane " << lane;
         return first;
       }
     }
@@ -148,10 +148,12 @@ inline Color random_color(Random& random) {
 inline LanePoint random_point(Random& random) {
   LanePoint p;
   Surface& s = p.surface;
-  s.geometric_normal = random.uniform_float() < 0.1f ? Vec3(0.0f, 0.0f, random.uniform_float() < 0.5f ? -1.0f : 1.0f)
-                                                      : random_direction(random);
+  s.geometric_normal = random.uniform_float() < 0.1f
+                           ? Vec3(0.0f, 0.0f, random.uniform_float() < 0.5f ? -1.0f : 1.0f)
+                           : random_direction(random);
   const auto tilted = [&] {
-    const Vec3 n = (s.geometric_normal + 0.4f * random.uniform_float() * random_direction(random)).normalized();
+    const Vec3 n =
+        (s.geometric_normal + 0.4f * random.uniform_float() * random_direction(random)).normalized();
     return random.uniform_float() < 0.3f ? s.geometric_normal : n;
   };
   s.smooth_normal = s.shading_normal = tilted();

@@ -32,7 +32,8 @@ scene::Scene lamps(int count, Random& random) {
   for (int i = 0; i < count; ++i) {
     const Vec3 at = (2.0f + 20.0f * random.uniform_float()) * random_direction(random);
     const float size = std::pow(10.0f, 1.0f - 3.0f * random.uniform_float());
-    gatelight::testing::Triangle t{at, at + size * random_direction(random), at + size * random_direction(random)};
+    gatelight::testing::Triangle t{at, at + size * random_direction(random),
+                                   at + size * random_direction(random)};
     if (i % 17 == 5) t[2] = t[1];
     add_light(scene, {t}, Color(random.uniform_float() * 10.0f, 1.0f, 0.5f), i % 3 == 0);
   }
@@ -50,7 +51,7 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
   Random random(seed);
   const LightArrays arrays(lit.lights);
   Agreement agreement;
-  for (int b = 0; b < 1500; ++b) {
+  for (int i = 0; i < 1500; ++i) {
     ShadingBlock block = {};
     std::vector<LanePoint> points;
     for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) {
@@ -71,9 +72,9 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
     shading.scatter(result);
     for (int lane = 0; lane < block.count; ++lane) {
       const LanePoint& p = points[lane];
-      const LightSample expected = lit.lights.sample(p.surface.position, p.light_normal(),
-                                                     p.sampler.get_1d(p.dimensions + 2),
-                                                     p.sampler.get_2d(p.dimensions + 3));
+      const LightSample expected =
+          lit.lights.sample(p.surface.position, p.light_normal(), p.sampler.get_1d(p.dimensions + 2),
+                            p.sampler.get_2d(p.dimensions + 3));
       const bool has = result.light_state[lane] == static_cast<std::uint32_t>(LaneLight::done) &&
                        result.light_pdf[lane] > 0.0f;
       const Vec3 wi = lane_vector(result.light_direction, lane);
@@ -96,8 +97,8 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       for (int c = 0; c < 3; ++c) meet(result.light_radiance[c][lane], expected.radiance[c]);
     }
   }
-  std::printf("%d lanes agree, %d chose another light, worst difference %.2e\n", agreement.same, agreement.other,
-              agreement.worst);
+  std::printf("%d lanes agree, %d chose another light, worst difference %.2e\n", agreement.same,
+              agreement.other, agreement.worst);
   return agreement;
 }
 
@@ -187,11 +188,13 @@ TEST(LightLanes, SelectionByPowerIsTheScalarCode) {
     shading.scatter(block);
     for (int lane = 0; lane < block.count; ++lane) {
       const LanePoint& p = points[lane];
-      const LightSample expected = lit.lights.sample(p.surface.position, p.light_normal(),
-                                                     p.sampler.get_1d(p.dimensions + 2),
-                                                     p.sampler.get_2d(p.dimensions + 3));
+      const LightSample expected =
+          lit.lights.sample(p.surface.position, p.light_normal(), p.sampler.get_1d(p.dimensions + 2),
+                            p.sampler.get_2d(p.dimensions + 3));
       ASSERT_EQ(block.light_pdf[lane], expected.pdf);
-      if (expected.pdf > 0.0f) ASSERT_EQ(lane_vector(block.light_direction, lane), expected.wi);
+      if (expected.pdf > 0.0f) {
+        ASSERT_EQ(lane_vector(block.light_direction, lane), expected.wi);
+      }
     }
   }
 }
