@@ -1,5 +1,6 @@
 #include "renderer/surface/texture.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -43,15 +44,16 @@ Rgba8 texel_of(const scene::Image& image, std::size_t texel) {
   return {p[0], grey ? p[0] : p[1], grey ? p[0] : p[2], alpha};
 }
 
-FloatLevel to_float(const scene::Image& image, Encoding encoding) {
-  FloatLevel level(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+Vec4 to_float(const Rgba8& p, Encoding encoding) {
   const auto color = [&](std::uint8_t byte) {
     return encoding == Encoding::srgb ? kSrgbToLinear[byte] : static_cast<float>(byte) * (1.0f / 255.0f);
   };
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    const Rgba8 p = texel_of(image, i);
-    level[i] = Vec4(color(p[0]), color(p[1]), color(p[2]), p[3] / 255.0f);
-  }
+  return {color(p[0]), color(p[1]), color(p[2]), p[3] / 255.0f};
+}
+
+FloatLevel to_float(const scene::Image& image, Encoding encoding) {
+  FloatLevel level(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (std::size_t i = 0; i < level.size(); ++i) level[i] = to_float(texel_of(image, i), encoding);
   return level;
 }
 
@@ -86,17 +88,77 @@ FloatLevel halve(const FloatLevel& source, int width, int height, bool along_x) 
   return result;
 }
 
+/// Both axes at once, for even sizes: the same sums as halve() for x and then for y. texel(i) is the source's
+/// texel number i.
+template <class Texel>
+FloatLevel halve_even(int width, int height, const Texel& texel) {
+  const auto row = static_cast<std::size_t>(width);
+  FloatLevel result(row / 2 * static_cast<std::size_t>(height / 2));
+  tbb::parallel_for(tbb::blocked_range<int>(0, height / 2, 32), [&](const tbb::blocked_range<int>& range) {
+    for (int y = range.begin(); y < range.end(); ++y) {
+      const std::size_t top = 2 * static_cast<std::size_t>(y) * row;
+      Vec4* const to = result.data() + static_cast<std::size_t>(y) * (row / 2);
+      for (std::size_t x = 0; x < row / 2; ++x) {
+        const std::size_t i = top + 2 * x;
+        const Vec4 upper = (texel(i) + texel(i + 1)) * 0.5f;
+        const Vec4 lower = (texel(i + row) + texel(i + row + 1)) * 0.5f;
+        to[x] = (upper + lower) * 0.5f;
+      }
+    }
+  });
+  return result;
+}
+
+/// linear_to_srgb() in 8 bits without its power: the bytes begin at known values.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (std::size_t b = 1; b < 256; ++b) {
+      // The smallest float that is rounded to b or more, by bisection of the bits.
+      std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
+      while (low < high) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (linear_to_srgb(std::bit_cast<float>(middle)) * 255.0f + 0.5f >= static_cast<float>(b)) {
+          high = middle;
+        } else {
+          low = middle + 1;
+        }
+      }
+      begin_[b] = std::bit_cast<float>(low);
+    }
+    begin_[256] = 2.0f;
+    std::size_t byte = 0;
+    for (std::size_t i = 0; i <= kGuides; ++i) {
+      while (begin_[byte + 1] <= static_cast<float>(i) / kGuides) ++byte;
+      guide_[i] = static_cast<std::uint8_t>(byte);
+    }
+  }
+  /// x is in [0, 1].
+  std::uint8_t operator()(float x) const {
+    std::size_t byte = guide_[static_cast<std::size_t>(x * kGuides)];
+    while (begin_[byte + 1] <= x) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr std::size_t kGuides = 4096;
+  std::array<float, 257> begin_{};
+  std::array<std::uint8_t, kGuides + 1> guide_{};
+};
+
 std::uint32_t pack(const Rgba8& c) {
   return c[0] | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 | std::uint32_t{c[3]} << 24;
 }
 
 std::uint32_t pack(const Vec4& c, Encoding encoding) {
+  static const SrgbBytes srgb_byte;
+  const Vec4 inside = c.cwiseMax(0.0f).cwiseMin(1.0f);
   const auto byte = [](float x) {
-    const float level = std::clamp(x, 0.0f, 1.0f) * 255.0f;
-    return static_cast<std::uint8_t>(level + 0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
+    return static_cast<std::uint8_t>(x * 255.0f +
+                                     0.5f);  // NOLINT(bugprone-incorrect-roundings): never negative
   };
-  const auto color = [&](float x) { return encoding == Encoding::srgb ? byte(linear_to_srgb(x)) : byte(x); };
-  return pack({color(c.x()), color(c.y()), color(c.z()), byte(c.w())});
+  const auto color = [&](float x) { return encoding == Encoding::srgb ? srgb_byte(x) : byte(x); };
+  return pack({color(inside.x()), color(inside.y()), color(inside.z()), byte(inside.w())});
 }
 
 /// Maps any integer coordinate to [0, size - 1].
@@ -154,7 +216,7 @@ Textures::Textures(const scene::Scene& scene) {
     Pyramid& pyramid = *pyramids_[i / 2][i % 2];
     const scene::Image& image = scene.images[i / 2];
     const auto encoding = static_cast<Encoding>(i % 2);
-    FloatLevel level = to_float(image, encoding);
+    FloatLevel level;  // of `width` and `height`, empty for the finest
     int width = image.width;
     int height = image.height;
     std::size_t total = 0;
@@ -166,16 +228,28 @@ Textures::Textures(const scene::Scene& scene) {
     std::size_t offset = 0;
     for (;;) {
       pyramid.levels.push_back({width, height, offset});
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          const std::size_t texel =
-              static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-          pyramid.texels[offset + block_index(width, x, y)] =
-              offset == 0 ? pack(texel_of(image, texel)) : pack(level[texel], encoding);
+      tbb::parallel_for(tbb::blocked_range<int>(0, height, 32), [&](const tbb::blocked_range<int>& range) {
+        for (int y = range.begin(); y < range.end(); ++y) {
+          for (int x = 0; x < width; ++x) {
+            const std::size_t texel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            pyramid.texels[offset + block_index(width, x, y)] =
+                offset == 0 ? pack(texel_of(image, texel)) : pack(level[texel], encoding);
+          }
         }
-      }
+      });
+      const bool finest = offset == 0;
       offset += stored_texels(width, height);
       if (width == 1 && height == 1) break;
+      if (width % 2 == 0 && height % 2 == 0) {
+        level = finest ? halve_even(width, height,
+                                    [&](std::size_t t) { return to_float(texel_of(image, t), encoding); })
+                       : halve_even(width, height, [&](std::size_t t) -> const Vec4& { return level[t]; });
+        width /= 2;
+        height /= 2;
+        continue;
+      }
+      if (finest) level = to_float(image, encoding);
       if (width > 1) {
         level = halve(level, width, height, true);
         width /= 2;
@@ -185,6 +259,7 @@ Textures::Textures(const scene::Scene& scene) {
         height /= 2;
       }
     }
+    if (level.empty()) level = to_float(image, encoding);  // a picture of one texel
     pyramid.mean = level[0];
   });
 
