@@ -76,7 +76,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   statistics.geometry_bytes = scene::geometry_bytes(scene);
   statistics.bvh_bytes = world->accel.bytes();
   statistics.texture_bytes = world->textures.bytes() + world->environment.bytes();
-  statistics.light_bytes = world->lights.bytes();
+  statistics.light_bytes = world->lights.bytes() + world->light_arrays.bytes();
 }
 
 SceneFingerprint Renderer::Implementation::scene_fingerprint() {

@@ -151,7 +151,7 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
                                .value = [&] { return value_of(memory_limit_bytes >> 20); },
                                .read = read_limit},
                               InRecipe::unless_reproducible));
-  machine.add(decides_nothing(choice("isa", isa, kIsa, "Instruction set of ray tracing and of the cache")));
+  machine.add(decides_nothing(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache")));
 }
 
 }  // namespace
