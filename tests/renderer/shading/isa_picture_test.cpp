@@ -13,6 +13,8 @@
 namespace gatelight::renderer {
 namespace {
 
+using scene::Color;
+using scene::Vec3;
 using testing::SceneBuilder;
 
 /// Sets a variable of the environment for a while.
@@ -82,7 +84,7 @@ TEST(ShadingIsa, APictureHasTheSameBitsOnEveryInstructionSet) {
     options.threads = 2;
     options.sampler = sampler;
     options.environment.constant = Color(0.2f, 0.3f, 0.5f);
-    options.aov = {Aov::albedo};
+    options.aovs = {Aov::albedo};
     std::optional<Picture> first;
     for (const neural::simd::Isa isa : neural::simd::available_isas()) {
       const Variable chosen("GATELIGHT_ISA", std::string(neural::simd::isa_name(isa)));
