@@ -23,7 +23,7 @@ struct RayLog {
 };
 
 /// Kinds of blocks that an integrator may fill side by side.
-inline constexpr int kBlockKinds = 3;
+inline constexpr int kBlockKinds = 2;
 
 /// The memory of one thread. `Pending` is a light sample whose shadow ray has not been traced yet.
 template <typename Path, typename Pending>
@@ -40,8 +40,8 @@ struct Waves {
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
-  PathBlock blocks[kBlockKinds] =
-      {};  ///< of paths that wait to be shaded; lanes without one hold zeros or old ones
+  /// Of paths that wait to be shaded. Lanes without a path hold zeros or an earlier path.
+  PathBlock blocks[kBlockKinds] = {};
 
   /// The path of ray `number` has its next ray.
   void go_on(std::uint32_t number, const Ray& next) {
