@@ -8,7 +8,7 @@ namespace {
 /// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
 
-/// PathPlan::faint over the mean target. The error of what is learned does not show it (README.md).
+/// PathPlan::faint over the mean target. The error of what is learned does not show it (transport/README.md).
 constexpr float kFaintShare = 0.3f;
 
 }  // namespace

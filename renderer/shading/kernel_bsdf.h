@@ -328,16 +328,16 @@ struct LaneBsdf {
   }
 
   struct Facet {
-    Float schlick, reflects;
+    Float reflects;
     Float3 transmitted;
   };
   /// Bsdf::facet of thin sheets.
   GATELIGHT_INLINE Facet facet(Float cos_h) const {
     Facet result;
-    result.schlick = schlick_weight(cos_h);
-    result.transmitted = select_or_zero(
-        thin, tint * (repeat(1.0f - glass_f90 * result.schlick) - glass_f0 * (1.0f - result.schlick)));
-    const Float r = luminance(f0 + (repeat(f90) - f0) * result.schlick), t = luminance(result.transmitted);
+    const Float schlick = schlick_weight(cos_h);
+    result.transmitted =
+        select_or_zero(thin, tint * (repeat(1.0f - glass_f90 * schlick) - glass_f0 * (1.0f - schlick)));
+    const Float r = luminance(f0 + (repeat(f90) - f0) * schlick), t = luminance(result.transmitted);
     result.reflects = select(t > 0.0f, r / (r + t), 1.0f);
     return result;
   }

@@ -19,6 +19,6 @@ void albedo(ShadingBlock& block, const ShadingContext& context) {
 
 }  // namespace
 
-const ShadingKernels GATELIGHT_KERNEL_TABLE = {sample_lights, scatter, albedo, kLanes};
+const ShadingKernels GATELIGHT_KERNEL_TABLE = {sample_lights, scatter, albedo};
 
 }  // namespace gatelight::renderer

@@ -50,7 +50,6 @@ struct ShadingKernels {
   void (*scatter)(ShadingBlock&, const ShadingContext&);
   /// The directional albedo alone.
   void (*albedo)(ShadingBlock&, const ShadingContext&);
-  int lanes;
 };
 
 }  // namespace gatelight::renderer

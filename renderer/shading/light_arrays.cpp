@@ -21,6 +21,7 @@ LightArrays::LightArrays(const Lights& lights) : usable_(lights.tree() != nullpt
   triangles_.reserve(emissive.size() * LightView::kTriangleFloats);
   for (std::size_t i = 0; i < emissive.size(); ++i) {
     const EmissiveTriangle& t = emissive[i];
+    complete_ = complete_ && t.plain;
     append(triangles_, t.corners.corner);
     append(triangles_, t.corners.edge1);
     append(triangles_, t.corners.edge2);
@@ -48,6 +49,7 @@ LightArrays::LightArrays(const Lights& lights) : usable_(lights.tree() != nullpt
   view_.sun_count = static_cast<std::uint32_t>(lights.distant().size());
   const Environment& sky = lights.environment();
   if (!sky.black()) view_.sky = sky.constant() ? LightView::Sky::constant : LightView::Sky::picture;
+  complete_ = complete_ && view_.sky != LightView::Sky::picture;
   for (int c = 0; c < 3; ++c) view_.sky_radiance[c] = sky.mean()[c];
 }
 

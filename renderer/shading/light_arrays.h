@@ -17,10 +17,13 @@ class LightArrays {
 
   /// Null where the kernels do not know how lights are chosen.
   const LightView* view() const { return usable_ ? &view_ : nullptr; }
+  /// Whether the kernels complete all samples: there is no picture of the sky and no textured emitter.
+  bool complete() const { return complete_; }
   std::size_t bytes() const { return (triangles_.size() + placed_.size() + suns_.size()) * sizeof(float); }
 
  private:
   bool usable_;
+  bool complete_ = true;
   LightView view_;
   std::vector<float> triangles_;
   std::vector<float> placed_;

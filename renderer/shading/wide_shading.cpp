@@ -49,15 +49,15 @@ void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Ve
 
 WideShading::WideShading(const Lights& lights, const LightArrays& arrays, const ShadingKernels& kernels,
                          bool sheen, DirectLight direct, MisHeuristic heuristic)
-    : lights_(lights), kernels_(kernels), wide_lights_(arrays.view() != nullptr) {
+    : lights_(lights),
+      kernels_(kernels),
+      wide_lights_(arrays.view() != nullptr),
+      lights_are_complete_(arrays.complete()) {
   if (wide_lights_) context_.lights = *arrays.view();
   context_.tables = {GgxTables::get().values(), GgxTables::get().means(),
                      sheen ? SheenTables::get().values() : nullptr};
   context_.direct = direct;
   context_.heuristic = heuristic;
-  bool textured = false;
-  for (std::size_t i = 0; i < lights.triangles().size(); ++i) textured |= !lights.triangles()[i].plain;
-  lights_are_complete_ = context_.lights.sky != LightView::Sky::picture && !textured;
 }
 
 void WideShading::scatter(ShadingBlock& block) const {

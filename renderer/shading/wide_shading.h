@@ -49,7 +49,7 @@ class WideShading {
   const ShadingKernels& kernels_;
   ShadingContext context_;
   bool wide_lights_;
-  bool lights_are_complete_;  ///< no picture of the sky and no textured emitter
+  bool lights_are_complete_;  ///< LightArrays::complete
 };
 
 inline Vec3 lane_vector(const float (&a)[3][ShadingBlock::kWidth], int lane) {
