@@ -1,7 +1,7 @@
 # gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>...)
 #
 # Adds one executable for a folder of tests, and one CTest entry for each of its files NAME_test.cpp. An entry for every
-# case would double the time, because programs that link OpenImageIO start slowly. An entry runs the test suites of its
+# case would start the program a thousand times. An entry runs the test suites of its
 # file. Its label is the last word before _test if that is stat, golden or slow, otherwise "unit".
 include(GoogleTest)
 function(gatelight_add_tests target)

@@ -1,5 +1,4 @@
 # Finds OpenImageIO and defines OpenImageIO::OpenImageIO: by its own configuration where that works, else by its files.
-# Also part of the installed package.
 #
 # Debian's own OpenImageIOConfig.cmake cannot be used. It requires the command line tools, which are in a separate
 # package (with Qt), and names an include folder of OpenCV that does not exist. Such an error cannot be caught, so the

@@ -18,6 +18,7 @@ foreach(folder IN ITEMS scene neural renderer)
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight)
 endforeach()
 
+install(TARGETS gatelight_openimageio LIBRARY DESTINATION ${GATELIGHT_PLUGIN_FOLDER})
 install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTINATION ${GATELIGHT_PACKAGE_DIR})
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/gatelightConfig.cmake.in ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
@@ -26,6 +27,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gatelightConfigVersion.cm
 install(FILES
   ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
   ${PROJECT_BINARY_DIR}/gatelightConfigVersion.cmake
-  ${CMAKE_CURRENT_LIST_DIR}/FindOpenImageIO.cmake
   DESTINATION ${GATELIGHT_PACKAGE_DIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

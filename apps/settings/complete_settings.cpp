@@ -193,6 +193,7 @@ void check_files(const RenderSettings& settings) {
   require_file("the scene", settings.scene);
   if (!settings.render.environment.file.empty()) {
     require_file("the environment", settings.render.environment.file);
+    check_image_input(settings.render.environment.file);
   }
   for (const std::string& output : settings.outputs) check_image_output(output);
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);

@@ -1,7 +1,5 @@
 #include "apps/sweep/page.h"
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <cassert>
 
@@ -46,9 +44,18 @@ std::string picture_elements(const std::vector<PagePicture>& pictures) {
 }  // namespace
 
 std::string json_for_script(const ordered_json& json) {
-  // '<' occurs only in strings, where JSON allows this escape.
-  return OIIO::Strutil::replace(json.dump(-1, ' ', true, ordered_json::error_handler_t::replace), "<",
-                                "\\u003c", true);
+  const std::string dumped = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  std::string text;
+  text.reserve(dumped.size());
+  for (const char c : dumped) {
+    // '<' occurs only in strings, where JSON allows this escape.
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
 }
 
 std::string fill_slots(std::string_view text, std::initializer_list<Slot> slots) {

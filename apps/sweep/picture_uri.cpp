@@ -1,18 +1,13 @@
 #include "apps/sweep/picture_uri.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <stdexcept>
+#include <string_view>
 #include <vector>
 
+#include "apps/sweep/jpeg_write.h"
+#include "renderer/image/image_library.h"
 #include "renderer/image/srgb.h"
 
 namespace gatelight::apps {
@@ -38,35 +33,25 @@ Pixels shrink(const Pixels& pixels, PictureKind kind, int width) {
       std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels.height) * width / pixels.width)));
   std::vector<float> values(pixels.bytes.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = decode(pixels.bytes[i], kind);
-  const OIIO::ImageBuf source(OIIO::ImageSpec(pixels.width, pixels.height, 3, OIIO::TypeDesc::FLOAT),
-                              values.data());
-  OIIO::ImageBuf target(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT));
-  // On one thread, because several pictures are made at once.
-  if (!OIIO::ImageBufAlgo::resize(target, source, "triangle", 0.0f, {}, 1))
-    throw std::runtime_error(target.geterror());
-  values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  target.get_pixels(target.roi(), OIIO::TypeDesc::FLOAT, values.data());
+  values = renderer::image_library().resize(values, pixels.width, pixels.height, width, height);
   Pixels smaller{.width = width, .height = height};
   smaller.bytes.reserve(values.size());
   for (const float x : values) smaller.bytes.push_back(encode(x, kind));
   return smaller;
 }
 
-std::vector<unsigned char> encode_jpeg(const Pixels& pixels, PictureKind kind) {
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("jpeg");
-  if (!output) throw std::runtime_error("cannot make a JPEG: " + OIIO::geterror());
-  OIIO::ImageSpec spec(pixels.width, pixels.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("Compression", kind == PictureKind::map ? "jpeg:75" : "jpeg:88");
-  // Noise is coloured, so subsampled colour would change what is compared.
-  spec.attribute("jpeg:subsampling", kind == PictureKind::map ? "4:2:0" : "4:4:4");
-  std::vector<unsigned char> encoded;
-  OIIO::Filesystem::IOVecOutput memory(encoded);
-  if (!output->set_ioproxy(&memory) || !output->open("memory.jpg", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, pixels.bytes.data()) || !output->close()) {
-    throw std::runtime_error("cannot make a JPEG: " + output->geterror());
+/// Base64 (RFC 4648, section 4).
+std::string encode_base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63];
   }
-  return encoded;
+  return text;
 }
 
 }  // namespace
@@ -75,11 +60,13 @@ EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::
                               PictureKind kind, int max_width) {
   Pixels pixels{picture.width, picture.height, renderer::display_bytes(picture, display)};
   if (pixels.width > max_width) pixels = shrink(pixels, kind, max_width);
-  const std::vector<unsigned char> jpeg = encode_jpeg(pixels, kind);
+  const bool map = kind == PictureKind::map;
+  // Noise is coloured, so subsampled colour would change what is compared.
+  const std::vector<std::uint8_t> jpeg =
+      encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
   return {.size = {picture.width, picture.height},
           .width = pixels.width,
-          .uri = "data:image/jpeg;base64," +
-                 OIIO::Strutil::base64_encode({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()})};
+          .uri = "data:image/jpeg;base64," + encode_base64(jpeg)};
 }
 
 }  // namespace gatelight::apps

@@ -50,6 +50,8 @@ Failure describe_current_exception() {
     return {kInput, error.what(), "check the input file"};
   } catch (const renderer::Unavailable& error) {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
+  } catch (const renderer::MissingLibrary& error) {
+    return {kUnavailable, error.what(), "install it, or use pictures in EXR or PNG"};
   } catch (const neural::DeviceLost& error) {
     return {kUnavailable, error.what(), "use --device cpu"};
   } catch (const neural::Unavailable& error) {

@@ -1,17 +1,16 @@
 #include "renderer/image/image_read.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <memory>
 
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_format.h"
+#include "renderer/image/image_library.h"
 #include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
+#include "renderer/machine/errors.h"
 #include "scene/png_read.h"
 
 namespace gatelight::renderer {
@@ -52,26 +51,9 @@ Picture read_png(const std::filesystem::path& path) {
   return picture;
 }
 
-Picture read_hdr(const std::filesystem::path& path) {
-  // The format is given by name. Otherwise the library tries every format it knows on a file that is not HDR.
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("hdr");
-  if (!input) throw std::runtime_error(OIIO::geterror());
-  OIIO::ImageSpec spec;
-  if (!input->open(path.string(), spec)) throw std::runtime_error(input->geterror());
-  check_claimed_size(spec.width, spec.height, spec.nchannels, path);
-  const int channels = std::min(spec.nchannels, 4);
-  Picture picture = one_layer(spec.width, spec.height, channels);
-  Layer& beauty = picture.layers.front();
-  beauty.full_precision = true;
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, beauty.values.data())) {
-    throw std::runtime_error(input->geterror());
-  }
-  return picture;
-}
-
 Picture read_as(ImageFormat format, const std::filesystem::path& path) {
   if (format == ImageFormat::exr) return read_exr(path);
-  return format == ImageFormat::png ? read_png(path) : read_hdr(path);
+  return format == ImageFormat::png ? read_png(path) : image_library().read_hdr(path);
 }
 
 /// Makes one line of a library's message, which may contain line breaks.
@@ -86,13 +68,18 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Picture read_image(const std::filesystem::path& path) {
+void check_image_input(const std::filesystem::path& path) {
   const ImageFormat format = image_format(path);
   if (format == ImageFormat::unknown) {
     throw UnknownFormat(
         fmt::format("cannot read '{}': its extension is '{}', supported are .exr, .hdr and .png",
                     path.string(), path.extension().string()));
   }
+  if (format == ImageFormat::hdr) image_library();
+}
+
+Picture read_image(const std::filesystem::path& path) {
+  check_image_input(path);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     throw ImageError(fmt::format("cannot read '{}': there is no such file", path.string()));
@@ -101,7 +88,9 @@ Picture read_image(const std::filesystem::path& path) {
     throw ImageError(fmt::format("cannot read '{}': it is not a regular file", path.string()));
   }
   try {
-    return read_as(format, path);
+    return read_as(image_format(path), path);
+  } catch (const MissingLibrary&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {

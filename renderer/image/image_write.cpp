@@ -1,8 +1,7 @@
 #include "renderer/image/image_write.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <png.h>
 
 #include <algorithm>
 #include <memory>
@@ -15,18 +14,19 @@ namespace {
 
 void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions& options) {
   const std::vector<std::uint8_t> bytes = display_bytes(picture, options);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-  if (!output) throw std::runtime_error(OIIO::geterror());
-  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = PNG_FORMAT_RGB;
+  // Rendered pictures hold noise, of which filters of rows make little.
+  image.flags = PNG_IMAGE_FLAG_FAST;
   // The PNG is encoded in memory, so that AtomicFile reports every error of the disk.
-  std::vector<unsigned char> encoded;
-  OIIO::Filesystem::IOVecOutput memory(encoded);
-  if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) || !output->close()) {
-    throw std::runtime_error(output->geterror());
-  }
-  file.write(encoded.data(), encoded.size());
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  const auto encoded = std::make_unique_for_overwrite<std::uint8_t[]>(size);
+  if (png_image_write_to_memory(&image, encoded.get(), &size, 0, bytes.data(), 0, nullptr) == 0)
+    throw std::runtime_error(image.message);
+  file.write(encoded.get(), size);
 }
 
 void require_writable_format(const std::filesystem::path& path) {

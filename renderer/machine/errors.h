@@ -26,6 +26,11 @@ struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A library that is loaded on demand cannot be. The message gives the loader's reason.
+struct MissingLibrary : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// An option cannot be satisfied (an unknown camera, an empty region). The message names the value and the
 /// choices.
 struct BadOption : std::invalid_argument {

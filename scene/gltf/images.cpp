@@ -1,13 +1,11 @@
 #include "scene/gltf/images.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 
+#include "scene/jpeg_read.h"
 #include "scene/png_read.h"
 
 namespace gatelight::scene::gltf {
@@ -28,9 +26,9 @@ SceneError image_error(const Document& document, std::string_view where, std::st
   return make_error(document.file(), where, fmt::format("{}, expected a PNG or JPEG picture", what));
 }
 
-/// Number of values of a picture. Throws SceneError for an implausible size.
-std::size_t checked_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
-                         int channels) {
+/// Throws SceneError for an implausible size.
+void check_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
+                int channels) {
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
     throw image_error(
         document, where,
@@ -41,47 +39,36 @@ std::size_t checked_size(const Document& document, Bytes bytes, std::string_view
   if (size > kSmall && size / kMaxRatio > bytes.size()) {
     throw image_error(document, where, fmt::format("{}x{} pixels in {} bytes", width, height, bytes.size()));
   }
-  return size;
 }
 
-Image decode_png(const Document& document, Bytes bytes, std::string_view where) try {
-  PngReader reader({bytes.begin(), bytes.end()});
-  checked_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
+/// Reader is PngReader or JpegReader.
+template <class Reader>
+Image decode_by(Reader& reader, const Document& document, Bytes bytes, std::string_view where) {
+  check_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
   return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
-} catch (const SceneError&) {
-  throw;
-} catch (const std::runtime_error& error) {
-  throw image_error(document, where, fmt::format("cannot be decoded ({})", error.what()));
+}
+
+Image decode_png(const Document& document, Bytes bytes, std::string_view where) {
+  PngReader reader({bytes.begin(), bytes.end()});
+  return decode_by(reader, document, bytes, where);
 }
 
 Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("jpeg");
-  if (!input) {
-    throw image_error(document, where, fmt::format("no decoder ({}) in OpenImageIO", OIIO::geterror()));
-  }
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  input->set_ioproxy(&memory);
-  OIIO::ImageSpec spec;
-  if (!input->open("image.jpeg", spec, {})) {
-    throw image_error(document, where, fmt::format("cannot be decoded ({})", input->geterror()));
-  }
-  // JPEG has no alpha, so the second of two components is dropped.
-  Image image{"", spec.width, spec.height, spec.nchannels >= 3 ? 3 : 1, {}};
-  image.pixels.resize(checked_size(document, bytes, where, image.width, image.height, image.channels));
-  const bool read = input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data());
-  // libjpeg fills in missing or damaged data and reports only the first problem.
-  const std::string said = input->geterror();
-  const bool harmless = said.empty() || said.find("extraneous bytes") != std::string::npos;
-  if (!read || !harmless) throw image_error(document, where, fmt::format("cannot be decoded ({})", said));
-  if (!said.empty()) warnings.add(fmt::format("{}: {}", where, said));
+  JpegReader reader({bytes.begin(), bytes.end()});
+  Image image = decode_by(reader, document, bytes, where);
+  if (!reader.warning().empty()) warnings.add(fmt::format("{}: {}", where, reader.warning()));
   return image;
 }
 
-Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) {
+Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) try {
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}))
     return decode_png(document, bytes, where);
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
   throw image_error(document, where, "neither PNG nor JPEG data");
+} catch (const SceneError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw image_error(document, where, fmt::format("cannot be decoded ({})", error.what()));
 }
 
 Image read(const Document& document, const json& source, const std::string& where, const std::string& name,

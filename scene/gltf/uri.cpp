@@ -1,6 +1,5 @@
 #include "scene/gltf/uri.h"
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +11,12 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-namespace Strutil = OIIO::Strutil;
+/// Whether the text begins with `prefix`, a text in lower case; ASCII letters of either case are equal.
+bool begins_with(std::string_view text, std::string_view prefix) {
+  return text.size() >= prefix.size() &&
+         std::equal(prefix.begin(), prefix.end(), text.begin(),
+                    [](char p, char t) { return p == (t >= 'A' && t <= 'Z' ? t + 32 : t); });
+}
 
 /// A % without two hexadecimal digits behind it is kept: files with such names exist.
 std::string decode_percent(std::string_view text) {
@@ -95,7 +99,8 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   }
   const std::string_view head = uri.substr(0, comma);
   const std::string_view body = uri.substr(comma + 1);
-  if (Strutil::iends_with(head, ";base64")) {
+  constexpr std::string_view kBase64 = ";base64";
+  if (begins_with(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
     if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");
@@ -111,7 +116,7 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
 
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where) {
-  if (Strutil::istarts_with(uri, "data:")) return read_data(uri, file, where);
+  if (begins_with(uri, "data:")) return read_data(uri, file, where);
   const auto refuse = [&](std::string_view why) {
     return make_error(file, where,
                       fmt::format("'{}' {}, expected a file in the scene's folder{}", uri_name(uri), why,
@@ -120,7 +125,7 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
   if (uri.empty()) throw refuse("is empty");
   std::string_view rest = uri;
   if (const std::size_t scheme = scheme_length(uri); scheme > 0) {
-    if (!options.allow_external || !Strutil::istarts_with(uri, "file:")) throw refuse("has a scheme");
+    if (!options.allow_external || !begins_with(uri, "file:")) throw refuse("has a scheme");
     rest.remove_prefix(scheme);
     // Accepts "file:///path", "file://localhost/path" and "file:path"; another host is another machine.
     for (const std::string_view host : {"//localhost/", "///"}) {
@@ -140,8 +145,7 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
 }
 
 std::string uri_name(std::string_view uri) {
-  if (Strutil::istarts_with(uri, "data:"))
-    return one_line(uri.substr(0, std::min<std::size_t>(uri.find(','), 64)));
+  if (begins_with(uri, "data:")) return one_line(uri.substr(0, std::min<std::size_t>(uri.find(','), 64)));
   return one_line(uri.substr(0, 256));
 }
 

@@ -1,18 +1,16 @@
 #include "apps/sweep/report.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
 #include "renderer/image/image_write.h"
+#include "scene/jpeg_read.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
@@ -49,17 +47,8 @@ struct Decoded {
 Decoded decode(const std::string& uri) {
   EXPECT_THAT(uri, StartsWith(kJpeg));
   const std::string jpeg = decode_base64(uri.substr(std::string(kJpeg).size()));
-  OIIO::Filesystem::IOMemReader memory(jpeg.data(), jpeg.size());
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("memory.jpg", nullptr, &memory);
-  if (!input) {
-    ADD_FAILURE() << OIIO::geterror();
-    return {};
-  }
-  Decoded decoded{input->spec().width, input->spec().height, {}};
-  decoded.bytes.resize(3 * static_cast<std::size_t>(decoded.width) *
-                       static_cast<std::size_t>(decoded.height));
-  EXPECT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, decoded.bytes.data()));
-  return decoded;
+  scene::JpegReader reader({jpeg.begin(), jpeg.end()});
+  return {reader.width(), reader.height(), reader.read_8()};
 }
 
 renderer::Picture flat_picture(int width, int height, std::array<float, 3> color) {

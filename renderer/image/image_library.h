@@ -1,0 +1,28 @@
+#pragma once
+// What OpenImageIO does for us. It brings 260 shared libraries, so it stands behind a library of our own that
+// is loaded when it is needed first.
+
+#include <filesystem>
+#include <vector>
+
+#include "renderer/image/picture.h"
+
+namespace gatelight::renderer {
+
+class ImageLibrary {
+ public:
+  /// Reads a Radiance picture as linear RGB. Throws std::runtime_error.
+  virtual Picture read_hdr(const std::filesystem::path& path) const = 0;
+  /// Resizes a picture of three channels with a triangle filter, on the calling thread. Throws
+  /// std::runtime_error.
+  virtual std::vector<float> resize(const std::vector<float>& rgb, int width, int height, int to_width,
+                                    int to_height) const = 0;
+
+ protected:
+  ~ImageLibrary() = default;
+};
+
+/// Loads the library at the first call. Thread-safe. Throws MissingLibrary.
+const ImageLibrary& image_library();
+
+}  // namespace gatelight::renderer
