@@ -23,6 +23,7 @@
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_format.h"
+#include "renderer/image/image_library.h"
 #include "renderer/image/image_write.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
@@ -283,6 +284,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
     write_text("-", plan_text(plan));
     return kDone;
   }
+  renderer::image_library();  // scales pictures for the report: if it is missing, say so now
   install_signal_handlers();
   SweepRun run(settings, plan, command);
   const int code = run.run();

@@ -32,8 +32,7 @@ class Limits : public Faults {
   }
 };
 
-/// Of OpenImageIO's 260 libraries some need more before main is reached.
-constexpr rlim_t kLeastMebibytes = 1024;
+constexpr rlim_t kLeastMebibytes = 384;
 
 TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
@@ -115,7 +114,7 @@ class MemoryGroup {
 TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
   int pictures = 0;
   int refusals = 0;
-  for (std::size_t mebibytes = 160; mebibytes <= 416; mebibytes += 64) {
+  for (std::size_t mebibytes = 64; mebibytes <= 320; mebibytes += 64) {
     const MemoryGroup group(mebibytes << 20);
     if (!group.is_there()) GTEST_SKIP() << "no control group for memory can be made here";
     const Output output = run_gatelight(
@@ -128,7 +127,7 @@ TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
   }
   EXPECT_GT(pictures, 0);
   EXPECT_GT(refusals, 0);
-  tell_extreme("memory of a control group", "160 to 416 MiB, a picture of 1024x1024",
+  tell_extreme("memory of a control group", "64 to 320 MiB, a picture of 1024x1024",
                fmt::format("{} pictures; the kernel never kills it", pictures),
                fmt::format("{} times exit 4: rendering needs about N MiB, and the control group leaves M MiB",
                            refusals));
@@ -154,7 +153,7 @@ TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
 TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int refusals = 0;
-  for (const rlim_t mebibytes : {1024, 2048, 4096}) {
+  for (const rlim_t mebibytes : {1024, 2048, 3072}) {
     const Output output = run_gatelight({"render", scene, "-o", path("a.exr"), "--size", "16x16", "--spp",
                                          "1", "--quiet", "--threads", "1000"},
                                         [=] {
@@ -164,7 +163,7 @@ TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
     expect_failure_names(output, 4, {"--threads 1000"});
     ++refusals;
   }
-  tell_extreme("threads that cannot be started", "--threads 1000 within 1 to 4 GiB of address space", "",
+  tell_extreme("threads that cannot be started", "--threads 1000 within 1 to 3 GiB of address space", "",
                fmt::format("{} times exit 4: --threads 1000: only N can be started here", refusals));
 }
 

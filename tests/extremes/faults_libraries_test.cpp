@@ -1,0 +1,49 @@
+// Libraries that are loaded on demand are not there.
+
+#include <unistd.h>
+
+#include "tests/extremes/faults.h"
+
+namespace gatelight::tests {
+namespace {
+
+using testing::tell_extreme;
+
+class Libraries : public Faults {
+ protected:
+  /// Runs a copy of the program that stands alone.
+  Output run_alone(std::vector<std::string> arguments) const {
+    const std::string copy = path("bin/gatelight");
+    std::filesystem::create_directory(folder / "bin");
+    std::filesystem::copy_file(GATELIGHT_PROGRAM, copy, std::filesystem::copy_options::overwrite_existing);
+    arguments.insert(arguments.begin(), copy);
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    return run_gatelight({}, [&] { ::execv(copy.c_str(), words.data()); });
+  }
+};
+
+TEST_F(Libraries, ThatAreMissingAreToldBeforeWorkThatRequiresThem) {
+  const std::string hdr = folder.write("sky.hdr", "not even a picture");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
+        {"sweep", scene, "-o", path("sweep"), "--quiet"},
+        {"compare", hdr, hdr}}) {
+    expect_failure_names(run_alone(arguments), 5, {"cannot load OpenImageIO", "gatelight_openimageio.so"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
+  // What does not require them goes on.
+  const std::string picture = path("a.png");
+  const Output output = run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"}));
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_TRUE(std::filesystem::exists(picture));
+  tell_extreme("OpenImageIO cannot be loaded",
+               "render with an environment in HDR; sweep; compare of HDR; render",
+               "other renders do not notice",
+               "exit 5 before any work: cannot load OpenImageIO, with the loader's reason");
+}
+
+}  // namespace
+}  // namespace gatelight::tests
