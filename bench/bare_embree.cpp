@@ -6,10 +6,10 @@
 
 namespace gatelight::bench {
 
-BareEmbree::BareEmbree(const scene::Scene& scene)
+BareEmbree::BareEmbree(const scene::Scene& scene, Watertight watertight)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene_, watertight == Watertight::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   for (const scene::Instance& instance : scene.instances) {
     const scene::Mesh& mesh = scene.mesh_of(instance);
     if (mesh.triangles.empty()) continue;
@@ -48,12 +48,13 @@ void BareEmbree::trace_single(std::span<const renderer::Ray> rays, bool shadow) 
   }
 }
 
-void BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
+std::size_t BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[16];
+  std::size_t missed = 0;
   for (std::size_t first = 0; first < rays.size(); first += 16) {
     for (std::size_t i = 0; i < 16; ++i) {
       valid[i] = first + i < rays.size() ? -1 : 0;
@@ -73,8 +74,12 @@ void BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow,
     } else {
       rtcIntersect16(valid, scene_, &context, &packet);
     }
-    benchmark::DoNotOptimize(packet);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const bool hit = shadow ? packet.ray.tfar[i] < 0.0f : packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      missed += valid[i] != 0 && !hit ? 1 : 0;
+    }
   }
+  return missed;
 }
 
 }  // namespace gatelight::bench

@@ -1,9 +1,10 @@
 #pragma once
-// Embree alone, with the triangles, build quality and robustness of the renderer, but without filter
-// functions.
+// Embree alone, with the triangles and the build quality of the renderer, but without filter functions.
 
 #include <embree3/rtcore.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "renderer/surface/ray.h"
@@ -21,9 +22,12 @@ inline RTCRayHit to_embree(const scene::Vec3& origin, const scene::Vec3& directi
   return ray;
 }
 
+/// The renderer's scenes are robust.
+enum class Watertight : std::uint8_t { robust, fast };
+
 class BareEmbree {
  public:
-  explicit BareEmbree(const scene::Scene& scene);
+  explicit BareEmbree(const scene::Scene& scene, Watertight watertight = Watertight::robust);
   ~BareEmbree();
   BareEmbree(const BareEmbree&) = delete;
   BareEmbree& operator=(const BareEmbree&) = delete;
@@ -31,7 +35,8 @@ class BareEmbree {
   RTCScene scene() const { return scene_; }
 
   void trace_single(std::span<const renderer::Ray> rays, bool shadow) const;
-  void trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const;
+  /// Returns the number of rays that hit nothing.
+  std::size_t trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const;
 
  private:
   RTCDevice device_;

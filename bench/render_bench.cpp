@@ -1,5 +1,6 @@
 // The whole path tracer and its limits on real scenes. render/path is the path tracer, render/tracing_only
-// only traces. replay/{camera,bounce,shadow}/{single,packet16} traces the recorded rays of render/path again.
+// only traces. replay/{camera,bounce,shadow}/{single,packet16,fast} traces the recorded rays of render/path
+// again; fast: packets in a scene that is not watertight.
 // Counters are per second on the threads of the run.
 
 #include <benchmark/benchmark.h>
@@ -105,11 +106,11 @@ const renderer::RayLog& recorded(const WorldFixture& w, const std::string& name)
 }
 
 void replay(benchmark::State& state, const SceneCase& which,
-            std::vector<renderer::Ray> renderer::RayLog::*kind, bool packets) {
+            std::vector<renderer::Ray> renderer::RayLog::*kind, bool packets, Watertight watertight) {
   const WorldFixture* w = world(which);
   if (!w) return state.SkipWithError(kNoScene);
   const std::vector<renderer::Ray>& rays = recorded(*w, which.name).*kind;
-  const BareEmbree& bare = w->bare();
+  const BareEmbree& bare = w->bare(watertight);
   const bool shadow = kind == &renderer::RayLog::shadow;
   const bool camera = kind == &renderer::RayLog::camera;
   constexpr std::size_t kChunk = 4096;
@@ -118,7 +119,7 @@ void replay(benchmark::State& state, const SceneCase& which,
       const std::span chunk = std::span(rays).subspan(i * kChunk);
       const std::span part = chunk.first(std::min(kChunk, chunk.size()));
       if (packets) {
-        bare.trace_packets(part, shadow, camera);
+        benchmark::DoNotOptimize(bare.trace_packets(part, shadow, camera));
       } else {
         bare.trace_single(part, shadow);
       }
@@ -144,9 +145,10 @@ const int render_registered = [] {
     const std::pair<const char*, std::vector<renderer::Ray> Log::*> kinds[] = {
         {"camera", &Log::camera}, {"bounce", &Log::bounce}, {"shadow", &Log::shadow}};
     for (const auto& [kind, member] : kinds) {
-      for (const bool packets : {false, true}) {
-        add(std::string("replay/") + kind + (packets ? "/packet16" : "/single"),
-            [which, member = member, packets](benchmark::State& s) { replay(s, *which, member, packets); });
+      for (const std::string way : {"/single", "/packet16", "/fast"}) {
+        add(std::string("replay/") + kind + way, [which, member = member, way](benchmark::State& s) {
+          replay(s, *which, member, way != "/single", way == "/fast" ? Watertight::fast : Watertight::robust);
+        });
       }
     }
   }

@@ -45,9 +45,10 @@ std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32
   return result;
 }
 
-const BareEmbree& WorldFixture::bare() const {
-  if (!bare_) bare_ = std::make_unique<BareEmbree>(scene);
-  return *bare_;
+const BareEmbree& WorldFixture::bare(Watertight watertight) const {
+  std::unique_ptr<BareEmbree>& bare = bare_[static_cast<std::size_t>(watertight)];
+  if (!bare) bare = std::make_unique<BareEmbree>(scene, watertight);
+  return *bare;
 }
 
 std::filesystem::path file_of(const SceneCase& which) {

@@ -41,14 +41,14 @@ struct WorldFixture {
   /// Camera samples of one pass over the picture, tile by tile as the program makes them.
   std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
   /// Built when it is first asked for. Not thread-safe.
-  const BareEmbree& bare() const;
+  const BareEmbree& bare(Watertight watertight = Watertight::robust) const;
 
   scene::Scene scene;
   renderer::RenderOptions options;
   renderer::World world;
 
  private:
-  mutable std::unique_ptr<BareEmbree> bare_;
+  mutable std::unique_ptr<BareEmbree> bare_[2];
 };
 
 /// Empty if GATELIGHT_SCENES is not set or its folder does not hold the file.
