@@ -115,6 +115,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   o.mis = defaults.mis;
   o.direct = defaults.direct;
   o.light_selection = defaults.light_selection;
+  o.watertight = defaults.watertight;
   o.min_depth = defaults.min_depth;
   o.clamp = 0.0f;
   // Radiance and occlusion have different limits of length.

@@ -65,7 +65,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   }
   arena.execute([&] {
     world.emplace(scene, options.environment, options.light_selection,
-                  AccelOptions{threads, options.isa, budget});
+                  AccelOptions{threads, options.isa, budget, options.watertight});
   });
   if (!world->environment.warning().empty()) statistics.warnings.push_back(world->environment.warning());
   statistics.build_seconds = seconds_since(start);

@@ -151,15 +151,16 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
                                .value = [&] { return value_of(memory_limit_bytes >> 20); },
                                .read = read_limit},
                               InRecipe::unless_reproducible));
-  machine.add(decides_nothing(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache")));
+  machine.add(
+      decides_nothing(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache")));
 }
 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_depth, min_depth, seed, threads,
-         sampler, filter, filter_width, mis, direct, light_selection, clamp, ao_distance, aovs, nan_policy,
-         memory_limit_bytes, isa, camera, environment, cache, checkpoint] = options;
+         sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance, aovs,
+         nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -192,6 +193,10 @@ std::vector<Option> option_table(RenderOptions& options) {
                    "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
   light.add(choice("mis", mis, "Heuristic of multiple importance sampling"));
   light.add(choice("light-selection", light_selection, "How one of many lights is chosen"));
+  light.add(
+      choice("watertight", watertight, kOnOff,
+             "Whether no ray slips between triangles that share an edge; off is faster where triangles are "
+             "long and thin"));
   Option& reach = light.add(number("ao-distance", ao_distance,
                                    {.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true},
                                    "METRES", "Reach of ambient occlusion; inf allowed"));

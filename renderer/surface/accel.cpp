@@ -200,7 +200,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
     RTCScene s = rtcNewScene(state.device);
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
     // Without this flag rays slip through the shared edges of triangles, and a closed room leaks light.
-    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(s, options.watertight ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     return s;
   };
   const auto new_mesh = [&](const scene::Mesh& mesh, std::uint32_t instance) {

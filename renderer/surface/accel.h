@@ -17,6 +17,7 @@ struct AccelOptions {
   int threads = 0;                     ///< of the build; 0 means all of the current arena
   std::string isa = "auto";            ///< auto, scalar (SSE2), avx2 or avx512
   std::size_t memory_limit_bytes = 0;  ///< of Embree's own allocations; 0 means no limit
+  bool watertight = true;              ///< no ray slips between triangles that share an edge
 };
 
 /// Thread-safe after construction; holds references to the scene's vertices and to the coverage.

@@ -121,6 +121,31 @@ INSTANTIATE_TEST_SUITE_P(Scales, AccelScale,
                                            std::pair{1.0f, 100.0f}, std::pair{1.0f, 1000.0f},
                                            std::pair{1e-3f, 1.0f}));
 
+TEST(Accel, OnlyAWatertightSceneHoldsRaysTowardsItsEdges) {
+  SceneBuilder builder;
+  builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0.1f, 0.2f, 0.3f), 1.0f, 32,
+                 true);
+  scene::Scene ball = builder.scene();
+  scene::Mesh& mesh = ball.meshes[0];
+  // Corners at the same place become the same floats, so that the ball is closed.
+  for (Vec3& p : mesh.positions) p = (p * 64.0f).array().round() / 64.0f;
+  const auto leaks = [&](bool watertight) {
+    const Tracer tracer(ball, {.watertight = watertight});
+    int leaked = 0;
+    for (std::uint32_t i = 0; i < 100000; ++i) {
+      const Sampler sampler(SamplerKind::independent, 3, i, 0, 0);
+      const auto& corners = mesh.triangles[i % mesh.triangles.size()];
+      const float along = sampler.get_1d(0);
+      const Vec3 target = mesh.positions[corners[0]] * along + mesh.positions[corners[1]] * (1.0f - along);
+      const Vec3 origin = Vec3(0.1f, 0.2f, 0.3f) + 0.3f * random_direction(i);
+      if (!tracer.hit(origin, (target - origin).normalized())) ++leaked;
+    }
+    return leaked;
+  };
+  EXPECT_EQ(leaks(true), 0);
+  EXPECT_GT(leaks(false), 0);
+}
+
 TEST(Accel, OffsetIsSmallBesideTheTriangle) {
   SceneBuilder builder;
   builder.quad(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 0, 0), Vec3(1, 0, 0),
