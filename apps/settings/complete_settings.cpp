@@ -7,6 +7,7 @@
 
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
+#include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
 
 namespace gatelight::apps {
