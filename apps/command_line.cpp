@@ -49,7 +49,7 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
     const std::vector<std::string> rest = root.remaining();
     const std::string got =
         rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
-    return got + ", expected render, compare, info, merge or sweep";
+    return got + ", expected render, compare, info, merge, reconstruct or sweep";
   }
   std::string text = error.what();
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
@@ -122,6 +122,7 @@ int parse(int argc, const char* const* argv, bool runs) {
       add_compare_command(root),
       add_info_command(root),
       add_merge_command(root),
+      add_reconstruct_command(root),
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
   };
   try {

@@ -16,6 +16,20 @@ bool from_first_hit(Aov aov) {
   return aov != Aov::sample_count && aov != Aov::variance;
 }
 
+bool has(std::span<const Aov> aovs, Aov aov) {
+  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+}
+
+/// Reconstruction reads some of the other layers.
+std::vector<Aov> with_what_they_need(std::span<const Aov> aovs) {
+  std::vector<Aov> all(aovs.begin(), aovs.end());
+  if (!has(aovs, Aov::reconstruction)) return all;
+  for (const Aov aov : {Aov::albedo, Aov::normal, Aov::depth, Aov::sample_count}) {
+    if (!has(all, aov)) all.push_back(aov);
+  }
+  return all;
+}
+
 void accumulate(std::array<double, 3>& sum, const Eigen::Vector3f& v) {
   for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(v[i]);
 }
@@ -60,25 +74,33 @@ struct Importer {
 }  // namespace
 
 Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
-    : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(aovs.begin(), aovs.end()) {
+    : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(with_what_they_need(aovs)) {
   const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   radiance_.resize(pixels);
+  if (has(aovs_, Aov::reconstruction)) {
+    for (auto& half : halves_) half.resize(pixels);
+  }
   if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
 }
 
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
   const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
-  return sizeof(Radiance) + (first ? sizeof(First) : 0);
+  const std::size_t sums = has(aovs, Aov::reconstruction) ? 3 : 1;
+  return sums * sizeof(Radiance) + (first ? sizeof(First) : 0);
 }
 
 void Film::add(int x, int y, const Color& radiance) {
-  Radiance& p = radiance_[pixel(x, y)];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
-    p.sum[i] += v;
-    p.square[i] += v * v;
-  }
-  ++p.count;
+  const std::size_t at = pixel(x, y);
+  const auto add_to = [&](Radiance& p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
+      p.sum[i] += v;
+      p.square[i] += v * v;
+    }
+    ++p.count;
+  };
+  if (!halves_[0].empty()) add_to(halves_[radiance_[at].count % 2][at]);
+  add_to(radiance_[at]);
 }
 
 void Film::add(int x, int y, const FirstHit& first) {
@@ -100,6 +122,12 @@ void Film::add(int x, int y, const FirstHit& first) {
   p.training_count += static_cast<double>(first.training_count);
   p.resolution += static_cast<double>(first.resolution);
   ++p.asked;
+}
+
+double Film::variance_of_mean(const Radiance& p, std::size_t channel) {
+  if (p.count < 2) return 0.0;
+  const double n = p.count, sum = p.sum[channel];
+  return std::max(0.0, (p.square[channel] - sum * sum / n) / (n * (n - 1.0)));
 }
 
 Layer Film::layer(Aov aov) const {
@@ -164,13 +192,13 @@ Layer Film::layer(Aov aov) const {
       fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
       break;
     case Aov::variance:
-      // The variance of the pixel's mean, unbiased for independent samples. It is an upper bound for
-      // low-discrepancy samples.
-      fill({"R", "G", "B"}, radiance_, [](const Radiance& p, std::size_t i) {
-        if (p.count < 2) return 0.0;
-        const double n = p.count;
-        return std::max(0.0, (p.square[i] - p.sum[i] * p.sum[i] / n) / (n * (n - 1.0)));
+      fill({"R", "G", "B"}, radiance_, variance_of_mean);
+      break;
+    case Aov::reconstruction:
+      fill({"coverage"}, first_, [](const First& p, std::size_t) {
+        return p.count > 0 ? static_cast<double>(p.hits) / p.count : 0.0;
       });
+      layer.name = "coverage";
       break;
   }
   return layer;
@@ -183,6 +211,22 @@ float Film::faint(int x, int y) const {
   const Radiance& r = radiance_[pixel(x, y)];
   if (r.count < kFewest) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
+}
+
+void Film::add_halves(std::vector<Layer>& layers) const {
+  for (const std::size_t h : {0u, 1u}) {
+    const std::string name(1, static_cast<char>('a' + h));
+    Layer mean{.name = "half-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
+    Layer variance{.name = "variance-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
+    for (const Radiance& p : halves_[h]) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        mean.values.push_back(p.count > 0 ? finite_float(p.sum[i] / p.count) : 0.0f);
+        variance.values.push_back(finite_float(variance_of_mean(p, i)));
+      }
+    }
+    layers.push_back(std::move(mean));
+    layers.push_back(std::move(variance));
+  }
 }
 
 Picture Film::resolve() const {
@@ -199,27 +243,34 @@ Picture Film::resolve() const {
   }
   picture.layers.push_back(std::move(beauty));
   for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
+  if (!halves_[0].empty()) add_halves(picture.layers);
   return picture;
 }
 
 FilmState Film::export_state() const {
   FilmState state;
-  state.radiance.reserve(radiance_.size() * 6);
-  state.radiance_counts.reserve(radiance_.size());
+  const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
+  state.radiance.reserve(sums * 6);
+  state.radiance_counts.reserve(sums);
   state.first.reserve(first_.size() * 19);
   state.first_counts.reserve(first_.size() * 3);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};
-  for (const Radiance& p : radiance_) each_of_radiance(p, radiance);
+  for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {
+    for (const Radiance& p : *all) each_of_radiance(p, radiance);
+  }
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);
   return state;
 }
 
 void Film::import_state(const FilmState& state) {
-  assert(state.radiance_counts.size() == radiance_.size() && state.first_ids.size() == 2 * first_.size());
+  assert(state.radiance_counts.size() == radiance_.size() + 2 * halves_[0].size() &&
+         state.first_ids.size() == 2 * first_.size());
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
-  for (Radiance& p : radiance_) each_of_radiance(p, radiance);
+  for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {
+    for (Radiance& p : *sums) each_of_radiance(p, radiance);
+  }
   Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
   for (First& p : first_) each_of_first(p, first);
 }

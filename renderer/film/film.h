@@ -14,8 +14,8 @@
 
 namespace gatelight::renderer {
 
-/// The exact sums of a film, pixel after pixel. The `first` members are empty if the film keeps no first
-/// hits.
+/// The exact sums of a film, pixel after pixel: all samples, then those of both halves where the film keeps
+/// them. The `first` members are empty if the film keeps no first hits.
 struct FilmState {
   std::vector<double> radiance;
   std::vector<std::uint32_t> radiance_counts;
@@ -69,17 +69,22 @@ class Film {
     float instance = -1.0f;
     float primitive = -1.0f;
   };
+  /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
+  static double variance_of_mean(const Radiance& p, std::size_t channel);
   std::size_t pixel(int x, int y) const {
     return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
            static_cast<std::size_t>(x - rect_.x0);
   }
   Layer layer(Aov aov) const;
+  /// The layers of Aov::reconstruction that are no output variables of their own.
+  void add_halves(std::vector<Layer>& layers) const;
 
   PixelRect rect_;
   int full_width_;
   int full_height_;
   std::vector<Aov> aovs_;
   std::vector<Radiance> radiance_;
+  std::array<std::vector<Radiance>, 2> halves_;  ///< samples in turn; empty where nobody asks
   std::vector<First> first_;
 };
 

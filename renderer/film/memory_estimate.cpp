@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "renderer/film/film.h"
 #include "renderer/machine/errors.h"
 #include "renderer/machine/memory.h"
@@ -36,8 +38,11 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
       options.region ? static_cast<std::size_t>((*options.region)[2] - (*options.region)[0]) *
                            static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
                      : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  // The sums, and at the same time the resolved picture of at most 13 floats.
-  need.film = pixels * (Film::bytes_per_pixel(options.aovs) + 13 * sizeof(float) + options.aovs.size() * 12);
+  // The sums, and at the same time the resolved picture: 13 floats at most, and 21 more for reconstruction.
+  const bool halves =
+      std::find(options.aovs.begin(), options.aovs.end(), Aov::reconstruction) != options.aovs.end();
+  const std::size_t floats = (halves ? 34 : 13) + options.aovs.size() * 3;
+  need.film = pixels * (Film::bytes_per_pixel(options.aovs) + floats * sizeof(float));
   return need;
 }
 

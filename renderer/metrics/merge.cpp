@@ -14,7 +14,7 @@ enum class Rule : std::uint8_t { mean, sum, variance, first };
 
 Rule rule_of(const std::string& layer) {
   if (layer == "samples") return Rule::sum;
-  if (layer == "variance") return Rule::variance;
+  if (layer.starts_with("variance")) return Rule::variance;
   if (layer == "primitive" || layer == "instance") return Rule::first;
   return Rule::mean;
 }

@@ -29,6 +29,7 @@ enum class Aov : std::uint8_t {
   instance_id,
   sample_count,
   variance,
+  reconstruction,  ///< the layers that renderer/reconstruction reads
   // Of the cache, at the vertex of its first query; black without one.
   cache_answer,    ///< its answer, before reflectance
   cache_error,     ///< squared relative error of the answer against one record traced there

@@ -86,7 +86,8 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, samples, variance; of a cache cache-answer, cache-error, training-count, resolution, "
+      "instance, samples, variance, reconstruction (what `gatelight reconstruct` reads); of a cache "
+      "cache-answer, cache-error, training-count, resolution, "
       "nearest-node; or all";
   return {.name = "aov",
           .unit = "LIST",

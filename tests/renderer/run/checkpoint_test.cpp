@@ -33,7 +33,7 @@ CheckpointIdentity identity() {
 
 Film blank_film(bool with_first_hits) {
   const std::vector<Aov> aovs =
-      with_first_hits ? std::vector{Aov::depth, Aov::cache_error} : std::vector<Aov>{};
+      with_first_hits ? std::vector{Aov::depth, Aov::cache_error, Aov::reconstruction} : std::vector<Aov>{};
   return {{1, 1, 4, 3}, 8, 8, aovs};
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+// The finished picture from samples.
+
+#include <string>
+#include <vector>
+
+#include "renderer/reconstruction/sampled_picture.h"
+
+namespace gatelight::renderer {
+
+struct ReconstructionOptions {
+  std::string isa = "auto";  ///< of the kernels: auto, scalar, avx2, avx512; all give the same bits
+  int rows_at_once = 1024;   ///< memory is needed for so many rows; every number gives the same bits
+};
+
+struct Reconstruction {
+  std::vector<float> color;  ///< 3 floats a pixel, linear, not negative
+  std::vector<float> error;  ///< estimated standard error of `color`
+};
+
+/// Fits the samples to the guides in small windows. Both halves are fitted on their own, each with weights
+/// that the other one decides: weighted first-order regression (Bitterli et al. 2016, section 4) with
+/// collaborative windows. Where the estimated error of the fit is not below that of the samples, the mean of
+/// the samples takes over, so the result goes to it as samples grow. Runs in the caller's arena; the same
+/// bits for any number of threads. Throws neural::Unavailable for an instruction set that is missing.
+Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOptions& options = {});
+
+}  // namespace gatelight::renderer

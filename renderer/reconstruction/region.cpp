@@ -1,0 +1,282 @@
+#include "renderer/reconstruction/region.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::renderer {
+namespace {
+
+/// Colours are divided by at least this, or dark surfaces would be all noise.
+constexpr float kLeastDivisor = 0.02f;
+/// Non-local means: differences count in these standard deviations.
+constexpr float kBandwidth = 0.5f;
+/// Pixels of one surface: normals and divisors differ by less.
+constexpr float kEdge = 0.3f;
+/// A pixel's own samples count as a window of this weight where windows hardly reach it.
+constexpr float kOwnWeight = 0.6f;
+/// Windows add up in bands of so many rows: first the even bands, then the odd ones.
+constexpr int kBandWindows = 8;
+static_assert(kHalo % (2 * kBandWindows * window::kStride) == 0);
+static_assert(kBandWindows * window::kStride >= 2 * window::kRadius + 1);
+
+float saturated(double x) {
+  return static_cast<float>(std::clamp(x, -1e12, 1e12));
+}
+
+template <class Function>
+void for_each_row(int height, Function function) {
+  tbb::parallel_for(0, height, function);
+}
+
+}  // namespace
+
+Region::Region(const SampledPicture& samples, int first, int end, float scale)
+    : width_(samples.width), height_(end - first), first_(first), scale_(scale) {
+  read(samples);
+  complete_variance();
+  fill_gaps();
+}
+
+void Region::read(const SampledPicture& s) {
+  const auto each = [&](auto&& function) {
+    for (Half& half : halves_) {
+      for (int c = 0; c < 3; ++c) function(half.color[c]), function(half.variance[c]);
+    }
+    for (int c = 0; c < 3; ++c) function(divisor_[c]), function(normal_[c]);
+    function(counts_), function(depth_);
+  };
+  each([&](Plane& plane) { plane.resize(pixels()); });
+  const std::size_t offset = static_cast<std::size_t>(first_) * static_cast<std::size_t>(width_);
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t p =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const std::size_t from = offset + p;
+      counts_[p] = s.counts[from];
+      depth_[p] = std::max(s.depth[from], 0.0f);
+      for (std::size_t c = 0; c < 3; ++c) {
+        normal_[c][p] = std::clamp(s.normal[3 * from + c], -1.0f, 1.0f);
+        // What was not hit reflects nothing and counts as white.
+        const float reflects = s.albedo[3 * from + c] + 1.0f - s.coverage[from];
+        divisor_[c][p] = std::clamp(reflects, kLeastDivisor, 1.0f);
+        const double over = 1.0 / (static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]));
+        for (int h = 0; h < 2; ++h) {
+          // A pixel of one sample has one half.
+          const SampledPicture::Half& half = s.halves[s.counts[from] < 2.0f ? 0 : h];
+          halves_[h].color[c][p] = saturated(static_cast<double>(half.color[3 * from + c]) * over);
+          halves_[h].variance[c][p] =
+              saturated(static_cast<double>(half.variance[3 * from + c]) * over * over);
+        }
+      }
+    }
+  });
+}
+
+/// Where a half has fewer than two samples, its variance is that of the difference between the halves, or,
+/// with one sample alone, between neighbours.
+void Region::complete_variance() {
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t p =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      if (!(counts_[p] < 4.0f)) continue;
+      const std::size_t next = x + 1 < width_ ? p + 1 : p - (width_ > 1 ? 1 : 0);
+      for (int c = 0; c < 3; ++c) {
+        const float e = counts_[p] < 2.0f ? halves_[0].color[c][p] - halves_[0].color[c][next]
+                                          : halves_[0].color[c][p] - halves_[1].color[c][p];
+        for (Half& half : halves_) half.variance[c][p] = 0.5f * e * e;
+      }
+    }
+  });
+}
+
+/// A pixel without samples looks like those around it, and could be anything.
+void Region::fill_gaps() {
+  constexpr float kAnything = 1e6f;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  };
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t p = at(x, y);
+      if (counts_[p] > 0.0f) continue;
+      for (Half& half : halves_) {
+        for (int c = 0; c < 3; ++c) {
+          float sum = 0.0f, count = 0.0f;
+          for (int v = std::max(y - window::kPatch, 0); v <= std::min(y + window::kPatch, height_ - 1); ++v) {
+            for (int u = std::max(x - window::kPatch, 0); u <= std::min(x + window::kPatch, width_ - 1);
+                 ++u) {
+              if (!(counts_[at(u, v)] > 0.0f)) continue;
+              sum += half.color[c][at(u, v)];
+              count += 1.0f;
+            }
+          }
+          half.color[c][p] = sum / std::max(count, 1.0f);
+          half.variance[c][p] = kAnything;
+        }
+      }
+    }
+  });
+}
+
+/// The sum of the channels, a little smoothed: variances of few samples are noise themselves.
+Plane Region::smooth_variance(const Half& half) const {
+  Plane variance(pixels());
+  for_each_row(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t p =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      for (int c = 0; c < 3; ++c) variance[p] += half.variance[c][p];
+    }
+  });
+  box_filter(variance, width_, height_, 1);
+  return variance;
+}
+
+void Region::fit(const ReconstructionKernels& kernels) {
+  const DealtLayout layout(width_, height_);
+  std::vector<Plane> planes;
+  const auto keep = [&](Plane plane) {
+    planes.push_back(std::move(plane));
+    return planes.back().data();
+  };
+  const auto mapped = [&](const Plane& plane, auto&& map) {
+    Plane result(plane.size());
+    std::transform(plane.begin(), plane.end(), result.begin(), map);
+    return layout.deal_clamped(result);
+  };
+  BandView band;
+  band.columns = layout.columns();
+  band.row = layout.row();
+  band.phase = layout.phase();
+  for (int h = 0; h < 2; ++h) {
+    for (int c = 0; c < 3; ++c) band.halves[h].color[c] = keep(layout.deal_clamped(halves_[h].color[c]));
+    band.halves[h].variance = keep(layout.deal_clamped(smooth_variance(halves_[h])));
+  }
+  Plane valid(pixels());
+  std::transform(counts_.begin(), counts_.end(), valid.begin(),
+                 [](float n) { return n > 0.0f ? 1.0f : 0.0f; });
+  band.valid = keep(layout.deal(valid));
+  // What a guide's value does not tell: less than this is noise or rounding.
+  const auto set_guide = [&](int i, const Plane& plane, auto&& variance) {
+    band.guides[i] = keep(layout.deal_clamped(plane));
+    band.guide_variance[i] = keep(mapped(plane, variance));
+  };
+  for (int c = 0; c < 3; ++c) set_guide(c, normal_[c], [](float) { return 1e-3f; });
+  set_guide(3, depth_, [](float z) { return 1e-4f * z * z + 1e-12f; });
+  for (int c = 0; c < 3; ++c) {
+    const auto over = [](float x) { return x / kEdge; };
+    band.edges[c] = keep(mapped(normal_[c], over));
+    band.edges[3 + c] = keep(mapped(divisor_[c], over));
+  }
+
+  for (int h = 0; h < 2; ++h) {
+    std::vector<Plane> sums(5, Plane(layout.size(), 0.0f));
+    const FitView out{{sums[0].data(), sums[1].data(), sums[2].data()}, sums[3].data(), sums[4].data()};
+    const int bands = (layout.rows() + kBandWindows - 1) / kBandWindows;
+    for (const int odd : {0, 1}) {
+      tbb::parallel_for(
+          tbb::blocked_range<int>(0, (bands + 1 - odd) / 2, 1),
+          [&](const tbb::blocked_range<int>& range) {
+            for (int i = range.begin(); i < range.end(); ++i) {
+              const int begin = (2 * i + odd) * kBandWindows;
+              const int end = std::min(begin + kBandWindows, layout.rows());
+              for (int r = begin; r < end; ++r) {
+                kernels.fit_row(band, out, window::kMargin + window::kFirst + r * window::kStride, h,
+                                kBandwidth);
+              }
+            }
+          },
+          tbb::simple_partitioner());
+    }
+    Half& half = halves_[h];
+    for (Plane& plane : half.fit) plane.resize(pixels());
+    half.influence.resize(pixels());
+    for_each_row(height_, [&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t p =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+        const std::size_t at = layout.at(x, y);
+        const float own = valid[p] * kOwnWeight;
+        const float over = 1.0f / std::max(sums[3][at] + own, 1e-20f);
+        for (int c = 0; c < 3; ++c)
+          half.fit[c][p] = (sums[static_cast<std::size_t>(c)][at] + own * half.color[c][p]) * over;
+        half.influence[p] = std::min((sums[4][at] + own) * over, 1.0f);
+      }
+    });
+  }
+}
+
+/// With the fits a, b of the halves and errors e_a, e_b: |(e_a + e_b) / 2|^2 = (|e_a|^2 + |e_b|^2) / 2 -
+/// |a - b|^2 / 4. The squared error of a fit is estimated by |fit - samples|^2 - variance + 2 variance
+/// influence (Stein 1981), which is unbiased, because the weights of a half are made of the other one. The
+/// best share of the samples' mean in the result follows from the same terms.
+void Region::join() {
+  constexpr int kSmoothing = 5;
+  constexpr float kLeastSquare = 1e-3f;  // of brightness, below which errors count as absolute
+  Plane error(pixels()), distance(pixels()), shared(pixels()), square(pixels());
+  const auto each_pixel = [&](auto&& function) {
+    for_each_row(height_, [&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        function(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                 static_cast<std::size_t>(x));
+      }
+    });
+  };
+  for (Plane& plane : color_) plane.resize(pixels());
+  const auto raw = [&](std::size_t p, int c) {
+    const float n = std::max(counts_[p], 2.0f), b = std::floor(0.5f * n);
+    return ((n - b) * halves_[0].color[c][p] + b * halves_[1].color[c][p]) / n;
+  };
+  each_pixel([&](std::size_t p) {
+    for (int c = 0; c < 3; ++c) {
+      const float a = halves_[0].fit[c][p], b = halves_[1].fit[c][p];
+      const float mean = color_[c][p] = 0.5f * (a + b);
+      square[p] += mean * mean;
+      error[p] -= 0.25f * (a - b) * (a - b);
+      const float d = mean - raw(p, c);
+      distance[p] += d * d;
+      for (const Half& half : halves_) {
+        const float e = half.fit[c][p] - half.color[c][p], variance = half.variance[c][p];
+        error[p] += 0.5f * (e * e - variance) + variance * half.influence[p];
+        shared[p] += 0.25f * variance * half.influence[p];
+      }
+    }
+  });
+  const auto smooth = [&](Plane& plane) { box_filter(plane, width_, height_, kSmoothing); };
+  smooth(square);
+  each_pixel([&](std::size_t p) {
+    const float over = counts_[p] > 0.0f ? 1.0f / (square[p] + kLeastSquare) : 0.0f;
+    for (Plane* plane : {&error, &distance, &shared}) (*plane)[p] *= over;
+  });
+  for (Plane* plane : {&error, &distance, &shared}) smooth(*plane);
+  for (Plane* plane : {&error, &distance, &shared}) box_filter(*plane, width_, height_, kSmoothing / 2);
+  error_.resize(pixels());
+  each_pixel([&](std::size_t p) {
+    float share = 0.0f;
+    // One sample has no second half to tell its error.
+    if (counts_[p] >= 2.0f)
+      share = std::clamp((error[p] - shared[p]) / std::max(distance[p], 1e-20f), 0.0f, 1.0f);
+    const float joined = error[p] - 2.0f * share * (error[p] - shared[p]) + share * share * distance[p];
+    error_[p] = std::max(joined, 0.0f) * (square[p] + kLeastSquare) / 3.0f;
+    if (share > 0.0f) {
+      for (int c = 0; c < 3; ++c) color_[c][p] += share * (raw(p, c) - color_[c][p]);
+    }
+  });
+}
+
+void Region::write_row(int y, float* color, float* error) const {
+  const std::size_t row = static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_);
+  for (int x = 0; x < width_; ++x) {
+    const std::size_t p = row + static_cast<std::size_t>(x);
+    for (int c = 0; c < 3; ++c) {
+      const double unit = static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]);
+      *color++ = static_cast<float>(std::max(static_cast<double>(color_[c][p]), 0.0) * unit);
+      *error++ = static_cast<float>(std::sqrt(static_cast<double>(error_[p])) * unit);
+    }
+  }
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,54 @@
+#pragma once
+// Some rows of a picture on their way from samples to the finished picture.
+
+#include "renderer/reconstruction/planes.h"
+#include "renderer/reconstruction/sampled_picture.h"
+
+namespace gatelight::renderer {
+
+/// The rows that a finished row depends on, in each direction: windows, their patches, and the smoothing of
+/// errors. A multiple of the rows that alternate in Region::fit().
+inline constexpr int kHalo = 64;
+
+class Region {
+ public:
+  /// The rows first <= y < end of `samples`. `scale` is a usual brightness; the methods' small numbers are
+  /// relative to it.
+  Region(const SampledPicture& samples, int first, int end, float scale);
+
+  /// Fits both halves in all windows.
+  void fit(const ReconstructionKernels& kernels);
+  /// Joins the fits with the samples' mean by their estimated errors.
+  void join();
+  /// Writes a row as 3 floats a pixel.
+  void write_row(int y, float* color, float* error) const;
+
+ private:
+  struct Half {
+    Plane color[3];     ///< over what the colours are divided by
+    Plane variance[3];  ///< of these
+    Plane fit[3];
+    Plane influence;  ///< of a pixel's own samples on its fit
+  };
+
+  void read(const SampledPicture& samples);
+  void complete_variance();
+  void fill_gaps();
+  Plane smooth_variance(const Half& half) const;
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+
+  int width_;
+  int height_;
+  int first_;
+  float scale_;
+  Half halves_[2];
+  Plane counts_;
+  Plane divisor_[3];  ///< of colours: what the surface reflects
+  Plane normal_[3];
+  Plane depth_;
+  Plane color_[3];  ///< finished
+  Plane error_;     ///< squared, of a channel's mean
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,51 @@
+#include "renderer/reconstruction/sampled_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/image/image_read.h"
+
+namespace gatelight::renderer {
+namespace {
+
+const Layer& expect_layer(const Picture& picture, const char* name, std::size_t channels) {
+  const Layer* const layer = picture.find(name);
+  if (!layer)
+    throw ImageError(fmt::format("has no layer '{}', expected the layers of --aov reconstruction", name));
+  if (layer->channels.size() != channels) {
+    throw ImageError(fmt::format("has {} channels in its layer '{}', expected {}", layer->channels.size(),
+                                 name, channels));
+  }
+  return *layer;
+}
+
+std::vector<float> finite_values(const Picture& picture, const char* name, std::size_t channels) {
+  std::vector<float> values = expect_layer(picture, name, channels).values;
+  for (float& value : values) value = std::isfinite(value) ? value : 0.0f;
+  return values;
+}
+
+}  // namespace
+
+SampledPicture sampled_picture(const Picture& picture) {
+  SampledPicture s{.width = picture.width,
+                   .height = picture.height,
+                   .halves = {{finite_values(picture, "half-a", 3), finite_values(picture, "variance-a", 3)},
+                              {finite_values(picture, "half-b", 3), finite_values(picture, "variance-b", 3)}},
+                   .counts = finite_values(picture, "samples", 1),
+                   .coverage = finite_values(picture, "coverage", 1),
+                   .albedo = finite_values(picture, "albedo", 3),
+                   .normal = finite_values(picture, "normal", 3),
+                   .depth = finite_values(picture, "depth", 1)};
+  for (const char* name : {"half-a", "half-b"}) {
+    const std::vector<float>& values = picture.find(name)->values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isfinite(values[i])) s.counts[i / 3] = 0.0f;
+    }
+  }
+  return s;
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,33 @@
+#pragma once
+// What reconstruction reads of a picture.
+
+#include <vector>
+
+#include "renderer/image/picture.h"
+
+namespace gatelight::renderer {
+
+/// Pixels in rows from the top. Colours, variances, normals: 3 floats a pixel. All values are finite.
+struct SampledPicture {
+  /// The samples of a pixel go to the halves in turn.
+  struct Half {
+    std::vector<float> color;     ///< means, linear
+    std::vector<float> variance;  ///< of the means
+  };
+
+  int width = 0;
+  int height = 0;
+  Half halves[2];
+  std::vector<float> counts;    ///< samples a pixel; pixels without any are filled
+  std::vector<float> coverage;  ///< share of the samples that hit a surface
+  // Means over a pixel's samples, at the primary hit; zero where nothing was hit.
+  std::vector<float> albedo;
+  std::vector<float> normal;
+  std::vector<float> depth;  ///< in metres, over the samples that hit
+};
+
+/// Reads the layers that --aov reconstruction writes. Values that are not finite count as 0, and a pixel with
+/// such a colour as one without samples. Throws ImageError, which names the layer that is missing.
+SampledPicture sampled_picture(const Picture& picture);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "renderer/image/image_read.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
+
+namespace gatelight::tests {
+namespace {
+
+class ReconstructCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  std::string render(const std::string& name, const std::string& seed, const std::string& layers) const {
+    const Output output = run_gatelight_inside(
+        {"render", folder.write("scene.gltf", tiny_scene()), "-o", path(name), "--size", "24x16", "--spp",
+         "4", "--environment", "1,0.9,0.8", "--seed", seed, "--aov", layers, "--exr", "float", "--quiet"});
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return path(name);
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(ReconstructCommand, FinishesWhatRenderAndMergeWrite) {
+  const std::string a = render("a.exr", "1", "reconstruction"), b = render("b.exr", "2", "reconstruction");
+  ASSERT_EQ(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}).exit_code, 0);
+  for (const std::string& input : {a, path("merged.exr")}) {
+    const Output output = run_gatelight({"reconstruct", input, "-o", path("finished.exr")});
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    EXPECT_EQ(output.out + output.err, "");
+    const renderer::Picture samples = renderer::read_image(input);
+    const renderer::Picture finished = renderer::read_image(path("finished.exr"));
+    ASSERT_EQ(finished.layers.size(), 3u);
+    EXPECT_NE(finished.layers[0].values, samples.layers[0].values);
+    ASSERT_TRUE(finished.find("raw") && finished.find("error"));
+    for (std::size_t i = 0; i < samples.layers[0].values.size(); ++i)  // half precision
+      ASSERT_NEAR(finished.find("raw")->values[i], samples.layers[0].values[i], 1e-3f);
+    EXPECT_EQ(finished.metadata.at("spp"), samples.metadata.at("spp"));
+    EXPECT_EQ(finished.metadata.at("reconstructed"), "yes");
+  }
+  EXPECT_EQ(run_gatelight_inside({"reconstruct", a, "-o", path("finished.png")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("finished.png")));
+}
+
+TEST_F(ReconstructCommand, ThreadsDoNotChangeTheFile) {
+  const std::string input = render("a.exr", "1", "reconstruction");
+  for (const char* threads : {"1", "2"}) {
+    const std::string output = path(std::string(threads) + ".exr");
+    ASSERT_EQ(run_gatelight_inside({"reconstruct", input, "-o", output, "--threads", threads}).exit_code, 0);
+  }
+  EXPECT_EQ(renderer::read_image(path("1.exr")).layers[0].values,
+            renderer::read_image(path("2.exr")).layers[0].values);
+}
+
+TEST_F(ReconstructCommand, WrongFilesAreRefused) {
+  const std::string plain = render("plain.exr", "1", "albedo");
+  expect_failure(run_gatelight_inside({"reconstruct", plain, "-o", path("o.exr")}), 2,
+                 {"plain.exr", "half-a", "--aov reconstruction"});
+  expect_failure(run_gatelight_inside({"reconstruct", path("missing.exr"), "-o", path("o.exr")}), 2,
+                 {"missing.exr"});
+  expect_failure(run_gatelight_inside({"reconstruct", path("picture.png"), "-o", path("o.exr")}), 1,
+                 {"picture.png", ".exr"});
+  expect_failure(run_gatelight_inside({"reconstruct", plain, "-o", path("no/o.exr")}), 3, {"no"});
+  EXPECT_FALSE(std::filesystem::exists(path("o.exr")));
+}
+
+}  // namespace
+}  // namespace gatelight::tests
