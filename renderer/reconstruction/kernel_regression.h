@@ -9,18 +9,33 @@ namespace {
 
 using namespace gatelight::renderer;
 
+/// Where the columns around a window's centre lie in a row of a plane.
+struct Columns {
+  static constexpr int kReach = window::kRadius + window::kPatch;
+  size_t at[2 * kReach + 1];
+
+  explicit Columns(const BandView& band) {
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      const int x = window::kMargin + window::kFirst + dx;
+      at[dx + kReach] =
+          static_cast<size_t>(x % window::kStride) * band.phase + static_cast<size_t>(x / window::kStride);
+    }
+  }
+};
+
 /// The windows of one row that fill the lanes.
 struct Windows {
   const BandView& band;
+  const Columns& columns;
   int y;      ///< of their centres
   int first;  ///< number of the first one in its row
 
-  /// Of the pixel dx, dy from the first centre.
-  GATELIGHT_INLINE size_t at(int dx, int dy) const {
-    const int x = window::kMargin + window::kFirst + dx;
-    return static_cast<size_t>(y + dy) * band.row + static_cast<size_t>(x % window::kStride) * band.phase +
-           static_cast<size_t>(x / window::kStride + first);
+  /// Of the first lane's pixels in the row dy from the centre.
+  GATELIGHT_INLINE size_t row(int dy) const {
+    return static_cast<size_t>(y + dy) * band.row + static_cast<size_t>(first);
   }
+  /// Of the pixel dx, dy from the first centre.
+  GATELIGHT_INLINE size_t at(int dx, int dy) const { return row(dy) + columns.at[dx + Columns::kReach]; }
 };
 
 /// exp(-x) for x in [0, 80], within 2e-7 of the value.
@@ -33,25 +48,45 @@ GATELIGHT_INLINE Float exp_of_minus(Float x) {
   return p * float_of((Int(127u) - whole) << 23);
 }
 
-/// The distance of the patches around the centres and around the pixels dx, dy from them: squared differences
+/// The patches around the centres.
+struct Patches {
+  static constexpr int kSide = 2 * window::kPatch + 1;
+  Float color[kSide][kSide][3];
+  Float variance[kSide][kSide];
+
+  GATELIGHT_INLINE Patches(const Windows& w, const HalfView& half) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const size_t p = w.at(x - window::kPatch, y - window::kPatch);
+        for (int c = 0; c < 3; ++c) color[y][x][c] = load(half.color[c] + p);
+        variance[y][x] = load(half.variance + p);
+      }
+    }
+  }
+};
+
+/// The distance of the patches from those around the pixels dx, dy from the centres: squared differences
 /// beyond what the variances explain, over the variances (Rousselle et al. 2012, equation 3). Each pixel's
 /// ratio is bounded, so that one bright sample does not decide for its patch.
-GATELIGHT_INLINE Float patch_distance(const Windows& w, const HalfView& half, float k2, int dx, int dy) {
-  constexpr int kPatch = window::kPatch;
+GATELIGHT_INLINE Float patch_distance(const Windows& w, const HalfView& half, const Patches& patches,
+                                      float k2, int dx, int dy) {
+  constexpr int kSide = Patches::kSide;
+  const size_t* const columns = &w.columns.at[dx + Columns::kReach - window::kPatch];
   Float sum = 0.0f;
-  for (int y = -kPatch; y <= kPatch; ++y) {
-    for (int x = -kPatch; x <= kPatch; ++x) {
-      const size_t p = w.at(x, y), q = w.at(x + dx, y + dy);
+  for (int y = 0; y < kSide; ++y) {
+    const size_t row = w.row(dy + y - window::kPatch);
+    for (int x = 0; x < kSide; ++x) {
+      const size_t q = row + columns[x];
       Float e2 = 0.0f;
       for (int c = 0; c < 3; ++c) {
-        const Float e = load(half.color[c] + p) - load(half.color[c] + q);
+        const Float e = patches.color[y][x][c] - load(half.color[c] + q);
         e2 += e * e;
       }
-      const Float vp = load(half.variance + p), vq = load(half.variance + q);
+      const Float vp = patches.variance[y][x], vq = load(half.variance + q);
       sum += (e2 - (vp + min(vp, vq))) / (1e-6f + k2 * (vp + vq));
     }
   }
-  return sum * (1.0f / ((2 * kPatch + 1) * (2 * kPatch + 1)));
+  return sum * (1.0f / (kSide * kSide));
 }
 
 /// The weights of all pixels of the windows: non-local means of the half (Rousselle et al. 2012) times a
@@ -72,6 +107,7 @@ GATELIGHT_INLINE void find_weights(const Windows& w, const HalfView& half, float
   const BandView& band = w.band;
   const size_t p = w.at(0, 0);
   const float k2 = bandwidth * bandwidth;
+  const Patches patches(w, half);
   int n = 0;
   for (int dy = -kRadius; dy <= kRadius; ++dy) {
     for (int dx = -kRadius; dx <= kRadius; ++dx, ++n) {
@@ -83,7 +119,7 @@ GATELIGHT_INLINE void find_weights(const Windows& w, const HalfView& half, float
       }
       Float weight = 0.0f;
       if (any(edges < kFarthest)) {
-        const Float d = max(patch_distance(w, half, k2, dx, dy), 0.0f) + edges;
+        const Float d = max(patch_distance(w, half, patches, k2, dx, dy), 0.0f) + edges;
         weight = select_or_zero(d < kFarthest, exp_of_minus(min(d, kFarthest)));
       }
       store(weights.values[n], weight);
@@ -207,13 +243,13 @@ GATELIGHT_INLINE void add_value(const Windows& w, const Fit& fit, Float weight, 
 }
 
 /// Fits kTogether windows of a row and adds the fits.
-GATELIGHT_INLINE void fit_windows(const BandView& band, const FitView& out, int y, int first, int fitted,
-                                  float bandwidth) {
+GATELIGHT_INLINE void fit_windows(const BandView& band, const Columns& columns, const FitView& out, int y,
+                                  int first, int fitted, float bandwidth) {
   constexpr int kRadius = window::kRadius;
   Weights weights[kVectors];
   Fit fits[kVectors];
   for (int v = 0; v < kVectors; ++v) {
-    const Windows w{band, y, first + v * kLanes};
+    const Windows w{band, columns, y, first + v * kLanes};
     find_weights(w, band.halves[1 - fitted], bandwidth, weights[v]);
     fits[v] = find_fit(w, band.halves[fitted], weights[v]);
   }
@@ -222,7 +258,8 @@ GATELIGHT_INLINE void fit_windows(const BandView& band, const FitView& out, int 
     for (int dx = -kRadius; dx <= kRadius; ++dx, ++n) {
       for (int v = 0; v < kVectors; ++v) {
         const Float weight = load(weights[v].values[n]);
-        if (any(weight > 0.0f)) add_value({band, y, first + v * kLanes}, fits[v], weight, dx, dy, out);
+        if (any(weight > 0.0f))
+          add_value({band, columns, y, first + v * kLanes}, fits[v], weight, dx, dy, out);
       }
     }
   }

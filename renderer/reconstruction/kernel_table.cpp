@@ -8,8 +8,9 @@ namespace gatelight::renderer {
 namespace {
 
 void fit_row(const BandView& band, const FitView& out, int y, int fitted, float bandwidth) {
+  const Columns columns(band);
   for (int first = 0; first < band.columns; first += kTogether)
-    fit_windows(band, out, y, first, fitted, bandwidth);
+    fit_windows(band, columns, out, y, first, fitted, bandwidth);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 namespace window {
 inline constexpr int kStride = 4;   ///< from one window's centre to the next, in both directions
 inline constexpr int kRadius = 9;   ///< of a window
-inline constexpr int kPatch = 3;    ///< radius of the patches whose differences are the weights
+inline constexpr int kPatch = 2;    ///< radius of the patches whose differences are the weights
 inline constexpr int kMargin = 12;  ///< pixels around the picture, a multiple of the stride
 inline constexpr int kFirst = 1;    ///< the first centre, in pixels from the picture's corner
 inline constexpr int kSide = 2 * kRadius + 1;
