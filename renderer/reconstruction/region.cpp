@@ -199,7 +199,7 @@ void Region::fit(const ReconstructionKernels& kernels) {
         const std::size_t p =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
         const std::size_t at = layout.at(x, y);
-        const float own = valid[p] * kOwnWeight;
+        const float own = valid[p] * kOwnWeight / (1.0f + sums[3][at] * sums[3][at]);
         const float over = 1.0f / std::max(sums[3][at] + own, 1e-20f);
         for (int c = 0; c < 3; ++c)
           half.fit[c][p] = (sums[static_cast<std::size_t>(c)][at] + own * half.color[c][p]) * over;
@@ -215,6 +215,7 @@ void Region::fit(const ReconstructionKernels& kernels) {
 /// best share of the samples' mean in the result follows from the same terms.
 void Region::join() {
   constexpr int kSmoothing = 5;
+  constexpr float kMostDeviations = 3.0f;
   constexpr float kLeastSquare = 1e-3f;  // of brightness, below which errors count as absolute
   Plane error(pixels()), distance(pixels()), shared(pixels()), square(pixels());
   const auto each_pixel = [&](auto&& function) {
@@ -247,11 +248,13 @@ void Region::join() {
   });
   const auto smooth = [&](Plane& plane) { box_filter(plane, width_, height_, kSmoothing); };
   smooth(square);
+  Plane deviation(pixels());
   each_pixel([&](std::size_t p) {
     const float over = counts_[p] > 0.0f ? 1.0f / (square[p] + kLeastSquare) : 0.0f;
     for (Plane* plane : {&error, &distance, &shared}) (*plane)[p] *= over;
+    deviation[p] = std::sqrt(distance[p]);
   });
-  for (Plane* plane : {&error, &distance, &shared}) smooth(*plane);
+  for (Plane* plane : {&error, &distance, &shared, &deviation}) smooth(*plane);
   for (Plane* plane : {&error, &distance, &shared}) box_filter(*plane, width_, height_, kSmoothing / 2);
   error_.resize(pixels());
   each_pixel([&](std::size_t p) {
@@ -262,7 +265,14 @@ void Region::join() {
     const float joined = error[p] - 2.0f * share * (error[p] - shared[p]) + share * share * distance[p];
     error_[p] = std::max(joined, 0.0f) * (square[p] + kLeastSquare) / 3.0f;
     if (share > 0.0f) {
-      for (int c = 0; c < 3; ++c) color_[c][p] += share * (raw(p, c) - color_[c][p]);
+      // A bright sample differs much from the fit, but not much for its own variance: it stays out.
+      const float usual = kMostDeviations * deviation[p] * std::sqrt(square[p] + kLeastSquare);
+      for (int c = 0; c < 3; ++c) {
+        const float noise = 0.5f * std::sqrt(halves_[0].variance[c][p] + halves_[1].variance[c][p]);
+        const float d = raw(p, c) - color_[c][p];
+        const float limit = usual + std::max(std::abs(d) - kMostDeviations * noise, 0.0f);
+        color_[c][p] += share * std::clamp(d, -limit, limit);
+      }
     }
   });
 }
