@@ -40,7 +40,9 @@ renderer::Picture finish(renderer::Picture picture, const std::string& name) {
   } catch (const renderer::ImageError& error) {
     throw InputError(fmt::format("'{}' {}", name, error.what()));
   }
-  renderer::Layer raw = std::move(picture.layers.front());
+  // Where the picture is a finished one already, its samples' mean is a layer.
+  const renderer::Layer* const mean = picture.find("raw");
+  renderer::Layer raw = mean ? *mean : picture.layers.front();
   raw.name = "raw";
   picture.layers = {
       {.channels = {"R", "G", "B"}, .values = std::move(finished.color)},

@@ -24,7 +24,7 @@ ordered_json nonfinite(const renderer::RenderStatistics& statistics) {
   return {{"count", statistics.nonfinite}, {"samples", samples}};
 }
 
-ordered_json seconds(const RunReport& report, bool with_cache) {
+ordered_json seconds(const RunReport& report, bool with_cache, bool reconstructs) {
   const renderer::RenderStatistics& s = report.statistics;
   const renderer::CacheStatistics& cache = s.cache;
   ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
@@ -36,6 +36,7 @@ ordered_json seconds(const RunReport& report, bool with_cache) {
   } else {
     json["render_trace"] = s.threads > 0 ? s.rays.seconds / s.threads : 0.0;
   }
+  if (reconstructs) json["reconstruct"] = s.reconstruct_seconds;
   json["write"] = report.write_seconds;
   json["total"] = report.total_seconds;
   return json;
@@ -68,7 +69,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["samples"] = s.samples;
   json["interrupted"] = s.interrupted;
   if (report.signal != 0) json["signal"] = report.signal;
-  json["seconds"] = seconds(report, with_cache);
+  json["seconds"] = seconds(report, with_cache, settings.render.reconstruct);
   json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};
   json["memory_bytes"] = {{"geometry", s.geometry_bytes},
                           {"bvh", s.bvh_bytes},

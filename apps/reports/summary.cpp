@@ -25,9 +25,11 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   const double samples = static_cast<double>(s.samples);
   const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
   std::string text = fmt::format("written   {}\n", fmt::join(settings.outputs, ", "));
-  text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}, write {:.2f}, total {:.2f}\n",
-                      report.load_seconds, s.build_seconds, s.render_seconds, report.write_seconds,
-                      report.total_seconds);
+  const std::string reconstruct =
+      settings.render.reconstruct ? fmt::format(", reconstruct {:.2f}", s.reconstruct_seconds) : "";
+  text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}{}, write {:.2f}, total {:.2f}\n",
+                      report.load_seconds, s.build_seconds, s.render_seconds, reconstruct,
+                      report.write_seconds, report.total_seconds);
   text +=
       fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}\n", format_integer(s.samples),
                   s.spp, per_second(samples, s.render_seconds) * 1e-6, s.threads, s.threads == 1 ? "" : "s");

@@ -38,7 +38,7 @@ ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
   }
   json["render"] = s.render_seconds;
   const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
-  json["total"] = before + s.render_seconds;
+  json["total"] = before + s.render_seconds + s.reconstruct_seconds;
   return json;
 }
 

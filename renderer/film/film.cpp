@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 namespace {
 
 bool from_first_hit(Aov aov) {
-  return aov != Aov::sample_count && aov != Aov::variance;
+  return aov != Aov::sample_count && aov != Aov::variance && aov != Aov::raw && aov != Aov::error;
 }
 
 bool has(std::span<const Aov> aovs, Aov aov) {
@@ -124,6 +124,10 @@ void Film::add(int x, int y, const FirstHit& first) {
   ++p.asked;
 }
 
+double Film::mean(const Radiance& p, std::size_t channel) {
+  return p.count > 0 ? p.sum[channel] / p.count : 0.0;
+}
+
 double Film::variance_of_mean(const Radiance& p, std::size_t channel) {
   if (p.count < 2) return 0.0;
   const double n = p.count, sum = p.sum[channel];
@@ -194,6 +198,13 @@ Layer Film::layer(Aov aov) const {
     case Aov::variance:
       fill({"R", "G", "B"}, radiance_, variance_of_mean);
       break;
+    case Aov::raw:
+      fill({"R", "G", "B"}, radiance_, mean);
+      break;
+    case Aov::error:
+      fill({"R", "G", "B"}, radiance_,
+           [](const Radiance& p, std::size_t i) { return std::sqrt(variance_of_mean(p, i)); });
+      break;
     case Aov::reconstruction:
       fill({"coverage"}, first_, [](const First& p, std::size_t) {
         return p.count > 0 ? static_cast<double>(p.hits) / p.count : 0.0;
@@ -216,15 +227,15 @@ float Film::faint(int x, int y) const {
 void Film::add_halves(std::vector<Layer>& layers) const {
   for (const std::size_t h : {0u, 1u}) {
     const std::string name(1, static_cast<char>('a' + h));
-    Layer mean{.name = "half-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
+    Layer color{.name = "half-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
     Layer variance{.name = "variance-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
     for (const Radiance& p : halves_[h]) {
       for (std::size_t i = 0; i < 3; ++i) {
-        mean.values.push_back(p.count > 0 ? finite_float(p.sum[i] / p.count) : 0.0f);
+        color.values.push_back(finite_float(mean(p, i)));
         variance.values.push_back(finite_float(variance_of_mean(p, i)));
       }
     }
-    layers.push_back(std::move(mean));
+    layers.push_back(std::move(color));
     layers.push_back(std::move(variance));
   }
 }
@@ -239,7 +250,7 @@ Picture Film::resolve() const {
   Layer beauty{.channels = {"R", "G", "B"}};
   beauty.values.reserve(radiance_.size() * 3);
   for (const Radiance& p : radiance_) {
-    for (double sum : p.sum) beauty.values.push_back(p.count > 0 ? finite_float(sum / p.count) : 0.0f);
+    for (std::size_t i = 0; i < 3; ++i) beauty.values.push_back(finite_float(mean(p, i)));
   }
   picture.layers.push_back(std::move(beauty));
   for (Aov aov : aovs_) picture.layers.push_back(layer(aov));

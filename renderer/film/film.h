@@ -69,6 +69,7 @@ class Film {
     float instance = -1.0f;
     float primitive = -1.0f;
   };
+  static double mean(const Radiance& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
   static double variance_of_mean(const Radiance& p, std::size_t channel);
   std::size_t pixel(int x, int y) const {

@@ -7,6 +7,7 @@
 #include "renderer/film/film.h"
 #include "renderer/machine/errors.h"
 #include "renderer/machine/memory.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 
@@ -38,11 +39,12 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
       options.region ? static_cast<std::size_t>((*options.region)[2] - (*options.region)[0]) *
                            static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
                      : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  // The sums, and at the same time the resolved picture: 13 floats at most, and 21 more for reconstruction.
-  const bool halves =
-      std::find(options.aovs.begin(), options.aovs.end(), Aov::reconstruction) != options.aovs.end();
-  const std::size_t floats = (halves ? 34 : 13) + options.aovs.size() * 3;
-  need.film = pixels * (Film::bytes_per_pixel(options.aovs) + floats * sizeof(float));
+  // The sums, and at the same time the resolved picture: 13 floats at most, 21 more for the layers that
+  // reconstruction reads, and 27 more for what it reads and writes.
+  const std::vector<Aov> aovs = film_aovs(options);
+  const bool halves = std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end();
+  const std::size_t floats = (options.reconstruct ? 61 : halves ? 34 : 13) + aovs.size() * 3;
+  need.film = pixels * (Film::bytes_per_pixel(aovs) + floats * sizeof(float));
   return need;
 }
 

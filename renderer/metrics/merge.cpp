@@ -4,17 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "renderer/machine/finite_float.h"
 
 namespace gatelight::renderer {
 namespace {
 
-enum class Rule : std::uint8_t { mean, sum, variance, first };
+enum class Rule : std::uint8_t { mean, sum, variance, error, first };
 
 Rule rule_of(const std::string& layer) {
   if (layer == "samples") return Rule::sum;
   if (layer.starts_with("variance")) return Rule::variance;
+  if (layer == "error") return Rule::error;
   if (layer == "primitive" || layer == "instance") return Rule::first;
   return Rule::mean;
 }
@@ -108,10 +110,12 @@ void PictureMerger::add(const NamedPicture& named) {
   for (std::size_t l = 0; l < sums_.size(); ++l) {
     const Rule rule = rule_of(merged_.layers[l].name);
     if (rule == Rule::first) continue;
-    const double factor = rule == Rule::sum ? 1.0 : rule == Rule::variance ? weight * weight : weight;
+    const bool squared = rule == Rule::variance || rule == Rule::error;
+    const double factor = rule == Rule::sum ? 1.0 : squared ? weight * weight : weight;
     const std::vector<float>& values = named.picture.layers[l].values;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      sums_[l][i] += factor * static_cast<double>(values[i]);
+      const auto value = static_cast<double>(values[i]);
+      sums_[l][i] += factor * (rule == Rule::error ? value * value : value);
     }
   }
 }
@@ -121,9 +125,11 @@ Picture PictureMerger::finish() const {
   for (std::size_t l = 0; l < sums_.size(); ++l) {
     const Rule rule = rule_of(picture.layers[l].name);
     if (rule == Rule::first) continue;
-    const double divisor = rule == Rule::sum ? 1.0 : rule == Rule::variance ? weight_ * weight_ : weight_;
+    const bool squared = rule == Rule::variance || rule == Rule::error;
+    const double divisor = rule == Rule::sum ? 1.0 : squared ? weight_ * weight_ : weight_;
     for (std::size_t i = 0; i < sums_[l].size(); ++i) {
-      picture.layers[l].values[i] = finite_float(sums_[l][i] / divisor);
+      const double value = sums_[l][i] / divisor;
+      picture.layers[l].values[i] = finite_float(rule == Rule::error ? std::sqrt(value) : value);
     }
   }
   if (weighted_) picture.metadata["spp"] = std::to_string(spp_);

@@ -12,10 +12,9 @@ namespace gatelight::renderer {
 /// Computes the mean of pictures, weighted by their samples per pixel (metadata "spp"). Pictures without this
 /// entry have equal weights. Pictures are added one at a time, so that many need no more memory than two.
 ///
-/// Layers are averaged, except four. "samples" is the sum, "variance", "variance-a" and
-/// "variance-b" are those of the mean, and
-/// "primitive" and "instance" are those of the first picture. The metadata keeps the entries that are equal
-/// in all pictures; "spp" is the sum, "seed" the list of all seeds.
+/// Layers are averaged, except a few. "samples" is the sum; "variance", "variance-a", "variance-b" and
+/// "error" are those of the mean; "primitive" and "instance" are those of the first picture. The metadata
+/// keeps the entries that are equal in all pictures; "spp" is the sum, "seed" the list of all seeds.
 class PictureMerger {
  public:
   /// Throws CompareError when size, place, layers or integrator differ from the first picture. Also throws

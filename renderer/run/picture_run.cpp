@@ -12,6 +12,7 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
+#include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
 #include "renderer/settings/resolved_options.h"
@@ -24,7 +25,7 @@ class Renderer::Implementation::PictureRun {
       : renderer_(renderer),
         options_(renderer.options),
         callbacks_(callbacks),
-        film_(renderer.region, options_.width, options_.height, options_.aovs) {}
+        film_(renderer.region, options_.width, options_.height, film_aovs(options_)) {}
 
   Picture make() {
     restore();
@@ -34,7 +35,7 @@ class Renderer::Implementation::PictureRun {
     SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp);
     run_passes(loop, *pass);
     end(loop, *pass);
-    return film_.resolve();
+    return finished(renderer_.statistics.reconstruct_seconds);
   }
 
  private:
@@ -101,7 +102,7 @@ class Renderer::Implementation::PictureRun {
       if (loop.done() == options_.spp) return;
       if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
         renderer_.statistics = sum_up(loop, pass);
-        callbacks_.snapshot(film_.resolve());
+        callbacks_.snapshot(finished(renderer_.statistics.reconstruct_seconds));
       }
       if (loop.over()) return;
       if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
@@ -117,6 +118,9 @@ class Renderer::Implementation::PictureRun {
     loop.report_end();
   }
 
+  Picture finished(double& seconds) const {
+    return finished_picture(film_, options_, renderer_.arena, seconds);
+  }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
   /// A picture from an incomplete cache is a preview; it is never resumed.
   bool whole() const { return !training_.session || training_.complete; }

@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "neural/base/flush_denormals.h"
+#include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -68,7 +70,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
       train(training, callbacks, {});
       if (training.stopped) return false;
     }
-    Film film(region, options.width, options.height, options.aovs);
+    Film film(region, options.width, options.height, film_aovs(options));
     const std::unique_ptr<Pass> pass = make_pass(training);
     SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
     while (loop.done() < options.spp) {
@@ -78,7 +80,8 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    picture(static_cast<int>(point), film.resolve(), statistics);
+    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
+    picture(static_cast<int>(point), finished, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
     if (bookmark) session.return_to(*bookmark);
   }
@@ -87,7 +90,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
 
 bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
                                                     const Callbacks& callbacks) {
-  Film film(region, options.width, options.height, options.aovs);
+  Film film(region, options.width, options.height, film_aovs(options));
   Training untrained;
   const std::unique_ptr<Pass> pass = make_pass(untrained);
   SampleLoop loop(arena, options, callbacks, *pass, film, spp.back());
@@ -100,7 +103,8 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    picture(static_cast<int>(point), film.resolve(), statistics);
+    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
+    picture(static_cast<int>(point), finished, statistics);
     loop.leave_out(seconds_since(start));
   }
   return true;

@@ -29,6 +29,8 @@ enum class Aov : std::uint8_t {
   instance_id,
   sample_count,
   variance,
+  raw,             ///< the samples' mean
+  error,           ///< estimated standard error of the picture
   reconstruction,  ///< the layers that renderer/reconstruction reads
   // Of the cache, at the vertex of its first query; black without one.
   cache_answer,    ///< its answer, before reflectance

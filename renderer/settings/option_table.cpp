@@ -86,9 +86,10 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, samples, variance, reconstruction (what `gatelight reconstruct` reads); of a cache "
-      "cache-answer, cache-error, training-count, resolution, "
-      "nearest-node; or all";
+      "instance, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
+      "the "
+      "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-answer, cache-error, "
+      "training-count, resolution, nearest-node; or all";
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
@@ -160,8 +161,9 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_depth, min_depth, seed, threads,
-         sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance, aovs,
-         nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] = options;
+         sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
+         reconstruct, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] =
+      options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -179,6 +181,8 @@ std::vector<Option> option_table(RenderOptions& options) {
   picture.add(choice("filter", filter, "Pixel filter"));
   picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
                      "Full width of the pixel filter; 0: the filter's own"));
+  picture.add(choice("reconstruct", reconstruct, kOnOff,
+                     "Fit the samples to normals and depth, which takes out most of the grain"));
   picture.add(aov_option(aovs));
 
   add_view_options(table, camera, environment);

@@ -1,10 +1,19 @@
 #include "renderer/settings/resolved_options.h"
 
+#include <algorithm>
+
 namespace gatelight::renderer {
 
 float resolve_ao_distance(float option, const scene::Box& bounds) {
   if (option >= 0.0f) return option;
   return bounds.isEmpty() ? scene::kInfinity : 0.1f * bounds.diagonal().norm();
+}
+
+std::vector<Aov> film_aovs(const RenderOptions& options) {
+  std::vector<Aov> aovs = options.aovs;
+  if (options.reconstruct && std::find(aovs.begin(), aovs.end(), Aov::reconstruction) == aovs.end())
+    aovs.push_back(Aov::reconstruction);
+  return aovs;
 }
 
 float resolve_filter_width(PixelFilter filter, float option) {

@@ -1,6 +1,8 @@
 #pragma once
 // Values of options that depend on others or on the scene.
 
+#include <vector>
+
 #include "renderer/settings/options.h"
 #include "scene/math.h"
 
@@ -8,6 +10,9 @@ namespace gatelight::renderer {
 
 /// Metres: a tenth of the scene's diagonal where the option is negative.
 float resolve_ao_distance(float option, const scene::Box& bounds);
+
+/// What the film keeps: the output variables of the options, and those that reconstruction reads.
+std::vector<Aov> film_aovs(const RenderOptions& options);
 
 /// Full width in pixels: the filter's usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3) where the
 /// option is 0.

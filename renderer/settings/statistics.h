@@ -77,6 +77,7 @@ struct CacheStatistics {
 struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
+  double reconstruct_seconds = 0.0;
   int width = 0;
   int height = 0;
   int spp = 0;                ///< finished for every pixel

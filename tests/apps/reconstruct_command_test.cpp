@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "renderer/image/image_read.h"
 #include "tests/support/process.h"
@@ -14,10 +16,27 @@ class ReconstructCommand : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
-  std::string render(const std::string& name, const std::string& seed, const std::string& layers) const {
-    const Output output = run_gatelight_inside(
-        {"render", folder.write("scene.gltf", tiny_scene()), "-o", path(name), "--size", "24x16", "--spp",
-         "4", "--environment", "1,0.9,0.8", "--seed", seed, "--aov", layers, "--exr", "float", "--quiet"});
+  std::string render(const std::string& name, const std::string& seed, const std::string& layers,
+                     const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"render",
+                                      folder.write("scene.gltf", tiny_scene()),
+                                      "-o",
+                                      path(name),
+                                      "--size",
+                                      "24x16",
+                                      "--spp",
+                                      "4",
+                                      "--environment",
+                                      "1,0.9,0.8",
+                                      "--seed",
+                                      seed,
+                                      "--aov",
+                                      layers,
+                                      "--exr",
+                                      "float",
+                                      "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Output output = run_gatelight_inside(words);
     EXPECT_EQ(output.exit_code, 0) << output.err;
     return path(name);
   }
@@ -44,6 +63,20 @@ TEST_F(ReconstructCommand, FinishesWhatRenderAndMergeWrite) {
   }
   EXPECT_EQ(run_gatelight_inside({"reconstruct", a, "-o", path("finished.png")}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("finished.png")));
+}
+
+TEST_F(ReconstructCommand, RenderGivesWhatReconstructGives) {
+  const std::string samples = render("samples.exr", "1", "reconstruction");
+  ASSERT_EQ(run_gatelight_inside({"reconstruct", samples, "-o", path("command.exr")}).exit_code, 0);
+  const std::string flag = render("flag.exr", "1", "raw,error", {"--reconstruct", "on"});
+  const renderer::Picture one = renderer::read_image(flag);
+  const renderer::Picture other = renderer::read_image(path("command.exr"));
+  ASSERT_EQ(one.layers.size(), 3u);
+  for (const renderer::Layer& layer : one.layers) {
+    ASSERT_TRUE(other.find(layer.name)) << layer.name;
+    for (std::size_t i = 0; i < layer.values.size(); ++i)  // half precision
+      ASSERT_NEAR(other.find(layer.name)->values[i], layer.values[i], 1e-3f) << layer.name;
+  }
 }
 
 TEST_F(ReconstructCommand, ThreadsDoNotChangeTheFile) {

@@ -78,6 +78,11 @@ inline const Kind kKinds[] = {
        o.region = {{3, 2, 30, 19}};
        o.aovs.clear();
      }},
+    {"path_reconstructed", Integrator::path,
+     [](RenderOptions& o) {
+       o.reconstruct = true;
+       o.aovs = {Aov::normal, Aov::raw, Aov::error};
+     }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
     {"nao", Integrator::nao, [](RenderOptions&) {}},
     {"nao_hashgrid", Integrator::nao,

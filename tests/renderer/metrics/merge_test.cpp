@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -57,13 +58,16 @@ TEST(Merge, LayersFollowTheirMeaning) {
   a.layers.push_back({.name = "instance", .channels = {"id"}, .values = {7}});
   b.layers.push_back({.name = "instance", .channels = {"id"}, .values = {9}});
   a.layers.push_back({.name = "variance", .channels = {"R", "G", "B"}, .values = {16, 0, 0}});
+  a.layers.push_back({.name = "error", .channels = {"R", "G", "B"}, .values = {4, 0, 4}});
   b.layers.push_back({.name = "variance", .channels = {"R", "G", "B"}, .values = {0, 16, 16}});
+  b.layers.push_back({.name = "error", .channels = {"R", "G", "B"}, .values = {0, 4, 4}});
   a.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {4}});
   b.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {8}});
   const Picture m = merge(a, b);
   EXPECT_THAT(m.find("samples")->values, ElementsAre(4));
   EXPECT_THAT(m.find("instance")->values, ElementsAre(7));
   EXPECT_THAT(m.find("variance")->values, ElementsAre(1, 9, 9)) << "of (a + 3 b) / 4";
+  EXPECT_THAT(m.find("error")->values, ElementsAre(1, 3, ::testing::FloatEq(std::sqrt(10.0f))));
   EXPECT_THAT(m.find("depth")->values, ElementsAre(7));
 }
 
