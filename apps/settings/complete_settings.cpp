@@ -118,10 +118,13 @@ void adapt_cache(RenderSettings& settings) {
 
 /// Why a layer would be black, and what it needs; empty where it would not.
 std::string why_black(Aov aov, const RenderOptions& o) {
-  if (aov < Aov::cache_answer) return "";
+  if (aov < Aov::cache_radiance) return "";
   if (!uses_cache(o.integrator)) return no_cache(o);
   if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
     return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
+  }
+  if (aov == Aov::cache_radiance && o.integrator == Integrator::nao) {
+    return "the integrator 'nao' stores no radiance, expected --integrator nrc";
   }
   const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
   if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid) {

@@ -58,6 +58,8 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
                    context.options.aovs.end()),
       queries_(session.inputs()) {
   plan_.query_at = context.options.cache.query_at;
+  const std::vector<Aov> aovs = film_aovs(context.options);
+  plan_.guides = std::find(aovs.begin(), aovs.end(), Aov::cache_radiance) != aovs.end();
   plan_.max_depth = context.options.max_depth;
   plan_.min_depth = context.options.min_depth;
   if (context.options.cache.view == CacheView::cache) {
@@ -135,6 +137,11 @@ void CachedPass::finish_paths(Tile& tile) const {
   tile.radiance.resize(tile.samples.size());
   const std::span<const float> answers =
       std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
+  if (plan_.guides && !tile.first_hits.empty()) {
+    tile.guides.resize(tile.samples.size());
+    tile.paths.guide_colors(answers, tile.guides);
+    for (std::size_t i = 0; i < tile.guides.size(); ++i) tile.first_hits[i].cache_radiance = tile.guides[i];
+  }
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {
     // Paths without a record or an answer are black.
@@ -163,8 +170,7 @@ void CachedPass::trace_occlusion(Tile& tile, CachedWorker& worker) const {
       return false;
     }
     paths.first_queries[i] = static_cast<std::int32_t>(paths.queries.size());
-    paths.queries.push_back(
-        surface_point(hit, side, -ray.direction, surface, surface.material.base_color));
+    paths.queries.push_back(surface_point(hit, side, -ray.direction, surface, surface.material.base_color));
     return true;
   };
   ao_.trace(tile.samples, tile.results, tile.first_hits, worker.rays, worker.occlusion, ask);

@@ -82,10 +82,14 @@ void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf
   const Color direct = at.value.value * at.light.radiance * weight;
   if (!(direct > 0.0f).any()) return;
   Color held = Color::Zero();
-  if (wide && options_.held.light_sample(at.light.delta))
-    held = wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
+  Color apart = Color::Zero();
+  const bool holds = options_.held.light_sample(at.light.delta);
+  if (wide && (holds || at.light.delta)) {
+    (holds ? held : apart) =
+        wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
+  }
   scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
-  scratch.pending.push_back({vertex, direct, held});
+  scratch.pending.push_back({vertex, direct, held, apart});
 }
 
 PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit,
@@ -153,7 +157,9 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     if (path.surfaces == 0 && !first_hits.empty())
       first_hits[path.index].albedo = lane_color(points.albedo, lane);
     if (answers) {
-      ask(path, point_at(block, lane, hit, lane_color(points.albedo, lane)), batch);
+      const SurfacePoint point = point_at(block, lane, hit, lane_color(points.albedo, lane));
+      const std::int32_t index = ask(path, point, batch);
+      if (seeks_guide(path, batch)) set_guide(path, point, true, index, batch);
     } else {
       Ray next;
       if (continue_from(path, block, lane, hit, next, plan, batch, scratch)) scratch.go_on(number, next);
@@ -171,6 +177,21 @@ SurfacePoint CachedPaths::point_at(const PathBlock& block, int lane, const Hit& 
           lane_vector(p.shading_normal, lane),
           wide_albedo,
           p.roughness[lane]};
+}
+
+bool CachedPaths::seeks_guide(const Path& path, const PathBatch& batch) {
+  return !batch.guides.empty() && batch.guides[path.index].vertex == kNone;
+}
+
+void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool stored, std::int32_t vertex,
+                            PathBatch& batch) const {
+  PathGuide& guide = batch.guides[path.index];
+  guide.vertex = vertex;
+  if (!stored || !worth_caching(point.albedo)) return;
+  guide.reflectance = cache_reflectance(point.albedo) * path.scale();
+  const std::int32_t asked = batch.vertices[static_cast<std::size_t>(vertex)].query;
+  guide.query = asked != kNone ? asked : static_cast<std::int32_t>(batch.queries.size());
+  if (asked == kNone) batch.queries.push_back(point);
 }
 
 std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const {
@@ -209,12 +230,16 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
   if (has_narrow) part = m.bsdf->wide_part(roughness);
   const Color& wide_albedo = part ? part->albedo() : m.bsdf->albedo();
-  const std::int32_t index = ask(path, surface_point(m.hit, side, m.wo, m.surface, wide_albedo), batch);
+  const SurfacePoint point = surface_point(m.hit, side, m.wo, m.surface, wide_albedo);
+  const std::int32_t index = ask(path, point, batch);
+  const bool guides = seeks_guide(path, batch);
+  if (guides) set_guide(path, point, true, index, batch);
+  const Bsdf* const wide = guides ? (part ? &*part : &*m.bsdf) : nullptr;
 
   if (!options_.held.emission()) {
     // All direct light of all lobes is sampled here. Indirect light of the sampled direction counts only for
     // the narrow lobes.
-    add_light(path, m, *m.bsdf, LightKinds::all, nullptr, index, scratch);
+    add_light(path, m, *m.bsdf, LightKinds::all, wide, index, scratch);
     const std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
     if (!drawn) return false;
     Color scattered = Color::Zero();
@@ -227,7 +252,7 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
     return advance(path, m, *drawn, {drawn->weight, scattered}, index);
   }
 
-  if (delta_apart_) add_light(path, m, *m.bsdf, LightKinds::delta, nullptr, index, scratch);
+  if (delta_apart_) add_light(path, m, *m.bsdf, LightKinds::delta, wide, index, scratch);
   if (!has_narrow) return false;
   const Bsdf narrow = m.bsdf->narrow_part(roughness);
   add_light(path, m, narrow, delta_apart_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
@@ -242,11 +267,13 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
                                 const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.min_roughness;
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
-  if (record && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
+  const bool guides = seeks_guide(path, batch) && m.bsdf->has_wide(roughness);
+  if ((record || guides) && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;
-  const std::int32_t index =
-      add_vertex(path, surface_point(m.hit, side, m.wo, m.surface, wide.albedo()), record, batch);
-  add_light(path, m, *m.bsdf, LightKinds::all, record ? &wide : nullptr, index, scratch);
+  const SurfacePoint point = surface_point(m.hit, side, m.wo, m.surface, wide.albedo());
+  const std::int32_t index = add_vertex(path, point, record, batch);
+  if (guides) set_guide(path, point, stored_(neural::surface_index(m.hit.instance, side)), index, batch);
+  add_light(path, m, *m.bsdf, LightKinds::all, record || guides ? &wide : nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
   if (!drawn) return false;
   if (!drawn->delta && !(drawn->spread < roughness * roughness)) path.wide_events += 1;
@@ -266,6 +293,8 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
   bool record = stored && wide && may_teach(path, plan);
   const std::int32_t index = add_vertex(path, point, record, batch);
+  const bool guides = wide && seeks_guide(path, batch);
+  if (guides) set_guide(path, point, stored, index, batch);
   Color direct = lane_color(p.direct, lane) * path.scale();
   const float shadow_weight =
       plan.faint > 0.0f
@@ -274,10 +303,12 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
           : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
   if (shadow_weight > 0.0f) {
     direct *= shadow_weight;
-    const bool held = record && options_.held.light_sample(p.light_is_delta[lane] != 0);
+    const bool delta = p.light_is_delta[lane] != 0, holds = options_.held.light_sample(delta);
     scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
     const Color wide_direct = lane_color(p.wide_direct, lane) * (path.scale() * shadow_weight);
-    scratch.pending.push_back({index, direct, held ? wide_direct : Color(Color::Zero())});
+    const Color none = Color::Zero();
+    scratch.pending.push_back({index, direct, record && holds ? wide_direct : none,
+                               guides && delta && !holds ? wide_direct : none});
   }
   if (!p.alive[lane]) return false;
   const Drawn drawn = drawn_at(p, lane);
@@ -308,6 +339,7 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
                         PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                         Scratch& scratch) const {
   batch.begin(starts.size());
+  if (plan.guides) batch.guides.resize(starts.size());
   scratch.paths.resize(starts.size());
   scratch.rays.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -325,6 +357,8 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
         v.known += light.direct * transmittance;
         if (v.record != kNone) batch.target(v.record) += light.held * transmittance;
+        if (!batch.guides.empty() && batch.guides[v.path].vertex == light.vertex)
+          batch.guides[v.path].apart += light.apart * transmittance;
       });
 }
 

@@ -35,9 +35,11 @@ struct PathPlan {
   QueryAt query_at = QueryAt::none;
   bool records = false;  ///< every vertex of wide lobes that does not end in the cache becomes a record
   int end_after_records = kNone;  ///< a path ends in the cache after so many records; kNone: query_at decides
-  int most_records = kNone;       ///< for each path; kNone: no limit
-  int max_depth = 8;              ///< scattering events
-  int min_depth = 2;              ///< before Russian roulette
+  /// Find for each path where it first meets a wide surface, and ask the cache there (PathBatch::guides).
+  bool guides = false;
+  int most_records = kNone;  ///< for each path; kNone: no limit
+  int max_depth = 8;         ///< scattering events
+  int min_depth = 2;         ///< before Russian roulette
   /// Light samples whose light over the vertex's reflectance is below this are traced by Russian roulette.
   /// 0: CameraSample::faint of the path decides.
   float faint = 0.0f;
@@ -100,6 +102,11 @@ class CachedPaths {
   SurfacePoint point_at(const PathBlock& block, int lane, const Hit& hit, const Color& wide_albedo) const;
   /// Adds a vertex that the cache answers, if it can. Returns its number.
   std::int32_t ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const;
+  /// Whether a path looks for its guide. PathBatch::guides has its place then.
+  static bool seeks_guide(const Path& path, const PathBatch& batch);
+  /// Makes a vertex the guide of its path. stored: the cache can be asked there.
+  void set_guide(const Path& path, const SurfacePoint& point, bool stored, std::int32_t vertex,
+                 PathBatch& batch) const;
   /// Adds a vertex that goes on. record: it becomes a record, if it can; then it stays true.
   std::int32_t add_vertex(Path& path, const SurfacePoint& point, bool& record, PathBatch& batch) const;
   /// Whether a vertex of a path may become a record, storage provided.
@@ -117,7 +124,7 @@ class CachedPaths {
                std::int32_t vertex) const;
   void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
   /// Adds a light sample of `bsdf` to `vertex`. wide: the lobes whose share the cache holds; null where the
-  /// vertex is no record.
+  /// vertex is neither a record nor a guide.
   void add_light(const Path& path, const Meeting& m, const Bsdf& bsdf, LightKinds kinds, const Bsdf* wide,
                  std::int32_t vertex, Scratch& scratch) const;
 
@@ -160,6 +167,7 @@ struct CachedPaths::Pending {
   std::int32_t vertex = kNone;
   Color direct = Color::Zero();
   Color held = Color::Zero();
+  Color apart = Color::Zero();  ///< of delta lights, by the wide lobes, where the cache does not hold it
 };
 
 struct CachedPaths::Scratch : Waves<CachedPaths::Path, CachedPaths::Pending> {};

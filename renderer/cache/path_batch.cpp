@@ -20,7 +20,37 @@ void PathBatch::begin(std::size_t paths) {
   targets.clear();
   first_queries.assign(paths, kNone);
   first_records.assign(paths, kNone);
+  guides.clear();
   unstored_hits = 0;
+}
+
+void PathBatch::guide_colors(std::span<const float> answers, std::span<Color> colors) const {
+  std::copy(emission.begin(), emission.end(), colors.begin());
+  // Emission that mirrors and glass before the surface show, or without such a surface all that they show.
+  std::vector<std::int32_t> ends(paths(), kNone);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const PathVertex& v = vertices[i];
+    const std::int32_t end = guides[v.path].vertex;
+    if (end == kNone || static_cast<std::int32_t>(i) < end) ends[v.path] = static_cast<std::int32_t>(i);
+  }
+  for (std::size_t p = 0; p < paths(); ++p) {
+    const PathGuide& guide = guides[p];
+    std::int32_t at = ends[p];
+    Color light = Color::Zero();
+    if (guide.vertex != kNone) {
+      light = guide.apart;
+      if (guide.query != kNone) light += guide.reflectance * color_at(answers, guide.query);
+      const PathVertex& v = vertices[static_cast<std::size_t>(guide.vertex)];
+      light *= v.link;
+      at = v.previous;
+    }
+    while (at != kNone) {
+      const PathVertex& v = vertices[static_cast<std::size_t>(at)];
+      light = v.link * (v.known + light);
+      at = v.previous;
+    }
+    colors[p] += light;
+  }
 }
 
 void PathBatch::resolve(std::span<const float> answers, std::span<Color> radiance) {

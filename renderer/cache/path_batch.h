@@ -32,6 +32,14 @@ struct alignas(64) PathVertex {
 };
 static_assert(sizeof(PathVertex) == 64);
 
+/// Where a path meets a wide surface for the first time, for the picture that the cache alone gives.
+struct PathGuide {
+  std::int32_t vertex = kNone;
+  std::int32_t query = kNone;  ///< into PathBatch::queries; kNone: the surface has no storage
+  Color reflectance = Color::Zero();
+  Color apart = Color::Zero();  ///< light samples of the wide lobes that the cache does not hold
+};
+
 struct PathBatch {
   PathBatch() = default;
   explicit PathBatch(const PointInputs& inputs) : queries(inputs), records(inputs) {}
@@ -44,6 +52,7 @@ struct PathBatch {
       targets;  ///< 3 for each record (1 of occlusion): what is known of H, then radiance over reflectance
   std::vector<std::int32_t> first_queries;  ///< for each path its first query, or kNone
   std::vector<std::int32_t> first_records;  ///< the same for records
+  std::vector<PathGuide> guides;            ///< for each path, or empty where nobody asks (PathPlan::guides)
   std::uint64_t unstored_hits = 0;
 
   std::size_t paths() const { return emission.size(); }
@@ -53,6 +62,10 @@ struct PathBatch {
   Eigen::Map<Color> target(std::int32_t record) {
     return Eigen::Map<Color>(&targets[3 * static_cast<std::size_t>(record)]);
   }
+
+  /// The light of the paths as the cache knows it at the first wide surface: emission up to there, and what
+  /// that surface reflects, by its answer. One for each path. Call it before resolve().
+  void guide_colors(std::span<const float> answers, std::span<Color> colors) const;
 
   /// Sums up from the ends. Call it once. answers: 3 floats for each query, radiance over reflectance.
   /// radiance: one for each path, or empty. Completes `targets`.

@@ -45,7 +45,7 @@ void each_of_radiance(Radiance& p, Take&& take) {
 
 template <class First, class Take>
 void each_of_first(First& p, Take&& take) {
-  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.answer, &p.node}) {
+  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.cache_radiance, &p.answer, &p.node}) {
     for (auto& value : *array) take.sum(value);
   }
   for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
@@ -109,6 +109,7 @@ void Film::add(int x, int y, const FirstHit& first) {
     p.instance = static_cast<float>(first.instance);
     p.primitive = static_cast<float>(first.primitive);
   }
+  if (first.cache_radiance.isFinite().all()) accumulate(p.cache_radiance, first.cache_radiance.matrix());
   if (!first.hit) return;
   accumulate(p.albedo, first.albedo.matrix());
   accumulate(p.normal, first.normal);
@@ -176,6 +177,9 @@ Layer Film::layer(Aov aov) const {
       break;
     case Aov::instance_id:
       fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
+      break;
+    case Aov::cache_radiance:
+      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::count);
       break;
     case Aov::cache_answer:
       fill_vector({"R", "G", "B"}, &First::answer, &First::count);
@@ -263,7 +267,7 @@ FilmState Film::export_state() const {
   const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
   state.radiance.reserve(sums * 6);
   state.radiance_counts.reserve(sums);
-  state.first.reserve(first_.size() * 19);
+  state.first.reserve(first_.size() * 22);
   state.first_counts.reserve(first_.size() * 3);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};

@@ -57,6 +57,7 @@ class Film {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
     std::array<double, 3> position{};
+    std::array<double, 3> cache_radiance{};
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
     double depth = 0.0;

@@ -127,25 +127,30 @@ GATELIGHT_INLINE void find_weights(const Windows& w, const HalfView& half, float
   }
 }
 
-constexpr int kMoments = kGuides * (kGuides + 1) / 2;
-
-/// The place of (i, j), i <= j, in an upper triangle of kGuides rows.
-constexpr int place(int i, int j) {
-  return i * kGuides - i * (i - 1) / 2 + j - i;
-}
+/// Upper triangles of so many rows as there are guides.
+template <int kGuides>
+struct Triangle {
+  static constexpr int kSize = kGuides * (kGuides + 1) / 2;
+  /// The place of (i, j), i <= j.
+  static constexpr int place(int i, int j) { return i * kGuides - i * (i - 1) / 2 + j - i; }
+};
 
 /// The fit in each lane's window: colour c at a pixel is mean[c] + sum of slope[i][c] *
 /// (guide i - centre[i]).
+template <int kGuides>
 struct Fit {
   Float total;  ///< sum of the weights
   Float mean[3];
   Float center[kGuides];
   Float slope[kGuides][3];
   /// Of the guides' moments: L D L^T = M. Above the diagonal rows of L^T; on it 1 / D.
-  Float factor[kMoments];
+  Float factor[Triangle<kGuides>::kSize];
 };
 
-GATELIGHT_INLINE Fit find_fit(const Windows& w, const HalfView& half, const Weights& weights) {
+template <int kGuides>
+GATELIGHT_INLINE Fit<kGuides> find_fit(const Windows& w, const HalfView& half, const Weights& weights) {
+  constexpr int kMoments = Triangle<kGuides>::kSize;
+  constexpr auto place = Triangle<kGuides>::place;
   constexpr int kRadius = window::kRadius;
   const BandView& band = w.band;
   const size_t p = w.at(0, 0);
@@ -183,7 +188,7 @@ GATELIGHT_INLINE Fit find_fit(const Windows& w, const HalfView& half, const Weig
     }
   }
 
-  Fit fit;
+  Fit<kGuides> fit;
   fit.total = total;
   const Float one_over = 1.0f / max(total, 1e-20f);
   for (int c = 0; c < 3; ++c) fit.mean[c] = color[c] * one_over;
@@ -222,8 +227,10 @@ GATELIGHT_INLINE Fit find_fit(const Windows& w, const HalfView& half, const Weig
 }
 
 /// Adds a fit's values at the pixels dx, dy from the centres, weighted as they were fitted.
-GATELIGHT_INLINE void add_value(const Windows& w, const Fit& fit, Float weight, int dx, int dy,
+template <int kGuides>
+GATELIGHT_INLINE void add_value(const Windows& w, const Fit<kGuides>& fit, Float weight, int dx, int dy,
                                 const FitView& out) {
+  constexpr auto place = Triangle<kGuides>::place;
   const size_t q = w.at(dx, dy);
   Float x[kGuides], value[3];
   for (int c = 0; c < 3; ++c) value[c] = fit.mean[c];
@@ -243,15 +250,16 @@ GATELIGHT_INLINE void add_value(const Windows& w, const Fit& fit, Float weight, 
 }
 
 /// Fits kTogether windows of a row and adds the fits.
+template <int kGuides>
 GATELIGHT_INLINE void fit_windows(const BandView& band, const Columns& columns, const FitView& out, int y,
                                   int first, int fitted, float bandwidth) {
   constexpr int kRadius = window::kRadius;
   Weights weights[kVectors];
-  Fit fits[kVectors];
+  Fit<kGuides> fits[kVectors];
   for (int v = 0; v < kVectors; ++v) {
     const Windows w{band, columns, y, first + v * kLanes};
     find_weights(w, band.halves[1 - fitted], bandwidth, weights[v]);
-    fits[v] = find_fit(w, band.halves[fitted], weights[v]);
+    fits[v] = find_fit<kGuides>(w, band.halves[fitted], weights[v]);
   }
   int n = 0;
   for (int dy = -kRadius; dy <= kRadius; ++dy) {

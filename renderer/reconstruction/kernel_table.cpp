@@ -9,8 +9,13 @@ namespace {
 
 void fit_row(const BandView& band, const FitView& out, int y, int fitted, float bandwidth) {
   const Columns columns(band);
-  for (int first = 0; first < band.columns; first += kTogether)
-    fit_windows(band, columns, out, y, first, fitted, bandwidth);
+  for (int first = 0; first < band.columns; first += kTogether) {
+    if (band.guide_count == kMostGuides) {
+      fit_windows<kMostGuides>(band, columns, out, y, first, fitted, bandwidth);
+    } else {
+      fit_windows<kFewestGuides>(band, columns, out, y, first, fitted, bandwidth);
+    }
+  }
 }
 
 }  // namespace

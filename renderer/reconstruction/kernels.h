@@ -16,8 +16,9 @@ inline constexpr int kSide = 2 * kRadius + 1;
 static_assert(kMargin % kStride == 0 && kMargin + kFirst >= kRadius + kPatch);
 }  // namespace window
 
-inline constexpr int kGuides = 4;  ///< what colours are fitted to: normal and depth
-inline constexpr int kEdges = 6;   ///< what tells surfaces apart: normal and divisor
+/// What colours are fitted to: normal and depth, and the light that a cache knows.
+inline constexpr int kFewestGuides = 4, kMostGuides = 7;
+inline constexpr int kEdges = 6;  ///< what tells surfaces apart: normal and divisor
 
 /// One half of the samples.
 struct HalfView {
@@ -42,9 +43,10 @@ struct BandView {
   HalfView halves[2];
   const float* valid =
       nullptr;  ///< 0 outside the picture and where a pixel has no samples, else 1; only these are fitted
-  const float* guides[kGuides] = {};
-  const float* guide_variance[kGuides] = {};  ///< what a guide's value does not tell
-  const float* edges[kEdges] = {};            ///< over the distance at which two pixels differ
+  int guide_count = kFewestGuides;  ///< or kMostGuides
+  const float* guides[kMostGuides] = {};
+  const float* guide_variance[kMostGuides] = {};  ///< what a guide's value does not tell
+  const float* edges[kEdges] = {};                ///< over the distance at which two pixels differ
 };
 
 struct ReconstructionKernels {

@@ -14,6 +14,8 @@ constexpr float kLeastDivisor = 0.02f;
 constexpr float kBandwidth = 0.5f;
 /// Pixels of one surface: normals and divisors differ by less.
 constexpr float kEdge = 0.3f;
+/// Relative to the cache's answers, differences that say nothing.
+constexpr float kCacheNoise = 0.02f;
 /// A pixel's own samples count as a window of this weight where windows hardly reach it.
 constexpr float kOwnWeight = 0.6f;
 /// Windows add up in bands of so many rows: first the even bands, then the odd ones.
@@ -48,6 +50,9 @@ void Region::read(const SampledPicture& s) {
     function(counts_), function(depth_);
   };
   each([&](Plane& plane) { plane.resize(pixels()); });
+  if (!s.cache.empty()) {
+    for (Plane& plane : cache_) plane.resize(pixels());
+  }
   const std::size_t offset = static_cast<std::size_t>(first_) * static_cast<std::size_t>(width_);
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
@@ -62,6 +67,7 @@ void Region::read(const SampledPicture& s) {
         const float reflects = s.albedo[3 * from + c] + 1.0f - s.coverage[from];
         divisor_[c][p] = std::clamp(reflects, kLeastDivisor, 1.0f);
         const double over = 1.0 / (static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]));
+        if (!s.cache.empty()) cache_[c][p] = saturated(static_cast<double>(s.cache[3 * from + c]) * over);
         for (int h = 0; h < 2; ++h) {
           // A pixel of one sample has one half.
           const SampledPicture::Half& half = s.halves[s.counts[from] < 2.0f ? 0 : h];
@@ -166,6 +172,20 @@ void Region::fit(const ReconstructionKernels& kernels) {
   };
   for (int c = 0; c < 3; ++c) set_guide(c, normal_[c], [](float) { return 1e-3f; });
   set_guide(3, depth_, [](float z) { return 1e-4f * z * z + 1e-12f; });
+  if (!cache_[0].empty()) {
+    // The cache's answers change a little from texel to texel of its features.
+    Plane usual(pixels());
+    for (std::size_t p = 0; p < pixels(); ++p) usual[p] = (cache_[0][p] + cache_[1][p] + cache_[2][p]) / 3.0f;
+    box_filter(usual, width_, height_, 3);
+    for (int c = 0; c < 3; ++c) {
+      band.guides[4 + c] = keep(layout.deal_clamped(cache_[c]));
+      band.guide_variance[4 + c] = keep(mapped(usual, [](float u) {
+        const float e = kCacheNoise * u;
+        return e * e + 1e-8f;
+      }));
+    }
+    band.guide_count = kMostGuides;
+  }
   for (int c = 0; c < 3; ++c) {
     const auto over = [](float x) { return x / kEdge; };
     band.edges[c] = keep(mapped(normal_[c], over));

@@ -47,6 +47,7 @@ class Region {
   Plane divisor_[3];  ///< of colours: what the surface reflects
   Plane normal_[3];
   Plane depth_;
+  Plane cache_[3];  ///< over the divisor; empty without a cache
   Plane color_[3];  ///< finished
   Plane error_;     ///< squared, of a channel's mean
 };

@@ -24,6 +24,7 @@ struct SampledPicture {
   std::vector<float> albedo;
   std::vector<float> normal;
   std::vector<float> depth;  ///< in metres, over the samples that hit
+  std::vector<float> cache;  ///< the picture that a cache gives, 3 floats a pixel; empty without one
 };
 
 /// Reads the layers that --aov reconstruction writes. Values that are not finite count as 0, and a pixel with

@@ -33,6 +33,7 @@ enum class Aov : std::uint8_t {
   error,           ///< estimated standard error of the picture
   reconstruction,  ///< the layers that renderer/reconstruction reads
   // Of the cache, at the vertex of its first query; black without one.
+  cache_radiance,  ///< the picture that it gives without any further path
   cache_answer,    ///< its answer, before reflectance
   cache_error,     ///< squared relative error of the answer against one record traced there
   training_count,  ///< steps that trained the triangle

@@ -88,7 +88,8 @@ Option aov_option(std::vector<Aov>& aovs) {
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
       "instance, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
       "the "
-      "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-answer, cache-error, "
+      "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-radiance, "
+      "cache-answer, cache-error, "
       "training-count, resolution, nearest-node; or all";
   return {.name = "aov",
           .unit = "LIST",

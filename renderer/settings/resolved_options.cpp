@@ -11,8 +11,10 @@ float resolve_ao_distance(float option, const scene::Box& bounds) {
 
 std::vector<Aov> film_aovs(const RenderOptions& options) {
   std::vector<Aov> aovs = options.aovs;
-  if (options.reconstruct && std::find(aovs.begin(), aovs.end(), Aov::reconstruction) == aovs.end())
-    aovs.push_back(Aov::reconstruction);
+  const auto has = [&](Aov aov) { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); };
+  if (options.reconstruct && !has(Aov::reconstruction)) aovs.push_back(Aov::reconstruction);
+  if (has(Aov::reconstruction) && !has(Aov::cache_radiance) && options.integrator == Integrator::nrc)
+    aovs.push_back(Aov::cache_radiance);
   return aovs;
 }
 

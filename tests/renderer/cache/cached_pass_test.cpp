@@ -206,6 +206,43 @@ TEST(CachedPass, ARegionOfATrainedCacheIsThatPartOfTheWhole) {
   }
 }
 
+TEST(CachedPass, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
+  // A mirror and matte walls: what is followed before the cache answers has no noise.
+  SceneBuilder builder;
+  const int wall = builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f)));
+  builder.quad(wall, Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4));
+  builder.quad(wall, Vec3(-2, 0, -2), Vec3(4, 0, 0), Vec3(0, 3, 0));
+  scene::Material mirror;
+  mirror.base_color = Color::Constant(0.9f);
+  mirror.roughness = 0.0f;
+  builder.quad(builder.material(mirror), Vec3(0.2f, 0.2f, -1.9f), Vec3(1.5f, 0, 0), Vec3(0, 2, 0));
+  scene::PunctualLight sun;
+  sun.type = scene::LightType::directional;
+  sun.direction = Vec3(-0.3f, -0.6f, -0.5f).normalized();
+  sun.intensity = Color(1.0f, 0.9f, 0.7f);
+  builder.scene().lights = {sun};
+  builder.scene().cameras.push_back(view_from(Vec3(0.4f, 1.3f, 4), Vec3(0, 1, 0)));
+  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta}) {
+    // Where the cache does not hold the sun, other lights would take samples from it.
+    const bool sky = holds == CacheHolds::all;
+    const ViewedWorld viewed(builder, {.constant = sky ? Color(0.2f, 0.3f, 0.5f) : Color(Color::Zero())});
+    RenderOptions options = small(Integrator::nrc);
+    options.aovs = {Aov::cache_radiance};
+    options.cache.holds = holds;
+    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
+    session.train(20, {});
+    options.cache.query_at = QueryAt::primary;
+    const Picture expected = pass_over(viewed, options, session, viewed.region);
+    for (const QueryAt at : {QueryAt::primary, QueryAt::gather, QueryAt::none}) {
+      options.cache.query_at = at;
+      const Picture picture = pass_over(viewed, options, session, viewed.region);
+      const std::vector<float>& values = picture.find("cache-radiance")->values;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_NEAR(values[i], pixels(expected)[i], 1e-5f * (1.0f + pixels(expected)[i])) << i;
+    }
+  }
+}
+
 TEST(CachedPass, WhatHasNoStorageIsTraced) {
   SceneBuilder builder = room();
   const EnvironmentOptions sky{.constant = Color(0.2f, 0.3f, 0.5f)};

@@ -67,6 +67,40 @@ TEST(PathBatch, LightComesBackThroughPanesAnswersAndRecords) {
   EXPECT_TRUE((radiance[1] == Color(0.5f, 1.0f, 2.0f)).all()) << radiance[1].transpose();
 }
 
+TEST(PathBatch, GuidesShowWhatTheCacheKnowsOfEachPath) {
+  PathBatch batch;
+  batch.begin(3);
+  batch.guides.resize(3);
+  batch.emission[0] = Color(8.0f, 0.0f, 16.0f);
+  batch.emission[1] = Color(0.5f, 1.0f, 2.0f);  // sees the sky: no guide
+
+  PathVertex mirror;  // of the first path, lit by a lamp that it shows
+  mirror.link = Color(0.5f, 0.25f, 1.0f);
+  mirror.known = Color(3.0f, 5.0f, 9.0f);
+  PathVertex wall;  // behind the mirror: the guide
+  wall.previous = 0;
+  wall.link = Color(0.5f, 1.0f, 0.25f);
+  wall.known = Color(100.0f, 100.0f, 100.0f);  // what the path found there, which the cache knows
+  PathVertex beyond;
+  beyond.previous = 1;
+  beyond.known = Color(50.0f, 50.0f, 50.0f);
+  PathVertex glass;  // of the third path, which meets nothing wide
+  glass.path = 2;
+  glass.known = Color(4.0f, 8.0f, 2.0f);
+  glass.link = Color(0.25f, 0.5f, 1.0f);
+  batch.vertices = {mirror, wall, beyond, glass};
+  batch.guides[0] = {1, 0, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
+  push_point(batch.queries, 9);
+
+  const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
+  std::array<Color, 3> colors;
+  batch.guide_colors(answers, colors);
+  // The wall: (.5,.75,1)(10,20,30) + (1,2,4) = (6,17,34). The mirror: (3,5,9) + (.5,1,.25)(6,17,34).
+  EXPECT_TRUE((colors[0] == Color(8.0f + 3.0f, 5.5f, 16.0f + 17.5f)).all()) << colors[0].transpose();
+  EXPECT_TRUE((colors[1] == Color(0.5f, 1.0f, 2.0f)).all()) << colors[1].transpose();
+  EXPECT_TRUE((colors[2] == Color(1.0f, 4.0f, 2.0f)).all()) << colors[2].transpose();
+}
+
 TEST(PathBatch, RadianceIsOptional) {
   PathBatch batch;
   batch.begin(1);

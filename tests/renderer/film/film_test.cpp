@@ -48,13 +48,14 @@ TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
   EXPECT_FLOAT_EQ(picture.find("primitive")->values[0], 123456.0f);
 }
 
-constexpr Aov kCacheAovs[] = {Aov::cache_answer, Aov::cache_error, Aov::training_count, Aov::resolution,
-                              Aov::nearest_node};
+constexpr Aov kCacheAovs[] = {Aov::cache_radiance, Aov::cache_answer, Aov::cache_error,
+                              Aov::training_count, Aov::resolution,   Aov::nearest_node};
 
 FirstHit asked_hit(float answer, float error, float count, float resolution) {
   FirstHit hit;
   hit.hit = true;
   hit.asked = true;
+  hit.cache_radiance = Color(7.0f, 8.0f, 9.0f);
   hit.answer = Color(answer, 2.0f * answer, 4.0f * answer);
   hit.node = Color(0.5f, 0.25f, 1.0f);
   hit.error = error;
@@ -75,6 +76,8 @@ TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
   const Picture picture = film.resolve();
   const auto values = [&](const char* name) { return picture.find(name)->values; };
   EXPECT_EQ(values("cache-answer"), (std::vector<float>{2.0f, 4.0f, 8.0f}));
+  // Of all paths, hit or not.
+  EXPECT_EQ(values("cache-radiance"), (std::vector<float>{5.25f, 6.0f, 6.75f}));
   EXPECT_EQ(values("nearest-node"), (std::vector<float>{0.25f, 0.125f, 0.5f}));
   EXPECT_EQ(values("cache-error"), std::vector<float>{1.0f});
   EXPECT_EQ(values("training-count"), std::vector<float>{50005.5f});
@@ -105,11 +108,9 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
     float value;  ///< of the second pixel's first channel
   };
   // Counts go beyond what a half float holds.
-  const Expected all[] = {{"cache-answer", rgb, false, 1.0f},
-                          {"cache-error", {"error"}, true, 2.0f},
-                          {"training-count", {"count"}, true, 3.0f},
-                          {"resolution", {"R"}, true, 4.0f},
-                          {"nearest-node", rgb, false, 0.5f}};
+  const Expected all[] = {{"cache-radiance", rgb, true, 7.0f},    {"cache-answer", rgb, false, 1.0f},
+                          {"cache-error", {"error"}, true, 2.0f}, {"training-count", {"count"}, true, 3.0f},
+                          {"resolution", {"R"}, true, 4.0f},      {"nearest-node", rgb, false, 0.5f}};
   for (std::size_t i = 0; i < std::size(all); ++i) {
     SCOPED_TRACE(all[i].name);
     const Layer& layer = picture.layers[1 + i];  // as asked for, after the beauty
