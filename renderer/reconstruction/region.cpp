@@ -18,9 +18,15 @@ constexpr float kEdge = 0.3f;
 constexpr float kCacheNoise = 0.02f;
 /// A pixel's own samples count as a window of this weight where windows hardly reach it.
 constexpr float kOwnWeight = 0.6f;
+/// Radius of the squares over which estimates of errors are smoothed.
+constexpr int kErrorSmoothing = 5;
 /// Windows add up in bands of so many rows: first the even bands, then the odd ones.
 constexpr int kBandWindows = 8;
 static_assert(kHalo % (2 * kBandWindows * window::kStride) == 0);
+/// Windows, their patches and variances, and the smoothing of errors.
+constexpr int kFitReach =
+    2 * window::kRadius + window::kPatch + 1 + 2 * kErrorSmoothing + kErrorSmoothing / 2;
+static_assert(kHalo >= kFitReach + kOutlierReach);
 static_assert(kBandWindows * window::kStride >= 2 * window::kRadius + 1);
 
 float saturated(double x) {
@@ -39,6 +45,7 @@ Region::Region(const SampledPicture& samples, int first, int end, float scale)
   read(samples);
   complete_variance();
   fill_gaps();
+  spread_outliers(halves_[0], halves_[1], divisor_, width_, height_);
 }
 
 void Region::read(const SampledPicture& s) {
@@ -234,7 +241,6 @@ void Region::fit(const ReconstructionKernels& kernels) {
 /// influence (Stein 1981), which is unbiased, because the weights of a half are made of the other one. The
 /// best share of the samples' mean in the result follows from the same terms.
 void Region::join() {
-  constexpr int kSmoothing = 5;
   constexpr float kMostDeviations = 3.0f;
   constexpr float kLeastSquare = 1e-3f;  // of brightness, below which errors count as absolute
   Plane error(pixels()), distance(pixels()), shared(pixels()), square(pixels());
@@ -266,7 +272,7 @@ void Region::join() {
       }
     }
   });
-  const auto smooth = [&](Plane& plane) { box_filter(plane, width_, height_, kSmoothing); };
+  const auto smooth = [&](Plane& plane) { box_filter(plane, width_, height_, kErrorSmoothing); };
   smooth(square);
   Plane deviation(pixels());
   each_pixel([&](std::size_t p) {
@@ -275,7 +281,7 @@ void Region::join() {
     deviation[p] = std::sqrt(distance[p]);
   });
   for (Plane* plane : {&error, &distance, &shared, &deviation}) smooth(*plane);
-  for (Plane* plane : {&error, &distance, &shared}) box_filter(*plane, width_, height_, kSmoothing / 2);
+  for (Plane* plane : {&error, &distance, &shared}) box_filter(*plane, width_, height_, kErrorSmoothing / 2);
   error_.resize(pixels());
   each_pixel([&](std::size_t p) {
     float share = 0.0f;

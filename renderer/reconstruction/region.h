@@ -1,13 +1,14 @@
 #pragma once
 // Some rows of a picture on their way from samples to the finished picture.
 
+#include "renderer/reconstruction/outliers.h"
 #include "renderer/reconstruction/planes.h"
 #include "renderer/reconstruction/sampled_picture.h"
 
 namespace gatelight::renderer {
 
-/// The rows that a finished row depends on, in each direction: windows, their patches, and the smoothing of
-/// errors. A multiple of the rows that alternate in Region::fit().
+/// The rows that a finished row depends on, in each direction: outliers, windows, their patches, and the
+/// smoothing of errors. A multiple of the rows that alternate in Region::fit().
 inline constexpr int kHalo = 64;
 
 class Region {
@@ -24,9 +25,7 @@ class Region {
   void write_row(int y, float* color, float* error) const;
 
  private:
-  struct Half {
-    Plane color[3];     ///< over what the colours are divided by
-    Plane variance[3];  ///< of these
+  struct Half : HalfPlanes {
     Plane fit[3];
     Plane influence;  ///< of a pixel's own samples on its fit
   };

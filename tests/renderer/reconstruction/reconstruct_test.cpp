@@ -12,6 +12,7 @@
 
 #include "neural/simd/isa.h"
 #include "renderer/image/image_read.h"
+#include "renderer/reconstruction/region.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -218,7 +219,7 @@ TEST(Reconstruct, OneBrightSampleChangesItsNeighbourhoodAlone) {
     expect_a_picture(result, samples.counts.size());
     for (int y = 0; y < 120; ++y) {
       for (int x = 0; x < 160; ++x) {
-        if (std::abs(x - 80) <= 34 && std::abs(y - 60) <= 34) continue;
+        if (std::abs(x - 80) <= kHalo && std::abs(y - 60) <= kHalo) continue;
         const auto i = 3 * static_cast<std::size_t>(y * 160 + x);
         ASSERT_NEAR(result.color[i], clean.color[i], 1e-4f) << x << "," << y;
       }
