@@ -39,7 +39,7 @@ after):
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
   paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
-Those of 'gatelight render' (preview, final, paper-nao, paper-nrc) stand for their flags.
+Those of 'gatelight render' (preview, standard, final, paper-nao, paper-nrc) stand for their flags.
 
 Examples:
   gatelight sweep kitchen.glb -o kitchen

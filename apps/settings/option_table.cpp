@@ -77,8 +77,9 @@ Option preset_option(std::optional<CachePreset>& preset) {
   return {.name = "preset",
           .unit = renderer::choice_names(kWords<CachePreset>),
           .help =
-              "Values for many flags at once; flags beside it win: nrc in seconds, nrc with a final "
-              "gather, or the paper's nao and nrc (with its size and samples)",
+              "Values for many flags at once; flags beside it win: nrc in seconds, a finished picture (a few "
+              "gathers, reconstructed), nrc with many gathers, or the paper's nao and nrc (with its size and "
+              "samples)",
           .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
           .read = read,
           .group = "Light transport",

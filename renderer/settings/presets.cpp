@@ -11,6 +11,14 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       cache.query_at = QueryAt::primary;
       cache.holds = CacheHolds::no_delta;
       break;
+    case CachePreset::standard:
+      options.integrator = Integrator::nrc;
+      options.spp = 6;
+      options.reconstruct = true;
+      cache.train_steps = 256;
+      cache.query_at = QueryAt::gather;
+      cache.holds = CacheHolds::no_delta;
+      break;
     case CachePreset::final:
       options.integrator = Integrator::nrc;
       options.spp = 64;

@@ -9,6 +9,7 @@ namespace gatelight::renderer {
 
 enum class CachePreset : std::uint8_t {
   preview,    ///< a preview in seconds: query at the primary hit, few samples
+  standard,   ///< a finished picture: some samples with a gather, reconstructed
   final,      ///< a final picture: longer training, query after a gather
   paper_nao,  ///< ambient occlusion as in the paper
   paper_nrc,  ///< radiance as in the paper, without emission and reflectance of the primary hit

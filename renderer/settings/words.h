@@ -72,6 +72,7 @@ inline constexpr Choice<TrainingSource> kWords<TrainingSource>[] = {{"camera", T
                                                                     {"surface", TrainingSource::surface}};
 template <>
 inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {{"preview", CachePreset::preview},
+                                                              {"standard", CachePreset::standard},
                                                               {"final", CachePreset::final},
                                                               {"paper-nao", CachePreset::paper_nao},
                                                               {"paper-nrc", CachePreset::paper_nrc}};

@@ -73,7 +73,7 @@ TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
 
 TEST(OptionTable, EachReadsWhatItWrites) {
   for (RenderOptions options : {RenderOptions(), said()}) {
-    for (const CachePreset preset : {CachePreset::final, CachePreset::paper_nrc}) {
+    for (const CachePreset preset : {CachePreset::standard, CachePreset::final, CachePreset::paper_nrc}) {
       apply_preset(preset, options);
       for (const Option& option : option_table(options)) {
         const OptionValue before = option.value();

@@ -66,9 +66,11 @@ TEST(Presets, PaperNrcIsThePapersRadiance) {
 TEST(Presets, PreviewAsksAtTheFirstVertexAndFinalAfterAGather) {
   RenderOptions preview;
   apply_preset(CachePreset::preview, preview);
+  RenderOptions standard;
+  apply_preset(CachePreset::standard, standard);
   RenderOptions final;
   apply_preset(CachePreset::final, final);
-  for (const RenderOptions* o : {&preview, &final}) {
+  for (const RenderOptions* o : {&preview, &standard, &final}) {
     EXPECT_EQ(o->integrator, Integrator::nrc);
     EXPECT_EQ(o->cache.holds, CacheHolds::no_delta);
     EXPECT_EQ(o->cache.view, CacheView::final);
@@ -77,7 +79,16 @@ TEST(Presets, PreviewAsksAtTheFirstVertexAndFinalAfterAGather) {
   }
   EXPECT_EQ(preview.cache.query_at, QueryAt::primary);
   EXPECT_EQ(final.cache.query_at, QueryAt::gather);
-  EXPECT_LT(preview.spp, final.spp);
+  EXPECT_LT(preview.spp, standard.spp);
+  EXPECT_LT(standard.spp, final.spp);
+}
+
+TEST(Presets, StandardIsReconstructedFromAGather) {
+  RenderOptions options;
+  apply_preset(CachePreset::standard, options);
+  EXPECT_EQ(options.cache.query_at, QueryAt::gather);
+  EXPECT_TRUE(options.reconstruct);
+  EXPECT_EQ(options.cache.train_steps, 256);
 }
 
 TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
@@ -92,8 +103,8 @@ TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
 }
 
 TEST(Presets, WhatIsNoneOfTheirBusinessStays) {
-  for (const CachePreset preset :
-       {CachePreset::preview, CachePreset::final, CachePreset::paper_nao, CachePreset::paper_nrc}) {
+  for (const CachePreset preset : {CachePreset::preview, CachePreset::standard, CachePreset::final,
+                                   CachePreset::paper_nao, CachePreset::paper_nrc}) {
     RenderOptions options;
     options.seed = 5;
     options.max_depth = 3;
