@@ -39,8 +39,9 @@ std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32
   std::vector<renderer::Pixel> pixels;
   for (int tile = 0; tile < grid.count(); ++tile) {
     grid.pixels(tile, pixels);
-    renderer::make_camera_samples(pixels, sample, options, camera, filter,
-                                  result[static_cast<std::size_t>(tile)]);
+    for (const renderer::Pixel& pixel : pixels)
+      result[static_cast<std::size_t>(tile)].push_back(
+          renderer::make_camera_sample(pixel, sample, options, camera, filter));
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "apps/terminal/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -108,6 +109,14 @@ void adapt_cache(RenderSettings& settings) {
   if (o.encoding == neural::FeatureEncoding::hash_grid) {
     o.training.feature_step = neural::FeatureStep::per_node;
     o.candidates = 1;
+  }
+  if (o.source == TrainingSource::picture && !training_gives_samples(settings.render)) {
+    if (settings.given.contains("--training-points")) {
+      throw UsageError(
+          "--training-points: 'picture' does not go with these options, expected --view final and no "
+          "--candidates, --samples-per-point and --train-path-length");
+    }
+    o.source = TrainingSource::camera;
   }
   if (o.view == CacheView::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
   // Occlusion is one number in [0, 1]: its loss needs no relative weight.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -18,6 +19,7 @@ constexpr const char* kSpacingScales = "renderer.spacing_scales";
 constexpr const char* kScales = "renderer.scales";
 constexpr const char* kTriangleCounts = "renderer.triangle_counts";
 constexpr const char* kSteps = "renderer.steps";
+constexpr const char* kPictureSamples = "renderer.samples";
 
 template <class Values>
 void read_positive(SafetensorsReader& file, const char* name, Values& values) {
@@ -49,6 +51,7 @@ void fill_cache_content(CacheContent& content, const neural::Model& model,
   add(kScales, TensorType::f32, content.scales);
   add(kTriangleCounts, TensorType::u32, state.triangle_counts);
   add(kSteps, TensorType::u64, std::span(&state.steps, 1));
+  if (state.samples > 0) add(kPictureSamples, TensorType::u64, std::span(&state.samples, 1));
 }
 
 CacheSetup read_cache_setup(SafetensorsReader& file) {
@@ -87,7 +90,12 @@ CacheState read_cache_state(SafetensorsReader& file, const neural::Model& model,
   read_array(file, kSteps, TensorType::u64, std::span(&state.steps, 1));
   if (state.steps >> 31 != 0)
     file.fail(fmt::format("tensor '{}': {}, expected less than 2^31", kSteps, state.steps));
-  others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps});
+  const std::vector<std::string> names = file.names();
+  if (std::find(names.begin(), names.end(), kPictureSamples) != names.end())
+    read_array(file, kPictureSamples, TensorType::u64, std::span(&state.samples, 1));
+  if (state.samples >> 56 != 0)
+    file.fail(fmt::format("tensor '{}': {}, expected less than 2^56", kPictureSamples, state.samples));
+  others.insert({kSides, kSpacingScales, kScales, kTriangleCounts, kSteps, kPictureSamples});
   neural::expect_no_other_tensors(file, model, options, std::move(others));
   return state;
 }

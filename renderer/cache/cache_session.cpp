@@ -35,7 +35,12 @@ constexpr double kMostPaths = 1 << 24;
 /// often (5 to 10 % faster than single batches of 16384).
 constexpr std::uint64_t kTracedRecords = 1 << 16;
 
-void check_options(const CacheOptions& options) {
+void check_options(const RenderOptions& all) {
+  const CacheOptions& options = all.cache;
+  if (options.source == TrainingSource::picture && !training_gives_samples(all))
+    throw BadOption(
+        "training points of the picture: expected the integrator nrc with the view final, and one whole path "
+        "without other candidates at each point");
   if (static_cast<double>(options.batch) * options.samples_per_point > kMostPaths) {
     throw BadOption(
         fmt::format("{} samples at each of the points of a batch of {}: expected at most {} paths",
@@ -89,7 +94,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
                            const RenderOptions& options, const CacheSetup* setup,
                            const std::function<void(const neural::Model&)>& expect_model)
     : options_(options) {
-  check_options(options.cache);
+  check_options(options);
   Clock::time_point start = Clock::now();
   if (setup) {
     setup_ = *setup;
@@ -168,6 +173,7 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count) con
   RecordRequest request = records_->request(setup_, step, records);
   request.most_records = records;
   request.batches = count;
+  request.first_sample = samples_;
   if (options_.cache.candidates > 1) request.counts = counts_.values();
   return request;
 }
@@ -228,6 +234,8 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     statistics_.train_trace_seconds +=
         seconds_since(begin) - waited - (statistics_.train_query_seconds - queried);
     statistics_.training_paths += group.paths_traced;
+    samples_ += group.starts.pixels.size();
+    if (watch.samples && !group.starts.pixels.empty()) watch.samples(group);
     for (std::uint64_t batch = 0; batch < count; ++batch) {
       counts_.add(group, batch, steps_);
       learn(group, batch);
@@ -262,6 +270,7 @@ CacheState CacheSession::export_state() const {
   state.setup = setup_;
   state.model = trainer_->backend().export_state();
   state.steps = steps_;
+  state.samples = samples_;
   state.triangle_counts = counts_.values();
   state.guard = guard_;
   return state;
@@ -272,6 +281,7 @@ void CacheSession::import_state(const CacheState& state) {
   for (; steps_under_way_ > 0; --steps_under_way_) trainer_->finish();
   trainer_->backend().import_state(state.model);
   steps_ = state.steps;
+  samples_ = state.samples;
   counts_.restart(state.triangle_counts);
   guard_ = state.guard;
 }

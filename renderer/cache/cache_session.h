@@ -28,6 +28,8 @@ class CacheSession {
     std::function<void(int done, int steps, double loss)> progress;
     std::function<bool()> stop;
     std::function<void()> after_group;  ///< a state exported here resumes with the same bits
+    /// Receives the paths of a group that are samples of the picture too.
+    std::function<void(const RecordBatch& group)> samples;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
@@ -39,6 +41,8 @@ class CacheSession {
   /// Resets to the state before the first step.
   void start_anew();
   std::uint64_t steps() const { return steps_; }
+  /// Of the picture, that training has used.
+  std::uint64_t samples() const { return samples_; }
   /// Waits for the steps that a device is still computing, so that statistics and an exported state belong to
   /// the same step. Call it between groups only; train() ends with it. Throws as train() does.
   void settle();
@@ -90,6 +94,7 @@ class CacheSession {
   std::unique_ptr<CachedPaths> paths_;
   std::unique_ptr<RecordSource> records_;
   std::uint64_t steps_ = 0;
+  std::uint64_t samples_ = 0;
   std::uint64_t steps_under_way_ = 0;  ///< of steps_: given to a device, not finished
   TriangleCounts counts_;
   TrainingGuard guard_;

@@ -27,7 +27,8 @@ struct CacheSetup {
 struct CacheState {
   CacheSetup setup;
   neural::ModelState model;
-  std::uint64_t steps = 0;  ///< of this training; keys the next step's random numbers
+  std::uint64_t steps = 0;    ///< of this training; keys the next step's random numbers
+  std::uint64_t samples = 0;  ///< of the picture that it learned from; the next ones follow in SampleOrder
   /// For each triangle with storage: steps that trained it or, where candidates are compared, that began a
   /// path there. Empty unless counted.
   std::vector<std::uint32_t> triangle_counts;

@@ -68,16 +68,15 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
   }
 }
 
-void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
-                     const std::function<void(double)>& report) {
+void CachedPass::run(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& grid = context_.tiles;
   const RenderOptions& options = context_.options;
   const bool occlusion = options.integrator == Integrator::nao;
   const std::size_t outputs = session_.outputs();
   const int chunks = (grid.count() + kTilesTogether - 1) / kTilesTogether;
-  const double all = static_cast<double>(end - first) * chunks;
+  const double all = static_cast<double>(samples) * chunks;
   int done = 0;
-  for (std::uint32_t sample = first; sample < end; ++sample) {
+  for (int sample = 0; sample < samples; ++sample) {
     for (int chunk = 0; chunk < chunks; ++chunk) {
       const int first_tile = chunk * kTilesTogether;
       const auto count = static_cast<std::size_t>(std::min(kTilesTogether, grid.count() - first_tile));
@@ -87,8 +86,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         Tile& tile = tiles_[t];
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
-        make_camera_samples(tile.pixels, sample, options, context_.camera, context_.filter, tile.samples);
-        set_faint(tile.pixels, film, tile.samples);
+        make_camera_samples(tile.pixels, film, options, context_.camera, context_.filter, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
         tile.results.resize(tile.pixels.size());
         CachedWorker& worker = workers_.local();
@@ -118,7 +116,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
         CachedWorker& worker = workers_.local();
         occlusion ? finish_occlusion(tile) : finish_paths(tile);
         if (!tile.first_hits.empty()) describe_answers(tile, worker);
-        add_to_film(tile.pixels, sample, options, tile.results, tile.first_hits, film, worker.counts);
+        add_to_film(tile.pixels, options, tile.results, tile.first_hits, film, worker.counts);
       });
       for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
       statistics_.render_trace_seconds += seconds_since(start);
@@ -140,7 +138,10 @@ void CachedPass::finish_paths(Tile& tile) const {
   if (plan_.guides && !tile.first_hits.empty()) {
     tile.guides.resize(tile.samples.size());
     tile.paths.guide_colors(answers, tile.guides);
-    for (std::size_t i = 0; i < tile.guides.size(); ++i) tile.first_hits[i].cache_radiance = tile.guides[i];
+    for (std::size_t i = 0; i < tile.guides.size(); ++i) {
+      tile.first_hits[i].guided = true;
+      tile.first_hits[i].cache_radiance = tile.guides[i];
+    }
   }
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {

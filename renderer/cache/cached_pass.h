@@ -22,8 +22,7 @@ class CachedPass : public WorkerPass<CachedWorker> {
   /// options.integrator is nao or nrc. The session must outlive the pass, which uses it exclusively.
   CachedPass(const World& world, const PassContext& context, CacheSession& session);
 
-  void run(std::uint32_t first, std::uint32_t end, Film& film,
-           const std::function<void(double)>& report) override;
+  void run(int samples, Film& film, const std::function<void(double)>& report) override;
   void add_to(CacheStatistics& statistics) const override;
 
  private:

@@ -49,7 +49,11 @@ bool CachedPaths::may_teach(const Path& path, const PathPlan& plan) const {
 
 bool CachedPaths::ends_here(const Path& path, const PathPlan& plan) const {
   if (plan.end_after_records != kNone) return !path.to_its_end && path.records >= plan.end_after_records;
-  switch (plan.query_at) {
+  return ends_at(path, plan.query_at);
+}
+
+bool CachedPaths::ends_at(const Path& path, QueryAt place) const {
+  switch (place) {
     case QueryAt::primary:
       return true;
     case QueryAt::gather:
@@ -106,7 +110,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;
 
-  if (plan.query_at == QueryAt::spread) {
+  if (plan.query_at == QueryAt::spread || plan.samples_at == QueryAt::spread) {
     // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
     const float distance = path.departure.travelled + hit.t;
     const float cosine = std::max(std::abs(m.surface.geometric_normal.dot(m.wo)), 1e-4f);
@@ -207,7 +211,7 @@ std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathB
 }
 
 std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool& record,
-                                     PathBatch& batch) const {
+                                     const PathPlan& plan, PathBatch& batch) const {
   record = record && worth_caching(point.albedo) && path.scale() > kLeastScale &&
            path.scale() < 1.0f / kLeastScale;
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
@@ -220,6 +224,8 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
   batch.targets.resize(3 * batch.records.size(), 0.0f);
   if (path.records == 0) batch.first_records[path.index] = v.record;
   path.records += 1;
+  if (!batch.ends.empty() && batch.ends[path.index] == kNone && ends_at(path, plan.samples_at))
+    batch.ends[path.index] = index;
   return index;
 }
 
@@ -271,7 +277,7 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   if ((record || guides) && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
   const Bsdf& wide = part ? *part : *m.bsdf;
   const SurfacePoint point = surface_point(m.hit, side, m.wo, m.surface, wide.albedo());
-  const std::int32_t index = add_vertex(path, point, record, batch);
+  const std::int32_t index = add_vertex(path, point, record, plan, batch);
   if (guides) set_guide(path, point, stored_(neural::surface_index(m.hit.instance, side)), index, batch);
   add_light(path, m, *m.bsdf, LightKinds::all, record || guides ? &wide : nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
@@ -292,7 +298,7 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   const bool wide = (wide_albedo > 0.0f).any();
   if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
   bool record = stored && wide && may_teach(path, plan);
-  const std::int32_t index = add_vertex(path, point, record, batch);
+  const std::int32_t index = add_vertex(path, point, record, plan, batch);
   const bool guides = wide && seeks_guide(path, batch);
   if (guides) set_guide(path, point, stored, index, batch);
   Color direct = lane_color(p.direct, lane) * path.scale();
@@ -340,6 +346,7 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
                         Scratch& scratch) const {
   batch.begin(starts.size());
   if (plan.guides) batch.guides.resize(starts.size());
+  if (plan.samples_at != QueryAt::none) batch.ends.resize(starts.size(), kNone);
   scratch.paths.resize(starts.size());
   scratch.rays.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {

@@ -37,6 +37,8 @@ struct PathPlan {
   int end_after_records = kNone;  ///< a path ends in the cache after so many records; kNone: query_at decides
   /// Find for each path where it first meets a wide surface, and ask the cache there (PathBatch::guides).
   bool guides = false;
+  /// The paths are samples of the picture as well, which end in the cache there (PathBatch::ends).
+  QueryAt samples_at = QueryAt::none;
   int most_records = kNone;  ///< for each path; kNone: no limit
   int max_depth = 8;         ///< scattering events
   int min_depth = 2;         ///< before Russian roulette
@@ -108,10 +110,12 @@ class CachedPaths {
   void set_guide(const Path& path, const SurfacePoint& point, bool stored, std::int32_t vertex,
                  PathBatch& batch) const;
   /// Adds a vertex that goes on. record: it becomes a record, if it can; then it stays true.
-  std::int32_t add_vertex(Path& path, const SurfacePoint& point, bool& record, PathBatch& batch) const;
+  std::int32_t add_vertex(Path& path, const SurfacePoint& point, bool& record, const PathPlan& plan,
+                          PathBatch& batch) const;
   /// Whether a vertex of a path may become a record, storage provided.
   bool may_teach(const Path& path, const PathPlan& plan) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
+  bool ends_at(const Path& path, QueryAt place) const;
   bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
   /// For a lane that is shaded.
   bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,

@@ -20,6 +20,7 @@ void PathBatch::begin(std::size_t paths) {
   targets.clear();
   first_queries.assign(paths, kNone);
   first_records.assign(paths, kNone);
+  ends.clear();
   guides.clear();
   unstored_hits = 0;
 }
@@ -27,15 +28,15 @@ void PathBatch::begin(std::size_t paths) {
 void PathBatch::guide_colors(std::span<const float> answers, std::span<Color> colors) const {
   std::copy(emission.begin(), emission.end(), colors.begin());
   // Emission that mirrors and glass before the surface show, or without such a surface all that they show.
-  std::vector<std::int32_t> ends(paths(), kNone);
+  std::vector<std::int32_t> last(paths(), kNone);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const PathVertex& v = vertices[i];
     const std::int32_t end = guides[v.path].vertex;
-    if (end == kNone || static_cast<std::int32_t>(i) < end) ends[v.path] = static_cast<std::int32_t>(i);
+    if (end == kNone || static_cast<std::int32_t>(i) < end) last[v.path] = static_cast<std::int32_t>(i);
   }
   for (std::size_t p = 0; p < paths(); ++p) {
     const PathGuide& guide = guides[p];
-    std::int32_t at = ends[p];
+    std::int32_t at = last[p];
     Color light = Color::Zero();
     if (guide.vertex != kNone) {
       light = guide.apart;
@@ -67,6 +68,27 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
     PathVertex& previous = vertices[static_cast<std::size_t>(v.previous)];
     previous.known += v.link * reflected;
     if (previous.record != kNone) target(previous.record) += v.held_link * reflected;
+  }
+}
+
+void PathBatch::copy_ends(SurfacePoints& points) const {
+  for (const std::int32_t end : ends) {
+    if (end == kNone) continue;
+    const auto record = static_cast<std::size_t>(vertices[static_cast<std::size_t>(end)].record);
+    points.resize(points.size() + 1);
+    points.copy(records, record, 1, points.size() - 1);
+  }
+}
+
+void PathBatch::end_samples(std::span<const float> answers, std::span<Color> radiance) const {
+  std::int32_t answer = 0;
+  for (const std::int32_t end : ends) {
+    if (end == kNone) continue;
+    const PathVertex& v = vertices[static_cast<std::size_t>(end)];
+    Color change = v.reflectance * (color_at(answers, answer++) - color_at(targets, v.record));
+    for (std::int32_t at = end; at != kNone; at = vertices[static_cast<std::size_t>(at)].previous)
+      change *= vertices[static_cast<std::size_t>(at)].link;
+    radiance[v.path] = (radiance[v.path] + change).max(0.0f);
   }
 }
 

@@ -52,7 +52,10 @@ struct PathBatch {
       targets;  ///< 3 for each record (1 of occlusion): what is known of H, then radiance over reflectance
   std::vector<std::int32_t> first_queries;  ///< for each path its first query, or kNone
   std::vector<std::int32_t> first_records;  ///< the same for records
-  std::vector<PathGuide> guides;            ///< for each path, or empty where nobody asks (PathPlan::guides)
+  /// For each path the vertex where its sample of the picture ends, or kNone; empty unless
+  /// PathPlan::samples_at.
+  std::vector<std::int32_t> ends;
+  std::vector<PathGuide> guides;  ///< for each path, or empty where nobody asks (PathPlan::guides)
   std::uint64_t unstored_hits = 0;
 
   std::size_t paths() const { return emission.size(); }
@@ -70,6 +73,12 @@ struct PathBatch {
   /// Sums up from the ends. Call it once. answers: 3 floats for each query, radiance over reflectance.
   /// radiance: one for each path, or empty. Completes `targets`.
   void resolve(std::span<const float> answers, std::span<Color> radiance);
+
+  /// Appends the points where samples end.
+  void copy_ends(SurfacePoints& points) const;
+  /// Ends the samples in the cache: replaces what the cache holds of the light at `ends`, which the paths
+  /// have found, by its answers, in the order of copy_ends(). Call it after resolve().
+  void end_samples(std::span<const float> answers, std::span<Color> radiance) const;
 
   /// Merges the first records of each `times` consecutive paths, which begin at the same point, into one with
   /// the mean target. Where a mirror or glass at that point sent the paths to several points, each gets one.

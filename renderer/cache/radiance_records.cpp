@@ -2,6 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
+#include "renderer/settings/resolved_options.h"
+
 namespace gatelight::renderer {
 namespace {
 
@@ -15,7 +19,10 @@ constexpr float kFaintShare = 0.3f;
 
 RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints& points,
                                  const RenderOptions& options, const PointInputs& inputs)
-    : paths_(paths), points_(points), options_(options), inputs_(inputs) {}
+    : paths_(paths), points_(points), options_(options), inputs_(inputs) {
+  const std::vector<Aov> aovs = film_aovs(options);
+  guides_ = std::find(aovs.begin(), aovs.end(), Aov::cache_radiance) != aovs.end();
+}
 
 RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,
                                        std::uint64_t records) const {
@@ -23,6 +30,8 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
   RecordRequest request{
       .step = step, .target_scale = setup.target_scale, .faint = kFaintShare / setup.target_scale};
   request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
+  request.samples = options_.cache.source == TrainingSource::picture &&
+                    step >= static_cast<std::uint64_t>(options_.cache.samples_from_step);
   double per_point =
       static_cast<double>(request.self_training ? setup.records_per_short_path : setup.records_per_path);
   // The first records of a point's paths are merged into one.
@@ -33,9 +42,16 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
 }
 
 void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
-  points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_);
+  points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_,
+                 request.samples ? std::optional(request.first_sample) : std::nullopt);
+  const bool samples = !batch.starts.pixels.empty();
+  batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
   PathPlan plan;
   plan.records = true;
+  if (samples) {
+    plan.samples_at = options_.cache.query_at;
+    plan.guides = guides_;
+  }
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
   // In a path of limited length later vertices have less light than the first, at the same nodes. So only the
   // first vertex becomes a record.
@@ -52,7 +68,9 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
     std::span<const Hit> hits;
     if (!batch.starts.hits.empty()) hits = std::span<const Hit>(batch.starts.hits).subspan(begin, size);
     paths_.trace(std::span<const PathStart>(batch.starts.starts).subspan(begin, size), hits, plan,
-                 batch.paths[b], {}, worker.rays, worker.scratch);
+                 batch.paths[b],
+                 samples ? std::span(batch.first_hits).subspan(begin, size) : std::span<FirstHit>(),
+                 worker.rays, worker.scratch);
   });
 }
 
@@ -72,14 +90,50 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
       for (float& a : batch.answers) a *= attenuation;
     }
   }
+  const bool samples = !batch.starts.pixels.empty();
+  batch.radiance.resize(batch.starts.pixels.size());
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
     const std::size_t begin = 3 * query_offsets[b];
-    batch.paths[b].resolve(
-        std::span<const float>(batch.answers).subspan(begin, 3 * query_offsets[b + 1] - begin), {});
+    const std::span<const float> answers =
+        std::span<const float>(batch.answers).subspan(begin, 3 * query_offsets[b + 1] - begin);
+    std::span<Color> radiance;
+    if (samples) {
+      const std::size_t first = batch.starts.offsets[b];
+      radiance = std::span(batch.radiance).subspan(first, batch.paths[b].paths());
+      if (guides_) {
+        std::vector<Color> guides(radiance.size());
+        batch.paths[b].guide_colors(answers, guides);
+        for (std::size_t i = 0; i < guides.size(); ++i) {
+          batch.first_hits[first + i].guided = true;
+          batch.first_hits[first + i].cache_radiance = guides[i];
+        }
+      }
+    }
+    batch.paths[b].resolve(answers, radiance);
     const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
     if (times > 1) batch.paths[b].average_first_records(times);
   });
+  if (samples) end_samples(answer, batch);
   batch.deal(request, inputs_, 3);
+}
+
+/// The picture's samples end in the cache where its other samples will.
+void RadianceRecords::end_samples(const AnswerPoints& answer, RecordBatch& batch) const {
+  std::vector<std::size_t> offsets = offsets_of(batch.paths, [](const PathBatch& p) {
+    return p.ends.size() - static_cast<std::size_t>(std::count(p.ends.begin(), p.ends.end(), kNone));
+  });
+  batch.queries.resize(offsets.back());
+  batch.answers.resize(3 * offsets.back());
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    SurfacePoints ends(inputs_);
+    batch.paths[b].copy_ends(ends);
+    batch.queries.copy(ends, 0, ends.size(), offsets[b]);
+  });
+  if (!batch.answers.empty()) answer(batch.queries, batch.answers);
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    batch.paths[b].end_samples(std::span<const float>(batch.answers).subspan(3 * offsets[b]),
+                               std::span(batch.radiance).subspan(batch.starts.offsets[b]));
+  });
 }
 
 RayCounts RadianceRecords::rays() const {

@@ -22,10 +22,13 @@ class RadianceRecords : public RecordSource {
   RayCounts rays() const override;
 
  private:
+  void end_samples(const AnswerPoints& answer, RecordBatch& batch) const;
+
   const CachedPaths& paths_;
   const TrainingPoints& points_;
   const RenderOptions& options_;
   PointInputs inputs_;
+  bool guides_ = false;  ///< samples of the picture tell what the cache alone gives
   struct Worker {
     CachedPaths::Scratch scratch;
     RayCounts rays;

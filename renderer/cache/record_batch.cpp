@@ -1,8 +1,24 @@
 #include "renderer/cache/record_batch.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 namespace gatelight::renderer {
+
+void RecordBatch::add_to(Film& film, const RenderOptions& options, SampleCounts& counts) const {
+  tbb::enumerable_thread_specific<SampleCounts> parts;
+  tbb::parallel_for(std::size_t{0}, radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
+    const std::size_t begin = starts.offsets[b];
+    const std::size_t size = starts.offsets[b + 1] - begin;
+    std::vector<SampleResult> results(size);
+    for (std::size_t i = 0; i < size; ++i) results[i].radiance = radiance[begin + i];
+    std::span<const FirstHit> hits;
+    if (film.needs_first_hits()) hits = std::span(first_hits).subspan(begin, size);
+    add_to_film(std::span(starts.pixels).subspan(begin, size), options, results, hits, film, parts.local());
+  });
+  for (const SampleCounts& part : parts) counts.add(part);
+  keep_first(counts.located);
+}
 
 void RecordBatch::deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs) {
   const std::vector<std::size_t> offsets =

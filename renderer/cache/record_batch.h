@@ -12,6 +12,7 @@
 #include "neural/base/batch.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
+#include "renderer/film/film_samples.h"
 
 namespace gatelight::renderer {
 
@@ -47,13 +48,15 @@ class Dealing {
 
 /// A request for the records of some training steps.
 struct RecordRequest {
-  std::uint64_t step = 0;        ///< first step; keys the random numbers
-  std::size_t points = 0;        ///< training points
-  std::size_t most_records = 0;  ///< more are thinned out evenly; 0: all are kept
-  std::uint64_t batches = 1;     ///< one for each step
+  std::uint64_t step = 0;          ///< first step; keys the random numbers
+  bool samples = false;            ///< the points are samples of the picture
+  std::uint64_t first_sample = 0;  ///< the first of them, in SampleOrder
+  std::size_t points = 0;          ///< training points
+  std::size_t most_records = 0;    ///< more are thinned out evenly; 0: all are kept
+  std::uint64_t batches = 1;       ///< one for each step
   bool self_training = false;
   float target_scale = 1.0f;
-  float faint = 0.0f;  ///< PathPlan::faint
+  float faint = 0.0f;                     ///< PathPlan::faint
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
 };
 
@@ -68,6 +71,9 @@ std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size s
 /// Records of one or more batches.
 struct RecordBatch {
   TrainingStarts starts;
+  /// Of the starts that are the picture's samples; else empty.
+  std::vector<FirstHit> first_hits;
+  std::vector<Color> radiance;
   std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
   SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
   std::vector<float> answers;
@@ -82,6 +88,8 @@ struct RecordBatch {
     const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
     return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
   }
+  /// Adds the starts that are the picture's samples to its film.
+  void add_to(Film& film, const RenderOptions& options, SampleCounts& counts) const;
   /// Deals the records of all `paths` to the batches, with `outputs` targets each, times the request's scale.
   void deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
 };

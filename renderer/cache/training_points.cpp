@@ -1,12 +1,14 @@
 #include "renderer/cache/training_points.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "neural/learning/training_counts.h"
 #include "renderer/cache/scene_layout.h"
+#include "renderer/film/film_samples.h"
 #include "renderer/film/tiles.h"
 #include "renderer/sampling/warp.h"
 #include "scene/triangle_normal.h"
@@ -47,7 +49,13 @@ void key(const RenderOptions& options, std::uint32_t seed, std::size_t index, Pa
 TrainingPoints::TrainingPoints(const World& world, const Camera& camera, const PixelRect& region,
                                const RenderOptions& options, std::span<const neural::Sides> sides,
                                const neural::GateLayout* layout)
-    : world_(world), camera_(camera), region_(region), options_(options), layout_(layout) {
+    : world_(world),
+      camera_(camera),
+      region_(region),
+      options_(options),
+      filter_(options.filter, options.filter_width),
+      order_(region),
+      layout_(layout) {
   if (options.cache.source != TrainingSource::surface) return;
   const scene::Scene& scene = world.scene;
   std::vector<double> areas;
@@ -67,9 +75,11 @@ TrainingPoints::TrainingPoints(const World& world, const Camera& camera, const P
 }
 
 void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hits,
-                            std::span<const std::uint32_t> counts, TrainingStarts& result,
-                            RayCounts& rays) const {
+                            std::span<const std::uint32_t> counts, TrainingStarts& result, RayCounts& rays,
+                            const std::optional<std::uint64_t>& first_sample) const {
   result.hits.clear();
+  result.pixels.clear();
+  if (first_sample) return from_picture(step, *first_sample, count, result);
   if (options_.cache.source == TrainingSource::surface && !by_area_.empty()) {
     from_surfaces(step, count, result);
   } else {
@@ -79,6 +89,32 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
   }
   if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
   if (options_.cache.samples_per_point > 1) repeat(step, result);
+}
+
+void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::size_t count,
+                                  TrainingStarts& result) const {
+  std::vector<SampleOrder::Place> places(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { places[i] = order_.at(first + i); });
+  const auto key_of = [](const SampleOrder::Place& p) { return std::pair(morton(p.pixel), p.number); };
+  tbb::parallel_sort(places.begin(), places.end(),
+                     [&](const auto& a, const auto& b) { return key_of(a) < key_of(b); });
+  result.starts.resize(count);
+  result.pixels.resize(count);
+  // Samples of one pixel stay in one block: they are added to the film in turn.
+  constexpr std::size_t kBlock = kTile * kTile;
+  result.offsets.assign(1, 0);
+  for (std::size_t end = 0; end < count;) {
+    end = std::min(end + kBlock, count);
+    while (end < count && morton(places[end].pixel) == morton(places[end - 1].pixel)) ++end;
+    result.offsets.push_back(end);
+  }
+  const std::uint32_t seed = step_seed(options_, step);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const auto& [pixel, number] = places[i];
+    result.pixels[i] = pixel;
+    result.starts[i] = {make_camera_sample(pixel, number, options_, camera_, filter_),
+                        runs_to_its_end(i, options_.cache.self_training.full_fraction, seed)};
+  });
 }
 
 void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const {

@@ -1,6 +1,7 @@
 #pragma once
 // The points where training paths begin.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "renderer/cache/cached_paths.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/film.h"
+#include "renderer/film/pixel_filter.h"
+#include "renderer/film/sample_order.h"
 #include "renderer/sampling/alias_table.h"
 
 namespace gatelight::renderer {
@@ -18,12 +21,14 @@ struct TrainingStarts {
   std::vector<PathStart> starts;
   std::vector<Hit> hits;  ///< of the starts' rays; empty where they are not traced yet
   std::vector<std::size_t> offsets;
+  std::vector<Pixel> pixels;  ///< of the starts, where they are samples of the picture; else empty
 
   std::size_t blocks() const { return offsets.size() - 1; }
 };
 
-/// Points of the picture, stratified anew each step, or points on surfaces. Random numbers are keyed by
-/// (seed, step, start, dimension).
+/// Samples of the picture, points of it that are stratified anew each step, or points on surfaces. Samples of
+/// the picture have their own random numbers; those of other points are keyed by (seed, step, start,
+/// dimension).
 class TrainingPoints {
  public:
   /// World, camera, options and layout must outlive it. sides: those of each instance that have storage.
@@ -34,9 +39,10 @@ class TrainingPoints {
 
   /// Chooses about `count` points, each options.cache.samples_per_point times in a row. need_hits: trace
   /// camera rays now. counts: how often each triangle with storage was trained; empty unless candidates are
-  /// compared.
+  /// compared. first_sample: the points are samples of the picture, from this one on in SampleOrder.
   void choose(std::uint64_t step, std::size_t count, bool need_hits, std::span<const std::uint32_t> counts,
-              TrainingStarts& result, RayCounts& rays) const;
+              TrainingStarts& result, RayCounts& rays,
+              const std::optional<std::uint64_t>& first_sample = {}) const;
 
   static constexpr std::uint32_t kNoTriangle = ~0u;
   /// Index, among all triangles with storage, of the side of the triangle that a ray hit; or kNoTriangle.
@@ -44,6 +50,7 @@ class TrainingPoints {
   std::uint32_t triangle_number(const Hit& hit, const Vec3& direction) const;
 
  private:
+  void from_picture(std::uint64_t step, std::uint64_t first, std::size_t count, TrainingStarts& result) const;
   void from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
   void from_surfaces(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
   void trace(TrainingStarts& result, RayCounts& rays) const;
@@ -53,6 +60,8 @@ class TrainingPoints {
   const Camera& camera_;
   PixelRect region_;
   const RenderOptions& options_;
+  FilterSampler filter_;
+  SampleOrder order_;
   const neural::GateLayout* layout_;
   /// Triangles with storage; by_area_ counts each side.
   struct Triangle {

@@ -34,6 +34,7 @@ struct FirstHit {
   float depth = 0.0f;  ///< in metres from the eye along the ray
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
+  bool guided = false;                     ///< cache_radiance is known
   Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, as the cache alone gives it
   // These come from the first cache query of the path.
   bool asked = false;

@@ -41,15 +41,17 @@ void each_of_radiance(Radiance& p, Take&& take) {
     for (auto& value : *array) take.sum(value);
   }
   take.count(p.count);
+  take.count(p.taken);
 }
 
 template <class First, class Take>
 void each_of_first(First& p, Take&& take) {
-  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.cache_radiance, &p.answer, &p.node}) {
+  for (auto* array :
+       {&p.albedo, &p.normal, &p.position, &p.cache_radiance, &p.cache_half, &p.answer, &p.node}) {
     for (auto& value : *array) take.sum(value);
   }
   for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
-  for (auto* value : {&p.count, &p.asked, &p.hits}) take.count(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guided}) take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
 }
 
@@ -109,7 +111,10 @@ void Film::add(int x, int y, const FirstHit& first) {
     p.instance = static_cast<float>(first.instance);
     p.primitive = static_cast<float>(first.primitive);
   }
-  if (first.cache_radiance.isFinite().all()) accumulate(p.cache_radiance, first.cache_radiance.matrix());
+  if (first.guided && first.cache_radiance.isFinite().all()) {
+    if (p.guided++ % 2 == 0) accumulate(p.cache_half, first.cache_radiance.matrix());
+    accumulate(p.cache_radiance, first.cache_radiance.matrix());
+  }
   if (!first.hit) return;
   accumulate(p.albedo, first.albedo.matrix());
   accumulate(p.normal, first.normal);
@@ -179,7 +184,7 @@ Layer Film::layer(Aov aov) const {
       fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
       break;
     case Aov::cache_radiance:
-      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::count);
+      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::guided);
       break;
     case Aov::cache_answer:
       fill_vector({"R", "G", "B"}, &First::answer, &First::count);
@@ -241,6 +246,17 @@ void Film::add_halves(std::vector<Layer>& layers) const {
     }
     layers.push_back(std::move(color));
     layers.push_back(std::move(variance));
+    if (!has(aovs_, Aov::cache_radiance)) continue;
+    Layer cache{.name = "cache-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
+    for (const First& p : first_) {
+      const std::uint32_t of_a = (p.guided + 1) / 2, of_b = p.guided / 2;
+      const bool second = h == 1 && of_b > 0;  // a single one stands for both halves
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double sum = second ? p.cache_radiance[i] - p.cache_half[i] : p.cache_half[i];
+        cache.values.push_back(finite_float(sum / std::max(second ? of_b : of_a, 1u)));
+      }
+    }
+    layers.push_back(std::move(cache));
   }
 }
 
@@ -266,9 +282,9 @@ FilmState Film::export_state() const {
   FilmState state;
   const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
   state.radiance.reserve(sums * 6);
-  state.radiance_counts.reserve(sums);
-  state.first.reserve(first_.size() * 22);
-  state.first_counts.reserve(first_.size() * 3);
+  state.radiance_counts.reserve(2 * sums);
+  state.first.reserve(first_.size() * 25);
+  state.first_counts.reserve(first_.size() * 4);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};
   for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {
@@ -280,7 +296,7 @@ FilmState Film::export_state() const {
 }
 
 void Film::import_state(const FilmState& state) {
-  assert(state.radiance_counts.size() == radiance_.size() + 2 * halves_[0].size() &&
+  assert(state.radiance_counts.size() == 2 * (radiance_.size() + 2 * halves_[0].size()) &&
          state.first_ids.size() == 2 * first_.size());
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
   for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {

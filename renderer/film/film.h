@@ -35,6 +35,11 @@ class Film {
   void add(int x, int y, const Color& radiance);
   void add(int x, int y, const FirstHit& first);
 
+  /// Samples of a pixel so far, those that were dropped among them.
+  std::uint32_t taken(int x, int y) const { return radiance_[pixel(x, y)].taken; }
+  /// Counts one more. Returns its number.
+  std::uint32_t take(int x, int y) { return radiance_[pixel(x, y)].taken++; }
+
   /// The means so far. A pixel without samples is black.
   Picture resolve() const;
 
@@ -52,12 +57,14 @@ class Film {
     std::array<double, 3> sum{};
     std::array<double, 3> square{};
     std::uint32_t count = 0;
+    std::uint32_t taken = 0;  ///< with those that were dropped; 0 in halves
   };
   struct First {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
     std::array<double, 3> position{};
     std::array<double, 3> cache_radiance{};
+    std::array<double, 3> cache_half{};  ///< of cache_radiance: every second one
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
     double depth = 0.0;
@@ -67,6 +74,7 @@ class Film {
     std::uint32_t count = 0;  ///< number of samples
     std::uint32_t asked = 0;
     std::uint32_t hits = 0;
+    std::uint32_t guided = 0;
     float instance = -1.0f;
     float primitive = -1.0f;
   };

@@ -10,25 +10,27 @@ constexpr std::size_t kNonFiniteKept = 16;
 
 }  // namespace
 
-void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+CameraSample make_camera_sample(const Pixel& pixel, std::uint32_t number, const RenderOptions& options,
+                                const Camera& camera, const FilterSampler& filter) {
+  const auto x = static_cast<std::uint32_t>(pixel.x);
+  const auto y = static_cast<std::uint32_t>(pixel.y);
+  CameraSample s;
+  s.sampler = Sampler(options.sampler, options.seed, x, y, number);
+  s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
+  const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
+  s.camera_ray = camera.ray(static_cast<float>(pixel.x) + 0.5f + offset.x(),
+                            static_cast<float>(pixel.y) + 0.5f + offset.y());
+  return s;
+}
+
+void make_camera_samples(std::span<const Pixel> pixels, const Film& film, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples) {
   samples.clear();
   for (const Pixel& p : pixels) {
-    const auto x = static_cast<std::uint32_t>(p.x);
-    const auto y = static_cast<std::uint32_t>(p.y);
-    CameraSample s;
-    s.sampler = Sampler(options.sampler, options.seed, x, y, sample);
-    s.seed = hash(hash(hash(hash(options.seed) + x) + y) + sample);
-    const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
-    s.camera_ray =
-        camera.ray(static_cast<float>(p.x) + 0.5f + offset.x(), static_cast<float>(p.y) + 0.5f + offset.y());
-    samples.push_back(s);
+    samples.push_back(make_camera_sample(p, film.taken(p.x, p.y), options, camera, filter));
+    samples.back().faint = film.faint(p.x, p.y);
   }
-}
-
-void set_faint(std::span<const Pixel> pixels, const Film& film, std::span<CameraSample> samples) {
-  for (std::size_t i = 0; i < pixels.size(); ++i) samples[i].faint = film.faint(pixels[i].x, pixels[i].y);
 }
 
 void SampleCounts::add(const SampleCounts& other) {
@@ -44,16 +46,17 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
   if (samples.size() > kNonFiniteKept) samples.resize(kNonFiniteKept);
 }
 
-void add_to_film(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+void add_to_film(std::span<const Pixel> pixels, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const auto [x, y] = pixels[i];
     Color radiance = results[i].radiance;
+    const std::uint32_t number = film.take(x, y);
     if (!first_hits.empty()) film.add(x, y, first_hits[i]);
     if (!radiance.isFinite().all()) {
       ++counts.nonfinite;
-      counts.located.push_back({x, y, sample, options.seed});
+      counts.located.push_back({x, y, number, options.seed});
       if (counts.located.size() > 16 * kNonFiniteKept) keep_first(counts.located);
       continue;
     }

@@ -14,13 +14,14 @@
 
 namespace gatelight::renderer {
 
-/// Makes one sample for each pixel. CameraSample::faint stays 0.
-void make_camera_samples(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+/// Sample `number` of a pixel. CameraSample::faint stays 0.
+CameraSample make_camera_sample(const Pixel& pixel, std::uint32_t number, const RenderOptions& options,
+                                const Camera& camera, const FilterSampler& filter);
+
+/// Makes the next sample of each pixel of the film. CameraSample::faint follows from those that it has.
+void make_camera_samples(std::span<const Pixel> pixels, const Film& film, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples);
-
-/// Sets CameraSample::faint from the samples that the film has.
-void set_faint(std::span<const Pixel> pixels, const Film& film, std::span<CameraSample> samples);
 
 /// Counts the samples that were dropped or clamped on the way to the film.
 struct SampleCounts {
@@ -34,8 +35,9 @@ struct SampleCounts {
 /// Keeps the first 16 in the order of (y, x, sample), for the statistics.
 void keep_first(std::vector<NonFiniteSample>& samples);
 
-/// Adds the results of sample number `sample` of each pixel. `first_hits` is empty or as long as the pixels.
-void add_to_film(std::span<const Pixel> pixels, std::uint32_t sample, const RenderOptions& options,
+/// Adds the results of the next sample of each pixel, in turn. `first_hits` is empty or as long as the
+/// pixels.
+void add_to_film(std::span<const Pixel> pixels, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts);
 

@@ -18,6 +18,17 @@ constexpr std::array<Pixel, kTile* kTile> kTileOrder = [] {
 
 }  // namespace
 
+std::uint32_t morton(const Pixel& pixel) {
+  const auto spread = [](int coordinate) {
+    auto bits = static_cast<std::uint32_t>(coordinate) & 0xffffu;
+    bits = (bits | bits << 8) & 0x00ff00ffu;
+    bits = (bits | bits << 4) & 0x0f0f0f0fu;
+    bits = (bits | bits << 2) & 0x33333333u;
+    return (bits | bits << 1) & 0x55555555u;
+  };
+  return spread(pixel.x) | spread(pixel.y) << 1;
+}
+
 TileGrid::TileGrid(const PixelRect& region)
     : region_(region),
       first_column_(region.x0 / kTile),

@@ -19,6 +19,9 @@ struct Pixel {
   int y = 0;
 };
 
+/// Pixels in this order are near each other where their numbers are. Coordinates are below 2^16.
+std::uint32_t morton(const Pixel& pixel);
+
 /// Tiles lie on the grid of the full picture, so that a region has the same batches as the full picture.
 class TileGrid {
  public:

@@ -57,8 +57,10 @@ void Region::read(const SampledPicture& s) {
     function(counts_), function(depth_);
   };
   each([&](Plane& plane) { plane.resize(pixels()); });
-  if (!s.cache.empty()) {
+  const bool cached = !s.halves[0].cache.empty();
+  if (cached) {
     for (Plane& plane : cache_) plane.resize(pixels());
+    cache_noise_.resize(pixels());
   }
   const std::size_t offset = static_cast<std::size_t>(first_) * static_cast<std::size_t>(width_);
   for_each_row(height_, [&](int y) {
@@ -74,7 +76,12 @@ void Region::read(const SampledPicture& s) {
         const float reflects = s.albedo[3 * from + c] + 1.0f - s.coverage[from];
         divisor_[c][p] = std::clamp(reflects, kLeastDivisor, 1.0f);
         const double over = 1.0 / (static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]));
-        if (!s.cache.empty()) cache_[c][p] = saturated(static_cast<double>(s.cache[3 * from + c]) * over);
+        if (cached) {
+          const float a = saturated(static_cast<double>(s.halves[0].cache[3 * from + c]) * over);
+          const float b = saturated(static_cast<double>(s.halves[1].cache[3 * from + c]) * over);
+          cache_[c][p] = 0.5f * (a + b);
+          cache_noise_[p] += (a - b) * (a - b) / 12.0f;
+        }
         for (int h = 0; h < 2; ++h) {
           // A pixel of one sample has one half.
           const SampledPicture::Half& half = s.halves[s.counts[from] < 2.0f ? 0 : h];
@@ -148,6 +155,20 @@ Plane Region::smooth_variance(const Half& half) const {
   return variance;
 }
 
+/// Of the cache's picture: its noise, from the difference of the halves, and a little that changes from texel
+/// to texel of its features.
+Plane Region::cache_variance() const {
+  Plane usual(pixels()), variance(cache_noise_);
+  for (std::size_t p = 0; p < pixels(); ++p) usual[p] = (cache_[0][p] + cache_[1][p] + cache_[2][p]) / 3.0f;
+  box_filter(usual, width_, height_, 3);
+  box_filter(variance, width_, height_, 3);
+  for (std::size_t p = 0; p < pixels(); ++p) {
+    const float e = kCacheNoise * usual[p];
+    variance[p] += e * e + 1e-8f;
+  }
+  return variance;
+}
+
 void Region::fit(const ReconstructionKernels& kernels) {
   const DealtLayout layout(width_, height_);
   std::vector<Plane> planes;
@@ -180,16 +201,10 @@ void Region::fit(const ReconstructionKernels& kernels) {
   for (int c = 0; c < 3; ++c) set_guide(c, normal_[c], [](float) { return 1e-3f; });
   set_guide(3, depth_, [](float z) { return 1e-4f * z * z + 1e-12f; });
   if (!cache_[0].empty()) {
-    // The cache's answers change a little from texel to texel of its features.
-    Plane usual(pixels());
-    for (std::size_t p = 0; p < pixels(); ++p) usual[p] = (cache_[0][p] + cache_[1][p] + cache_[2][p]) / 3.0f;
-    box_filter(usual, width_, height_, 3);
+    const float* const variance = keep(layout.deal_clamped(cache_variance()));
     for (int c = 0; c < 3; ++c) {
       band.guides[4 + c] = keep(layout.deal_clamped(cache_[c]));
-      band.guide_variance[4 + c] = keep(mapped(usual, [](float u) {
-        const float e = kCacheNoise * u;
-        return e * e + 1e-8f;
-      }));
+      band.guide_variance[4 + c] = variance;
     }
     band.guide_count = kMostGuides;
   }

@@ -34,6 +34,7 @@ class Region {
   void complete_variance();
   void fill_gaps();
   Plane smooth_variance(const Half& half) const;
+  Plane cache_variance() const;
 
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
@@ -46,9 +47,10 @@ class Region {
   Plane divisor_[3];  ///< of colours: what the surface reflects
   Plane normal_[3];
   Plane depth_;
-  Plane cache_[3];  ///< over the divisor; empty without a cache
-  Plane color_[3];  ///< finished
-  Plane error_;     ///< squared, of a channel's mean
+  Plane cache_[3];     ///< over the divisor; empty without a cache
+  Plane cache_noise_;  ///< squared, of a channel's mean
+  Plane color_[3];     ///< finished
+  Plane error_;        ///< squared, of a channel's mean
 };
 
 }  // namespace gatelight::renderer

@@ -39,7 +39,10 @@ SampledPicture sampled_picture(const Picture& picture) {
                    .albedo = finite_values(picture, "albedo", 3),
                    .normal = finite_values(picture, "normal", 3),
                    .depth = finite_values(picture, "depth", 1)};
-  if (picture.find("cache-radiance")) s.cache = finite_values(picture, "cache-radiance", 3);
+  if (picture.find("cache-a")) {
+    s.halves[0].cache = finite_values(picture, "cache-a", 3);
+    s.halves[1].cache = finite_values(picture, "cache-b", 3);
+  }
   for (const char* name : {"half-a", "half-b"}) {
     const std::vector<float>& values = picture.find(name)->values;
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -13,6 +13,7 @@ struct SampledPicture {
   struct Half {
     std::vector<float> color;     ///< means, linear
     std::vector<float> variance;  ///< of the means
+    std::vector<float> cache;     ///< the picture that a cache gives for these samples; empty without one
   };
 
   int width = 0;
@@ -24,7 +25,6 @@ struct SampledPicture {
   std::vector<float> albedo;
   std::vector<float> normal;
   std::vector<float> depth;  ///< in metres, over the samples that hit
-  std::vector<float> cache;  ///< the picture that a cache gives, 3 floats a pixel; empty without one
 };
 
 /// Reads the layers that --aov reconstruction writes. Values that are not finite count as 0, and a pixel with

@@ -24,12 +24,13 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
 constexpr const char* kSamples = "samples";
 constexpr const char* kFirstStep = "first_step";
+constexpr const char* kTaught = "taught";
 constexpr const char* kHasCache = "cache";
 constexpr const char* kNonFinite = "nonfinite_samples";
 constexpr const char* kGuard = "training_guard";
@@ -164,7 +165,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   if (cache) fill_cache_content(content, cache->model, cache->options, cache->state);
   std::vector<TensorView> tensors = content.tensors;
   FilmState sums;
-  if (progress.samples > 0) sums = film.export_state();
+  if (progress.samples > 0 || progress.taught) sums = film.export_state();
   each_array(sums, [&](const char* name, TensorType type, const auto& values) {
     tensors.push_back(view_array(name, type, values));
   });
@@ -183,6 +184,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   metadata[kPhase] = phase_name(progress.phase);
   metadata[kSamples] = fmt::format("{}", progress.samples);
   metadata[kFirstStep] = fmt::format("{}", progress.first_step);
+  metadata[kTaught] = progress.taught ? "yes" : "no";
   metadata[kHasCache] = cache ? "yes" : "no";
   add_texts(metadata, kOptions, identity.options);
   add_texts(metadata, kScene, identity.scene);
@@ -206,6 +208,7 @@ Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
   progress_.phase = phase == phase_name(Phase::train) ? Phase::train : Phase::render;
   progress_.samples = number_at<int>(file_, kSamples);
   progress_.first_step = number_at<std::uint64_t>(file_, kFirstStep);
+  progress_.taught = text_at(file_, kTaught) == "yes";
   if (text_at(file_, kHasCache) == "yes") cache_setup_ = read_cache_setup(file_);
 }
 
@@ -226,7 +229,7 @@ const CacheSetup& Checkpoint::cache_setup() const {
 }
 
 void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
-  if (progress_.samples > 0) {
+  if (progress_.samples > 0 || progress_.taught) {
     FilmState sums = film.export_state();  // of the sizes that are expected
     each_array(sums, [&](const char* name, TensorType type, auto& values) {
       read_array(file_, name, type, values);

@@ -22,9 +22,10 @@ struct CheckpointIdentity {
 
 struct CheckpointProgress {
   Phase phase = Phase::render;  ///< train or render
-  int samples = 0;              ///< finished for every pixel; 0 while it trains
+  int samples = 0;              ///< of the passes; 0 while it trains
   std::uint64_t first_step =
-      0;  ///< number of its first training step; the steps of a loaded cache come before
+      0;                ///< number of its first training step; the steps of a loaded cache come before
+  bool taught = false;  ///< the film has samples of training
 };
 
 /// Adds the statistics of earlier runs of the same picture.

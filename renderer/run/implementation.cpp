@@ -97,6 +97,10 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   return std::make_unique<ReferencePass>(*world, context);
 }
 
+Film Renderer::Implementation::make_film() const {
+  return {region, options.width, options.height, film_aovs(options)};
+}
+
 RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Pass* pass,
                                                   const Training& training,
                                                   const RenderStatistics& earlier) const {
@@ -104,8 +108,10 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
   sum.render_seconds = seconds;
   sum.spp = spp;
   sum.samples = static_cast<std::uint64_t>(spp) * static_cast<std::uint64_t>(region.width()) *
-                static_cast<std::uint64_t>(region.height());
+                    static_cast<std::uint64_t>(region.height()) +
+                training.samples();
   SampleCounts counts = pass ? pass->counts() : SampleCounts{};
+  counts.add(training.counts);
   sum.rays = pass ? pass->rays() : RayCounts{};
   sum.nonfinite = counts.nonfinite;
   sum.clamped = counts.clamped;

@@ -30,6 +30,10 @@ struct Training {
   bool complete = false;
   bool stopped = false;  ///< by the caller
   std::string diverged;  ///< why training returned to its last good state; else empty
+  SampleCounts counts;   ///< of the picture's samples that it learned from, in this run
+
+  /// Samples of the picture that its film has from training. A loaded cache learned from another picture.
+  std::uint64_t samples() const { return session && first_step == 0 ? session->samples() : 0; }
 };
 
 struct Renderer::Implementation {
@@ -40,13 +44,14 @@ struct Renderer::Implementation {
   CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
   /// Starts from the checkpoint or the cache file where there is one, else from a new cache.
   Training begin_training(Checkpoint* found, const SceneFingerprint& fingerprint, const Callbacks& callbacks);
-  /// Trains up to training.steps.
-  void train(Training& training, const Callbacks& callbacks, const std::function<void()>& after_group);
+  /// Trains up to training.steps. The film gets the paths that are samples of the picture.
+  void train(Training& training, Film& film, const Callbacks& callbacks,
+             const std::function<void()>& after_group);
   /// After training diverged: returns to the last good state by training up to it again. So normal training
-  /// costs nothing extra. False where there is no good state. `earlier` is cleared where it counts steps
-  /// beyond that state.
-  bool return_to_good(Training& training, Checkpoint* found, RenderStatistics& earlier,
+  /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
+  bool return_to_good(Training& training, Film& film, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
+  Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Statistics of this run and of the earlier ones.
   RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,

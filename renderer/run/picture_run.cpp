@@ -22,10 +22,7 @@ namespace gatelight::renderer {
 class Renderer::Implementation::PictureRun {
  public:
   PictureRun(Implementation& renderer, const Callbacks& callbacks)
-      : renderer_(renderer),
-        options_(renderer.options),
-        callbacks_(callbacks),
-        film_(renderer.region, options_.width, options_.height, film_aovs(options_)) {}
+      : renderer_(renderer), options_(renderer.options), callbacks_(callbacks), film_(renderer.make_film()) {}
 
   Picture make() {
     restore();
@@ -61,14 +58,14 @@ class Renderer::Implementation::PictureRun {
     training_ = renderer_.begin_training(found(), fingerprint_, callbacks_);
     if (training_.complete) return;
     try {
-      renderer_.train(training_, callbacks_, [&] {
+      renderer_.train(training_, film_, callbacks_, [&] {
         if (!checkpoint_due()) return;
         training_.session->settle();
         keep(Phase::train, sum_up(), true);
       });
     } catch (const TrainingDiverged& error) {
       // The last good state still gives a picture and a cache file. The checkpoint is kept.
-      if (!renderer_.return_to_good(training_, found(), earlier_, callbacks_)) throw;
+      if (!renderer_.return_to_good(training_, film_, found(), earlier_, callbacks_)) throw;
       training_.diverged = error.what();
       identity_.reset();
     }
@@ -135,7 +132,8 @@ class Renderer::Implementation::PictureRun {
   /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
   void keep(Phase phase, const RenderStatistics& sum, bool again) {
     if (!identity_) return;
-    const CheckpointProgress progress{phase, phase == Phase::render ? sum.spp : 0, training_.first_step};
+    const int samples = phase == Phase::render ? sum.spp : 0;
+    const CheckpointProgress progress{phase, samples, training_.first_step, training_.samples() > 0};
     try_writing(again, [&] {
       const neural::TrainingOptions training = training_options(options_);
       std::optional<CacheState> state;

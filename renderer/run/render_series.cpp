@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "neural/base/flush_denormals.h"
 #include "renderer/run/finished_picture.h"
@@ -58,19 +60,24 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
   training.chosen = false;
   training.all_steps = train_steps.back();
   CacheSession& session = *training.session;
+  Film taught = make_film();
   for (std::size_t point = 0; point < train_steps.size(); ++point) {
     // A point within a group of steps ends that group early, for its own picture only.
     const auto steps = static_cast<std::uint64_t>(train_steps[point]);
     const std::uint64_t between_groups =
         session.last_group_end(training.first_step + steps) - training.first_step;
     std::optional<CacheSession::Bookmark> bookmark;
+    std::optional<std::pair<Film, SampleCounts>> taught_before;
     for (const std::uint64_t end : {between_groups, steps}) {
-      if (end > between_groups && point + 1 < train_steps.size()) bookmark = session.bookmark();
+      if (end > between_groups && point + 1 < train_steps.size()) {
+        bookmark = session.bookmark();
+        taught_before.emplace(taught, training.counts);
+      }
       training.steps = static_cast<int>(end);
-      train(training, callbacks, {});
+      train(training, taught, callbacks, {});
       if (training.stopped) return false;
     }
-    Film film(region, options.width, options.height, film_aovs(options));
+    Film film = taught;
     const std::unique_ptr<Pass> pass = make_pass(training);
     SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
     while (loop.done() < options.spp) {
@@ -83,14 +90,17 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
     picture(static_cast<int>(point), finished, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
-    if (bookmark) session.return_to(*bookmark);
+    if (bookmark) {
+      session.return_to(*bookmark);
+      std::tie(taught, training.counts) = std::move(*taught_before);
+    }
   }
   return true;
 }
 
 bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
                                                     const Callbacks& callbacks) {
-  Film film(region, options.width, options.height, film_aovs(options));
+  Film film = make_film();
   Training untrained;
   const std::unique_ptr<Pass> pass = make_pass(untrained);
   SampleLoop loop(arena, options, callbacks, *pass, film, spp.back());

@@ -20,11 +20,10 @@ void SampleLoop::run_pass(int goal) {
   const int batch = std::min(batch_, goal - done_);
   const double begin = seconds();
   arena_.execute([&] {
-    pass_.run(static_cast<std::uint32_t>(done_), static_cast<std::uint32_t>(done_ + batch), film_,
-              [&](double fraction) {
-                if (callbacks_.stop && callbacks_.stop()) stop_ = true;
-                report(fraction, batch);
-              });
+    pass_.run(batch, film_, [&](double fraction) {
+      if (callbacks_.stop && callbacks_.stop()) stop_ = true;
+      report(fraction, batch);
+    });
   });
   done_ += batch;
   last_seconds_ = seconds();

@@ -42,7 +42,7 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
   return training;
 }
 
-void Renderer::Implementation::train(Training& training, const Callbacks& callbacks,
+void Renderer::Implementation::train(Training& training, Film& film, const Callbacks& callbacks,
                                      const std::function<void()>& after_group) {
   const CacheSession& session = *training.session;
   const auto first = static_cast<int>(training.first_step);
@@ -50,6 +50,8 @@ void Renderer::Implementation::train(Training& training, const Callbacks& callba
   CacheSession::Watch watch;
   watch.stop = [&] { return training.stopped = callbacks.stop && callbacks.stop(); };
   watch.after_group = after_group;
+  if (training.first_step == 0)
+    watch.samples = [&](const RecordBatch& group) { group.add_to(film, options, training.counts); };
   watch.progress = [&](int step, int, double loss) {
     const int done = step - first;
     const double now = session.statistics().train_seconds;
@@ -68,7 +70,7 @@ void Renderer::Implementation::train(Training& training, const Callbacks& callba
   training.complete = !training.stopped || training.session->steps() >= end;
 }
 
-bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* found,
+bool Renderer::Implementation::return_to_good(Training& training, Film& film, Checkpoint* found,
                                               RenderStatistics& earlier, const Callbacks& callbacks) {
   CacheSession& session = *training.session;
   const std::uint64_t good = session.good_steps();
@@ -84,9 +86,14 @@ bool Renderer::Implementation::return_to_good(Training& training, Checkpoint* fo
     state.reset();
     if (loaded) state = CacheFile(options.cache.cache_in).read_state(session.model(), learning);
   }
-  if (state) session.import_state(*state);
+  film = make_film();
+  training.counts = {};
+  if (state) {
+    session.import_state(*state);
+    if (found && state->steps > 0) found->restore(film, earlier);
+  }
   training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
-  if (good > session.steps()) train(training, callbacks, {});
+  if (good > session.steps()) train(training, film, callbacks, {});
   training.complete = !training.stopped;
   return true;
 }

@@ -49,6 +49,9 @@ constexpr Need kFinalView{[](const RenderOptions& o) {
                                    o.cache.query_at == QueryAt::none;
                           },
                           "--view final"};
+constexpr Need kPicturePoints{
+    [](const RenderOptions& o) { return o.cache.source == TrainingSource::picture; },
+    "--training-points picture"};
 constexpr Need kTriangles{[](const RenderOptions& o) { return is_gate(o) || o.cache.candidates == 1; },
                           "--encoding gate"};
 constexpr Need kPaperRule{
@@ -195,7 +198,12 @@ void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(number("samples-per-point", options.samples_per_point, kPaths, "N",
                    "Paths whose mean becomes the record of a training point"));
   group.add(choice("training-points", options.source,
-                   "Where training paths start: at what the camera sees, or anywhere on the surfaces"));
+                   "Where training paths start: as samples that stay in the picture, at what the camera "
+                   "sees, or anywhere on the surfaces"));
+  group.add(number("samples-from-step", options.samples_from_step, kSteps, "N",
+                   "First step whose paths are samples that stay in the picture; they end in the cache as "
+                   "it is then"),
+            {kPicturePoints});
   group.add(number("candidates", options.candidates, {1, 1024}, "M",
                    "Candidates for each training point; with more, triangles are trained more evenly"),
             {kTriangles});
@@ -346,10 +354,10 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
 
 void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
   [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
-                                candidates, self_training, node_spacing, encoding, gate, hash_grid,
-                                memory_bytes, mlp, training, direction_input, normal_input, albedo_input,
-                                scout, holds, query_at, view, min_roughness, spread_threshold, bf16_queries,
-                                device, cache_in, cache_out] = options;
+                                samples_from_step, candidates, self_training, node_spacing, encoding, gate,
+                                hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
+                                albedo_input, scout, holds, query_at, view, min_roughness, spread_threshold,
+                                bf16_queries, device, cache_in, cache_out] = options;
   const std::size_t others = table.size();
   add_learning_options(table, options);
   add_shape_options(table, options);

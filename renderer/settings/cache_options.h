@@ -34,6 +34,7 @@ enum class CacheView : std::uint8_t {
 };
 
 enum class TrainingSource : std::uint8_t {
+  picture,  ///< the picture's own samples, which stay in it
   camera,   ///< hits of camera rays, stratified over the picture
   surface,  ///< uniform by area over all surfaces with storage
 };
@@ -54,7 +55,8 @@ struct CacheOptions {
   int path_length = 0;             ///< scattering events of a training path; 0: by Russian roulette alone
   int samples_per_point = 1;       ///< paths averaged in the record of a training point
   TrainingSource source = TrainingSource::camera;
-  int candidates = 1;  ///< points from which the one with the least trained triangle is chosen
+  int samples_from_step = 32;  ///< the picture's samples wait for a cache that has learned a little
+  int candidates = 1;          ///< points from which the one with the least trained triangle is chosen
   SelfTrainingOptions self_training;
   /// Node spacing in metres; empty: chosen by scouting. Overrides gate.node_spacing.
   std::optional<float> node_spacing;

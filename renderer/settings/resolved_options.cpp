@@ -18,6 +18,12 @@ std::vector<Aov> film_aovs(const RenderOptions& options) {
   return aovs;
 }
 
+bool training_gives_samples(const RenderOptions& options) {
+  const CacheOptions& cache = options.cache;
+  return options.integrator == Integrator::nrc && cache.view == CacheView::final && cache.candidates == 1 &&
+         cache.samples_per_point == 1 && cache.path_length == 0;
+}
+
 float resolve_filter_width(PixelFilter filter, float option) {
   if (option > 0.0f) return option;
   if (filter == PixelFilter::box) return 1.0f;

@@ -14,6 +14,9 @@ float resolve_ao_distance(float option, const scene::Box& bounds);
 /// What the film keeps: the output variables of the options, and those that reconstruction reads.
 std::vector<Aov> film_aovs(const RenderOptions& options);
 
+/// Whether training paths can be samples of the picture: of radiance, one for each point, each to its end.
+bool training_gives_samples(const RenderOptions& options);
+
 /// Full width in pixels: the filter's usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3) where the
 /// option is 0.
 float resolve_filter_width(PixelFilter filter, float option);

@@ -68,7 +68,8 @@ template <>
 inline constexpr Choice<CacheView> kWords<CacheView>[] = {{"final", CacheView::final},
                                                           {"cache", CacheView::cache}};
 template <>
-inline constexpr Choice<TrainingSource> kWords<TrainingSource>[] = {{"camera", TrainingSource::camera},
+inline constexpr Choice<TrainingSource> kWords<TrainingSource>[] = {{"picture", TrainingSource::picture},
+                                                                    {"camera", TrainingSource::camera},
                                                                     {"surface", TrainingSource::surface}};
 template <>
 inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {{"preview", CachePreset::preview},

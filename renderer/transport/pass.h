@@ -24,10 +24,9 @@ struct PassContext {
 class Pass {
  public:
   virtual ~Pass() = default;
-  /// Adds the samples first <= s < end to the film, in order for each pixel. Runs in the caller's arena;
-  /// Calls report(fraction done) from any thread.
-  virtual void run(std::uint32_t first, std::uint32_t end, Film& film,
-                   const std::function<void(double)>& report) = 0;
+  /// Adds the next `samples` samples of each pixel to the film, in order. Runs in the caller's arena. Calls
+  /// report(fraction done) from any thread.
+  virtual void run(int samples, Film& film, const std::function<void(double)>& report) = 0;
   /// Sums over all runs so far.
   virtual SampleCounts counts() const = 0;
   virtual RayCounts rays() const = 0;

@@ -14,8 +14,7 @@ ReferencePass::ReferencePass(const World& world, const PassContext& context)
       path_(world, path_integrator_options(context.options)),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)) {}
 
-void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
-                        const std::function<void(double)>& report) {
+void ReferencePass::run(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& tiles = context_.tiles;
   const RenderOptions& options = context_.options;
   std::atomic<int> finished{0};
@@ -27,15 +26,14 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
           tiles.pixels(tile, w.pixels);
           w.results.resize(w.pixels.size());
           if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
-          for (std::uint32_t sample = first; sample < end; ++sample) {
-            make_camera_samples(w.pixels, sample, options, context_.camera, context_.filter, w.samples);
-            set_faint(w.pixels, film, w.samples);
+          for (int sample = 0; sample < samples; ++sample) {
+            make_camera_samples(w.pixels, film, options, context_.camera, context_.filter, w.samples);
             if (options.integrator == Integrator::path) {
               path_.trace(w.samples, w.results, w.first_hits, w.rays, w.path);
             } else {
               ao_.trace(w.samples, w.results, w.first_hits, w.rays, w.ao);
             }
-            add_to_film(w.pixels, sample, options, w.results, w.first_hits, film, w.counts);
+            add_to_film(w.pixels, options, w.results, w.first_hits, film, w.counts);
           }
           report(static_cast<double>(++finished) / tiles.count());
         }

@@ -23,8 +23,7 @@ class ReferencePass : public WorkerPass<ReferenceWorker> {
   /// options.integrator is path or ao.
   ReferencePass(const World& world, const PassContext& context);
 
-  void run(std::uint32_t first, std::uint32_t end, Film& film,
-           const std::function<void(double)>& report) override;
+  void run(int samples, Film& film, const std::function<void(double)>& report) override;
 
  private:
   PassContext context_;

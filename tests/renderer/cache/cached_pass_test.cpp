@@ -179,7 +179,7 @@ Picture pass_over(const ViewedWorld& viewed, const RenderOptions& options, Cache
   const PassContext context{tiles, options, viewed.camera, filter};
   Film film(region, viewed.region.width(), viewed.region.height(), options.aovs);
   CachedPass pass(viewed.world, context, session);
-  pass.run(0, static_cast<std::uint32_t>(options.spp), film, [](double) {});
+  pass.run(options.spp, film, [](double) {});
   if (statistics) pass.add_to(*statistics);
   return film.resolve();
 }

@@ -139,27 +139,64 @@ class Pictures {
   std::vector<Color> answered(const Setting& composed, const Setting& learned, std::uint32_t seed,
                               int samples) const {
     const StoredSurfaces stored;
-    PointInputs inputs;
-    inputs.directions = true;
-    inputs.positions = true;
     RayCounts rays;
     CachedPaths::Scratch scratch;
-
     const RenderOptions ask_options = options(composed);
     const CachedPaths ask(world_, cached_paths_options(ask_options), stored);
     PathPlan plan;
     plan.query_at = composed.query_at;
     plan.max_depth = 16;
-    PathBatch batch(inputs);
+    PathBatch batch(inputs());
     const std::vector<PathStart> asking = starts(seed, samples);
     ask.trace(asking, {}, plan, batch, {}, rays, scratch);
 
+    std::vector<Color> radiance(asking.size());
+    batch.resolve(fresh_records(batch.queries, learned, seed), radiance);
+    return radiance;
+  }
+
+  /// Samples that teach: paths to their end, of which a record is replaced by another one at the same point.
+  std::vector<Color> taught(const Setting& setting, std::uint32_t seed, int samples) const {
+    const StoredSurfaces stored;
+    RayCounts rays;
+    CachedPaths::Scratch scratch;
+    const RenderOptions asked = options(setting);
+    const CachedPaths paths(world_, cached_paths_options(asked), stored);
+    PathPlan plan;
+    plan.records = true;
+    plan.samples_at = setting.query_at;
+    plan.max_depth = 16;
+    PathBatch batch(inputs());
+    const std::vector<PathStart> starting = starts(seed, samples);
+    paths.trace(starting, {}, plan, batch, {}, rays, scratch);
+    std::vector<Color> radiance(starting.size());
+    batch.resolve({}, radiance);
+    SurfacePoints ends(inputs());
+    batch.copy_ends(ends);
+    batch.end_samples(fresh_records(ends, setting, seed), radiance);
+    return radiance;
+  }
+
+ private:
+  static PointInputs inputs() {
+    PointInputs inputs;
+    inputs.directions = true;
+    inputs.positions = true;
+    return inputs;
+  }
+
+  /// A record for each point, traced for it alone.
+  std::vector<float> fresh_records(const SurfacePoints& asked, const Setting& learned,
+                                   std::uint32_t seed) const {
+    const StoredSurfaces stored;
+    RayCounts rays;
+    CachedPaths::Scratch scratch;
     const RenderOptions learn_options = options(learned);
     const CachedPaths learn(world_, cached_paths_options(learn_options), stored);
     PathPlan to_the_end;
     to_the_end.records = true;
     to_the_end.max_depth = 16;
-    const neural::QueryBatch queries = batch.queries.batch();
+    const neural::QueryBatch queries = asked.batch();
     std::vector<PathStart> points(queries.size);
     std::vector<Hit> hits(queries.size);
     for (std::uint32_t i = 0; i < queries.size; ++i) {
@@ -173,7 +210,7 @@ class Pictures {
       hits[i] = {1.0f, queries.barycentrics[i][0], queries.barycentrics[i][1], queries.surfaces[i] / 2,
                  queries.triangles[i]};
     }
-    PathBatch records(inputs);
+    PathBatch records(inputs());
     learn.trace(points, hits, to_the_end, records, {}, rays, scratch);
     records.resolve({}, {});
     std::vector<float> answers(3 * queries.size, 0.0f);
@@ -182,12 +219,9 @@ class Pictures {
       std::copy_n(&records.targets[3 * static_cast<std::size_t>(records.first_records[i])], 3,
                   &answers[3 * i]);
     }
-    std::vector<Color> radiance(asking.size());
-    batch.resolve(answers, radiance);
-    return radiance;
+    return answers;
   }
 
- private:
   static scene::Camera view() {
     scene::Camera camera;
     camera.transform.translation() = Vec3(0.0f, 1.2f, 4.5f);
@@ -236,6 +270,12 @@ class HeldLight : public ::testing::TestWithParam<Setting> {};
 TEST_P(HeldLight, ComposedWithRightAnswersItIsThePathTracersPicture) {
   std::string what;
   const auto moments = moments_of(pictures().answered(GetParam(), GetParam(), 1, 24));
+  EXPECT_GT(compare(moments, reference_moments(), what), kSignificance) << what;
+}
+
+TEST_P(HeldLight, SamplesThatTeachAndEndInRightAnswersAreThePathTracersPicture) {
+  std::string what;
+  const auto moments = moments_of(pictures().taught(GetParam(), 1, 24));
   EXPECT_GT(compare(moments, reference_moments(), what), kSignificance) << what;
 }
 

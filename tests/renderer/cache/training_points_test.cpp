@@ -12,6 +12,7 @@
 #include <set>
 
 #include "renderer/cache/scene_layout.h"
+#include "renderer/film/film_samples.h"
 #include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
 
@@ -113,6 +114,44 @@ TEST(TrainingPoints, EachCellOfTheRegionHasOnePoint) {
     EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), 192);
     EXPECT_NE(offset, 0.0) << "jittered";
   }
+}
+
+TEST(TrainingPoints, SamplesOfThePictureAreThoseThatItsPassesWouldTakeNext) {
+  const TwoWalls walls;
+  RenderOptions options;
+  options.seed = 5;
+  const PixelRect region{8, 4, 40, 28};
+  const std::vector<neural::Sides> sides(2, neural::Sides::front);
+  const TrainingPoints points(walls.world, walls.camera, region, options, sides, nullptr);
+  const FilterSampler filter(options.filter, options.filter_width);
+  Film film(region, kWidth, kHeight, {});
+  TrainingStarts starts;
+  RayCounts rays;
+  std::uint64_t first = 0;
+  for (const std::size_t count : {1u, 300u, 1500u, 503u}) {  // three rounds of 768 in all
+    points.choose(7, count, false, {}, starts, rays, first);
+    first += count;
+    expect_blocks_cover(starts);
+    ASSERT_EQ(starts.starts.size(), count);
+    ASSERT_EQ(starts.pixels.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [x, y] = starts.pixels[i];
+      const CameraSample expected =
+          make_camera_sample({x, y}, film.take(x, y), options, walls.camera, filter);
+      EXPECT_EQ(starts.starts[i].sample.seed, expected.seed);
+      EXPECT_EQ(starts.starts[i].sample.camera_ray.ray.direction, expected.camera_ray.ray.direction);
+    }
+    // Samples of a pixel are added in turn, by one thread.
+    for (std::size_t b = 1; b + 1 < starts.offsets.size(); ++b) {
+      const Pixel &before = starts.pixels[starts.offsets[b] - 1], &after = starts.pixels[starts.offsets[b]];
+      EXPECT_FALSE(before.x == after.x && before.y == after.y);
+    }
+  }
+  for (int y = region.y0; y < region.y1; ++y) {
+    for (int x = region.x0; x < region.x1; ++x) EXPECT_EQ(film.taken(x, y), 3u);
+  }
+  points.choose(7, 100, false, {}, starts, rays);
+  EXPECT_TRUE(starts.pixels.empty()) << "others are points of the picture alone";
 }
 
 TEST(TrainingPoints, NumbersThatFillNoGridAreNearlyKept) {

@@ -17,8 +17,12 @@ struct Maker {
   FilterSampler filter{PixelFilter::box, 1.0f};
 
   std::vector<CameraSample> samples(const std::vector<Pixel>& pixels, std::uint32_t sample) const {
+    Film film({0, 0, 8, 8}, 8, 8, {});
+    for (const Pixel& p : pixels) {
+      for (std::uint32_t s = 0; s < sample; ++s) film.take(p.x, p.y);
+    }
     std::vector<CameraSample> result(3);  // what was there goes
-    make_camera_samples(pixels, sample, options, camera, filter, result);
+    make_camera_samples(pixels, film, options, camera, filter, result);
     return result;
   }
 };
@@ -83,8 +87,9 @@ TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
   options.seed = 9;
   const std::vector<SampleResult> good = {{Color(1, 2, 3)}, {Color(4, 5, 6)}};
   const std::vector<SampleResult> bad = {{Color(1, kInfinity, 3)}, {Color(4, 5, 8)}};
-  add_to_film(pixels, 6, options, good, {}, film, counts);
-  add_to_film(pixels, 7, options, bad, {}, film, counts);
+  for (int s = 0; s < 6; ++s) film.take(0, 0), film.take(1, 0);
+  add_to_film(pixels, options, good, {}, film, counts);
+  add_to_film(pixels, options, bad, {}, film, counts);
   const std::vector<float> mean = film.resolve().layers[0].values;
   EXPECT_EQ(mean, (std::vector<float>{1, 2, 3, 4, 5, 7}));
   EXPECT_EQ(counts.nonfinite, 1u);
@@ -102,7 +107,7 @@ TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
   RenderOptions options;
   options.clamp = 2.0f;
   const std::vector<SampleResult> results = {{Color(8, 8, 8)}, {Color(1.5f, 1.5f, 1.5f)}};
-  add_to_film(pixels, 0, options, results, {}, film, counts);
+  add_to_film(pixels, options, results, {}, film, counts);
   const std::vector<float> mean = film.resolve().layers[0].values;
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(mean[i], i < 3 ? 2.0f : 1.5f, 1e-6f);
   EXPECT_EQ(counts.clamped, 1u);
@@ -116,7 +121,7 @@ TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
   hit.hit = true;
   hit.depth = 4.0f;
   const std::vector<SampleResult> results = {{Color(kInfinity, 0, 0)}};
-  add_to_film(std::vector<Pixel>{{0, 0}}, 0, {}, results, {&hit, 1}, film, counts);
+  add_to_film(std::vector<Pixel>{{0, 0}}, {}, results, {&hit, 1}, film, counts);
   EXPECT_FLOAT_EQ(film.resolve().find("depth")->values[0], 4.0f);
 }
 
@@ -142,7 +147,7 @@ TEST(FilmSamples, AFilmOfNothingButNonFiniteSamplesKeepsFewPlaces) {
   SampleCounts counts;
   const std::vector<Pixel> pixels(256, Pixel{0, 0});
   const std::vector<SampleResult> results(256, SampleResult{Color::Constant(kInfinity)});
-  for (std::uint32_t s = 0; s < 8; ++s) add_to_film(pixels, s, {}, results, {}, film, counts);
+  for (int s = 0; s < 8; ++s) add_to_film(pixels, {}, results, {}, film, counts);
   EXPECT_EQ(counts.nonfinite, 2048u);
   EXPECT_LE(counts.located.size(), 256u);
 }

@@ -55,6 +55,7 @@ FirstHit asked_hit(float answer, float error, float count, float resolution) {
   FirstHit hit;
   hit.hit = true;
   hit.asked = true;
+  hit.guided = true;
   hit.cache_radiance = Color(7.0f, 8.0f, 9.0f);
   hit.answer = Color(answer, 2.0f * answer, 4.0f * answer);
   hit.node = Color(0.5f, 0.25f, 1.0f);
@@ -72,7 +73,9 @@ TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
   FirstHit silent = asked_hit(1e3f, 1e3f, 1e3f, 1e3f);
   silent.asked = false;  // a hit where the cache was not asked: black, and no number
   film.add(0, 0, silent);
-  film.add(0, 0, FirstHit{});
+  FirstHit sky;
+  sky.guided = true;
+  film.add(0, 0, sky);
   const Picture picture = film.resolve();
   const auto values = [&](const char* name) { return picture.find(name)->values; };
   EXPECT_EQ(values("cache-answer"), (std::vector<float>{2.0f, 4.0f, 8.0f}));

@@ -99,6 +99,13 @@ inline const Kind kKinds[] = {
        o.cache.source = TrainingSource::surface;
        o.aovs.clear();
      }},
+    {"nrc_learns_from_samples", Integrator::nrc,
+     [](RenderOptions& o) {
+       o.cache.candidates = 1;
+       o.cache.source = TrainingSource::picture;
+       o.cache.samples_from_step = 2;
+       o.reconstruct = true;
+     }},
     {"nrc_hashgrid", Integrator::nrc,
      [](RenderOptions& o) {
        o.cache.encoding = neural::FeatureEncoding::hash_grid;

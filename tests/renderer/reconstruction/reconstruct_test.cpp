@@ -142,18 +142,35 @@ std::vector<float> cache_of(const Made& made, double error) {
   return cache;
 }
 
+void show_cache(SampledPicture& samples, const std::vector<float>& cache) {
+  for (SampledPicture::Half& half : samples.halves) half.cache = cache;
+}
+
 TEST(Reconstruct, ACacheShowsWhatNoOtherGuideTells) {
   for (const int spp : {1, 4, 16, 64}) {
     Made made = make_picture(120, 90, spp, 1.0, 0.6);
     const double without = squared_error(reconstruct(made.samples).color, made.truth);
-    made.samples.cache = cache_of(made, 0.05);
+    show_cache(made.samples, cache_of(made, 0.05));
     const double with = squared_error(reconstruct(made.samples).color, made.truth);
     EXPECT_LT(with, (spp == 1 ? 1.0 : 0.7) * without) << spp << " samples";
     RecordProperty("share_" + std::to_string(spp), std::to_string(with / without));
     // One that knows nothing does little harm.
-    made.samples.cache.assign(made.truth.size(), 0.3f);
+    show_cache(made.samples, std::vector<float>(made.truth.size(), 0.3f));
     EXPECT_LT(squared_error(reconstruct(made.samples).color, made.truth), 1.1 * without) << spp << " samples";
   }
+}
+
+TEST(Reconstruct, ANoisyCacheIsBelievedLess) {
+  Made made = make_picture(120, 90, 16, 1.0, 0.6);
+  const double without = squared_error(reconstruct(made.samples).color, made.truth);
+  const std::vector<float> right = cache_of(made, 0.0);
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (SampledPicture::Half& half : made.samples.halves) {
+    half.cache = right;
+    for (float& value : half.cache) value = std::max(value * (1.0f + 2.0f * normal(random)), 0.0f);
+  }
+  EXPECT_LT(squared_error(reconstruct(made.samples).color, made.truth), 1.1 * without);
 }
 
 TEST(Reconstruct, KeepsTheSumOfLight) {
@@ -170,7 +187,7 @@ TEST(Reconstruct, KeepsTheSumOfLight) {
 TEST(Reconstruct, ThreadsInstructionSetsAndRegionsGiveTheSameBits) {
   Made made = make_picture(70, 300, 8, 1.0, 0.1);
   for (const bool cached : {false, true}) {
-    if (cached) made.samples.cache = cache_of(made, 0.1);
+    if (cached) show_cache(made.samples, cache_of(made, 0.1));
     const SampledPicture& samples = made.samples;
     const Reconstruction expected = reconstruct(samples);
     const auto expect_same = [&](const ReconstructionOptions& options, const std::string& what) {
@@ -261,7 +278,7 @@ TEST(SampledPictures, ReadTheirLayersAndNameTheOneThatIsMissing) {
   picture.layers[2].values[4] = nan;  // of half-b
   picture.layers.back().values[0] = std::numeric_limits<float>::infinity();
   const SampledPicture samples = sampled_picture(picture);
-  EXPECT_TRUE(samples.cache.empty());
+  EXPECT_TRUE(samples.halves[0].cache.empty());
   EXPECT_EQ(samples.counts, (std::vector<float>{1.0f, 0.0f}));
   EXPECT_EQ(samples.depth, (std::vector<float>{0.0f, 1.0f}));
   EXPECT_EQ(samples.halves[1].color[4], 0.0f);
