@@ -112,6 +112,23 @@ TEST(SweepRecord, OfAPlainIntegratorHasNoCache) {
   EXPECT_EQ(r["spp"], 16);
 }
 
+TEST(SweepRecord, TimeOfReconstructionCountsAndTheErrorThatItEstimatesIsKept) {
+  const SweepPlan plan = small_plan();
+  PlannedSeries series = plan.scenes[0].series[0];
+  const CellPlace place{plan.scenes[0], series, 1, 8, "0123", "ref"};
+  renderer::RenderStatistics s = statistics();
+  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["seconds"]["reconstruct"].is_null());
+  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["estimated_error"].is_null());
+  series.settings.render.reconstruct = true;
+  s.reconstruct_seconds = 0.5;
+  s.estimated_error = 0.125;
+  const ordered_json r = done_record(place, s, errors(), true, 2.5f);
+  EXPECT_EQ(r["seconds"]["reconstruct"], 0.5);
+  EXPECT_EQ(r["seconds"]["total"], 4.25);
+  EXPECT_EQ(r["estimated_error"], 0.125);
+  EXPECT_EQ(r["options"]["reconstruct"], "on");
+}
+
 TEST(SweepRecord, TellsWhoMadeItAndWhatWasChosenOnTheWay) {
   const SweepPlan plan = small_plan();
   const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
