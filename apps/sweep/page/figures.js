@@ -242,7 +242,7 @@ function drawFrontTable(shown) {
     {label: "Time", unit: "s", number: true, value: c => c.seconds},
     {label: state.metric.label, number: true, value: c => c.error},
     ...rivalColumns("traced", "Without a cache"),
-    ...rivalColumns("reconstructed", "Reconstructed without"),
+    ...rivalColumns("reconstructed", "Without, reconstructed"),
     {label: "Command", fixed: true, value: c => c.cells[0].command, show: value => copyButton(value)},
   ];
   if (rows.some(pictureOf)) columns.push({label: "Picture", fixed: true, value: c => c, show: lookButton});
