@@ -126,6 +126,9 @@ bool is_whole(const ordered_json& record) {
   for (const char* key : {"train_ms_per_step", "train_step_ms", "query_ms_per_2m", "loss"}) {
     if (!record[key].is_null() && !record[key].is_number()) return false;
   }
+  // Cells of earlier versions have none.
+  const auto estimated = record.find("estimated_error");
+  if (estimated != record.end() && !estimated->is_null() && !estimated->is_number()) return false;
   for (const char* key : {"memory_bytes", "flip_percentiles"}) {
     if (!record[key].is_null() && !holds_numbers(record[key])) return false;
   }

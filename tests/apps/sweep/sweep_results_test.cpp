@@ -223,14 +223,18 @@ TEST(SweepRecord, OfAnotherShapeOrSchemaIsNone) {
     EXPECT_FALSE(reads(without)) << key;
   }
   // Edited by hand.
-  for (const char* text :
-       {R"({"errors": {"flip": "zz"}})", R"({"errors": {"mse": [1]}})", R"({"seconds": {"total": -5}})",
-        R"({"seconds": {"render": "fast"}})", R"({"loss": {}})", R"({"memory_bytes": 1})",
-        R"({"picture": "../../secret.png"})", R"({"error_map": "cells/0123.json"})"}) {
+  for (const char* text : {R"({"errors": {"flip": "zz"}})", R"({"errors": {"mse": [1]}})",
+                           R"({"seconds": {"total": -5}})", R"({"seconds": {"render": "fast"}})",
+                           R"({"loss": {}})", R"({"memory_bytes": 1})", R"({"estimated_error": "small"})",
+                           R"({"picture": "../../secret.png"})", R"({"error_map": "cells/0123.json"})"}) {
     ordered_json edited = whole;
     edited.merge_patch(ordered_json::parse(text));
     EXPECT_FALSE(reads(edited)) << text;
   }
+  ordered_json earlier = whole;
+  earlier.erase("estimated_error");
+  earlier["seconds"].erase("reconstruct");
+  EXPECT_TRUE(reads(earlier)) << "of a version that neither reconstructed nor estimated";
   ordered_json negative = whole;
   negative["errors"]["psnr"] = -3.0;
   EXPECT_TRUE(reads(negative)) << "a very bad picture";
