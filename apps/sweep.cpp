@@ -23,6 +23,12 @@ given and holds for all cells (--size, --camera, --batch ...; see its --help). A
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
+Where no --preset, axis, --vary, --reconstruct, --view, --query-at or --cache-holds says what is wanted, a sweep shows
+what can be had for a time: 'path' as traced and 'path reconstructed' at the samples of --spp; 'nrc preview', which is
+--preset preview after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 64, 256
+and 1024 steps with 2, 6 and 24 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
+measured both as traced and reconstructed. Time counts all phases: scouting, training, rendering, reconstruction.
+
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
 file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
 same-as-gate), and cells/, a file for each cell that is done or has failed. The same command continues where it was
@@ -39,10 +45,12 @@ after):
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
   paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
-Those of 'gatelight render' (preview, standard, final, paper-nao, paper-nrc) stand for their flags.
+Those of 'gatelight render' (preview, standard, final, paper-nao, paper-nrc) stand for their flags. Several of them are
+an axis: --vary preset=preview,standard.
 
 Examples:
   gatelight sweep kitchen.glb -o kitchen
+  gatelight sweep kitchen.glb -o kitchen --vary reconstruct=off,on
   gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
   gatelight sweep kitchen.glb sponza.glb -o both --for sponza:camera=hall --for sponza:environment=0.65,0.8,1
   gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run

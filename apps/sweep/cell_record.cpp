@@ -30,13 +30,14 @@ ordered_json per(double seconds, double count) {
   return count > 0.0 ? ordered_json(seconds / count) : nullptr;
 }
 
-ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
+ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache, bool reconstructs) {
   const CacheStatistics& c = s.cache;
   ordered_json json = cache_seconds_json(c);
   if (!has_cache) {
     for (ordered_json& value : json) value = nullptr;
   }
   json["render"] = s.render_seconds;
+  json["reconstruct"] = reconstructs ? ordered_json(s.reconstruct_seconds) : nullptr;
   const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
   json["total"] = before + s.render_seconds + s.reconstruct_seconds;
   return json;
@@ -125,6 +126,9 @@ bool is_whole(const ordered_json& record) {
   for (const char* key : {"train_ms_per_step", "train_step_ms", "query_ms_per_2m", "loss"}) {
     if (!record[key].is_null() && !record[key].is_number()) return false;
   }
+  // Cells of earlier versions have none.
+  const auto estimated = record.find("estimated_error");
+  if (estimated != record.end() && !estimated->is_null() && !estimated->is_number()) return false;
   for (const char* key : {"memory_bytes", "flip_percentiles"}) {
     if (!record[key].is_null() && !holds_numbers(record[key])) return false;
   }
@@ -181,6 +185,7 @@ ordered_json failed_record(const CellPlace& place, const std::string& error) {
   json["error"] = error;
   add_origin(json);
   for (const char* key : kMeasured) json[key] = nullptr;
+  json["estimated_error"] = nullptr;
   return json;
 }
 
@@ -194,9 +199,11 @@ ordered_json done_record(const CellPlace& place, const renderer::RenderStatistic
   json["isa"] = statistics.isa;
   if (has_cache) json["backend"] = statistics.cache.backend;
   add_found(json["options"], place, statistics, ao_distance);
-  json["seconds"] = seconds_json(statistics, has_cache);
+  json["seconds"] = seconds_json(statistics, has_cache, place.series.settings.render.reconstruct);
   add_speed(json, statistics.cache, has_cache);
   add_errors(json, errors);
+  json["estimated_error"] =
+      statistics.estimated_error > 0.0 ? json_number(statistics.estimated_error) : nullptr;
   json["picture"] = pictures ? ordered_json(picture_file(place.id)) : nullptr;
   json["error_map"] = pictures && errors.flip ? ordered_json(error_map_file(place.id)) : nullptr;
   return json;

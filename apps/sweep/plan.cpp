@@ -20,6 +20,7 @@ namespace {
 using renderer::Integrator;
 
 constexpr const char* kSameAsGate = "same-as-gate";
+constexpr const char* kReconstruct = "--reconstruct";
 
 /// Stands for the scene, because settings are read before a scene is loaded. It is no file.
 const std::string kNoScene = "scene";
@@ -136,8 +137,15 @@ class Planner {
     // No integrator without a cache renders the view of the cache.
     if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
     FlagValues plain = flags;
+    drop_flag(plain, kReconstruct);
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
-    keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));
+    const auto keep_plain = [&] {
+      keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));
+    };
+    keep_plain();
+    if (!is_reconstructed(series)) return;
+    set_flag(plain, kReconstruct, "on");
+    keep_plain();
   }
 
   PlannedSeries make_series(const SweepBlock& block, const FlagValues& asked) const {
@@ -156,11 +164,11 @@ class Planner {
       for (const auto& [flag, value] : gate) set_flag(named, flag, value);
       set_flag(named, "--cache-memory", *find_flag(asked, "--cache-memory"));
     }
+    if (!block.row.empty()) series.axes.emplace_back("row", block.row);
     for (const std::string& axis : axes_) {
       const std::string* value = find_flag(named, axis);
       if (value) series.axes.emplace_back(name_of_flag(axis), *value);
     }
-    if (!block.row.empty()) series.axes.emplace_back("row", block.row);
     series.reference = reference_kind(series.settings.render);
     series.points = series.has_cache() ? block.train_steps : request_.plain_spp;
     return series;
@@ -179,19 +187,25 @@ class Planner {
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
 
-  /// Integrators also vary where those without a cache are measured too.
+  /// Integrators also vary where those without a cache are measured too, and presets decide what is
+  /// reconstructed.
   void name_integrators() {
     std::set<std::string> integrators, encodings;
+    std::set<bool> reconstructed;
     for (const PlannedSeries& s : series_) {
       integrators.insert(integrator_of(s));
       if (s.has_cache()) encodings.insert(encoding_of(s));
+      reconstructed.insert(is_reconstructed(s));
     }
     for (PlannedSeries& s : series_) {
       drop_flag(s.axes, "integrator");
       drop_flag(s.axes, "encoding");
+      drop_flag(s.axes, "reconstruct");
       FlagValues axes;
       if (integrators.size() > 1) axes.emplace_back("integrator", integrator_of(s));
       if (encodings.size() > 1 && s.has_cache()) axes.emplace_back("encoding", encoding_of(s));
+      if (reconstructed.size() > 1)
+        axes.emplace_back("reconstruct", renderer::name_of(renderer::kOnOff, is_reconstructed(s)));
       s.axes.insert(s.axes.begin(), axes.begin(), axes.end());
     }
   }
@@ -200,10 +214,13 @@ class Planner {
     std::map<std::string, int> seen;
     for (PlannedSeries& s : series_) {
       s.label = integrator_of(s);
-      // A row of a preset has a name of its own.
-      if (s.has_cache() && !find_flag(s.axes, "row")) s.label += fmt::format(" {}", encoding_of(s));
+      // A row has a name of its own.
+      const bool row = find_flag(s.axes, "row");
+      if (s.has_cache() && !row) s.label += fmt::format(" {}", encoding_of(s));
+      const std::string* reconstruct = find_flag(s.axes, "reconstruct");
+      if (!row && reconstruct && *reconstruct == "on") s.label += " reconstructed";
       for (const auto& [name, value] : s.axes) {
-        if (name == "integrator" || name == "encoding") continue;
+        if (name == "integrator" || name == "encoding" || name == "reconstruct") continue;
         s.label += name == "row" ? fmt::format(" {}", value) : fmt::format(" {} {}", name, value);
       }
       const int count = ++seen[s.label];
@@ -211,6 +228,7 @@ class Planner {
     }
   }
 
+  static bool is_reconstructed(const PlannedSeries& s) { return s.settings.render.reconstruct; }
   static std::string integrator_of(const PlannedSeries& s) {
     return renderer::word(s.settings.render.integrator);
   }

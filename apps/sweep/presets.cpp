@@ -5,6 +5,11 @@
 namespace gatelight::apps {
 namespace {
 
+/// Samples and steps of finished pictures: the preset's own in the middle, and about a quarter and four times
+/// as much work.
+const std::vector<std::string> kStandardSpp = {"2", "6", "24"};
+const std::vector<int> kStandardSteps = {64, 256, 1024};
+
 /// The step counts of the paper: 128 in its tables, from 8 on in its figure.
 const std::vector<int> kTableSteps = {128};
 const std::vector<int> kFigureSteps = {8, 16, 32, 64, 128};
@@ -124,6 +129,14 @@ const Preset kPresets[] = {
 };
 
 }  // namespace
+
+std::vector<SweepBlock> default_rows() {
+  return {{.row = "preview", .base = {{"--preset", "preview"}}, .axes = {}, .train_steps = kDefaultSteps},
+          {.row = "standard",
+           .base = {{"--preset", "standard"}},
+           .axes = {{"--spp", kStandardSpp}},
+           .train_steps = kStandardSteps}};
+}
 
 std::vector<std::string_view> sweep_preset_names() {
   std::vector<std::string_view> names;

@@ -1,5 +1,6 @@
 #pragma once
-// The experiments of the GATE paper (Boksansky, Meister, Benthin, HPG 2025) as blocks of a sweep.
+// Blocks of a sweep that have names: those of a sweep of which nothing else is said, and the experiments of
+// the GATE paper (Boksansky, Meister, Benthin, HPG 2025).
 
 #include <string>
 #include <string_view>
@@ -10,6 +11,13 @@
 namespace gatelight::apps {
 
 inline constexpr int kPresetSeeds = 3;
+
+/// Of a cache, where nothing else is said.
+inline const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
+
+/// What can be had for a time: the bare cache after more and more steps, and the finished picture of more and
+/// more steps and samples. Rows are named after their presets of `render`.
+std::vector<SweepBlock> default_rows();
 
 /// paper-table1, paper-table2 ..., then those of `render`.
 std::vector<std::string_view> sweep_preset_names();

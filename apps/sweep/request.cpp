@@ -21,7 +21,6 @@ constexpr renderer::IntegerRange kSpp{1, 1 << 24};
 constexpr renderer::IntegerRange kSeeds{1, 1000};
 constexpr renderer::IntegerRange kSeed{0, 4294967295};
 
-const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
 
@@ -30,6 +29,9 @@ constexpr const char* kNoBaseFlags[] = {
     "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
     "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
     "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
+
+/// With any of these a row named after a preset of `render` would not be what its name promises.
+constexpr const char* kNoRowFlags[] = {"--reconstruct", "--view", "--query-at", "--cache-holds"};
 
 /// `sweep` has flags of these names with lists or more presets.
 constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};
@@ -199,6 +201,13 @@ void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   }
 }
 
+/// Whether nothing says which pictures are wanted.
+bool wants_default_rows(const SweepWords& words) {
+  return words.preset.empty() && words.axes.empty() && words.vary.empty() &&
+         std::none_of(std::begin(kNoRowFlags), std::end(kNoRowFlags),
+                      [&](const char* flag) { return find_flag(words.base, flag); });
+}
+
 std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
   RenderSettings settings;
@@ -258,7 +267,11 @@ SweepRequest make_request(const SweepWords& words) {
     }
     base.emplace_back("--preset", words.preset);
   }
-  if (!preset) request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps});
+  if (wants_default_rows(words)) {
+    request.blocks = default_rows();
+  } else if (!preset) {
+    request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps});
+  }
   SweepWords with_preset = words;
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);

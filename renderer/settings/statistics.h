@@ -78,6 +78,7 @@ struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
   double reconstruct_seconds = 0.0;
+  double estimated_error = 0.0;  ///< of the finished picture, relative RMS; 0 or negative: unknown
   int width = 0;
   int height = 0;
   int spp = 0;                ///< finished for every pixel

@@ -2,10 +2,15 @@
 
 import csv
 import io
+import itertools
 import math
 import statistics
 
+from measured_scenes import SCENES
+
 ERRORS = ("rel_mse_clean", "flip", "hdr_flip")
+# The plain integrator as traced and reconstructed, and the columns of the seconds that it needs for the same error.
+BASELINES = {"plain": "", "reconstructed": "reconstructed_"}
 
 
 def equal_error_seconds(points, error):
@@ -33,24 +38,31 @@ def mean(rows, key):
     return statistics.fmean(values) if values else None
 
 
-def baseline_points(rows, scene, kind, key):
-    """Seconds and error of the plain integrator at each of its sample counts: means over the pairs."""
+def groups_by(rows, *keys):
     groups = {}
     for row in rows:
-        if row["scene"] == scene and row["kind"] == kind and row["baseline"]:
-            groups.setdefault(row["run"], []).append(row)
-    return [(mean(group, "seconds"), mean(group, key)) for group in groups.values()]
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return groups
+
+
+def baseline_points(rows, like, baseline, key):
+    """Seconds and error of a baseline of this row, at each of its sample counts: means over the pairs."""
+    own = [row for row in rows if row["baseline"] == baseline and all(row[k] == like[k] for k in ("scene", "size", "kind"))]
+    return [(mean(group, "seconds"), mean(group, key)) for group in groups_by(own, "run").values()]
 
 
 def add_equal_error(rows):
-    """Adds the columns to every row. They are empty for a baseline."""
+    """Adds the columns to every row. A baseline has those of baselines before its own."""
+    names = list(BASELINES)
     for row in rows:
-        for key in ERRORS:
-            points = baseline_points(rows, row["scene"], row["kind"], key)
-            seconds, extrapolated = (None, False) if row["baseline"] else equal_error_seconds(points, row.get(key))
-            row["equal_seconds_" + key] = seconds
-            row["times_faster_" + key] = seconds / row["seconds"] if seconds and row["seconds"] else None
-            row["extrapolated_" + key] = int(extrapolated) if seconds else None
+        less = names[:names.index(row["baseline"])] if row["baseline"] else names
+        for baseline, key in itertools.product(names, ERRORS):
+            points = baseline_points(rows, row, baseline, key) if baseline in less else []
+            seconds, extrapolated = equal_error_seconds(points, row.get(key))
+            column = BASELINES[baseline] + key
+            row["equal_seconds_" + column] = seconds
+            row["times_faster_" + column] = seconds / row["seconds"] if seconds and row["seconds"] else None
+            row["extrapolated_" + column] = int(extrapolated) if seconds else None
 
 
 def as_csv(rows):
@@ -69,47 +81,47 @@ def cell(rows, key, pattern, scale=1.0):
     """The mean, and the standard deviation if the pairs differ."""
     values = [row[key] * scale for row in rows if row.get(key) is not None]
     if not values:
-        return "-"
+        return ""
     text = pattern.format(statistics.fmean(values))
     if len(set(values)) > 1:
         text += " ± " + pattern.format(statistics.stdev(values))
     return text
 
 
-def faster(rows, key):
+def faster_of(rows, key):
     values = [row["times_faster_" + key] for row in rows if row.get("times_faster_" + key) is not None]
     if not values:
-        return "-"
+        return ""
     mark = "*" if any(row.get("extrapolated_" + key) for row in rows) else ""
     # The geometric mean, because these are ratios.
-    return f"{math.exp(statistics.fmean(map(math.log, values))):.2f}{mark}"
+    return f"{math.exp(statistics.fmean(map(math.log, values))):.2g}{mark}"
 
 
-COLUMNS = [("run", "run", None, 1), ("spp", "spp", "{:.0f}", 1), ("steps", "steps", "{:.0f}", 1),
-           ("train, s", "seconds_train", "{:.2f}", 1), ("render, s", "seconds_render", "{:.2f}", 1),
-           ("all, s", "seconds", "{:.2f}", 1), ("cache, MiB", "memory_cache", "{:.1f}", 2.0 ** -20),
-           ("rel. MSE", "rel_mse_clean", "{:.5f}", 1), ("bias²", "bias_rel_mse", "{:.5f}", 1),
-           ("FLIP", "flip", "{:.4f}", 1), ("HDR-FLIP", "hdr_flip", "{:.4f}", 1)]
-LEGEND = """Seconds: without loading, building and writing. Rel. MSE: of one picture, without the noise of the reference. bias²: the part
-that would remain with infinitely many samples, from pairs of pictures. Times faster: the seconds that the plain integrator
-needs for the same error, over those of the run; * if that lies beyond the measured sample counts."""
+def faster(rows, baseline):
+    texts = [faster_of(rows, BASELINES[baseline] + key) for key in ("rel_mse_clean", "flip")]
+    return "; ".join(text or "-" for text in texts) if any(texts) else ""
+
+
+COLUMNS = [("seconds", "seconds", "{:.1f}", 1), ("rel. MSE", "rel_mse_clean", "{:.4f}", 1), ("bias²", "bias_rel_mse", "{:.4f}", 1),
+           ("FLIP", "flip", "{:.3f}", 1)]
+HEADS = ["", "", *(head for head, *_ in COLUMNS), "times faster than plain: rel. MSE; FLIP", "than plain reconstructed"]
+LEGEND = """Seconds: all phases (scouting, training, rendering, reconstruction), without loading, building and writing. Rel. MSE: of one
+picture, without the noise of the reference. bias²: the part that would remain with infinitely many samples, from pairs of
+pictures. Times faster: the seconds that the plain integrator needs for the same error, as traced and reconstructed, over those
+of the run; * if that lies beyond the measured sample counts. results.csv has all figures."""
 
 
 def as_markdown(rows):
-    lines = [LEGEND]
-    for scene in dict.fromkeys(row["scene"] for row in rows):
-        heads = [head for head, *_ in COLUMNS] + ["times faster: rel. MSE", "FLIP", "HDR-FLIP"]
-        lines += ["", f"### {scene}", "", "| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 1) + "|"]
-        groups = {}
-        for row in rows:
-            if row["scene"] == scene:
-                groups.setdefault(row["run"], []).append(row)
-        for run, group in groups.items():
-            cells = [run if pattern is None else cell(group, key, pattern, scale)
-                     for _, key, pattern, scale in COLUMNS]
-            lines.append("| " + " | ".join(cells + [faster(group, key) for key in ERRORS]) + " |")
-        for kind in dict.fromkeys(row["kind"] for row in rows if row["scene"] == scene):
-            noise = mean([row for row in rows if (row["scene"], row["kind"]) == (scene, kind)], "reference_noise")
-            if noise is not None:
-                lines += ["", f"Noise of the reference of {kind}: {noise:.2g} in rel. MSE."]
-    return "\n".join(lines) + "\n"
+    lines = [LEGEND, "", "| " + " | ".join(HEADS) + " |", "|---|---" + "|---:" * (len(HEADS) - 2) + "|"]
+    before = None
+    for (scene, size, run), group in groups_by(rows, "scene", "size", "run").items():
+        name = f"{SCENES[scene].title}, {size}"
+        cells = ["" if name == before else name, run] + [cell(group, key, pattern, scale) for _, key, pattern, scale in COLUMNS]
+        lines.append("| " + " | ".join(cells + [faster(group, baseline) for baseline in BASELINES]) + " |")
+        before = name
+    noises = []
+    for (scene, size, kind), group in groups_by(rows, "scene", "size", "kind").items():
+        noise = mean(group, "reference_noise")
+        if noise is not None:
+            noises.append(f"{SCENES[scene].title}, {size}, {kind}: {noise:.2g}")
+    return "\n".join(lines + ["", "Noise of the references in rel. MSE: " + "; ".join(noises) + "."]) + "\n"

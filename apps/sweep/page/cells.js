@@ -66,6 +66,30 @@ function isPlain(cell) {
   return !isNumber(cell.train_steps);
 }
 
+/// Whether its samples were fitted to normals and depth; otherwise it is their mean.
+function isReconstructed(cell) {
+  return cell.options?.reconstruct === "on";
+}
+
+/// The ways to a picture, in the order of what they add.
+const kWays = [
+  {name: "path tracing, as traced", plain: true, reconstructed: false},
+  {name: "path tracing, reconstructed", plain: true, reconstructed: true},
+  {name: "with the cache, as traced", plain: false, reconstructed: false},
+  {name: "with the cache, reconstructed", plain: false, reconstructed: true},
+];
+
+function wayOf(cell) {
+  return kWays.find(way => way.plain === isPlain(cell) && way.reconstructed === isReconstructed(cell));
+}
+
+/// Relative root mean square, the measure of the estimated error: {is, estimated}. null where nothing was estimated.
+function relativeErrorOf(cell) {
+  if (!isNumber(cell.estimated_error)) return null;
+  const square = cell.errors?.rel_mse_clean ?? cell.errors?.rel_mse;
+  return {is: isNumber(square) ? Math.sqrt(Math.max(0, square)) : null, estimated: cell.estimated_error};
+}
+
 /// "512 steps", "16 spp".
 function pointName(cell) {
   if (!isPlain(cell)) return plural(cell.train_steps, "step");
@@ -105,6 +129,7 @@ function configurationsOf(cells, metric) {
     return {
       series: group[0].series,
       plain: isPlain(group[0]),
+      way: wayOf(group[0]),
       point: pointName(group[0]),
       at: isPlain(group[0]) ? group[0].spp : group[0].train_steps,
       cells: group,

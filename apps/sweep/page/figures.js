@@ -52,10 +52,13 @@ const kWords = {
   nao: "ambient occlusion out of a neural cache",
   gate: "the cache keeps what it learned on the triangles of the scene",
   hashgrid: "the cache keeps what it learned in a table over space",
+  preview: "--preset preview: the cache answers at the first surface that is no mirror",
+  standard: "--preset standard: paths go on for one bounce to ask the cache, and the picture is reconstructed",
+  reconstructed: "samples are fitted to normals and depth, and to the cache where there is one: most of the grain goes",
 };
 
 function drawWords() {
-  const used = new Set(shownCells().flatMap(cell => [cell.integrator, cell.encoding]));
+  const used = new Set(shownCells().flatMap(cell => [cell.integrator, cell.encoding, cell.axes?.row, isReconstructed(cell) ? "reconstructed" : null]));
   const plain = shownCells().some(isPlain);
   const trained = shownCells().some(cell => !isPlain(cell));
   describe(at("word-list"), [
@@ -86,7 +89,7 @@ function drawTimeChart(series, all) {
     extras: {bands: series.flatMap(s => bandsOf(s, styles.get(s.name), seconds))},
     description: `${state.metric.label} against seconds of ${plural(series.length, "series")}; the table of all pictures has the numbers`,
   });
-  at("time-caption").textContent = "Against seconds of scouting, set-up, training and rendering; both axes logarithmic." + seedsNote(all) +
+  at("time-caption").textContent = "Against seconds of scouting, set-up, training, rendering and reconstruction; both axes logarithmic." + seedsNote(all) +
     (all.some(c => c.plain) ? " Grey and dashed: without a cache." : "");
 }
 
@@ -120,12 +123,18 @@ function drawStepsChart(series, all) {
 }
 
 function drawParetoChart(series, all, shown, limits) {
-  const fronts = [true, false].map(plain => ({
-    points: frontOf(shown.filter(c => c.plain === plain)),
-    color: cssColor(plain ? "--plain" : "--ink"),
-    dash: plain ? [6, 4] : [],
+  const kinds = [
+    {name: "dashed: of those without", of: c => c.plain && !c.way.reconstructed, color: "--plain", dash: [6, 4]},
+    {name: "dotted: of those reconstructed without", of: c => c.plain && c.way.reconstructed, color: "--plain", dash: [2, 3]},
+    {name: "solid: the front of those with a cache", of: c => !c.plain, color: "--ink", dash: []},
+  ];
+  const fronts = kinds.map(kind => ({
+    name: kind.name,
+    points: frontOf(shown.filter(kind.of)),
+    color: cssColor(kind.color),
+    dash: kind.dash,
     width: 1.5,
-  }));
+  })).filter(front => front.points.length > 0);
   const onFront = new Set(fronts.flatMap(front => front.points));
   const scatter = series.map(s => ({
     ...dataset(s, styles.get(s.name), c => c.seconds, false),
@@ -140,16 +149,31 @@ function drawParetoChart(series, all, shown, limits) {
     extras: {fronts, limits: {...limits, color: cssColor("--accent")}},
     description: `${state.metric.label} against seconds of ${plural(shown.length, "configuration")}, with the Pareto front of those with and without a cache`,
   });
-  const both = fronts.every(front => front.points.length > 0);
+  const several = fronts.length > 1;
+  const names = [...fronts].reverse().map(front => front.name).join("; ");
   at("pareto-caption").textContent = `${plural(shown.length, "configuration")}, each the mean of its seeds. ` +
-    (both ? "Solid: the front of those with a cache; dashed: of those without." : "The line is their front.") +
-    ` Large points lie on a front: no other${both ? " of its kind" : ""} is both quicker and more accurate.` +
+    (several ? `${names[0].toUpperCase()}${names.slice(1)}.` : "The line is their front.") +
+    ` Large points lie on a front: no other${several ? " of its kind" : ""} is both quicker and more accurate.` +
     (limits.chosen ? " The ring is around the one to take." : "");
 }
 
-/// What the front without a cache takes to the same error; null for what has no cache either.
-function rivalOf(configuration, shown) {
-  return configuration.plain ? null : secondsAtError(frontOf(shown.filter(c => c.plain)), configuration.error);
+/// What the fronts without a cache take to the same error: {traced, reconstructed}. Each is null where there is no such
+/// front, or where the configuration belongs to it or has less than it.
+function rivalsOf(configuration, shown) {
+  const seconds = reconstructed => {
+    const [way, own] = [kWays.find(w => w.plain && w.reconstructed === reconstructed), configuration.way];
+    if (kWays.indexOf(own) <= kWays.indexOf(way)) return null;
+    return secondsAtError(frontOf(shown.filter(c => c.way === way)), configuration.error);
+  };
+  return {traced: seconds(false), reconstructed: seconds(true)};
+}
+
+/// "22.6 s", or "22.6 s as traced and 9.1 s reconstructed".
+function rivalsText({traced, reconstructed}) {
+  const text = rival => `${sign(rival)}${formatSeconds(rival.seconds)}`;
+  if (!traced && !reconstructed) return "";
+  if (traced && reconstructed) return `${text(traced)} as traced and ${text(reconstructed)} reconstructed`;
+  return text(traced ?? reconstructed);
 }
 
 function sign(rival) {
@@ -184,13 +208,13 @@ function drawAdvice(shown) {
   }
   const {best, met} = adviceOf(shown, limits);
   const seeds = best.cells.length;
-  const rival = rivalOf(best, shown);
+  const rivals = rivalsText(rivalsOf(best, shown));
   at("advice-answer").replaceChildren(
     met ? "" : `None of ${plural(shown.length, "configuration")} keeps that. The nearest: `,
     element("strong", {textContent: `${best.series}, ${best.point}`}),
     `: ${formatSeconds(best.seconds)}, ${state.metric.label} ${formatNumber(best.error)}` +
       (seeds > 1 ? ` (${formatNumber(best.low)} to ${formatNumber(best.high)} over ${plural(seeds, "seed")})` : "") +
-      (rival ? `. Without a cache the same error takes ${sign(rival)}${formatSeconds(rival.seconds)}.` : "."),
+      (rivals ? `. ${best.plain ? "As traced" : "Without a cache"} the same error takes ${rivals}.` : "."),
   );
   const command = best.cells[0].command;
   at("advice-command").hidden = false;
@@ -205,22 +229,27 @@ function drawAdvice(shown) {
 }
 
 function drawFrontTable(shown) {
-  const rows = frontOf(shown).map(c => ({...c, rival: rivalOf(c, shown)}));
+  const rows = frontOf(shown).map(c => ({...c, rivals: rivalsOf(c, shown)}));
+  const rivalColumns = (key, label) => [
+    {label, unit: "s, for the same error", number: true, value: c => c.rivals[key]?.seconds,
+      show: (value, c) => (c.rivals[key] ? sign(c.rivals[key]) + formatNumber(value) : kNone)},
+    {label: "Times faster", unit: `than ${label.toLowerCase()}`, number: true,
+      value: c => (c.rivals[key] ? c.rivals[key].seconds / c.seconds : null),
+      show: (value, c) => (c.rivals[key] ? sign(c.rivals[key]) + formatNumber(value, 2) : kNone)},
+  ];
   const columns = [
     {label: "Configuration", value: c => `${c.series}, ${c.point}`},
     {label: "Time", unit: "s", number: true, value: c => c.seconds},
     {label: state.metric.label, number: true, value: c => c.error},
-    {label: "Without a cache", unit: "s, for the same error", number: true, value: c => c.rival?.seconds,
-      show: (value, c) => (c.rival ? sign(c.rival) + formatNumber(value) : kNone)},
-    {label: "Times faster", number: true, value: c => (c.rival ? c.rival.seconds / c.seconds : null),
-      show: (value, c) => (c.rival ? sign(c.rival) + formatNumber(value, 2) : kNone)},
+    ...rivalColumns("traced", "Without a cache"),
+    ...rivalColumns("reconstructed", "Without, reconstructed"),
     {label: "Command", fixed: true, value: c => c.cells[0].command, show: value => copyButton(value)},
   ];
   if (rows.some(pictureOf)) columns.push({label: "Picture", fixed: true, value: c => c, show: lookButton});
   makeTable("front-table", columns, rows);
-  const compared = rows.some(c => c.rival);
+  const compared = rows.some(c => rivalsText(c.rivals));
   at("front-note").hidden = !compared;
-  at("front-note").textContent = "Seconds without a cache are read off the dashed front, by power laws between its points; < and > where it ends.";
+  at("front-note").textContent = "Seconds without a cache are read off their fronts, by power laws between the points; < and > where a front ends.";
 }
 
 function drawCharts() {

@@ -80,6 +80,13 @@ function flipText(cell) {
   return isNumber(cell.errors?.flip) ? `FLIP ${formatNumber(cell.errors.flip)}` : "";
 }
 
+/// Of a render that has estimated its own error.
+function estimateText(cell) {
+  const error = relativeErrorOf(cell);
+  const percent = x => `${formatNumber(100 * x, 2)}\u00a0%`;
+  return error ? `relative error ${isNumber(error.is) ? percent(error.is) : kNone}, estimated ${percent(error.estimated)}` : "";
+}
+
 /// Entries of the index: {file, exposure, tonemap (of references alone), size, width, element}.
 function entriesOf(file) {
   return file ? pictureIndex.filter(entry => entry.file === file) : [];
@@ -134,14 +141,16 @@ function referencePictureOf(pictures, picture) {
   return own.find(p => sameDisplay(p.display, picture.display)) ?? own[0];
 }
 
-/// The most accurate picture with a cache, and the one without that took about as long; both compared with `reference`.
+/// The most accurate picture with a cache, and the one as traced without that took about as long; both compared with
+/// `reference`.
 function defaultPair(pictures, reference) {
   const made = pictures.filter(p => p.cell && p.reference === reference);
   const best = list => [...list].sort((a, b) => compareValues(a.cell.errors?.flip, b.cell.errors?.flip, 1))[0];
   const right = best(made.filter(p => !isPlain(p.cell))) ?? best(made) ?? pictures[pictures.length - 1];
   const ratio = p => Math.abs(Math.log((secondsOf(p.cell) ?? Infinity) / (secondsOf(right.cell ?? {}) ?? 1)));
-  const rivals = made.filter(p => isPlain(p.cell) && p !== right && sameDisplay(p.display, right.display));
-  const left = rivals.sort((a, b) => ratio(a) - ratio(b))[0] ?? referencePictureOf(pictures, right) ?? right;
+  const plain = made.filter(p => isPlain(p.cell) && p !== right && sameDisplay(p.display, right.display));
+  const traced = plain.filter(p => !isReconstructed(p.cell));
+  const left = (traced.length > 0 ? traced : plain).sort((a, b) => ratio(a) - ratio(b))[0] ?? referencePictureOf(pictures, right) ?? right;
   return {left: left.id, right: right.id};
 }
 
@@ -163,7 +172,7 @@ function showSide(side, picture) {
   const image = at(`${side}-picture`);
   image.src = uriOf(picture.entry);
   image.alt = `${side}: ${picture.name}`;
-  at(`${side}-caption`).textContent = [picture.name, picture.detail].filter(Boolean).join(", ");
+  at(`${side}-caption`).textContent = [picture.name, picture.detail, picture.cell ? estimateText(picture.cell) : ""].filter(Boolean).join(", ");
   const map = at(`${side}-map`);
   const none = at(`${side}-no-map`);
   map.hidden = !picture.map;
@@ -212,19 +221,20 @@ function pictureOf(configuration) {
   return configuration.cells.find(cell => entriesOf(cell.picture).length > 0);
 }
 
-/// Puts the picture of a configuration beside its reference.
-function lookAt(configuration) {
+/// Puts the picture of a cell beside its reference.
+function lookAt(cell) {
   const pictures = picturesOf(scenes.find(s => s.name === state.scene) ?? {}, sceneCells());
-  const right = pictures.find(p => p.cell === pictureOf(configuration));
+  const right = pictures.find(p => p.cell === cell);
   showPictures(pictures, {left: (referencePictureOf(pictures, right) ?? right).id, right: right.id});
   at("pictures-section").scrollIntoView();
   at("handle").focus({preventScroll: true});
 }
 
 function lookButton(configuration) {
-  if (!pictureOf(configuration)) return kNone;
+  const cell = pictureOf(configuration);
+  if (!cell) return kNone;
   const button = element("button", {type: "button", className: "small", textContent: "look"});
   button.setAttribute("aria-label", `Look at ${configuration.series}, ${configuration.point}`);
-  button.addEventListener("click", () => lookAt(configuration));
+  button.addEventListener("click", () => lookAt(cell));
   return button;
 }

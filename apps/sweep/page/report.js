@@ -32,6 +32,7 @@ function drawPictures() {
   const pictures = picturesOf(scene, sceneCells());
   const some = pictures.some(p => p.cell);
   at("pictures-section").hidden = !some;
+  drawStrip(pictures);
   if (!some) return;
   at("zoom").value = "fit";
   showPictures(pictures, defaultPair(pictures, state.reference));
@@ -89,6 +90,7 @@ at("filter").addEventListener("input", drawCells);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawCharts);
 listenToKeys();
 listenToPointer();
+listenToStrip();
 listenToCopied();
 moveBorder(50);
 drawHead();

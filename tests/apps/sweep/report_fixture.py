@@ -127,6 +127,21 @@ def two_exposures():
     return results([scene("room")], cells)
 
 
+def ways():
+    """Path tracing and a cache, each as traced and reconstructed. The reconstructed take 0.1 s more and have half the FLIP."""
+    def reconstructed(made):
+        flip = made["errors"]["flip"] / 2
+        return dict(made, options=dict(made["options"], reconstruct="on"), estimated_error=0.9 * flip,
+                    seconds=dict(made["seconds"], reconstruct=0.1, total=made["seconds"]["total"] + 0.1),
+                    errors=dict(made["errors"], flip=flip, rel_mse_clean=flip ** 2))
+
+    return results([scene("room")], [
+        *[cell("room", "path", 1, spp=spp) for spp in (1, 4, 16, 64)],
+        *[reconstructed(cell("room", "path reconstructed", 1, spp=spp)) for spp in (1, 4, 16, 64)],
+        *[cell("room", "nrc preview", 1, steps, axes={"row": "preview"}) for steps in STEPS],
+        *[reconstructed(cell("room", "nrc standard", 1, steps, axes={"row": "standard"})) for steps in (64, 256, 1024)]])
+
+
 def edges():
     """Sweeps that lack something or have more than usual, by name."""
     nothing = {key: None for key in ("mse", "rel_mse", "rel_mse_clean", "psnr", "ssim", "flip", "hdr_flip")}
@@ -148,6 +163,7 @@ def edges():
         "no pictures": results([dict(scene("room"), references=[])], [dict(c, picture=None, error_map=None) for c in gate]),
         "hostile names": results([scene(hostile)], [cell(hostile, hostile, 1, steps) for steps in STEPS]),
         "two depths": two_depths(),
+        "four ways": ways(),
         "older results": older(),
         "two exposures": two_exposures(),
         "wide pictures": results([scene("room")], gate[:2]),

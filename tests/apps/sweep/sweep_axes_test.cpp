@@ -67,15 +67,27 @@ std::string refused(const SweepWords& words) {
   return refusal([&] { make_request(words); });
 }
 
-TEST(SweepRequest, DefaultsAreAnAcceleratedPictureFromFewToManySteps) {
-  const SweepRequest request = make_request(words_for({}));
-  ASSERT_EQ(request.blocks.size(), 1u);
+TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySizes) {
+  const SweepRequest request = make_request(words_for({{"--batch", "512"}}));
+  ASSERT_EQ(request.blocks.size(), 2u);
   EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
-  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--integrator", "nrc"), Pair("--spp", "4")));
+  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--preset", "preview"), Pair("--batch", "512")));
+  EXPECT_THAT(request.blocks[1].train_steps, ElementsAre(64, 256, 1024));
+  EXPECT_THAT(request.blocks[1].base, ElementsAre(Pair("--preset", "standard"), Pair("--batch", "512")));
+  ASSERT_EQ(request.blocks[1].axes.size(), 1u);
+  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("2", "6", "24"));
   EXPECT_THAT(request.plain_spp, ElementsAre(1, 4, 16, 64));
   EXPECT_TRUE(request.plain);
   EXPECT_EQ(request.seeds, 1);
   EXPECT_EQ(request.first_seed, 1u);
+}
+
+TEST(SweepRequest, WithAnAxisItIsAnAcceleratedPictureFromFewToManySteps) {
+  const SweepRequest request = make_request(words_for({}, {"features=2,4"}));
+  ASSERT_EQ(request.blocks.size(), 1u);
+  EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
+  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--integrator", "nrc"), Pair("--spp", "4")));
+  EXPECT_TRUE(request.plain);
 }
 
 TEST(SweepRequest, APresetOfRenderSaysIntegratorAndSamplesItself) {

@@ -36,9 +36,12 @@ class SweepCommand : public ::testing::Test {
   /// A sweep of seconds; `more` wins.
   Words words(const std::string& out, const Words& more, const std::string& scene = cornell()) const {
     Words all = {"sweep", scene, "-o", path(out), "--quiet"};
-    const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp", "1,4",
-                            "--batch", "256",   "--reference-spp", "8"};
+    const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp",         "1,4",
+                            "--batch", "256",   "--reference-spp", "8",   "--reconstruct", "off"};
+    // Rows of a preset say themselves what is reconstructed.
+    const bool preset = std::find(more.begin(), more.end(), "--preset") != more.end();
     for (std::size_t i = 0; i < defaults.size(); i += 2) {
+      if (preset && defaults[i] == "--reconstruct") continue;
       if (std::find(more.begin(), more.end(), defaults[i]) != more.end()) continue;
       all.insert(all.end(), {defaults[i], defaults[i + 1]});
     }
@@ -180,6 +183,84 @@ TEST_F(SweepCommand, ACellIsThePictureThatItsCommandMakes) {
     EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
         << line.str();
   }
+}
+
+/// Nothing says what is wanted, so it is the bare and the finished cache beside path tracing of both kinds.
+class SweepOfASceneAlone : public SweepCommand {
+ protected:
+  Words all_rows(const std::string& out) const {
+    Words call = words(out, {});
+    const auto at = std::find(call.begin(), call.end(), "--reconstruct");
+    call.erase(at, at + 2);
+    return call;
+  }
+};
+
+TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
+  const Output output = run_gatelight_inside(all_rows("out"));
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const json all = results("out");
+  std::map<std::string, int> cells;
+  std::map<std::string, std::vector<float>> pixels;
+  for (const json& cell : all["cells"]) {
+    ++cells[cell["series"].get<std::string>()];
+    const bool finished = cell["options"]["reconstruct"] == "on";
+    EXPECT_EQ(cell["axes"]["reconstruct"], finished ? "on" : "off");
+    EXPECT_EQ(cell["seconds"]["reconstruct"].is_number(), finished);
+    const json& seconds = cell["seconds"];
+    double sum = 0.0;
+    for (const char* phase : {"scout", "setup", "train", "render", "reconstruct"}) {
+      if (seconds[phase].is_number()) sum += seconds[phase].get<double>();
+    }
+    EXPECT_NEAR(seconds["total"].get<double>(), sum, 1e-9);
+    EXPECT_EQ(cell["reference_id"], all["scenes"][0]["references"][0]["id"]);
+    if (cell["series"] == "nrc preview" || (cell["series"] == "path" && cell["spp"] == 1)) continue;
+    std::istringstream line(cell["command"].get<std::string>());
+    Words command;
+    for (std::string word; line >> word;) command.push_back(word);
+    command.erase(command.begin());
+    command.back() = path("cell.png");
+    command.push_back("--quiet");
+    ASSERT_EQ(run_gatelight_inside(command).exit_code, 0) << line.str();
+    EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
+        << line.str();
+  }
+  EXPECT_EQ(cells, (std::map<std::string, int>{{"path", 2},
+                                               {"path reconstructed", 2},
+                                               {"nrc preview", 2},
+                                               {"nrc standard spp 2", 2},
+                                               {"nrc standard spp 6", 2},
+                                               {"nrc standard spp 24", 2}}));
+  EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr(",axis_reconstruct"));
+}
+
+TEST_F(SweepOfASceneAlone, GoesOnWhereItWasStoppedAndSharesCellsWithASweepOfLess) {
+  ASSERT_EQ(run_gatelight_inside(all_rows("straight")).exit_code, 0);
+  Process process(loud(all_rows("out")));
+  process.wait_for_error_text("\"event\":\"cell\"");
+  process.send(SIGTERM);
+  process.finish();
+  const auto before = times_of({folder / "out/cells"});
+  ASSERT_EQ(run_gatelight_inside(all_rows("out")).exit_code, 0);
+  const auto after = times_of({folder / "out/cells"});
+  for (const auto& [file, time] : before) EXPECT_EQ(after.at(file), time) << file;
+  EXPECT_EQ(after.size(), 12u);
+  EXPECT_EQ(without_seconds(results("out")), without_seconds(results("straight")));
+  // Path tracing as traced is the same cell in any sweep.
+  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  EXPECT_EQ(times_of({folder / "out/cells"}).size(), 12u + 2u);
+}
+
+TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
+  ASSERT_EQ(run_gatelight_inside(all_rows("out")).exit_code, 0);
+  const json all = results("out");
+  const auto least = [](const json& a, const json& b) { return a["errors"]["flip"] < b["errors"]["flip"]; };
+  const json& best = *std::min_element(all["cells"].begin(), all["cells"].end(), least);
+  ASSERT_EQ(best["options"]["reconstruct"], "on");
+  const Output advice = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-time", "1000"});
+  EXPECT_EQ(advice.exit_code, 0) << advice.err;
+  EXPECT_THAT(advice.out, AllOf(HasSubstr("cornell-box (path): " + best["series"].get<std::string>()),
+                                HasSubstr("\n  " + best["command"].get<std::string>() + "\n")));
 }
 
 TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {

@@ -107,6 +107,62 @@ TEST(SweepPlan, TheBareCacheHasAReferenceOfItsOwnAndNoPlainRow) {
   EXPECT_EQ(plan.scenes[0].series[2].reference, ReferenceKind::cache);
 }
 
+SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> vary = {},
+                              const std::string& steps = "") {
+  SweepWords words;
+  words.scenes = {"room.glb"};
+  words.base = std::move(base);
+  words.vary = std::move(vary);
+  words.train_steps = steps;
+  return make_plan(make_request(words));
+}
+
+TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
+  const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
+  ASSERT_THAT(labels(plan), ElementsAre("nrc preview", "path", "nrc standard spp 2", "path reconstructed",
+                                        "nrc standard spp 6", "nrc standard spp 24"));
+  EXPECT_EQ(plan.seeds.size(), 1u);
+  const std::vector<PlannedSeries>& all = plan.scenes[0].series;
+  for (const PlannedSeries& s : all) {
+    const bool finished = s.label.starts_with("nrc standard") || s.label == "path reconstructed";
+    EXPECT_EQ(s.settings.render.reconstruct, finished) << s.label;
+    EXPECT_THAT(s.axes, Contains(Pair("reconstruct", finished ? "on" : "off"))) << s.label;
+    EXPECT_EQ(s.reference, ReferenceKind::path);
+    EXPECT_EQ(s.settings.render.width, 64);
+  }
+  EXPECT_THAT(all[1].points, ElementsAre(1, 4, 16, 64));
+  EXPECT_EQ(all[3].points, all[1].points);
+  EXPECT_THAT(all[4].points, ElementsAre(64, 256, 1024));
+  EXPECT_EQ(all[4].settings.render.spp, 6);
+  EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
+            "gatelight render room.glb --size 64x36 --integrator path --reconstruct on --spp 4 --seed 1 -o "
+            "out.exr");
+  // Steps that are given hold for all rows.
+  const SweepPlan short_plan = plan_of_scene_alone({}, {}, "8,16");
+  for (const PlannedSeries& s : short_plan.scenes[0].series) {
+    if (s.has_cache()) EXPECT_THAT(s.points, ElementsAre(8, 16)) << s.label;
+  }
+}
+
+TEST(SweepPlan, WhatRowsPromiseIsNotChangedSilently) {
+  EXPECT_THAT(labels(plan_of_scene_alone({{"--query-at", "gather"}})), ElementsAre("nrc gate", "path"));
+  EXPECT_THAT(labels(plan_of_scene_alone({{"--view", "cache"}})), ElementsAre("nrc gate"));
+  EXPECT_THAT(labels(plan_of_scene_alone({{"--reconstruct", "on"}})),
+              ElementsAre("nrc gate reconstructed", "path", "path reconstructed"));
+}
+
+TEST(SweepPlan, WhatIsReconstructedHasPathTracingOfBothKindsBesideIt) {
+  EXPECT_THAT(labels(plan_of_scene_alone({}, {"reconstruct=off,on"})),
+              ElementsAre("nrc gate", "path", "nrc gate reconstructed", "path reconstructed"));
+  EXPECT_THAT(labels(plan_of({}, {"integrator=path", "reconstruct=off,on"})),
+              ElementsAre("path", "path reconstructed"));
+  EXPECT_THAT(labels(plan_of({}, {}, false, "standard")),
+              ElementsAre("nrc gate reconstructed", "path", "path reconstructed"));
+  EXPECT_THAT(labels(plan_of({}, {"preset=standard"}, true)), ElementsAre("nrc gate"));
+  EXPECT_THAT(labels(plan_of({}, {"integrator=nao", "reconstruct=on"}, false)),
+              ElementsAre("nao gate reconstructed", "ao", "ao reconstructed"));
+}
+
 TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {
   const SweepPlan plan = plan_of({}, {"preset=preview,paper-nao"}, false);
   ASSERT_THAT(labels(plan),

@@ -112,6 +112,23 @@ TEST(SweepRecord, OfAPlainIntegratorHasNoCache) {
   EXPECT_EQ(r["spp"], 16);
 }
 
+TEST(SweepRecord, TimeOfReconstructionCountsAndTheErrorThatItEstimatesIsKept) {
+  const SweepPlan plan = small_plan();
+  PlannedSeries series = plan.scenes[0].series[0];
+  const CellPlace place{plan.scenes[0], series, 1, 8, "0123", "ref"};
+  renderer::RenderStatistics s = statistics();
+  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["seconds"]["reconstruct"].is_null());
+  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["estimated_error"].is_null());
+  series.settings.render.reconstruct = true;
+  s.reconstruct_seconds = 0.5;
+  s.estimated_error = 0.125;
+  const ordered_json r = done_record(place, s, errors(), true, 2.5f);
+  EXPECT_EQ(r["seconds"]["reconstruct"], 0.5);
+  EXPECT_EQ(r["seconds"]["total"], 4.25);
+  EXPECT_EQ(r["estimated_error"], 0.125);
+  EXPECT_EQ(r["options"]["reconstruct"], "on");
+}
+
 TEST(SweepRecord, TellsWhoMadeItAndWhatWasChosenOnTheWay) {
   const SweepPlan plan = small_plan();
   const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
@@ -206,14 +223,18 @@ TEST(SweepRecord, OfAnotherShapeOrSchemaIsNone) {
     EXPECT_FALSE(reads(without)) << key;
   }
   // Edited by hand.
-  for (const char* text :
-       {R"({"errors": {"flip": "zz"}})", R"({"errors": {"mse": [1]}})", R"({"seconds": {"total": -5}})",
-        R"({"seconds": {"render": "fast"}})", R"({"loss": {}})", R"({"memory_bytes": 1})",
-        R"({"picture": "../../secret.png"})", R"({"error_map": "cells/0123.json"})"}) {
+  for (const char* text : {R"({"errors": {"flip": "zz"}})", R"({"errors": {"mse": [1]}})",
+                           R"({"seconds": {"total": -5}})", R"({"seconds": {"render": "fast"}})",
+                           R"({"loss": {}})", R"({"memory_bytes": 1})", R"({"estimated_error": "small"})",
+                           R"({"picture": "../../secret.png"})", R"({"error_map": "cells/0123.json"})"}) {
     ordered_json edited = whole;
     edited.merge_patch(ordered_json::parse(text));
     EXPECT_FALSE(reads(edited)) << text;
   }
+  ordered_json earlier = whole;
+  earlier.erase("estimated_error");
+  earlier["seconds"].erase("reconstruct");
+  EXPECT_TRUE(reads(earlier)) << "of a version that neither reconstructed nor estimated";
   ordered_json negative = whole;
   negative["errors"]["psnr"] = -3.0;
   EXPECT_TRUE(reads(negative)) << "a very bad picture";
