@@ -24,9 +24,9 @@ given and holds for all cells (--size, --camera, --batch ...; see its --help). A
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
 Where no --preset, axis, --vary, --reconstruct, --view, --query-at or --cache-holds says what is wanted, a sweep shows
-what can be had for a time: 'path' as traced and 'path reconstructed' at the samples of --spp; 'nrc preview', which is
---preset preview after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 64, 256
-and 1024 steps with 2, 6 and 24 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
+what can be had for a time: 'path' as traced and 'path reconstructed' at the samples of --spp; 'nrc bare', which is
+--preset bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512
+and 2048 steps with 1, 3 and 12 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
 measured both as traced and reconstructed. Time counts all phases: scouting, training, rendering, reconstruction.
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
@@ -45,7 +45,7 @@ after):
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
   paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
-Those of 'gatelight render' (preview, standard, final, paper-nao, paper-nrc) stand for their flags. Several of them are
+Those of 'gatelight render' (bare, preview, standard, final, paper-nao, paper-nrc) stand for their flags. Several of them are
 an axis: --vary preset=preview,standard.
 
 Examples:

@@ -74,17 +74,18 @@ Option preset_option(std::optional<CachePreset>& preset) {
   const auto read = [&preset](const std::string& text) {
     preset = renderer::parse_choice("--preset", text, kWords<CachePreset>);
   };
-  return {.name = "preset",
-          .unit = renderer::choice_names(kWords<CachePreset>),
-          .help =
-              "Values for many flags at once; flags beside it win: nrc in seconds, a finished picture (a few "
-              "gathers, reconstructed), nrc with many gathers, or the paper's nao and nrc (with its size and "
-              "samples)",
-          .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
-          .read = read,
-          .group = "Light transport",
-          .of_cache = true,
-          .in_recipe = InRecipe::unless_reproducible};
+  return {
+      .name = "preset",
+      .unit = renderer::choice_names(kWords<CachePreset>),
+      .help =
+          "Values for many flags at once; flags beside it win: the cache's bare answers; finished pictures "
+          "in seconds, with little grain, or to keep; or the paper's nao and nrc (with its size and "
+          "samples)",
+      .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
+      .read = read,
+      .group = "Light transport",
+      .of_cache = true,
+      .in_recipe = InRecipe::unless_reproducible};
 }
 
 }  // namespace

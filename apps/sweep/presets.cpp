@@ -5,10 +5,10 @@
 namespace gatelight::apps {
 namespace {
 
-/// Samples and steps of finished pictures: the preset's own in the middle, and about a quarter and four times
+/// Passes and steps of finished pictures: the preset's own in the middle, and about a third and four times
 /// as much work.
-const std::vector<std::string> kStandardSpp = {"2", "6", "24"};
-const std::vector<int> kStandardSteps = {64, 256, 1024};
+const std::vector<std::string> kStandardSpp = {"1", "3", "12"};
+const std::vector<int> kStandardSteps = {128, 512, 2048};
 
 /// The step counts of the paper: 128 in its tables, from 8 on in its figure.
 const std::vector<int> kTableSteps = {128};
@@ -131,7 +131,7 @@ const Preset kPresets[] = {
 }  // namespace
 
 std::vector<SweepBlock> default_rows() {
-  return {{.row = "preview", .base = {{"--preset", "preview"}}, .axes = {}, .train_steps = kDefaultSteps},
+  return {{.row = "bare", .base = {{"--preset", "bare"}}, .axes = {}, .train_steps = kDefaultSteps},
           {.row = "standard",
            .base = {{"--preset", "standard"}},
            .axes = {{"--spp", kStandardSpp}},

@@ -1,29 +1,38 @@
 #include "renderer/settings/presets.h"
 
 namespace gatelight::renderer {
+namespace {
+
+/// A finished picture: training learns from the picture's samples, and what all samples say is reconstructed.
+/// Steps are chosen by the picture's pixels and samples.
+void set_finished(RenderOptions& options, int spp) {
+  options.integrator = Integrator::nrc;
+  options.spp = spp;
+  options.reconstruct = true;
+  options.cache.source = TrainingSource::picture;
+  options.cache.query_at = QueryAt::gather;
+  options.cache.holds = CacheHolds::no_delta;
+}
+
+}  // namespace
 
 void apply_preset(CachePreset preset, RenderOptions& options) {
   CacheOptions& cache = options.cache;
   switch (preset) {
-    case CachePreset::preview:
+    case CachePreset::bare:
       options.integrator = Integrator::nrc;
       options.spp = 4;
       cache.query_at = QueryAt::primary;
       cache.holds = CacheHolds::no_delta;
       break;
+    case CachePreset::preview:
+      set_finished(options, 2);
+      break;
     case CachePreset::standard:
-      options.integrator = Integrator::nrc;
-      options.spp = 6;
-      options.reconstruct = true;
-      cache.train_steps = 256;
-      cache.query_at = QueryAt::gather;
-      cache.holds = CacheHolds::no_delta;
+      set_finished(options, 3);
       break;
     case CachePreset::final:
-      options.integrator = Integrator::nrc;
-      options.spp = 64;
-      cache.query_at = QueryAt::gather;
-      cache.holds = CacheHolds::no_delta;
+      set_finished(options, 32);
       break;
     case CachePreset::paper_nao:
     case CachePreset::paper_nrc: {

@@ -8,9 +8,10 @@
 namespace gatelight::renderer {
 
 enum class CachePreset : std::uint8_t {
-  preview,    ///< a preview in seconds: query at the primary hit, few samples
-  standard,   ///< a finished picture: some samples with a gather, reconstructed
-  final,      ///< a final picture: longer training, query after a gather
+  bare,       ///< the cache's answers at the first wide hit, as they are
+  preview,    ///< a finished picture in seconds: few samples that end after a gather, reconstructed
+  standard,   ///< the same with some more samples
+  final,      ///< the same with many
   paper_nao,  ///< ambient occlusion as in the paper
   paper_nrc,  ///< radiance as in the paper, without emission and reflectance of the primary hit
 };

@@ -72,11 +72,10 @@ inline constexpr Choice<TrainingSource> kWords<TrainingSource>[] = {{"picture", 
                                                                     {"camera", TrainingSource::camera},
                                                                     {"surface", TrainingSource::surface}};
 template <>
-inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {{"preview", CachePreset::preview},
-                                                              {"standard", CachePreset::standard},
-                                                              {"final", CachePreset::final},
-                                                              {"paper-nao", CachePreset::paper_nao},
-                                                              {"paper-nrc", CachePreset::paper_nrc}};
+inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {
+    {"bare", CachePreset::bare},           {"preview", CachePreset::preview},
+    {"standard", CachePreset::standard},   {"final", CachePreset::final},
+    {"paper-nao", CachePreset::paper_nao}, {"paper-nrc", CachePreset::paper_nrc}};
 template <>
 inline constexpr Choice<Tonemap> kWords<Tonemap>[] = {{"none", Tonemap::none}, {"filmic", Tonemap::filmic}};
 template <>

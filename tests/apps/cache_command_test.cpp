@@ -159,7 +159,7 @@ TEST_F(CacheCommand, TheSeedChangesTheTraining) {
 }
 
 TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
-  for (const char* preset : {"preview", "standard", "final", "paper-nao", "paper-nrc"}) {
+  for (const char* preset : {"bare", "preview", "standard", "final", "paper-nao", "paper-nrc"}) {
     for (const char* encoding : {"gate", "hashgrid"}) {
       const json stats = statistics({"--preset", preset, "--encoding", encoding});
       expect_picture(path("a.exr"));

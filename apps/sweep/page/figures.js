@@ -52,7 +52,7 @@ const kWords = {
   nao: "ambient occlusion out of a neural cache",
   gate: "the cache keeps what it learned on the triangles of the scene",
   hashgrid: "the cache keeps what it learned in a table over space",
-  preview: "--preset preview: the cache answers at the first surface that is no mirror",
+  bare: "--preset bare: the cache answers at the first surface that is no mirror",
   standard: "--preset standard: paths go on for one bounce to ask the cache, and the picture is reconstructed",
   reconstructed: "samples are fitted to normals and depth, and to the cache where there is one: most of the grain goes",
 };

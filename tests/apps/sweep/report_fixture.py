@@ -138,7 +138,7 @@ def ways():
     return results([scene("room")], [
         *[cell("room", "path", 1, spp=spp) for spp in (1, 4, 16, 64)],
         *[reconstructed(cell("room", "path reconstructed", 1, spp=spp)) for spp in (1, 4, 16, 64)],
-        *[cell("room", "nrc preview", 1, steps, axes={"row": "preview"}) for steps in STEPS],
+        *[cell("room", "nrc bare", 1, steps, axes={"row": "bare"}) for steps in STEPS],
         *[reconstructed(cell("room", "nrc standard", 1, steps, axes={"row": "standard"})) for steps in (64, 256, 1024)]])
 
 

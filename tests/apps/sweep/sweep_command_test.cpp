@@ -214,7 +214,7 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
     }
     EXPECT_NEAR(seconds["total"].get<double>(), sum, 1e-9);
     EXPECT_EQ(cell["reference_id"], all["scenes"][0]["references"][0]["id"]);
-    if (cell["series"] == "nrc preview" || (cell["series"] == "path" && cell["spp"] == 1)) continue;
+    if (cell["series"] == "nrc bare" || (cell["series"] == "path" && cell["spp"] == 1)) continue;
     std::istringstream line(cell["command"].get<std::string>());
     Words command;
     for (std::string word; line >> word;) command.push_back(word);
@@ -227,10 +227,10 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   }
   EXPECT_EQ(cells, (std::map<std::string, int>{{"path", 2},
                                                {"path reconstructed", 2},
-                                               {"nrc preview", 2},
-                                               {"nrc standard spp 2", 2},
-                                               {"nrc standard spp 6", 2},
-                                               {"nrc standard spp 24", 2}}));
+                                               {"nrc bare", 2},
+                                               {"nrc standard spp 1", 2},
+                                               {"nrc standard spp 3", 2},
+                                               {"nrc standard spp 12", 2}}));
   EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr(",axis_reconstruct"));
 }
 

@@ -119,8 +119,8 @@ SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> var
 
 TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
   const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
-  ASSERT_THAT(labels(plan), ElementsAre("nrc preview", "path", "nrc standard spp 2", "path reconstructed",
-                                        "nrc standard spp 6", "nrc standard spp 24"));
+  ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 1", "path reconstructed",
+                                        "nrc standard spp 3", "nrc standard spp 12"));
   EXPECT_EQ(plan.seeds.size(), 1u);
   const std::vector<PlannedSeries>& all = plan.scenes[0].series;
   for (const PlannedSeries& s : all) {
@@ -132,7 +132,7 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   }
   EXPECT_THAT(all[1].points, ElementsAre(1, 4, 16, 64));
   EXPECT_EQ(all[3].points, all[1].points);
-  EXPECT_THAT(all[4].points, ElementsAre(64, 256, 1024));
+  EXPECT_THAT(all[4].points, ElementsAre(128, 512, 2048));
   EXPECT_EQ(all[4].settings.render.spp, 6);
   EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
             "gatelight render room.glb --size 64x36 --integrator path --reconstruct on --spp 4 --seed 1 -o "

@@ -63,32 +63,32 @@ TEST(Presets, PaperNrcIsThePapersRadiance) {
   EXPECT_EQ(options.cache.train_steps, 1024);
 }
 
-TEST(Presets, PreviewAsksAtTheFirstVertexAndFinalAfterAGather) {
-  RenderOptions preview;
-  apply_preset(CachePreset::preview, preview);
-  RenderOptions standard;
-  apply_preset(CachePreset::standard, standard);
-  RenderOptions final;
-  apply_preset(CachePreset::final, final);
-  for (const RenderOptions* o : {&preview, &standard, &final}) {
-    EXPECT_EQ(o->integrator, Integrator::nrc);
-    EXPECT_EQ(o->cache.holds, CacheHolds::no_delta);
-    EXPECT_EQ(o->cache.view, CacheView::final);
-    EXPECT_EQ(o->width, RenderOptions().width);
-    EXPECT_EQ(o->height, RenderOptions().height);
-  }
-  EXPECT_EQ(preview.cache.query_at, QueryAt::primary);
-  EXPECT_EQ(final.cache.query_at, QueryAt::gather);
-  EXPECT_LT(preview.spp, standard.spp);
-  EXPECT_LT(standard.spp, final.spp);
+TEST(Presets, BareAsksAtTheFirstVertexAndShowsTheAnswers) {
+  RenderOptions options;
+  apply_preset(CachePreset::bare, options);
+  EXPECT_EQ(options.integrator, Integrator::nrc);
+  EXPECT_EQ(options.cache.query_at, QueryAt::primary);
+  EXPECT_EQ(options.cache.source, TrainingSource::camera);
+  EXPECT_FALSE(options.reconstruct);
 }
 
-TEST(Presets, StandardIsReconstructedFromAGather) {
-  RenderOptions options;
-  apply_preset(CachePreset::standard, options);
-  EXPECT_EQ(options.cache.query_at, QueryAt::gather);
-  EXPECT_TRUE(options.reconstruct);
-  EXPECT_EQ(options.cache.train_steps, 256);
+TEST(Presets, FinishedPicturesAreReconstructedFromSamplesThatTeach) {
+  int spp = 0;
+  for (const CachePreset preset : {CachePreset::preview, CachePreset::standard, CachePreset::final}) {
+    RenderOptions options;
+    apply_preset(preset, options);
+    EXPECT_EQ(options.integrator, Integrator::nrc);
+    EXPECT_TRUE(options.reconstruct);
+    EXPECT_EQ(options.cache.source, TrainingSource::picture);
+    EXPECT_EQ(options.cache.query_at, QueryAt::gather);
+    EXPECT_EQ(options.cache.holds, CacheHolds::no_delta);
+    EXPECT_EQ(options.cache.view, CacheView::final);
+    EXPECT_FALSE(options.cache.train_steps) << "nothing about training";
+    EXPECT_EQ(options.width, RenderOptions().width);
+    EXPECT_EQ(options.height, RenderOptions().height);
+    EXPECT_GT(options.spp, spp);
+    spp = options.spp;
+  }
 }
 
 TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
@@ -103,8 +103,8 @@ TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
 }
 
 TEST(Presets, WhatIsNoneOfTheirBusinessStays) {
-  for (const CachePreset preset : {CachePreset::preview, CachePreset::standard, CachePreset::final,
-                                   CachePreset::paper_nao, CachePreset::paper_nrc}) {
+  for (const CachePreset preset : {CachePreset::bare, CachePreset::preview, CachePreset::standard,
+                                   CachePreset::final, CachePreset::paper_nao, CachePreset::paper_nrc}) {
     RenderOptions options;
     options.seed = 5;
     options.max_depth = 3;
