@@ -68,6 +68,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["spp"] = s.spp;
   json["samples"] = s.samples;
   json["interrupted"] = s.interrupted;
+  if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
   if (report.signal != 0) json["signal"] = report.signal;
   json["seconds"] = seconds(report, with_cache, settings.render.reconstruct);
   json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};

@@ -35,7 +35,7 @@ class Renderer::Implementation::PictureRun {
     SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp);
     run_passes(loop, *pass);
     end(loop, *pass);
-    return finished(renderer_.statistics.reconstruct_seconds);
+    return finished();
   }
 
  private:
@@ -102,7 +102,7 @@ class Renderer::Implementation::PictureRun {
       if (loop.done() == options_.spp) return;
       if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
         renderer_.statistics = sum_up(loop, pass);
-        callbacks_.snapshot(finished(renderer_.statistics.reconstruct_seconds));
+        callbacks_.snapshot(finished());
       }
       if (loop.over()) return;
       if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
@@ -118,8 +118,12 @@ class Renderer::Implementation::PictureRun {
     loop.report_end();
   }
 
-  Picture finished(double& seconds) const {
-    return finished_picture(film_, options_, renderer_.arena, seconds);
+  /// The picture of the film, with its statistics.
+  Picture finished() {
+    FinishedPicture finished = finished_picture(film_, options_, renderer_.arena);
+    renderer_.statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    renderer_.statistics.estimated_error = finished.estimated_error;
+    return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
   /// A picture from an incomplete cache is a preview; it is never resumed.

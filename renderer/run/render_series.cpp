@@ -80,8 +80,10 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
-    picture(static_cast<int>(point), finished, statistics);
+    const FinishedPicture finished = finished_picture(film, options, arena);
+    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.estimated_error = finished.estimated_error;
+    picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
     if (bookmark) session.return_to(*bookmark);
   }
@@ -103,8 +105,10 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
-    picture(static_cast<int>(point), finished, statistics);
+    const FinishedPicture finished = finished_picture(film, options, arena);
+    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.estimated_error = finished.estimated_error;
+    picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));
   }
   return true;
