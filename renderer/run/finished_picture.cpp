@@ -22,6 +22,8 @@ void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
 
 /// The samples' own brightness is taken from so many pixels around each, in each direction.
 constexpr int kSmoothing = 5;
+/// The same of finished halves.
+constexpr int kHalfSmoothing = 2;
 
 bool tells_error(const Film& film) {
   return film.samples_per_pixel() >= 2.0;
@@ -30,6 +32,18 @@ bool tells_error(const Film& film) {
 std::optional<double> error_of(const Film& film, const Picture& picture) {
   if (!tells_error(film)) return std::nullopt;
   return estimated_error(picture, picture.layers.front(), film.layer(Aov::error), kSmoothing);
+}
+
+/// The halves are as good as independent, so half their difference is the error of their mean. Relative to
+/// the darker one: where one half met a bright sample, the other one tells what is usual there.
+double error_of(const Picture& picture, const Reconstruction& finished) {
+  const auto& [a, b] = finished.halves;
+  Layer darker{.channels = picture.layers.front().channels, .values = a}, errors = darker;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    darker.values[i] = std::min(a[i], b[i]);
+    errors.values[i] = 0.5f * (a[i] - b[i]);
+  }
+  return estimated_error(picture, darker, errors, kHalfSmoothing);
 }
 
 }  // namespace
@@ -50,11 +64,9 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
   arena.execute([&] {
     Reconstruction finished = reconstruct(samples);
     picture.layers.front().values = std::move(finished.color);
-    Layer errors{.channels = picture.layers.front().channels, .values = std::move(finished.error)};
-    if (tells_error(film))
-      result.estimated_error = estimated_error(picture, picture.layers.front(), errors, 0);
+    if (tells_error(film)) result.estimated_error = error_of(picture, finished);
     for (Layer& layer : picture.layers) {
-      if (layer.name == word(Aov::error)) layer.values = std::move(errors.values);
+      if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
     }
   });
   result.reconstruct_seconds = seconds_since(start);
