@@ -52,8 +52,7 @@ class RenderRun {
  public:
   RenderRun(const RenderSettings& settings, const std::vector<std::string>& command)
       : settings_(settings),
-        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render),
-                  settings.render.time_limit_seconds) {
+        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render)) {
     report_.command = command;
   }
 

@@ -25,11 +25,11 @@ const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
 
-/// Flags of files, of the progress of one picture, and of time limits.
+/// Flags of files, of the progress of one picture, and of what ends one early.
 constexpr const char* kNoBaseFlags[] = {
-    "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
-    "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
-    "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
+    "--output",    "--stats",      "--checkpoint",   "--checkpoint-every", "--resume", "--cache-in",
+    "--cache-out", "--exr",        "--reproducible", "--progress",         "--quiet",  "--verbose",
+    "--aov",       "--time-limit", "--max-error",    "--train-time"};
 
 /// `sweep` has flags of these names with lists or more presets.
 constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};

@@ -78,7 +78,7 @@ void CachedPass::run(std::uint32_t first, std::uint32_t end, Film& film,
   const double all = static_cast<double>(end - first) * chunks;
   int done = 0;
   for (std::uint32_t sample = first; sample < end; ++sample) {
-    for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (int chunk = 0; chunk < chunks && !out_of_time(); ++chunk) {
       const int first_tile = chunk * kTilesTogether;
       const auto count = static_cast<std::size_t>(std::min(kTilesTogether, grid.count() - first_tile));
       tiles_.resize(std::max(tiles_.size(), count));

@@ -36,6 +36,7 @@ void check_series(const Series& series, const RenderOptions& options) {
     if (given) throw BadOption(fmt::format("a series with {}: expected none", what));
   };
   refuse(options.time_limit_seconds > 0.0, "a time limit");
+  refuse(options.max_error > 0.0, "an error at which it ends");
   refuse(caches && options.cache.train_seconds > 0.0, "a time limit of training");
   refuse(!options.checkpoint.file.empty(), "a checkpoint");
   refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");

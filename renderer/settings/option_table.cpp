@@ -161,8 +161,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
-  auto& [integrator, width, height, region, spp, time_limit_seconds, max_depth, min_depth, seed, threads,
-         sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
+  auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
+         threads, sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
          reconstruct, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] =
       options;
   std::vector<Option> table;
@@ -172,10 +172,18 @@ std::vector<Option> option_table(RenderOptions& options) {
   OptionGroup picture{table, "Picture"};
   picture.add(size_option(width, height));
   picture.add(region_option(region));
-  picture.add(decides_nothing(number("spp", spp, {1, 1 << 24}, "N", "Samples per pixel")));
+  picture.add(
+      decides_nothing(number("spp", spp, {1, kOpenSpp}, "N",
+                             "Samples per pixel; with --time-limit or --max-error at most so many, and "
+                             "where it is not given, any number or 65536")));
   picture.add(
       decides_nothing(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-                             "Stop after the pass that reaches this time of rendering; 0: no limit")));
+                             "Time of scouting, training, rendering and reconstruction together, which is "
+                             "divided among them; loading, building and writing come on top; 0: no limit")));
+  picture.add(decides_nothing(
+      number("max-error", max_error, {0.0, 3.4e38}, "E",
+             "Stop where the estimated error of the picture is at most so much: relative RMS, "
+             "the square root of what compare calls rel_mse, as 0.05; 0: off")));
   picture.add(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
                      "Seed of all random numbers"));
   picture.add(choice("sampler", sampler, "Kind of random numbers"));

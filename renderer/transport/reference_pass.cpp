@@ -23,7 +23,7 @@ void ReferencePass::run(std::uint32_t first, std::uint32_t end, Film& film,
       tbb::blocked_range<int>(0, tiles.count(), 1),
       [&](const tbb::blocked_range<int>& range) {
         ReferenceWorker& w = workers_.local();
-        for (int tile = range.begin(); tile < range.end(); ++tile) {
+        for (int tile = range.begin(); tile < range.end() && !out_of_time(); ++tile) {
           tiles.pixels(tile, w.pixels);
           w.results.resize(w.pixels.size());
           if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
