@@ -6,7 +6,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Training's share of the time that it and the passes have together (README.md).
-constexpr double kTrainingShare = 0.4;
+constexpr double kTrainingShare = 0.2;
 
 }  // namespace
 
