@@ -172,18 +172,17 @@ std::vector<Option> option_table(RenderOptions& options) {
   OptionGroup picture{table, "Picture"};
   picture.add(size_option(width, height));
   picture.add(region_option(region));
-  picture.add(
-      decides_nothing(number("spp", spp, {1, kOpenSpp}, "N",
-                             "Samples per pixel; with --time-limit or --max-error at most so many, and "
-                             "where it is not given, any number or 65536")));
-  picture.add(
-      decides_nothing(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-                             "Time of scouting, training, rendering and reconstruction together, which is "
-                             "divided among them; loading, building and writing come on top; 0: no limit")));
+  picture.add(decides_nothing(number("spp", spp, {1, kOpenSpp}, "N",
+                                     "Samples per pixel; at most so many with --time-limit or --max-error")));
   picture.add(decides_nothing(
-      number("max-error", max_error, {0.0, 3.4e38}, "E",
-             "Stop where the estimated error of the picture is at most so much: relative RMS, "
-             "the square root of what compare calls rel_mse, as 0.05; 0: off")));
+      number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+             "Time of scouting, training, rendering and reconstruction together; it decides --spp and the "
+             "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
+             "limit")));
+  picture.add(decides_nothing(
+      number("max-error", max_error, kNotNegative, "E",
+             "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
+             "square root of compare's rel_mse; without --spp at 65536 samples at the latest; 0: off")));
   picture.add(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
                      "Seed of all random numbers"));
   picture.add(choice("sampler", sampler, "Kind of random numbers"));
