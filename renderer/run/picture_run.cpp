@@ -75,12 +75,15 @@ class Renderer::Implementation::PictureRun {
   void plan() {
     begin_ = Clock::now();
     budget_.limit = options_.time_limit_seconds;
-    if (budget_.limit > 0.0 && options_.reconstruct)
-      budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    if (budget_.limit <= 0.0 || !options_.reconstruct) return;
+    budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    reconstruct_seconds_ = seconds_since(begin_);  // of the picture of noise
   }
 
   Clock::time_point time_at(double seconds) const {
-    return begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    constexpr double kMost = 1e9;  // a clock counts some centuries at most
+    const std::chrono::duration<double> after(std::min(seconds, kMost));
+    return begin_ + std::chrono::duration_cast<Clock::duration>(after);
   }
 
   void train() {
@@ -187,7 +190,7 @@ class Renderer::Implementation::PictureRun {
     RenderStatistics& statistics = renderer_.statistics;
     if (!device_lost_.empty()) {
       statistics.ended_by = EndedBy::device;
-    } else if (loop.stopped()) {
+    } else if (loop.stopped() && (loop.done() < options_.spp || !whole())) {
       statistics.ended_by = EndedBy::caller;
     } else if (options_.max_error > 0.0 &&
                statistics.estimated_error.value_or(kNever) <= options_.max_error) {
