@@ -37,7 +37,9 @@ Examples:
   gatelight render car.gltf -o car.exr --eye 4,1.5,4 --target 0,0.5,0 --fov 30 --aov albedo,normal,depth
   gatelight render room.glb -o room.exr -o room.png --integrator nrc --train-steps 1024
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
-  gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json)";
+  gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
+  gatelight render room.glb -o room.exr --preset standard --time-limit 10
+  gatelight render room.glb -o room.exr --reconstruct on --max-error 0.05)";
 
 using renderer::Clock;
 using renderer::seconds_since;
@@ -52,8 +54,7 @@ class RenderRun {
  public:
   RenderRun(const RenderSettings& settings, const std::vector<std::string>& command)
       : settings_(settings),
-        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render),
-                  settings.render.time_limit_seconds) {
+        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render)) {
     report_.command = command;
   }
 

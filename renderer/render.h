@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/image/picture.h"
@@ -22,9 +23,11 @@ struct Progress {
   int steps = 0;
   double loss = 0.0;
   int spp_done = 0;
-  int spp = 0;
-  double fraction = 0.0;  ///< how much of the phase is done, in [0, 1]
-  double seconds = 0.0;   ///< wall time since scouting or rendering started
+  int spp = 0;                  ///< kOpenSpp: time decides
+  double samples = 0.0;         ///< per pixel, with those of the pass that is under way
+  std::optional<double> error;  ///< estimated, with max_error
+  double fraction = 0.0;        ///< how much of the phase is done, in [0, 1]
+  double seconds = 0.0;         ///< wall time since scouting or rendering started
 };
 
 struct Callbacks {
@@ -67,12 +70,13 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  /// The same scene, options and Embree ISA give the same bits for any number of threads.
+  /// The same scene, options and Embree ISA give the same bits for any number of threads, unless a time limit
+  /// ends it.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
   /// or samples. Returns false when callbacks.stop ends it before the last point; `picture` is not called for
   /// the points that remain. Throws BadOption for points that are not a valid series, and when the options
-  /// ask for a time limit, checkpoints or cache_out.
+  /// ask for a time limit, max_error, checkpoints or cache_out.
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// Describes the cache that rendering would build. Scouts, but neither trains nor renders. Only for
   /// integrators with a cache.

@@ -80,6 +80,8 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
       {"isa", statistics.isa},
       {"options", dump_options(settings)},
   };
+  if (statistics.estimated_error)
+    recipe["estimated_error"] = fmt::format("{:.6g}", *statistics.estimated_error);
   if (!settings.reproducible) {
     recipe["command"] = quote_command(command);
     recipe["threads"] = std::to_string(statistics.threads);

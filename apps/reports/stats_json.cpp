@@ -7,11 +7,18 @@
 #include "apps/reports/run_report.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr renderer::Choice<renderer::EndedBy> kEnds[] = {{"spp", renderer::EndedBy::spp},
+                                                         {"max-error", renderer::EndedBy::max_error},
+                                                         {"time-limit", renderer::EndedBy::time_limit},
+                                                         {"signal", renderer::EndedBy::caller},
+                                                         {"device", renderer::EndedBy::device}};
 
 /// Increases when a key changes its meaning or disappears.
 constexpr int kSchema = 1;
@@ -68,6 +75,8 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["spp"] = s.spp;
   json["samples"] = s.samples;
   json["interrupted"] = s.interrupted;
+  json["ended_by"] = name_of(kEnds, s.ended_by);
+  if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
   if (report.signal != 0) json["signal"] = report.signal;
   json["seconds"] = seconds(report, with_cache, settings.render.reconstruct);
   json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};

@@ -21,6 +21,7 @@ bool training_cut_short(const renderer::CacheOptions& options, const renderer::C
 }  // namespace
 
 std::string summary(const RenderSettings& settings, const RunReport& report) {
+  using renderer::EndedBy;
   const renderer::RenderStatistics& s = report.statistics;
   const double samples = static_cast<double>(s.samples);
   const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
@@ -30,9 +31,15 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}{}, write {:.2f}, total {:.2f}\n",
                       report.load_seconds, s.build_seconds, s.render_seconds, reconstruct,
                       report.write_seconds, report.total_seconds);
-  text +=
-      fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}\n", format_integer(s.samples),
-                  s.spp, per_second(samples, s.render_seconds) * 1e-6, s.threads, s.threads == 1 ? "" : "s");
+  std::string error =
+      s.estimated_error ? fmt::format("; estimated error {}", format_percent(*s.estimated_error)) : "";
+  if (settings.render.max_error > 0.0 && (s.ended_by == EndedBy::spp || s.ended_by == EndedBy::time_limit)) {
+    error += fmt::format(", not {}: {} ended it first", format_percent(settings.render.max_error),
+                         s.ended_by == EndedBy::spp ? "--spp" : "--time-limit");
+  }
+  text += fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}{}\n",
+                      format_integer(s.samples), s.spp, per_second(samples, s.render_seconds) * 1e-6,
+                      s.threads, s.threads == 1 ? "" : "s", error);
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, s.render_seconds) * 1e-6);
   text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",

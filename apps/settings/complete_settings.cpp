@@ -7,6 +7,7 @@
 
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
+#include "renderer/cache/cache_model.h"
 #include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
@@ -26,6 +27,11 @@ scene::Vec3 vector(const std::array<float, 3>& v) {
 
 std::string text(const std::array<float, 3>& v) {
   return fmt::format("{},{},{}", v[0], v[1], v[2]);
+}
+
+std::uint64_t pixels_of(const RenderOptions& options) {
+  const std::array<int, 4> r = options.region.value_or(std::array{0, 0, options.width, options.height});
+  return static_cast<std::uint64_t>(r[2] - r[0]) * static_cast<std::uint64_t>(r[3] - r[1]);
 }
 
 void complete_view(RenderSettings& settings) {
@@ -99,6 +105,19 @@ void refuse_without_effect(RenderSettings& settings) {
     if (!why.empty() && settings.given.contains(option.flag()))
       throw UsageError(fmt::format("{}: {}", option.flag(), why));
   }
+}
+
+/// Where --spp is not given, an error or a time decides how many samples there are, and a time also how many
+/// training steps of a preset.
+void open_samples(RenderSettings& settings) {
+  constexpr int kMostForError = 65536;
+  RenderOptions& o = settings.render;
+  const bool timed = o.time_limit_seconds > 0.0;
+  if (timed && settings.preset && !settings.given.contains("--train-steps")) o.cache.train_steps.reset();
+  if (settings.given.contains("--spp") || (!timed && o.max_error <= 0.0)) return;
+  if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
+    o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // of the usual number of samples
+  o.spp = timed ? kOpenSpp : kMostForError;
 }
 
 /// Sets what defaults and presets leave open or wrong for this encoding and integrator.
@@ -196,6 +215,7 @@ void complete_settings(RenderSettings& settings) {
   check_picture(settings.render);
   refuse_without_effect(settings);
   adapt_cache(settings);
+  open_samples(settings);
   complete_aovs(settings.render);
   check_checkpoint(settings);
   check_file_names(settings);

@@ -203,7 +203,7 @@ ordered_json done_record(const CellPlace& place, const renderer::RenderStatistic
   add_speed(json, statistics.cache, has_cache);
   add_errors(json, errors);
   json["estimated_error"] =
-      statistics.estimated_error > 0.0 ? json_number(statistics.estimated_error) : nullptr;
+      statistics.estimated_error > 0.0 ? json_number(*statistics.estimated_error) : nullptr;
   json["picture"] = pictures ? ordered_json(picture_file(place.id)) : nullptr;
   json["error_map"] = pictures && errors.flip ? ordered_json(error_map_file(place.id)) : nullptr;
   return json;

@@ -111,6 +111,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
                  : kind == ReferenceKind::cache ? renderer::Integrator::nrc
                                                 : renderer::Integrator::path;
   o.time_limit_seconds = 0.0;
+  o.max_error = 0.0;
   o.sampler = defaults.sampler;
   o.mis = defaults.mis;
   o.direct = defaults.direct;

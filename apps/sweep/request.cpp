@@ -24,11 +24,11 @@ constexpr renderer::IntegerRange kSeed{0, 4294967295};
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
 
-/// Flags of files, of the progress of one picture, and of time limits.
+/// Flags of files, of the progress of one picture, and of what ends one early.
 constexpr const char* kNoBaseFlags[] = {
-    "--output",   "--stats",     "--checkpoint", "--checkpoint-every", "--resume",
-    "--cache-in", "--cache-out", "--exr",        "--reproducible",     "--progress",
-    "--quiet",    "--verbose",   "--aov",        "--time-limit",       "--train-time"};
+    "--output",    "--stats",      "--checkpoint",   "--checkpoint-every", "--resume", "--cache-in",
+    "--cache-out", "--exr",        "--reproducible", "--progress",         "--quiet",  "--verbose",
+    "--aov",       "--time-limit", "--max-error",    "--train-time"};
 
 /// With any of these a row named after a preset of `render` would not be what its name promises.
 constexpr const char* kNoRowFlags[] = {"--reconstruct", "--view", "--query-at", "--cache-holds"};

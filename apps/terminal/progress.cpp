@@ -29,7 +29,10 @@ std::string measures(const renderer::Progress& progress, double samples_per_seco
     return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);
   }
   if (progress.phase == renderer::Phase::render) {
-    return fmt::format("  {}/{} spp  {}{}samples/s", progress.spp_done, progress.spp,
+    const std::string goal = progress.spp < renderer::kOpenSpp ? fmt::format("/{}", progress.spp) : "";
+    const std::string error =
+        progress.error ? fmt::format("error {}  ", format_percent(*progress.error)) : "";
+    return fmt::format("  {}{} spp  {}{}{}samples/s", progress.spp_done, goal, error,
                        format_count(samples_per_second), samples_per_second < 999.5 ? " " : "");
   }
   return "";
@@ -68,8 +71,7 @@ bool ProgressLine::due(bool must) {
   return true;
 }
 
-ProgressReporter::ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds)
-    : ProgressLine(mode), pixels_(pixels), time_limit_seconds_(time_limit_seconds) {}
+ProgressReporter::ProgressReporter(ProgressMode mode, double pixels) : ProgressLine(mode), pixels_(pixels) {}
 
 void ProgressReporter::phase(const std::string& name) {
   const std::lock_guard lock(mutex_);
@@ -105,11 +107,7 @@ ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progre
   const double done = progress.fraction - first_.fraction;
   if (done > 0.0) rates.eta_seconds = seconds / done * std::max(0.0, 1.0 - progress.fraction);
   if (progress.phase != renderer::Phase::render) return rates;
-  if (seconds > 0.0) rates.samples_per_second = done * pixels_ * progress.spp / seconds;
-  if (time_limit_seconds_ > 0.0) {
-    const double left = std::max(0.0, time_limit_seconds_ - progress.seconds);
-    rates.eta_seconds = rates.eta_seconds < 0.0 ? left : std::min(rates.eta_seconds, left);
-  }
+  if (seconds > 0.0) rates.samples_per_second = (progress.samples - first_.samples) * pixels_ / seconds;
   return rates;
 }
 
@@ -124,6 +122,7 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
     line["spp_done"] = progress.spp_done;
     line["spp"] = progress.spp;
     line["samples_per_second"] = rates.samples_per_second;
+    if (progress.error) line["estimated_error"] = *progress.error;
   }
   line["seconds"] = progress.seconds;
   if (rates.eta_seconds >= 0.0) line["eta_seconds"] = rates.eta_seconds;

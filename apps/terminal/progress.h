@@ -48,8 +48,8 @@ class ProgressLine {
 /// Thread-safe.
 class ProgressReporter : public ProgressLine {
  public:
-  /// pixels: of the region that is rendered. time_limit_seconds: of rendering; 0: none.
-  ProgressReporter(ProgressMode mode, double pixels, double time_limit_seconds);
+  /// pixels: of the region that is rendered.
+  ProgressReporter(ProgressMode mode, double pixels);
 
   /// Begins a phase without measurable progress: "load", "build", "write".
   void phase(const std::string& name);
@@ -69,7 +69,6 @@ class ProgressReporter : public ProgressLine {
   void show_bar(const renderer::Progress& progress, const Rates& rates);
 
   double pixels_;
-  double time_limit_seconds_;
   std::optional<renderer::Phase> phase_;
   renderer::Progress first_;  ///< update of the phase; a resumed picture does not begin at zero
 };

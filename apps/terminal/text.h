@@ -20,6 +20,7 @@ std::string format_bytes(std::size_t bytes);  ///< "812 B", "1.50 MiB"
 std::string format_count(double count);       ///< "950", "1.24 M"
 std::string format_integer(std::uint64_t n);  ///< "1 240 273"
 std::string format_duration(double seconds);  ///< "0:07", "1:02:07"
+std::string format_percent(double fraction);  ///< "0.31 %", "3.1 %", "312 %"
 
 /// JSON as text. Bytes that are not UTF-8, which file names may have, are replaced. indent -1: one line.
 std::string json_text(const nlohmann::ordered_json& json, int indent = 1);

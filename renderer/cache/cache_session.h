@@ -46,6 +46,8 @@ class CacheSession {
   /// Waits for the steps that a device is still computing, so that statistics and an exported state belong to
   /// the same step. Call it between groups only; train() ends with it. Throws as train() does.
   void settle();
+  /// The end of the group of steps that begins at `step`.
+  std::uint64_t group_end(std::uint64_t step) const;
   /// The last step, at most `steps`, that lies between groups of the training from here on.
   std::uint64_t last_group_end(std::uint64_t steps) const;
 
@@ -82,7 +84,6 @@ class CacheSession {
 
  private:
   RecordRequest request(std::uint64_t step, std::uint64_t count) const;
-  std::uint64_t group_end(std::uint64_t step) const;
   void learn(const RecordBatch& group, std::uint64_t batch);
 
   const RenderOptions& options_;

@@ -77,7 +77,7 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
   const double all = static_cast<double>(samples) * chunks;
   int done = 0;
   for (int sample = 0; sample < samples; ++sample) {
-    for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (int chunk = 0; chunk < chunks && !out_of_time(); ++chunk) {
       const int first_tile = chunk * kTilesTogether;
       const auto count = static_cast<std::size_t>(std::min(kTilesTogether, grid.count() - first_tile));
       tiles_.resize(std::max(tiles_.size(), count));

@@ -224,6 +224,12 @@ Layer Film::layer(Aov aov) const {
   return layer;
 }
 
+double Film::samples_per_pixel() const {
+  double sum = 0.0;
+  for (const Radiance& p : radiance_) sum += p.count;
+  return sum / static_cast<double>(radiance_.size());
+}
+
 float Film::faint(int x, int y) const {
   // Of the mean's largest channel. More saves little more time and costs noise (transport/README.md).
   constexpr double kShare = 0.3;

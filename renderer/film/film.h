@@ -43,6 +43,11 @@ class Film {
   /// The means so far. A pixel without samples is black.
   Picture resolve() const;
 
+  /// The layer of an output variable. Those of the primary hit need a film that keeps it.
+  Layer layer(Aov aov) const;
+  /// Mean number of samples of a pixel.
+  double samples_per_pixel() const;
+
   /// CameraSample::faint for a pixel's next sample: a share of its mean so far.
   float faint(int x, int y) const;
 
@@ -85,7 +90,6 @@ class Film {
     return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
            static_cast<std::size_t>(x - rect_.x0);
   }
-  Layer layer(Aov aov) const;
   /// The layers of Aov::reconstruction that are no output variables of their own.
   void add_halves(std::vector<Layer>& layers) const;
 

@@ -16,6 +16,9 @@ struct ReconstructionOptions {
 struct Reconstruction {
   std::vector<float> color;  ///< 3 floats a pixel, linear, not negative
   std::vector<float> error;  ///< estimated standard error of `color`
+  /// What each half of the samples gives, of which `color` is about the mean. Their difference tells the
+  /// error of the whole picture better than the sum of `error`, which is smoothed over bright and dark.
+  std::vector<float> halves[2];
 };
 
 /// Fits the samples to the guides in small windows. Both halves are fitted on their own, each with weights

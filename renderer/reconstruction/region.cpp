@@ -312,20 +312,27 @@ void Region::join() {
         const float noise = 0.5f * std::sqrt(halves_[0].variance[c][p] + halves_[1].variance[c][p]);
         const float d = raw(p, c) - color_[c][p];
         const float limit = usual + std::max(std::abs(d) - kMostDeviations * noise, 0.0f);
-        color_[c][p] += share * std::clamp(d, -limit, limit);
+        const float added = share * std::clamp(d, -limit, limit);
+        color_[c][p] += added;
+        const float part = d != 0.0f ? added / d : 0.0f;
+        for (Half& half : halves_) half.fit[c][p] += part * (half.color[c][p] - half.fit[c][p]);
       }
     }
   });
 }
 
-void Region::write_row(int y, float* color, float* error) const {
+void Region::write_row(int y, Row to) const {
   const std::size_t row = static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_);
   for (int x = 0; x < width_; ++x) {
     const std::size_t p = row + static_cast<std::size_t>(x);
     for (int c = 0; c < 3; ++c) {
       const double unit = static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]);
-      *color++ = static_cast<float>(std::max(static_cast<double>(color_[c][p]), 0.0) * unit);
-      *error++ = static_cast<float>(std::sqrt(static_cast<double>(error_[p])) * unit);
+      const auto color = [&](const Plane& plane) {
+        return static_cast<float>(std::max(static_cast<double>(plane[p]), 0.0) * unit);
+      };
+      *to.color++ = color(color_[c]);
+      for (int h = 0; h < 2; ++h) *to.halves[h]++ = color(halves_[h].fit[c]);
+      *to.error++ = static_cast<float>(std::sqrt(static_cast<double>(error_[p])) * unit);
     }
   }
 }

@@ -21,8 +21,13 @@ class Region {
   void fit(const ReconstructionKernels& kernels);
   /// Joins the fits with the samples' mean by their estimated errors.
   void join();
-  /// Writes a row as 3 floats a pixel.
-  void write_row(int y, float* color, float* error) const;
+  /// Where a row of each goes, 3 floats a pixel.
+  struct Row {
+    float* color;
+    float* error;
+    float* halves[2];
+  };
+  void write_row(int y, Row to) const;
 
  private:
   struct Half : HalfPlanes {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "renderer/machine/clock.h"
+#include "renderer/metrics/estimated_error.h"
 #include "renderer/reconstruction/reconstruct.h"
 #include "renderer/settings/words.h"
 
@@ -19,13 +20,41 @@ void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
   });
 }
 
+/// The samples' own brightness is taken from so many pixels around each, in each direction.
+constexpr int kSmoothing = 5;
+/// The same of finished halves.
+constexpr int kHalfSmoothing = 2;
+
+bool tells_error(const Film& film) {
+  return film.samples_per_pixel() >= 2.0;
+}
+
+std::optional<double> error_of(const Film& film, const Picture& picture) {
+  if (!tells_error(film)) return std::nullopt;
+  return estimated_error(picture, picture.layers.front(), film.layer(Aov::error), kSmoothing);
+}
+
+/// The halves are as good as independent, so half their difference is the error of their mean. Relative to
+/// the darker one: where one half met a bright sample, the other one tells what is usual there.
+double error_of(const Picture& picture, const Reconstruction& finished) {
+  const auto& [a, b] = finished.halves;
+  Layer darker{.channels = picture.layers.front().channels, .values = a}, errors = darker;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    darker.values[i] = std::min(a[i], b[i]);
+    errors.values[i] = 0.5f * (a[i] - b[i]);
+  }
+  return estimated_error(picture, darker, errors, kHalfSmoothing);
+}
+
 }  // namespace
 
-Picture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
-                         double& seconds) {
-  Picture picture = film.resolve();
-  seconds = 0.0;
-  if (!options.reconstruct) return picture;
+FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena) {
+  FinishedPicture result{.picture = film.resolve()};
+  Picture& picture = result.picture;
+  if (!options.reconstruct) {
+    result.estimated_error = arena.execute([&] { return error_of(film, picture); });
+    return result;
+  }
   const Clock::time_point start = Clock::now();
   SampledPicture samples = sampled_picture(picture);
   drop_unwanted(picture, options.aovs);
@@ -35,12 +64,17 @@ Picture finished_picture(const Film& film, const RenderOptions& options, tbb::ta
   arena.execute([&] {
     Reconstruction finished = reconstruct(samples);
     picture.layers.front().values = std::move(finished.color);
+    if (tells_error(film)) result.estimated_error = error_of(picture, finished);
     for (Layer& layer : picture.layers) {
       if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
     }
   });
-  seconds = seconds_since(start);
-  return picture;
+  result.reconstruct_seconds = seconds_since(start);
+  return result;
+}
+
+std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena) {
+  return arena.execute([&] { return error_of(film, film.resolve()); });
 }
 
 }  // namespace gatelight::renderer

@@ -3,14 +3,25 @@
 
 #include <tbb/task_arena.h>
 
+#include <optional>
+
 #include "renderer/film/film.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
+struct FinishedPicture {
+  Picture picture;
+  double reconstruct_seconds = 0.0;
+  /// Relative RMS, as metrics/estimated_error.h defines it. Empty where pixels have less than two samples.
+  std::optional<double> estimated_error;
+};
+
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of
-/// the options. The film keeps those of film_aovs(options). seconds: receives the time of reconstruction.
-Picture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
-                         double& seconds);
+/// the options. The film keeps those of film_aovs(options).
+FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena);
+
+/// Its estimated_error alone, without reconstruction.
+std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena);
 
 }  // namespace gatelight::renderer

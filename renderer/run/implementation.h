@@ -13,6 +13,7 @@
 #include "renderer/film/camera.h"
 #include "renderer/film/pixel_filter.h"
 #include "renderer/film/tiles.h"
+#include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "renderer/run/checkpoint.h"
 #include "renderer/transport/pass.h"
@@ -29,6 +30,8 @@ struct Training {
   bool chosen = false;           ///< by the picture's pixels and samples
   bool complete = false;
   bool stopped = false;  ///< by the caller
+  /// Training should end here, with a group of steps.
+  Clock::time_point end = Clock::time_point::max();
   std::string diverged;  ///< why training returned to its last good state; else empty
   SampleCounts counts;   ///< of the picture's samples that it learned from, in this run
 

@@ -1,7 +1,11 @@
 // Renderer::render: one picture from start to end.
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <new>
 #include <optional>
 #include <string>
@@ -12,12 +16,20 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
+#include "renderer/run/error_checks.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
+#include "renderer/run/reconstruction_time.h"
 #include "renderer/run/sample_loop.h"
+#include "renderer/run/time_budget.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 class Renderer::Implementation::PictureRun {
  public:
@@ -26,13 +38,16 @@ class Renderer::Implementation::PictureRun {
 
   Picture make() {
     restore();
+    plan();
     train();
     write_cache();
     const std::unique_ptr<Pass> pass = renderer_.make_pass(training_);
     SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp);
     run_passes(loop, *pass);
     end(loop, *pass);
-    return finished(renderer_.statistics.reconstruct_seconds);
+    Picture picture = finished(loop.done());
+    note_end(loop);
+    return picture;
   }
 
  private:
@@ -53,10 +68,26 @@ class Renderer::Implementation::PictureRun {
     found_->restore(film_, earlier_);
   }
 
+  /// Starts the time of the picture.
+  void plan() {
+    begin_ = Clock::now();
+    budget_.limit = options_.time_limit_seconds;
+    if (budget_.limit <= 0.0 || !options_.reconstruct) return;
+    budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    reconstruct_seconds_ = seconds_since(begin_);  // of the picture of noise
+  }
+
+  Clock::time_point time_at(double seconds) const {
+    constexpr double kMost = 1e9;  // a clock counts some centuries at most
+    const std::chrono::duration<double> after(std::min(seconds, kMost));
+    return begin_ + std::chrono::duration_cast<Clock::duration>(after);
+  }
+
   void train() {
     if (!uses_cache(options_.integrator)) return;
     training_ = renderer_.begin_training(found(), fingerprint_, callbacks_);
     if (training_.complete) return;
+    if (budget_.limit > 0.0) training_.end = time_at(budget_.training_end(seconds_since(begin_)));
     try {
       renderer_.train(training_, film_, callbacks_, [&] {
         if (!checkpoint_due()) return;
@@ -85,10 +116,13 @@ class Renderer::Implementation::PictureRun {
 
   void run_passes(SampleLoop& loop, const Pass& pass) {
     loop.begin_at(earlier_.spp);
+    limit_passes(loop);
     if (training_.stopped) loop.stop();
+    if (options_.max_error > 0.0 && is_check(loop.done()) && good_enough(loop)) return;
     while (loop.done() < options_.spp) {
       try {
-        loop.run_pass(options_.spp);
+        loop.run_pass(options_.max_error > 0.0 ? std::min(options_.spp, next_check(loop.done()))
+                                               : options_.spp);
       } catch (const neural::DeviceLost& error) {
         // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
         // not resume from it; the last checkpoint is kept.
@@ -99,24 +133,86 @@ class Renderer::Implementation::PictureRun {
       if (loop.done() == options_.spp) return;
       if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
         renderer_.statistics = sum_up(loop, pass);
-        callbacks_.snapshot(finished(renderer_.statistics.reconstruct_seconds));
+        callbacks_.snapshot(finished(loop.done()));
       }
+      if (options_.max_error > 0.0 && is_check(loop.done()) && !loop.over() && good_enough(loop)) return;
       if (loop.over()) return;
       if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
     }
   }
 
+  void limit_passes(SampleLoop& loop) const {
+    // A checkpoint holds whole passes.
+    if (budget_.limit > 0.0) loop.end_at(time_at(budget_.passes_end()), !identity_);
+  }
+
+  /// Estimates the error.
+  bool good_enough(SampleLoop& loop) {
+    const Clock::time_point start = Clock::now();
+    std::optional<double> error;
+    if (options_.reconstruct) {
+      checked_ = finished_picture(film_, options_, renderer_.arena);
+      checked_samples_ = loop.done();
+      reconstruct_seconds_ += checked_->reconstruct_seconds;
+      error = checked_->estimated_error;
+      // Measured with these samples it is better than what was expected.
+      budget_.reconstruct = seconds_since(start);
+      limit_passes(loop);
+    } else {
+      error = error_of_samples(film_, renderer_.arena);
+    }
+    loop.leave_out(seconds_since(start));
+    if (!error) return false;
+    const double times = *error / options_.max_error;
+    loop.tell_error(*error, loop.done() * times * times);
+    return *error <= options_.max_error;
+  }
+
   void end(const SampleLoop& loop, const Pass& pass) {
     RenderStatistics& statistics = renderer_.statistics;
     statistics = sum_up(loop, pass);
-    statistics.interrupted = loop.done() < options_.spp || !whole();
+    cut_short_ = pass.cut_short() || !device_lost_.empty();
+    if (cut_short_) {
+      const auto pixels = static_cast<double>(renderer_.region.width()) * renderer_.region.height();
+      statistics.samples =
+          static_cast<std::uint64_t>(std::llround(film_.samples_per_pixel() * pixels)) + statistics.nonfinite;
+    }
     statistics.device_lost = device_lost_;
     if (whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
     loop.report_end();
   }
 
-  Picture finished(double& seconds) const {
-    return finished_picture(film_, options_, renderer_.arena, seconds);
+  /// What ended the picture; its error is known.
+  void note_end(const SampleLoop& loop) {
+    RenderStatistics& statistics = renderer_.statistics;
+    if (!device_lost_.empty()) {
+      statistics.ended_by = EndedBy::device;
+    } else if (loop.stopped() && (loop.done() < options_.spp || !whole())) {
+      statistics.ended_by = EndedBy::caller;
+    } else if (options_.max_error > 0.0 &&
+               statistics.estimated_error.value_or(kNever) <= options_.max_error) {
+      statistics.ended_by = EndedBy::max_error;
+    } else {
+      statistics.ended_by = loop.done() < options_.spp ? EndedBy::time_limit : EndedBy::spp;
+    }
+    const bool early = statistics.ended_by != EndedBy::max_error && loop.done() < options_.spp;
+    statistics.interrupted = early || !whole();
+  }
+
+  /// The picture of the film, with its statistics. `samples`: that every pixel has.
+  Picture finished(int samples) {
+    FinishedPicture finished;
+    // The last check's, where nothing was added since.
+    if (checked_ && checked_samples_ == samples && !cut_short_) {
+      finished = std::move(*checked_);
+    } else {
+      finished = finished_picture(film_, options_, renderer_.arena);
+      reconstruct_seconds_ += finished.reconstruct_seconds;
+    }
+    checked_.reset();
+    renderer_.statistics.reconstruct_seconds = reconstruct_seconds_;
+    renderer_.statistics.estimated_error = finished.estimated_error;
+    return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
   /// A picture from an incomplete cache is a preview; it is never resumed.
@@ -170,6 +266,12 @@ class Renderer::Implementation::PictureRun {
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;
   std::string device_lost_;
+  Clock::time_point begin_;  ///< of the time that the limit counts
+  TimeBudget budget_;
+  std::optional<FinishedPicture> checked_;  ///< of the last check
+  int checked_samples_ = 0;
+  bool cut_short_ = false;  ///< some pixels have a sample more than others
+  double reconstruct_seconds_ = 0.0;
 };
 
 Picture Renderer::render(const Callbacks& callbacks) {

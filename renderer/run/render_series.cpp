@@ -38,6 +38,7 @@ void check_series(const Series& series, const RenderOptions& options) {
     if (given) throw BadOption(fmt::format("a series with {}: expected none", what));
   };
   refuse(options.time_limit_seconds > 0.0, "a time limit");
+  refuse(options.max_error > 0.0, "an error at which it ends");
   refuse(caches && options.cache.train_seconds > 0.0, "a time limit of training");
   refuse(!options.checkpoint.file.empty(), "a checkpoint");
   refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
@@ -87,8 +88,10 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
-    picture(static_cast<int>(point), finished, statistics);
+    const FinishedPicture finished = finished_picture(film, options, arena);
+    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.estimated_error = finished.estimated_error;
+    picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
     if (bookmark) {
       session.return_to(*bookmark);
@@ -113,8 +116,10 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    const Picture finished = finished_picture(film, options, arena, statistics.reconstruct_seconds);
-    picture(static_cast<int>(point), finished, statistics);
+    const FinishedPicture finished = finished_picture(film, options, arena);
+    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.estimated_error = finished.estimated_error;
+    picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));
   }
   return true;

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "renderer/run/time_budget.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -16,17 +20,30 @@ SampleLoop::SampleLoop(tbb::task_arena& arena, const RenderOptions& options, con
                        Pass& pass, Film& film, int spp)
     : arena_(arena), options_(options), callbacks_(callbacks), pass_(pass), film_(film), spp_(spp) {}
 
+void SampleLoop::end_at(Clock::time_point end, bool in_part) {
+  end_ = std::chrono::duration<double>(end - start_).count();
+  in_part_ = in_part;
+}
+
+void SampleLoop::tell_error(double error, double samples) {
+  error_ = error;
+  expected_samples_ = samples;
+}
+
 void SampleLoop::run_pass(int goal) {
   const int batch = std::min(batch_, goal - done_);
-  const double begin = seconds();
+  // Each pixel needs a sample, and a pass of several is not cut because it was chosen to fit.
+  if (in_part_ && batch == 1 && done_ > 0)
+    pass_.end_at(start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(end_)));
+  const double begin = now();
   arena_.execute([&] {
     pass_.run(batch, film_, [&](double fraction) {
       if (callbacks_.stop && callbacks_.stop()) stop_ = true;
       report(fraction, batch);
     });
   });
-  done_ += batch;
-  last_seconds_ = seconds();
+  const double end = now();
+  if (!pass_.cut_short()) done_ += batch;
   if (options_.nan_policy == NanPolicy::error) {
     const std::vector<NonFiniteSample> located = pass_.counts().located;
     if (!located.empty()) {
@@ -34,15 +51,25 @@ void SampleLoop::run_pass(int goal) {
                                        located[0].x, located[0].y, located[0].seed));
     }
   }
-  const double per_sample = (last_seconds_ - begin) / batch;
-  double budget = kPassSeconds;
-  if (options_.time_limit_seconds > 0.0)
-    budget = std::min(budget, options_.time_limit_seconds - last_seconds_);
-  batch_ = std::max(1, std::min(2 * batch, static_cast<int>(budget / std::max(per_sample, 1e-9))));
+  per_sample_ = (end - begin) / batch;
+  batch_ = samples_of_pass(end, per_sample_, kPassSeconds, end_, 2 * batch);
 }
 
 bool SampleLoop::over() const {
-  return stop_ || (options_.time_limit_seconds > 0.0 && last_seconds_ >= options_.time_limit_seconds);
+  return stop_ || pass_.cut_short() || now() >= end_ || (!in_part_ && !pass_fits(now(), per_sample_, end_));
+}
+
+Progress SampleLoop::progress(double samples) const {
+  const double seconds = this->seconds();
+  double fraction = samples / spp_;
+  if (expected_samples_ > 0.0) fraction = std::max(fraction, samples / expected_samples_);
+  if (std::isfinite(end_)) fraction = std::max(fraction, now() / std::max(end_, 1e-9));
+  return {.spp_done = done_,
+          .spp = spp_,
+          .samples = samples,
+          .error = error_,
+          .fraction = std::min(fraction, 1.0),
+          .seconds = seconds};
 }
 
 void SampleLoop::report(double of_pass, int batch) {
@@ -51,13 +78,14 @@ void SampleLoop::report(double of_pass, int batch) {
   const double now = seconds();
   if (!lock || now - last_report_ < 0.1) return;
   last_report_ = now;
-  callbacks_.progress(
-      {.spp_done = done_, .spp = spp_, .fraction = (done_ + of_pass * batch) / spp_, .seconds = now});
+  callbacks_.progress(progress(done_ + of_pass * batch));
 }
 
 void SampleLoop::report_end() const {
-  if (callbacks_.progress)
-    callbacks_.progress({.spp_done = done_, .spp = spp_, .fraction = 1.0, .seconds = seconds()});
+  if (!callbacks_.progress) return;
+  Progress end = progress(done_);
+  end.fraction = 1.0;
+  callbacks_.progress(end);
 }
 
 }  // namespace gatelight::renderer

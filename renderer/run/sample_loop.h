@@ -5,7 +5,9 @@
 #include <tbb/task_arena.h>
 
 #include <atomic>
+#include <limits>
 #include <mutex>
+#include <optional>
 
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
@@ -24,12 +26,18 @@ class SampleLoop {
   /// Stops the loop, as callbacks.stop does.
   void stop() { stop_ = true; }
 
+  /// The time at which passes should end. `in_part`: the last pass may then leave pixels out.
+  void end_at(Clock::time_point end, bool in_part);
+  /// The last estimate of the error, and the samples at which the picture is expected to end by it.
+  void tell_error(double error, double samples);
+
   /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
   /// Finished samples of every pixel.
   int done() const { return done_; }
   /// Whether the loop was stopped or the time is over.
   bool over() const;
+  bool stopped() const { return stop_; }
   double seconds() const { return seconds_since(start_) - left_out_; }
   /// Excludes time that the caller spent on something else.
   void leave_out(double seconds) { left_out_ += seconds; }
@@ -38,6 +46,8 @@ class SampleLoop {
 
  private:
   void report(double of_pass, int batch);
+  Progress progress(double samples) const;
+  double now() const { return seconds_since(start_); }
 
   tbb::task_arena& arena_;
   const RenderOptions& options_;
@@ -50,7 +60,11 @@ class SampleLoop {
   std::atomic<bool> stop_ = false;
   Clock::time_point start_ = Clock::now();
   double left_out_ = 0.0;
-  double last_seconds_ = 0.0;  ///< when the last pass ended
+  double end_ = std::numeric_limits<double>::infinity();  ///< of the passes, in seconds since the start
+  bool in_part_ = false;
+  double per_sample_ = 0.0;  ///< seconds of the last pass
+  std::optional<double> error_;
+  double expected_samples_ = 0.0;  ///< by the error
   std::mutex report_mutex_;
   double last_report_ = -1.0;
 };

@@ -6,9 +6,16 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/run/implementation.h"
+#include "renderer/run/time_budget.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
+namespace {
+
+/// A cache of less steps is worse than none, so a time limit leaves at least these.
+constexpr std::uint64_t kLeastSteps = 16;
+
+}  // namespace
 
 Training Renderer::Implementation::begin_training(Checkpoint* found, const SceneFingerprint& fingerprint,
                                                   const Callbacks& callbacks) {
@@ -48,13 +55,30 @@ void Renderer::Implementation::train(Training& training, Film& film, const Callb
   const auto first = static_cast<int>(training.first_step);
   double reported = -1.0;
   CacheSession::Watch watch;
-  watch.stop = [&] { return training.stopped = callbacks.stop && callbacks.stop(); };
+  const Clock::time_point start = Clock::now();
+  const double end_seconds = std::chrono::duration<double>(training.end - start).count();
+  const bool limited = training.end != Clock::time_point::max();
+  double last_seconds = 0.0;
+  std::uint64_t last_step = session.steps();
+  watch.stop = [&] {
+    training.stopped = callbacks.stop && callbacks.stop();
+    if (training.stopped || !limited) return training.stopped;
+    const double now = seconds_since(start);
+    const std::uint64_t step = session.steps(), next = session.group_end(step) - step;
+    const double seconds =
+        (now - last_seconds) / static_cast<double>(std::max(step - last_step, std::uint64_t{1}));
+    last_seconds = now;
+    last_step = step;
+    return step >= training.first_step + kLeastSteps &&
+           !group_fits(now, seconds * static_cast<double>(next), end_seconds);
+  };
   watch.after_group = after_group;
   if (training.first_step == 0)
     watch.samples = [&](const RecordBatch& group) { group.add_to(film, options, training.counts); };
   watch.progress = [&](int step, int, double loss) {
     const int done = step - first;
     const double now = session.statistics().train_seconds;
+    const double of_time = limited ? seconds_since(start) / std::max(end_seconds, 1e-9) : 0.0;
     if (!callbacks.progress || (done < training.all_steps && now - reported < 0.1)) return;
     reported = now;
     callbacks.progress({.phase = Phase::train,
@@ -62,12 +86,13 @@ void Renderer::Implementation::train(Training& training, Film& film, const Callb
                         .steps = training.all_steps,
                         .loss = loss,
                         .spp = options.spp,
-                        .fraction = static_cast<double>(done) / training.all_steps,
+                        .fraction = std::clamp(of_time, static_cast<double>(done) / training.all_steps, 1.0),
                         .seconds = now});
   };
-  const std::uint64_t end = training.first_step + static_cast<std::uint64_t>(training.steps);
-  arena.execute([&] { training.session->train(end, watch); });
-  training.complete = !training.stopped || training.session->steps() >= end;
+  const std::uint64_t wanted = training.first_step + static_cast<std::uint64_t>(training.steps);
+  arena.execute([&] { training.session->train(wanted, watch); });
+  training.complete = !training.stopped || training.session->steps() >= wanted;
+  if (limited && !training.stopped) training.steps = static_cast<int>(session.steps() - training.first_step);
 }
 
 bool Renderer::Implementation::return_to_good(Training& training, Film& film, Checkpoint* found,
@@ -93,6 +118,7 @@ bool Renderer::Implementation::return_to_good(Training& training, Film& film, Ch
     if (found && state->steps > 0) found->restore(film, earlier);
   }
   training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
+  training.end = Clock::time_point::max();
   if (good > session.steps()) train(training, film, callbacks, {});
   training.complete = !training.stopped;
   return true;

@@ -161,8 +161,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
-  auto& [integrator, width, height, region, spp, time_limit_seconds, max_depth, min_depth, seed, threads,
-         sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
+  auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
+         threads, sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
          reconstruct, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] =
       options;
   std::vector<Option> table;
@@ -172,10 +172,17 @@ std::vector<Option> option_table(RenderOptions& options) {
   OptionGroup picture{table, "Picture"};
   picture.add(size_option(width, height));
   picture.add(region_option(region));
-  picture.add(decides_nothing(number("spp", spp, {1, 1 << 24}, "N", "Samples per pixel")));
-  picture.add(
-      decides_nothing(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-                             "Stop after the pass that reaches this time of rendering; 0: no limit")));
+  picture.add(decides_nothing(number("spp", spp, {1, kOpenSpp}, "N",
+                                     "Samples per pixel; at most so many with --time-limit or --max-error")));
+  picture.add(decides_nothing(
+      number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+             "Time of scouting, training, rendering and reconstruction together; it decides --spp and the "
+             "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
+             "limit")));
+  picture.add(decides_nothing(
+      number("max-error", max_error, kNotNegative, "E",
+             "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
+             "square root of compare's rel_mse; without --spp at 65536 samples at the latest; 0: off")));
   picture.add(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
                      "Seed of all random numbers"));
   picture.add(choice("sampler", sampler, "Kind of random numbers"));

@@ -33,15 +33,20 @@ struct CameraOptions {
   std::optional<float> fov_degrees;  ///< vertical; overrides the camera's
 };
 
+/// So many samples per pixel mean that something else ends the picture.
+inline constexpr int kOpenSpp = 1 << 24;
+
 struct RenderOptions {
   Integrator integrator = Integrator::path;
   int width = 960;
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
-  int spp = 64;
-  double time_limit_seconds = 0.0;  ///< 0: no limit; rendering stops after the pass that reaches it
-  int max_depth = 8;                ///< scattering events; 1 is emission and direct light
-  int min_depth = 2;                ///< Russian roulette starts after this many scattering events
+  int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
+  /// Of scouting, setup, training, passes and reconstruction together; 0: no limit.
+  double time_limit_seconds = 0.0;
+  double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off
+  int max_depth = 8;       ///< scattering events; 1 is emission and direct light
+  int min_depth = 2;       ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
   int threads = 0;  ///< 0: what the machine and the cgroup allow
   SamplerKind sampler = SamplerKind::sobol;

@@ -2,6 +2,7 @@
 // Statistics of a run: filled by the renderer, written by the application.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,11 +75,13 @@ struct CacheStatistics {
   std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
 };
 
+/// What ended a picture.
+enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device };
+
 struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
   double reconstruct_seconds = 0.0;
-  double estimated_error = 0.0;  ///< of the finished picture, relative RMS; 0 or negative: unknown
   int width = 0;
   int height = 0;
   int spp = 0;                ///< finished for every pixel
@@ -95,6 +98,8 @@ struct RenderStatistics {
   std::vector<NonFiniteSample> nonfinite_samples;  ///< the first 16, in the order of (y, x, sample)
   std::uint64_t clamped = 0;
   CacheStatistics cache;
+  std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
+  EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
   std::string device_lost;   ///< why the device was lost, where that ended the picture; else empty
 };

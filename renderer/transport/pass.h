@@ -3,6 +3,8 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 
@@ -27,11 +29,27 @@ class Pass {
   /// Adds the next `samples` samples of each pixel to the film, in order. Runs in the caller's arena. Calls
   /// report(fraction done) from any thread.
   virtual void run(int samples, Film& film, const std::function<void(double)>& report) = 0;
+  /// From this time on run() leaves out the pixels that are not begun yet.
+  void end_at(std::chrono::steady_clock::time_point end) { end_ = end; }
+  /// Whether a run left pixels out.
+  bool cut_short() const { return cut_short_; }
   /// Sums over all runs so far.
   virtual SampleCounts counts() const = 0;
   virtual RayCounts rays() const = 0;
   /// Adds the cache statistics of all runs; a pass without a cache adds nothing.
   virtual void add_to(CacheStatistics&) const {}
+
+ protected:
+  /// Whether what is to come is left out.
+  bool out_of_time() {
+    if (end_ == std::chrono::steady_clock::time_point::max() || std::chrono::steady_clock::now() < end_)
+      return false;
+    return cut_short_ = true;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::time_point::max();
+  std::atomic<bool> cut_short_ = false;
 };
 
 /// A pass with one Worker for each thread. Worker has the members `RayCounts rays` and `SampleCounts counts`.

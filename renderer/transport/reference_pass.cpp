@@ -22,7 +22,7 @@ void ReferencePass::run(int samples, Film& film, const std::function<void(double
       tbb::blocked_range<int>(0, tiles.count(), 1),
       [&](const tbb::blocked_range<int>& range) {
         ReferenceWorker& w = workers_.local();
-        for (int tile = range.begin(); tile < range.end(); ++tile) {
+        for (int tile = range.begin(); tile < range.end() && !out_of_time(); ++tile) {
           tiles.pixels(tile, w.pixels);
           w.results.resize(w.pixels.size());
           if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());

@@ -23,6 +23,7 @@ using renderer::read_image;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 class RenderCommand : public ::testing::Test {
@@ -30,10 +31,15 @@ class RenderCommand : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
   Output render(const std::vector<std::string>& flags) const {
+    if (std::find(flags.begin(), flags.end(), "--spp") != flags.end()) return render_open(flags);
+    std::vector<std::string> more = flags;
+    more.insert(more.end(), {"--spp", "4"});
+    return render_open(more);
+  }
+
+  /// Without --spp.
+  Output render_open(const std::vector<std::string>& flags) const {
     std::vector<std::string> arguments = {"render", scene, "--environment", "1,1,1", "--size", "24x16"};
-    if (std::find(flags.begin(), flags.end(), "--spp") == flags.end()) {
-      arguments.insert(arguments.end(), {"--spp", "4"});
-    }
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     return run_gatelight(arguments);
   }
@@ -218,6 +224,50 @@ TEST_F(RenderCommand, ATimeLimitEndsTheRunWithCode0) {
   const json stats = json::parse(output.out);
   EXPECT_EQ(stats["interrupted"], true);
   EXPECT_GE(stats["spp"], 1);
+}
+
+TEST_F(RenderCommand, ATimeLimitDecidesHowManySamplesAPresetHas) {
+  for (const char* preset : {"preview", "standard", "final"}) {
+    SCOPED_TRACE(preset);
+    const Output output =
+        render_open({"-o", path("a.exr"), "--preset", preset, "--time-limit", "0.5", "--stats", "-"});
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const json stats = json::parse(output.out);
+    EXPECT_EQ(stats["ended_by"], "time-limit");
+    EXPECT_GE(stats["spp"], 1);
+    const Output few = render({"-o", path("a.exr"), "--preset", preset, "--time-limit", "100", "--spp", "2",
+                               "--train-steps", "1", "--stats", "-"});
+    EXPECT_EQ(few.exit_code, 0) << few.err;
+    EXPECT_EQ(json::parse(few.out)["spp"], 2) << "a number that is given is a limit too";
+    EXPECT_EQ(json::parse(few.out)["train"]["steps"], 1);
+    EXPECT_EQ(json::parse(few.out)["ended_by"], "spp");
+  }
+}
+
+TEST_F(RenderCommand, TheEstimatedErrorIsInSummaryStatisticsAndRecipe) {
+  const Output output = render({"-o", path("a.exr"), "--spp", "4", "--stats", path("s.json")});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_THAT(output.err, HasSubstr("; estimated error "));
+  EXPECT_TRUE(json::parse(read_file(path("s.json")))["estimated_error"].is_number());
+  EXPECT_TRUE(read_image(path("a.exr")).metadata.contains("estimated_error"));
+  const Output one = render({"-o", path("a.exr"), "--spp", "1", "--stats", path("s.json")});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.err, Not(HasSubstr("estimated error")));
+  EXPECT_FALSE(json::parse(read_file(path("s.json"))).contains("estimated_error"));
+  EXPECT_FALSE(read_image(path("a.exr")).metadata.contains("estimated_error"));
+}
+
+TEST_F(RenderCommand, AnErrorThatIsNotReachedIsTold) {
+  const Output reached = render_open({"-o", path("a.png"), "--max-error", "1000", "--stats", path("s.json")});
+  ASSERT_EQ(reached.exit_code, 0) << reached.err;
+  EXPECT_THAT(reached.err, Not(HasSubstr("ended it first")));
+  const json stats = json::parse(read_file(path("s.json")));
+  EXPECT_EQ(stats["ended_by"], "max-error");
+  EXPECT_EQ(stats["spp"], 4) << "of the first check";
+  EXPECT_EQ(stats["interrupted"], false);
+  const Output missed = render({"-o", path("a.png"), "--max-error", "1e-9", "--spp", "8"});
+  ASSERT_EQ(missed.exit_code, 0) << missed.err;
+  EXPECT_THAT(missed.err, HasSubstr("--spp ended it first"));
 }
 
 TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {

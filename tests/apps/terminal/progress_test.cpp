@@ -17,15 +17,15 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// What the reporter says of a picture of 1000 pixels.
-std::string report(ProgressMode mode, const std::vector<Progress>& updates, double time_limit_seconds = 0.0) {
+std::string report(ProgressMode mode, const std::vector<Progress>& updates) {
   ::testing::internal::CaptureStderr();
-  ProgressReporter reporter(mode, 1000.0, time_limit_seconds);
+  ProgressReporter reporter(mode, 1000.0);
   for (const Progress& update : updates) reporter.update(update);
   return ::testing::internal::GetCapturedStderr();
 }
 
-std::vector<json> report_json(const std::vector<Progress>& updates, double time_limit_seconds = 0.0) {
-  std::istringstream text(report(ProgressMode::json, updates, time_limit_seconds));
+std::vector<json> report_json(const std::vector<Progress>& updates) {
+  std::istringstream text(report(ProgressMode::json, updates));
   std::vector<json> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
   return lines;
@@ -35,7 +35,7 @@ const std::vector<Progress> kRun = {
     {.phase = Phase::scout, .fraction = 0.0, .seconds = 0.0},
     {.phase = Phase::train, .steps_done = 25, .steps = 100, .loss = 0.5, .fraction = 0.25, .seconds = 3.0},
     {.phase = Phase::train, .steps_done = 100, .steps = 100, .loss = 0.125, .fraction = 1.0, .seconds = 9.0},
-    {.phase = Phase::render, .spp_done = 2, .spp = 8, .fraction = 0.25, .seconds = 1.0},
+    {.phase = Phase::render, .spp_done = 2, .spp = 8, .samples = 2.0, .fraction = 0.25, .seconds = 1.0},
 };
 
 TEST(Progress, EachPhaseHasItsMeasures) {
@@ -59,20 +59,24 @@ TEST(Progress, EachPhaseHasItsMeasures) {
 TEST(Progress, TimeLeftAndSpeedCountFromTheFirstUpdateOfThePhase) {
   ::testing::internal::CaptureStderr();
   {
-    ProgressReporter reporter(ProgressMode::bar, 1000.0, 0.0);
+    ProgressReporter reporter(ProgressMode::bar, 1000.0);
     for (const Progress& update : kRun) reporter.update(update);
     // The bar moves ten times a second.
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    reporter.update({.phase = Phase::render, .spp_done = 4, .spp = 8, .fraction = 0.5, .seconds = 2.0});
+    reporter.update(
+        {.phase = Phase::render, .spp_done = 4, .spp = 8, .samples = 4.0, .fraction = 0.5, .seconds = 2.0});
   }
   EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("4/8 spp  2.00 ksamples/s  ETA 0:02"))
       << "a quarter of 8000 samples in a second";
 }
 
-TEST(Progress, TheTimeLimitIsOfRendering) {
-  const std::vector<json> lines = report_json(kRun, 11.0);
-  EXPECT_EQ(lines[2]["eta_seconds"], 0.0);
-  EXPECT_EQ(lines[3]["eta_seconds"], 10.0);
+TEST(Progress, WhereTimeOrAnErrorEndsThePictureTheyAreTold) {
+  const Progress timed = {.phase = Phase::render, .spp_done = 2, .spp = renderer::kOpenSpp, .samples = 2.0};
+  EXPECT_THAT(report(ProgressMode::bar, {timed}), HasSubstr("  2 spp  0 samples/s"));
+  const Progress to_error = {.phase = Phase::render, .spp_done = 2, .spp = 8, .samples = 2.0, .error = 0.031};
+  EXPECT_THAT(report(ProgressMode::bar, {to_error}), HasSubstr("2/8 spp  error 3.1 %  "));
+  EXPECT_EQ(report_json({to_error})[0]["estimated_error"], 0.031);
+  EXPECT_FALSE(report_json({timed})[0].contains("estimated_error"));
 }
 
 TEST(Progress, LinesAreRareWithinAPhase) {

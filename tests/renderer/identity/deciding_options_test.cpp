@@ -78,6 +78,7 @@ TEST(DecidingOptions, WhatDecidesNoBitsIsNotAmongThem) {
   const auto change = [](RenderOptions& o, scene::Camera& c) {
     o.spp = 1000;
     o.time_limit_seconds = 5;
+    o.max_error = 0.1;
     o.threads = 3;
     o.nan_policy = NanPolicy::error;
     o.memory_limit_bytes = 1 << 30;

@@ -121,6 +121,24 @@ TEST(Reconstruct, ErrorsAreEstimated) {
   }
 }
 
+/// But for what both have in common: detail that is smoothed, a greater part of what is left as samples grow.
+TEST(Reconstruct, HalfTheDifferenceOfTheHalvesIsTheErrorOfTheirMean) {
+  for (const auto& [spp, most] : {std::pair{4, 1.6}, {16, 1.6}, {64, 3.0}, {256, 3.0}}) {
+    const Made made = make_picture(120, 90, spp, 1.5);
+    const Reconstruction result = reconstruct(made.samples);
+    double differences = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < made.truth.size(); ++i) {
+      const double a = result.halves[0][i], b = result.halves[1][i];
+      differences += 0.25 * (a - b) * (a - b) / static_cast<double>(made.truth.size());
+      mean = std::max(mean, std::abs(0.5 * (a + b) - static_cast<double>(result.color[i])));
+    }
+    const double ratio = squared_error(result.color, made.truth) / differences;
+    EXPECT_GT(ratio, 0.8) << spp << " samples";
+    EXPECT_LT(ratio, most) << spp << " samples";
+    EXPECT_LT(mean, 1e-4) << "the picture is their mean";
+  }
+}
+
 TEST(Reconstruct, GoesToTheSamplesAsTheyGrow) {
   // The stripes are in no guide: blurring them is worse than the noise that is left.
   for (const int spp : {16, 64, 1024, 8192}) {

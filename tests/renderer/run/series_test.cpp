@@ -225,6 +225,7 @@ TEST(RenderSeries, WhatIsNoSeriesIsRefused) {
     return refusal(s, changed, {.train_steps = {8}});
   };
   expect_message(with([](RenderOptions& o) { o.time_limit_seconds = 1.0; }), {"time limit"});
+  expect_message(with([](RenderOptions& o) { o.max_error = 0.1; }), {"error"});
   expect_message(with([](RenderOptions& o) { o.cache.train_seconds = 1.0; }), {"training"});
   expect_message(with([](RenderOptions& o) { o.checkpoint.file = "c"; }), {"checkpoint"});
   expect_message(with([](RenderOptions& o) { o.cache.cache_out = "c"; }), {"cache file"});

@@ -1,0 +1,182 @@
+// Pictures that end by their estimated error.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "renderer/metrics/compare.h"
+#include "renderer/render.h"
+#include "renderer/run/error_checks.h"
+#include "tests/support/room.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::room;
+using tests::TemporaryFolder;
+
+struct Result {
+  Picture picture;
+  RenderStatistics statistics;
+};
+
+struct Kind {
+  const char* name;
+  Integrator integrator;
+  bool reconstruct;
+};
+
+class MaxError : public ::testing::TestWithParam<Kind> {
+ protected:
+  RenderOptions options() const {
+    RenderOptions options = testing::small_picture();
+    options.integrator = GetParam().integrator;
+    options.reconstruct = GetParam().reconstruct;
+    options.width = 40;
+    options.height = 24;
+    options.spp = 100000;
+    options.cache.train_steps = 4;
+    options.cache.batch = 500;
+    return options;
+  }
+
+  Result render(const RenderOptions& options, int stop_at = 0) const {
+    Renderer renderer(scene, options);
+    std::atomic<int> asked{0};
+    Callbacks callbacks;
+    callbacks.stop = [&] { return ++asked == stop_at; };
+    callbacks.progress = [&](const Progress& p) {
+      if (p.phase == Phase::render && p.error) told = *p.error;
+    };
+    Result result{renderer.render(callbacks), {}};
+    result.statistics = renderer.statistics();
+    return result;
+  }
+
+  /// The estimate of a picture of so many samples.
+  double error_of(int spp) const {
+    RenderOptions some = options();
+    some.spp = spp;
+    return render(some).statistics.estimated_error.value();
+  }
+
+  const scene::Scene scene = room();
+  mutable double told = -1.0;
+};
+
+TEST_P(MaxError, EndsAtTheFirstCheckThatReachesIt) {
+  const double goal = 1.001 * error_of(16);
+  for (const int earlier : {4, 6, 8, 11}) ASSERT_GT(error_of(earlier), goal) << "the case is no test";
+  RenderOptions limited = options();
+  limited.max_error = goal;
+  const Result result = render(limited);
+  EXPECT_EQ(result.statistics.spp, 16);
+  EXPECT_EQ(result.statistics.ended_by, EndedBy::max_error);
+  EXPECT_FALSE(result.statistics.interrupted);
+  EXPECT_LE(result.statistics.estimated_error.value(), goal);
+  EXPECT_NEAR(told, *result.statistics.estimated_error, 1e-12) << "progress tells it";
+  limited.max_error = 0.0;
+  limited.spp = 16;
+  EXPECT_EQ(render(limited).picture.layers[0].values, result.picture.layers[0].values)
+      << "the picture is that of as many samples";
+}
+
+TEST_P(MaxError, TheSamplesLimitIt) {
+  RenderOptions limited = options();
+  limited.max_error = 1e-6;
+  limited.spp = 9;  // no check
+  const Result result = render(limited);
+  EXPECT_EQ(result.statistics.spp, 9);
+  EXPECT_EQ(result.statistics.ended_by, EndedBy::spp);
+  EXPECT_FALSE(result.statistics.interrupted);
+  EXPECT_GT(result.statistics.estimated_error.value(), 1e-6);
+}
+
+TEST_P(MaxError, TheSameBitsForAnyNumberOfThreads) {
+  RenderOptions limited = options();
+  limited.max_error = 1.001 * error_of(8);
+  limited.threads = 1;
+  const Result one = render(limited);
+  limited.threads = 2;
+  const Result two = render(limited);
+  EXPECT_EQ(one.statistics.spp, two.statistics.spp);
+  EXPECT_EQ(one.statistics.estimated_error, two.statistics.estimated_error);
+  EXPECT_EQ(one.picture.layers[0].values, two.picture.layers[0].values);
+}
+
+TEST_P(MaxError, AResumedPictureEndsWithTheSameSamples) {
+  RenderOptions limited = options();
+  limited.max_error = 1.001 * error_of(11);
+  const Result straight = render(limited);
+  const TemporaryFolder folder;
+  limited.checkpoint.file = folder / "picture";
+  limited.checkpoint.resume = true;
+  const Result stopped = render(limited, uses_cache(limited.integrator) ? 8 : 5);
+  EXPECT_EQ(stopped.statistics.ended_by, EndedBy::caller);
+  EXPECT_TRUE(stopped.statistics.interrupted);
+  // The second time it is over already.
+  for (int time = 0; time < 2; ++time) {
+    const Result resumed = render(limited);
+    EXPECT_EQ(resumed.statistics.spp, straight.statistics.spp);
+    EXPECT_EQ(resumed.statistics.ended_by, EndedBy::max_error);
+    EXPECT_EQ(resumed.picture.layers[0].values, straight.picture.layers[0].values);
+  }
+}
+
+TEST_P(MaxError, AnEstimateNeedsTwoSamples) {
+  RenderOptions one = options();
+  one.spp = 1;
+  EXPECT_FALSE(render(one).statistics.estimated_error);
+}
+
+TEST_P(MaxError, ATimeLimitGivesAPicture) {
+  RenderOptions timed = options();
+  timed.cache.train_steps.reset();
+  timed.spp = kOpenSpp;
+  timed.time_limit_seconds = 0.3;
+  const Result result = render(timed);
+  EXPECT_EQ(result.statistics.ended_by, EndedBy::time_limit);
+  EXPECT_TRUE(result.statistics.interrupted);
+  EXPECT_GE(result.statistics.spp, 1);
+  const std::uint64_t pixels = 40 * 24;
+  EXPECT_GE(result.statistics.samples, pixels * static_cast<std::uint64_t>(result.statistics.spp));
+  EXPECT_LT(result.statistics.samples, pixels * static_cast<std::uint64_t>(result.statistics.spp + 1));
+  if (!uses_cache(timed.integrator)) {
+    EXPECT_EQ(result.statistics.samples, result.statistics.rays.camera)
+        << "of the last pass those that were begun";
+  }
+  for (const float value : result.picture.layers[0].values) ASSERT_TRUE(std::isfinite(value));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, MaxError,
+                         ::testing::Values(Kind{"path", Integrator::path, false},
+                                           Kind{"finished", Integrator::path, true},
+                                           Kind{"nrc", Integrator::nrc, true}),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+/// The true error, against many samples of another seed.
+TEST(EstimatedError, OfSamplesIsTheTrueOne) {
+  const scene::Scene scene = room();
+  RenderOptions options = testing::small_picture();
+  options.width = 64;
+  options.height = 48;
+  options.sampler = SamplerKind::independent;
+  options.spp = 2048;
+  const Picture reference = Renderer(scene, options).render();
+  options.seed = 1;
+  for (const bool reconstruct : {false, true}) {
+    options.reconstruct = reconstruct;
+    options.spp = 16;
+    Renderer renderer(scene, options);
+    const Picture picture = renderer.render();
+    const double error = std::sqrt(compare_pictures({reference, "reference"}, {picture, "test"}).rel_mse);
+    const double estimate = renderer.statistics().estimated_error.value();
+    EXPECT_LT(estimate, 1.5 * error) << reconstruct;
+    EXPECT_GT(estimate, error / 1.5) << reconstruct;
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
