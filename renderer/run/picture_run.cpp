@@ -87,7 +87,10 @@ class Renderer::Implementation::PictureRun {
     if (!uses_cache(options_.integrator)) return;
     training_ = renderer_.begin_training(found(), fingerprint_, callbacks_);
     if (training_.complete) return;
-    if (budget_.limit > 0.0) training_.end = time_at(budget_.training_end(seconds_since(begin_)));
+    if (budget_.limit > 0.0) {
+      const bool samples = options_.cache.source == TrainingSource::picture;
+      training_.end = time_at(budget_.training_end(seconds_since(begin_), samples));
+    }
     try {
       renderer_.train(training_, film_, callbacks_, [&] {
         if (!checkpoint_due()) return;

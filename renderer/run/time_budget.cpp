@@ -7,12 +7,13 @@ namespace {
 
 /// Training's share of the time that it and the passes have together (README.md).
 constexpr double kTrainingShare = 0.2;
+constexpr double kShareOfTeachingSamples = 0.5;
 
 }  // namespace
 
-double TimeBudget::training_end(double now) const {
+double TimeBudget::training_end(double now, bool teaching_samples) const {
   const double left = passes_end() - now;
-  return now + kTrainingShare * std::max(left, 0.0);
+  return now + (teaching_samples ? kShareOfTeachingSamples : kTrainingShare) * std::max(left, 0.0);
 }
 
 int samples_of_pass(double now, double seconds_per_sample, double usual, double end, int most) {

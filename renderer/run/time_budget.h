@@ -15,8 +15,9 @@ struct TimeBudget {
     if (limit <= 0.0) return std::numeric_limits<double>::infinity();
     return limit > reconstruct ? limit - reconstruct : 0.0;
   }
-  /// When training should end that begins at `now`; the passes have what is left.
-  double training_end(double now) const;
+  /// When training should end that begins at `now`; the passes have what is left. teaching_samples: the paths
+  /// of training are samples of the picture, so that its time is not lost.
+  double training_end(double now, bool teaching_samples) const;
 };
 
 /// Training goes on with a group of steps only where it is expected to end in time.

@@ -17,11 +17,14 @@ TEST(TimeBudget, PassesEndWhereReconstructionBegins) {
 
 TEST(TimeBudget, TrainingHasAShareOfWhatIsLeft) {
   const TimeBudget budget{10.0, 1.0};
-  const double early = budget.training_end(1.0), late = budget.training_end(5.0);
-  EXPECT_GT(early, 1.0);
-  EXPECT_LT(early, 9.0);
-  EXPECT_NEAR((early - 1.0) / 8.0, (late - 5.0) / 4.0, 1e-12) << "the same share of less";
-  EXPECT_EQ(budget.training_end(9.5), 9.5) << "nothing is left";
+  for (const bool samples : {false, true}) {
+    const double early = budget.training_end(1.0, samples), late = budget.training_end(5.0, samples);
+    EXPECT_GT(early, 1.0);
+    EXPECT_LT(early, 9.0);
+    EXPECT_NEAR((early - 1.0) / 8.0, (late - 5.0) / 4.0, 1e-12) << "the same share of less";
+    EXPECT_EQ(budget.training_end(9.5, samples), 9.5) << "nothing is left";
+  }
+  EXPECT_GT(budget.training_end(1.0, true), budget.training_end(1.0, false)) << "its samples are not lost";
 }
 
 TEST(TimeBudget, AGroupOfStepsNeverEndsLate) {
