@@ -31,8 +31,11 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}{}, write {:.2f}, total {:.2f}\n",
                       report.load_seconds, s.build_seconds, s.render_seconds, reconstruct,
                       report.write_seconds, report.total_seconds);
-  std::string error =
-      s.estimated_error ? fmt::format("; estimated error {}", format_percent(*s.estimated_error)) : "";
+  std::string error;
+  if (s.estimated_error) {
+    error = fmt::format("; estimated error {}", format_percent(*s.estimated_error));
+    if (renderer::uses_cache(settings.render.integrator)) error += " beside the cache's bias";
+  }
   if (settings.render.max_error > 0.0 && (s.ended_by == EndedBy::spp || s.ended_by == EndedBy::time_limit)) {
     error += fmt::format(", not {}: {} ended it first", format_percent(settings.render.max_error),
                          s.ended_by == EndedBy::spp ? "--spp" : "--time-limit");

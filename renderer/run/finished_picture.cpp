@@ -22,8 +22,10 @@ void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
 
 /// The samples' own brightness is taken from so many pixels around each, in each direction.
 constexpr int kSmoothing = 5;
-/// The same of finished halves.
-constexpr int kHalfSmoothing = 2;
+/// The same of finished halves, which have less noise.
+constexpr int kHalfSmoothing = 1;
+/// An error counts relative to at least this share of the finished value.
+constexpr float kLeastShare = 0.2f;
 
 bool tells_error(const Film& film) {
   return film.samples_per_pixel() >= 2.0;
@@ -35,12 +37,14 @@ std::optional<double> error_of(const Film& film, const Picture& picture) {
 }
 
 /// The halves are as good as independent, so half their difference is the error of their mean. Relative to
-/// the darker one: where one half met a bright sample, the other one tells what is usual there.
+/// the darker one: where one half met a bright sample, the other one tells what is usual there. The finished
+/// picture is the front layer.
 double error_of(const Picture& picture, const Reconstruction& finished) {
   const auto& [a, b] = finished.halves;
+  const std::vector<float>& color = picture.layers.front().values;
   Layer darker{.channels = picture.layers.front().channels, .values = a}, errors = darker;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    darker.values[i] = std::min(a[i], b[i]);
+    darker.values[i] = std::max(std::min(a[i], b[i]), kLeastShare * color[i]);
     errors.values[i] = 0.5f * (a[i] - b[i]);
   }
   return estimated_error(picture, darker, errors, kHalfSmoothing);

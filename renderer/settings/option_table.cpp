@@ -179,10 +179,11 @@ std::vector<Option> option_table(RenderOptions& options) {
              "Time of scouting, training, rendering and reconstruction together; it decides --spp and the "
              "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
              "limit")));
-  picture.add(decides_nothing(
-      number("max-error", max_error, kNotNegative, "E",
-             "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
-             "square root of compare's rel_mse; without --spp at 65536 samples at the latest; 0: off")));
+  picture.add(decides_nothing(number(
+      "max-error", max_error, kNotNegative, "E",
+      "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
+      "square root of compare's rel_mse, without the bias of a cache; without --spp at 65536 samples at "
+      "the latest; 0: off")));
   picture.add(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
                      "Seed of all random numbers"));
   picture.add(choice("sampler", sampler, "Kind of random numbers"));
