@@ -7,7 +7,6 @@
 
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
-#include "renderer/cache/cache_model.h"
 #include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"

@@ -19,7 +19,4 @@ std::shared_ptr<const neural::Model> make_cache_model(const World& world, const 
 
 neural::TrainingOptions training_options(const RenderOptions& options);
 
-/// The number of training steps for a picture of so many pixels, where the caller does not choose it.
-int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);
-
 }  // namespace gatelight::renderer

@@ -1,6 +1,7 @@
 #include "renderer/settings/resolved_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gatelight::renderer {
 
@@ -22,6 +23,17 @@ bool training_gives_samples(const RenderOptions& options) {
   const CacheOptions& cache = options.cache;
   return options.integrator == Integrator::nrc && cache.view == CacheView::final && cache.candidates == 1 &&
          cache.samples_per_point == 1 && cache.path_length == 0;
+}
+
+int choose_training_steps(const RenderOptions& options, std::uint64_t pixels) {
+  double records = 0x1p21;
+  if (options.integrator == Integrator::nrc) {
+    const double samples = static_cast<double>(pixels) * options.spp;
+    // Paths that are samples of the picture are no loss: training then takes about as long as the passes.
+    const bool gives_samples = options.cache.source == TrainingSource::picture;
+    records = std::clamp(gives_samples ? 2.5 * samples : 1600.0 * std::sqrt(samples), 0x1p19, 0x1p25);
+  }
+  return static_cast<int>(std::max(1l, std::lround(records / options.cache.batch)));
 }
 
 float resolve_filter_width(PixelFilter filter, float option) {

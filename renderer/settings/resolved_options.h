@@ -17,6 +17,9 @@ std::vector<Aov> film_aovs(const RenderOptions& options);
 /// Whether training paths can be samples of the picture: of radiance, one for each point, each to its end.
 bool training_gives_samples(const RenderOptions& options);
 
+/// The number of training steps for a picture of so many pixels, where the caller does not choose it.
+int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);
+
 /// Full width in pixels: the filter's usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3) where the
 /// option is 0.
 float resolve_filter_width(PixelFilter filter, float option);

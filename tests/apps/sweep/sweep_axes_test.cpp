@@ -71,11 +71,11 @@ TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySize
   const SweepRequest request = make_request(words_for({{"--batch", "512"}}));
   ASSERT_EQ(request.blocks.size(), 2u);
   EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
-  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--preset", "preview"), Pair("--batch", "512")));
-  EXPECT_THAT(request.blocks[1].train_steps, ElementsAre(64, 256, 1024));
+  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--preset", "bare"), Pair("--batch", "512")));
+  EXPECT_THAT(request.blocks[1].train_steps, ElementsAre(128, 512, 2048));
   EXPECT_THAT(request.blocks[1].base, ElementsAre(Pair("--preset", "standard"), Pair("--batch", "512")));
   ASSERT_EQ(request.blocks[1].axes.size(), 1u);
-  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("2", "6", "24"));
+  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("1", "3", "12"));
   EXPECT_THAT(request.plain_spp, ElementsAre(1, 4, 16, 64));
   EXPECT_TRUE(request.plain);
   EXPECT_EQ(request.seeds, 1);

@@ -166,9 +166,9 @@ TEST(SweepPlan, WhatIsReconstructedHasPathTracingOfBothKindsBesideIt) {
 }
 
 TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {
-  const SweepPlan plan = plan_of({}, {"preset=preview,paper-nao"}, false);
+  const SweepPlan plan = plan_of({}, {"preset=bare,paper-nao"}, false);
   ASSERT_THAT(labels(plan),
-              ElementsAre("nrc gate preset preview", "path", "nao gate preset paper-nao", "ao"));
+              ElementsAre("nrc gate preset bare", "path", "nao gate preset paper-nao", "ao"));
   EXPECT_EQ(plan.scenes[0].series[0].settings.render.spp, 4);
   EXPECT_EQ(plan.scenes[0].series[2].settings.render.cache.batch, 49152u);
   // The plain picture has the preset's size, so that it can be compared.
@@ -224,7 +224,7 @@ TEST(SweepPlan, ScenesMayReachOutWhereTheSweepIsAllowedToAndTheCommandSaysSo) {
 
 TEST(SweepPlan, TheCommandMakesTheCell) {
   const SweepPlan plan = plan_of({{"--camera", "it's here"}, {"--exposure", "-1"}},
-                                 {"stack=adaptive,1;adaptive", "preset=preview,paper-nrc"}, false);
+                                 {"stack=adaptive,1;adaptive", "preset=bare,paper-nrc"}, false);
   ASSERT_EQ(plan.scenes[0].series.size(), 5u);
   for (const PlannedSeries& series : plan.scenes[0].series) {
     const int point = series.points.back();

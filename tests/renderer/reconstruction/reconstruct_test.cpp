@@ -13,62 +13,10 @@
 #include "neural/simd/isa.h"
 #include "renderer/image/image_read.h"
 #include "renderer/reconstruction/region.h"
+#include "tests/renderer/reconstruction/made_picture.h"
 
 namespace gatelight::renderer {
 namespace {
-
-struct Made {
-  SampledPicture samples;
-  std::vector<double> truth;
-  std::vector<double> mean;  ///< of all samples
-};
-
-/// A floor and a wall, whose light changes smoothly; `stripes` of it are told by no guide. Samples are gamma
-/// distributed: their mean is the truth, their standard deviation `noise` times it.
-Made make_picture(int width, int height, int spp, double noise, double stripes = 0.0) {
-  Made made;
-  SampledPicture& s = made.samples;
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  s.width = width;
-  s.height = height;
-  for (auto& half : s.halves) half.color.resize(3 * pixels), half.variance.resize(3 * pixels);
-  s.counts.assign(pixels, static_cast<float>(spp));
-  s.coverage.assign(pixels, 1.0f);
-  for (auto* plane : {&s.albedo, &s.normal}) plane->resize(3 * pixels);
-  s.depth.resize(pixels);
-  std::mt19937 random(7);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const int x = static_cast<int>(p) % width, y = static_cast<int>(p) / width;
-    const bool floor = 2 * y + x > height;
-    s.normal[3 * p + (floor ? 1 : 2)] = 1.0f;
-    s.depth[p] = 5.0f - (floor ? 2.0f * static_cast<float>(y) / static_cast<float>(height) : 0.0f);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float albedo = (x / 8 + y / 8) % 2 == 0 ? 0.2f + 0.2f * static_cast<float>(c) : 0.7f;
-      s.albedo[3 * p + c] = albedo;
-      const double light = 1.5 + std::sin(0.05 * x + static_cast<double>(c)) + (floor ? 0.02 * y : 0.5) +
-                           (x / 3 % 2 == 0 ? stripes : 0.0);
-      const double truth = light * static_cast<double>(albedo);
-      made.truth.push_back(truth);
-      double sums[2] = {0.0, 0.0}, squares[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
-      const double shape = 1.0 / (noise * noise);
-      std::gamma_distribution<double> sample(shape, truth / shape);
-      for (int i = 0; i < spp; ++i) {
-        const double v = sample(random);
-        sums[i % 2] += v, squares[i % 2] += v * v, counts[i % 2] += 1.0;
-      }
-      made.mean.push_back((sums[0] + sums[1]) / spp);
-      for (std::size_t h = 0; h < 2; ++h) {
-        const double n = counts[h];
-        if (n > 0.0) s.halves[h].color[3 * p + c] = static_cast<float>(sums[h] / n);
-        if (n > 1.0) {
-          const double variance = (squares[h] - sums[h] * sums[h] / n) / (n * (n - 1.0));
-          s.halves[h].variance[3 * p + c] = static_cast<float>(variance);
-        }
-      }
-    }
-  }
-  return made;
-}
 
 template <class Values>
 double squared_error(const Values& values, const std::vector<double>& truth) {
@@ -84,14 +32,6 @@ double sum_of(const std::vector<float>& values) {
   double sum = 0.0;
   for (const float value : values) sum += static_cast<double>(value);
   return sum;
-}
-
-void expect_a_picture(const Reconstruction& result, std::size_t pixels) {
-  ASSERT_EQ(result.color.size(), 3 * pixels);
-  ASSERT_EQ(result.error.size(), 3 * pixels);
-  for (const auto* values : {&result.color, &result.error}) {
-    for (const float value : *values) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f) << value;
-  }
 }
 
 TEST(Reconstruct, IsCloserToTheTruthThanTheSamples) {
@@ -220,60 +160,6 @@ TEST(Reconstruct, ThreadsInstructionSetsAndRegionsGiveTheSameBits) {
       expect_same({.isa = std::string(neural::simd::isa_name(isa))}, std::string(isa_name(isa)));
     for (const int rows : {64, 128, 192}) expect_same({.rows_at_once = rows}, std::to_string(rows) + " rows");
   }
-}
-
-TEST(Reconstruct, HasEverySize) {
-  for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {5, 70}, {33, 17}, {400, 2}}) {
-    SCOPED_TRACE(testing::Message() << width << "x" << height);
-    for (const int spp : {1, 4}) {
-      const Made made = make_picture(width, height, spp, 1.0);
-      expect_a_picture(reconstruct(made.samples), made.samples.counts.size());
-    }
-  }
-}
-
-TEST(Reconstruct, BlackStaysBlack) {
-  SampledPicture samples = make_picture(40, 30, 4, 1.0).samples;
-  for (auto& half : samples.halves) {
-    half.color.assign(half.color.size(), 0.0f);
-    half.variance.assign(half.variance.size(), 0.0f);
-  }
-  const Reconstruction result = reconstruct(samples);
-  expect_a_picture(result, samples.counts.size());
-  EXPECT_EQ(sum_of(result.color), 0.0);
-}
-
-TEST(Reconstruct, OneBrightSampleChangesItsNeighbourhoodAlone) {
-  const Made made = make_picture(160, 120, 8, 0.5);
-  for (const float bright : {1e4f, 1e30f}) {
-    SampledPicture samples = made.samples;
-    samples.halves[0].color[3 * (60 * 160 + 80)] = bright / 4.0f;
-    samples.halves[0].variance[3 * (60 * 160 + 80)] =
-        static_cast<float>(std::min(static_cast<double>(bright) * static_cast<double>(bright) / 16.0, 3e38));
-    const Reconstruction clean = reconstruct(made.samples), result = reconstruct(samples);
-    expect_a_picture(result, samples.counts.size());
-    for (int y = 0; y < 120; ++y) {
-      for (int x = 0; x < 160; ++x) {
-        if (std::abs(x - 80) <= kHalo && std::abs(y - 60) <= kHalo) continue;
-        const auto i = 3 * static_cast<std::size_t>(y * 160 + x);
-        ASSERT_NEAR(result.color[i], clean.color[i], 1e-4f) << x << "," << y;
-      }
-    }
-  }
-}
-
-TEST(Reconstruct, PixelsWithoutSamplesAreFilled) {
-  Made made = make_picture(80, 60, 16, 0.5);
-  for (std::size_t p = 0; p < made.samples.counts.size(); p += 2) {
-    made.samples.counts[p] = 0.0f;
-    for (auto& half : made.samples.halves) {
-      for (std::size_t c = 0; c < 3; ++c) half.color[3 * p + c] = half.variance[3 * p + c] = 0.0f;
-    }
-  }
-  const Reconstruction result = reconstruct(made.samples);
-  expect_a_picture(result, made.samples.counts.size());
-  // The samples' own variance is 1/64 of the square.
-  EXPECT_LT(squared_error(result.color, made.truth), 0.02);
 }
 
 Picture picture_with(const std::vector<std::string>& layers) {
