@@ -1,6 +1,7 @@
 #include "renderer/run/error_checks.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace gatelight::renderer {
