@@ -112,11 +112,12 @@ GATELIGHT_INLINE void find_weights(const Windows& w, const HalfView& half, float
   for (int dy = -kRadius; dy <= kRadius; ++dy) {
     for (int dx = -kRadius; dx <= kRadius; ++dx, ++n) {
       const size_t q = w.at(dx, dy);
-      Float edges = 0.0f;
+      Float edges = -load(band.edge_noise + p) - load(band.edge_noise + q);
       for (int e = 0; e < kEdges; ++e) {
         const Float d = load(band.edges[e] + p) - load(band.edges[e] + q);
         edges += d * d;
       }
+      edges = max(edges, 0.0f);
       Float weight = 0.0f;
       if (any(edges < kFarthest)) {
         const Float d = max(patch_distance(w, half, patches, k2, dx, dy), 0.0f) + edges;

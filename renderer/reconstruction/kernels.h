@@ -47,6 +47,7 @@ struct BandView {
   const float* guides[kMostGuides] = {};
   const float* guide_variance[kMostGuides] = {};  ///< what a guide's value does not tell
   const float* edges[kEdges] = {};                ///< over the distance at which two pixels differ
+  const float* edge_noise = nullptr;              ///< the squared distance that a pixel's noise brings
 };
 
 struct ReconstructionKernels {

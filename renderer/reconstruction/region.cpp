@@ -54,7 +54,7 @@ void Region::read(const SampledPicture& s) {
       for (int c = 0; c < 3; ++c) function(half.color[c]), function(half.variance[c]);
     }
     for (int c = 0; c < 3; ++c) function(divisor_[c]), function(normal_[c]);
-    function(counts_), function(depth_);
+    function(counts_), function(coverage_), function(depth_);
   };
   each([&](Plane& plane) { plane.resize(pixels()); });
   const bool cached = !s.halves[0].cache.empty();
@@ -69,6 +69,7 @@ void Region::read(const SampledPicture& s) {
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
       const std::size_t from = offset + p;
       counts_[p] = s.counts[from];
+      coverage_[p] = s.coverage[from];
       depth_[p] = std::max(s.depth[from], 0.0f);
       for (std::size_t c = 0; c < 3; ++c) {
         normal_[c][p] = std::clamp(s.normal[3 * from + c], -1.0f, 1.0f);
@@ -155,6 +156,20 @@ Plane Region::smooth_variance(const Half& half) const {
   return variance;
 }
 
+/// Few samples find the shares of several surfaces in a pixel only roughly. How roughly, their normals tell:
+/// the mean of different ones is short.
+Plane Region::edge_noise() const {
+  constexpr float kNoise = 2.0f;  // of normals and of the divisors that change with them
+  Plane noise(pixels());
+  for (std::size_t p = 0; p < pixels(); ++p) {
+    float square = 0.0f;
+    for (int c = 0; c < 3; ++c) square += normal_[c][p] * normal_[c][p];
+    const float spread = std::max(coverage_[p] - square, 0.0f);
+    noise[p] = kNoise * spread / (std::max(counts_[p] - 1.0f, 1.0f) * kEdge * kEdge);
+  }
+  return noise;
+}
+
 /// Of the cache's picture: its noise, from the difference of the halves, and a little that changes from texel
 /// to texel of its features.
 Plane Region::cache_variance() const {
@@ -213,6 +228,7 @@ void Region::fit(const ReconstructionKernels& kernels) {
     band.edges[c] = keep(mapped(normal_[c], over));
     band.edges[3 + c] = keep(mapped(divisor_[c], over));
   }
+  band.edge_noise = keep(layout.deal_clamped(edge_noise()));
 
   for (int h = 0; h < 2; ++h) {
     std::vector<Plane> sums(5, Plane(layout.size(), 0.0f));

@@ -40,6 +40,7 @@ class Region {
   void fill_gaps();
   Plane smooth_variance(const Half& half) const;
   Plane cache_variance() const;
+  Plane edge_noise() const;
 
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
@@ -49,6 +50,7 @@ class Region {
   float scale_;
   Half halves_[2];
   Plane counts_;
+  Plane coverage_;
   Plane divisor_[3];  ///< of colours: what the surface reflects
   Plane normal_[3];
   Plane depth_;
