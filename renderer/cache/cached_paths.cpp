@@ -13,7 +13,7 @@ namespace {
 /// Where the cache answers the wide lobes, the narrow ones are followed with a probability of this times the
 /// square root of their throughput. So the reflection of a varnish of 4 % is always followed once and rarely
 /// twice: one ray and one query cost less than the noise of leaving them out.
-constexpr float kNarrowSurvival = 5.0f;
+constexpr Roulette kNarrowRoulette{5.0f, 1.0f};
 
 /// Light at a vertex is summed up in units of the path's start. With hundreds of nested media between the
 /// two, single precision does not hold both, and the vertex makes no record.
@@ -36,11 +36,15 @@ std::uint32_t CachedPaths::side_at(const Hit& hit, bool front) const {
   return side_of(front, walk_.world.scene.instances[hit.instance].mirrors);
 }
 
-bool CachedPaths::wide_as_a_whole(const SurfaceMaterial& m) const {
+CachedPaths::BlockKind CachedPaths::kind_of_end(const SurfaceMaterial& m) const {
   const auto is_wide = [&](float roughness) {
     return roughness >= std::max(options_.min_roughness, kDeltaRoughness) && roughness <= 1.0f;
   };
-  return is_wide(m.roughness) && (!(m.clearcoat > 0.0f) || is_wide(m.clearcoat_roughness));
+  const bool coated = m.clearcoat > 0.0f;
+  if (is_wide(m.roughness) && (!coated || is_wide(m.clearcoat_roughness))) return kAnswers;
+  const bool has_wide = is_wide(m.roughness) || (coated && is_wide(m.clearcoat_roughness)) ||
+                        (m.metallic < 1.0f && m.transmission < 1.0f) || (m.sheen_color > 0.0f).any();
+  return has_wide ? kSplits : kScatters;
 }
 
 bool CachedPaths::may_teach(const Path& path, const PathPlan& plan) const {
@@ -123,10 +127,11 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   const std::uint32_t side = side_at(hit, m.surface.front);
   const bool has_storage = stored_(neural::surface_index(hit.instance, side));
   if (path.shades_wide(m)) {
-    const bool answers = has_storage && ends_here(path, plan);
-    if (!answers || (options_.held.emission() && !delta_apart_ && wide_as_a_whole(m.surface.material))) {
-      PathBlock& block = scratch.blocks[answers ? kAnswers : kScatters];
-      path.wait(m, number, plan.min_depth, block);
+    const BlockKind kind = has_storage && ends_here(path, plan) ? kind_of_end(m.surface.material) : kScatters;
+    if (kind == kScatters || options_.held.emission()) {
+      PathBlock& block = scratch.blocks[kind];
+      // Where a path splits, Russian roulette applies at every depth (kNarrowRoulette).
+      path.wait(m, number, kind == kScatters ? plan.min_depth : path.depth, block);
       return &block;
     }
   }
@@ -151,23 +156,42 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
 
 void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
                         std::span<FirstHit> first_hits, Scratch& scratch) const {
-  const ShadingBlock& points = block.points;
-  const bool answers = &block == &scratch.blocks[kAnswers];
-  answers ? walk_.shading.albedo(block.points) : walk_.shading.scatter(block.points);
+  ShadingBlock& points = block.points;
+  const bool goes_on = &block == &scratch.blocks[kScatters], splits = &block == &scratch.blocks[kSplits];
+  if (goes_on) {
+    walk_.shading.scatter(points);
+  } else if (delta_apart_) {
+    walk_.shading.delta_light(points);
+  } else if (splits) {
+    walk_.shading.scatter_narrow(points, kNarrowRoulette);
+  } else {
+    walk_.shading.albedo(points);
+  }
+  std::int32_t vertices[ShadingBlock::kWidth];
   for (int lane = 0; lane < points.count; ++lane) {
-    const std::uint32_t number = block.path[lane];
-    Path& path = scratch.paths[scratch.path_of[number]];
-    const Hit& hit = scratch.hits[number];
+    Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (path.surfaces == 0 && !first_hits.empty())
       first_hits[path.index].albedo = lane_color(points.albedo, lane);
-    if (answers) {
-      const SurfacePoint point = point_at(block, lane, hit, lane_color(points.albedo, lane));
-      const std::int32_t index = ask(path, point, batch);
-      if (seeks_guide(path, batch)) set_guide(path, point, true, index, batch);
-    } else {
-      Ray next;
-      if (continue_from(path, block, lane, hit, next, plan, batch, scratch)) scratch.go_on(number, next);
+    if (goes_on) {
+      continue_from(path, block, lane, plan, batch, scratch);
+      continue;
     }
+    const SurfacePoint point = point_at(block, lane, scratch.hits[block.path[lane]],
+                                        lane_color(splits ? points.wide_albedo : points.albedo, lane));
+    vertices[lane] = ask(path, point, batch);
+    const bool guides = seeks_guide(path, batch);
+    if (guides) set_guide(path, point, true, vertices[lane], batch);
+    if (delta_apart_) add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
+  }
+  if (!splits) return;
+  if (delta_apart_) walk_.shading.scatter_narrow(points, kNarrowRoulette);
+  for (int lane = 0; lane < points.count; ++lane) {
+    Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
+    if (!delta_apart_ || !points.light_is_delta[lane])
+      add_light(path, points, lane, false, false, vertices[lane], plan, scratch);
+    if (!points.alive[lane]) continue;
+    const Drawn drawn = drawn_at(points, lane);
+    follow(path, block, lane, drawn, {drawn.weight, drawn.weight}, vertices[lane], scratch);
   }
 }
 
@@ -264,7 +288,8 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   add_light(path, m, narrow, delta_apart_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, narrow);
   if (!drawn) return false;
-  const float survival = std::min(1.0f, kNarrowSurvival * std::sqrt(path.throughput.maxCoeff()));
+  const float survival =
+      std::min(kNarrowRoulette.most, kNarrowRoulette.factor * std::sqrt(path.throughput.maxCoeff()));
   return path.survives_by(survival, *drawn) &&
          advance(path, m, *drawn, {drawn->weight, drawn->weight}, index);
 }
@@ -289,9 +314,10 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   return advance(path, m, *drawn, {drawn->weight, drawn->weight, held}, index);
 }
 
-bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
-                                const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
+void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan,
+                                PathBatch& batch, Scratch& scratch) const {
   const ShadingBlock& p = block.points;
+  const Hit& hit = scratch.hits[block.path[lane]];
   const Color wide_albedo = lane_color(p.wide_albedo, lane);
   const SurfacePoint point = point_at(block, lane, hit, wide_albedo);
   const bool stored = stored_(neural::surface_index(hit.instance, point.side));
@@ -301,28 +327,39 @@ bool CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   const std::int32_t index = add_vertex(path, point, record, plan, batch);
   const bool guides = wide && seeks_guide(path, batch);
   if (guides) set_guide(path, point, stored, index, batch);
-  Color direct = lane_color(p.direct, lane) * path.scale();
-  const float shadow_weight =
-      plan.faint > 0.0f
-          ? path.shadow_weight(direct.maxCoeff(),
-                               plan.faint * cache_reflectance(wide_albedo).maxCoeff() * path.scale())
-          : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
-  if (shadow_weight > 0.0f) {
-    direct *= shadow_weight;
-    const bool delta = p.light_is_delta[lane] != 0, holds = options_.held.light_sample(delta);
-    scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
-    const Color wide_direct = lane_color(p.wide_direct, lane) * (path.scale() * shadow_weight);
-    const Color none = Color::Zero();
-    scratch.pending.push_back({index, direct, record && holds ? wide_direct : none,
-                               guides && delta && !holds ? wide_direct : none});
-  }
-  if (!p.alive[lane]) return false;
+  add_light(path, p, lane, record, guides, index, plan, scratch);
+  if (!p.alive[lane]) return;
   const Drawn drawn = drawn_at(p, lane);
   if (!drawn.delta && !(drawn.spread < options_.min_roughness * options_.min_roughness))
     path.wide_events += 1;
   const Color held = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
-  link(path, drawn, {drawn.weight, drawn.weight, held}, index);
-  return path.Walker::advance(block, lane, drawn, hit.t, next);
+  follow(path, block, lane, drawn, {drawn.weight, drawn.weight, held}, index, scratch);
+}
+
+void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
+                            std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const {
+  const Color direct = lane_color(p.direct, lane) * path.scale();
+  const float weight =
+      plan.faint > 0.0f
+          ? path.shadow_weight(
+                direct.maxCoeff(),
+                plan.faint * cache_reflectance(lane_color(p.wide_albedo, lane)).maxCoeff() * path.scale())
+          : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
+  if (!(weight > 0.0f)) return;
+  const bool delta = p.light_is_delta[lane] != 0, holds = options_.held.light_sample(delta);
+  const Color wide = lane_color(p.wide_direct, lane) * (path.scale() * weight);
+  const Color none = Color::Zero();
+  scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
+  scratch.pending.push_back(
+      {vertex, direct * weight, record && holds ? wide : none, guides && delta && !holds ? wide : none});
+}
+
+void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const Drawn& drawn, const Links& links,
+                         std::int32_t vertex, Scratch& scratch) const {
+  const std::uint32_t number = block.path[lane];
+  link(path, drawn, links, vertex);
+  Ray next;
+  if (path.Walker::advance(block, lane, drawn, scratch.hits[number].t, next)) scratch.go_on(number, next);
 }
 
 void CachedPaths::link(Path& path, const Drawn& drawn, const Links& links, std::int32_t vertex) const {

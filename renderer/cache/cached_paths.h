@@ -90,13 +90,14 @@ class CachedPaths {
   struct Links;
   struct Path;
   struct Pending;
-  /// The kinds of blocks: paths that end in the cache there, and paths that go on.
-  enum BlockKind : std::uint8_t { kAnswers, kScatters };
+  /// The kinds of blocks: paths that end in the cache there, paths of which the narrow lobes alone go on, and
+  /// paths that go on.
+  enum BlockKind : std::uint8_t { kAnswers, kSplits, kScatters };
 
   PathBlock* scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
                      PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
-  /// Whether no lobe of a surface is narrow, so that a path can end there in the cache.
-  bool wide_as_a_whole(const SurfaceMaterial& material) const;
+  /// What the kernels do where a path can end in the cache.
+  BlockKind kind_of_end(const SurfaceMaterial& material) const;
   void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
              Scratch& scratch) const;
   std::uint32_t side_at(const Hit& hit, bool front) const;
@@ -118,8 +119,14 @@ class CachedPaths {
   bool ends_at(const Path& path, QueryAt place) const;
   bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
   /// For a lane that is shaded.
-  bool continue_from(Path& path, const PathBlock& block, int lane, const Hit& hit, Ray& next,
-                     const PathPlan& plan, PathBatch& batch, Scratch& scratch) const;
+  void continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan, PathBatch& batch,
+                     Scratch& scratch) const;
+  /// Adds the light sample of a lane to `vertex`, unless roulette ends it.
+  void add_light(const Path& path, const ShadingBlock& points, int lane, bool record, bool guides,
+                 std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const;
+  /// Makes the next ray of a lane, if it has one.
+  void follow(Path& path, const PathBlock& block, int lane, const Drawn& drawn, const Links& links,
+              std::int32_t vertex, Scratch& scratch) const;
   bool continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record, const PathPlan& plan,
                      PathBatch& batch, Scratch& scratch) const;
   /// `links` apply from `vertex` on, unless the path only passes a pane.

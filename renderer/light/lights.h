@@ -64,6 +64,8 @@ class Lights {
   const std::vector<scene::PunctualLight>& distant() const { return distant_; }
   /// Null where lights with a position are chosen by power.
   const LightTree* tree() const { return local_.table.empty() ? &local_.tree : nullptr; }
+  /// The same of the placed lights alone, numbered from 0, for sample_delta().
+  const LightTree* placed_tree() const { return local_placed_.table.empty() ? &local_placed_.tree : nullptr; }
 
  private:
   /// Lights with a position, in a tree or in a table. The other one is empty; both are empty if there is

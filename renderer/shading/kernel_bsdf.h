@@ -199,6 +199,7 @@ struct LaneBsdf {
     albedo = clamp(albedo, 0.0f, 1.0f);
     if (tells_wide) tell_wide(tables, context.min_roughness);
     p_microfacet = max(p_microfacet, 1e-3f * f90 * base_scale);
+    if (context.narrow_alone) keep_narrow();
     const Float total = p_microfacet + p_diffuse + p_coat + p_sheen;
     const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
     p_microfacet *= scale;
@@ -321,6 +322,15 @@ struct LaneBsdf {
     }
     apart = {min(apart.x, albedo.x), min(apart.y, albedo.y), min(apart.z, albedo.z)};
     wide_albedo = select(wide_facets, albedo - apart, apart);
+  }
+
+  /// Bsdf::narrow_part, but for the albedo.
+  GATELIGHT_INLINE void keep_narrow() {
+    tells_wide = false;
+    p_microfacet = select_or_zero(~wide_facets, p_microfacet);
+    p_coat = select_or_zero(~wide_coat, p_coat);
+    p_diffuse = p_sheen = 0.0f;
+    diffuse = repeat(0.0f);
   }
 
   GATELIGHT_INLINE Float passed(const Albedo& a) const {

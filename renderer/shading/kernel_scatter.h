@@ -22,19 +22,17 @@ GATELIGHT_INLINE void albedo_at(ShadingBlock& block, const ShadingContext& conte
   store(block.albedo, at, LaneBsdf(block, context, at).albedo);
 }
 
-GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& context, int at) {
-  const LaneBsdf bsdf(block, context, at);
-  store(block.albedo, at, bsdf.albedo);
-  if (bsdf.tells_wide) store(block.wide_albedo, at, bsdf.wide_albedo);
-  const Float3 position = load(block.position, at);
+/// Surface::spawn.
+GATELIGHT_INLINE Float3 spawn(const ShadingBlock& block, int at, Float3 ng, Float3 direction) {
   const Float offset = load(block.offset + at);
-  const Int seed = load(block.seed + at);
-  // Surface::spawn.
-  const auto spawn = [&](Float3 direction) __attribute__((always_inline)) {
-    return position + bsdf.ng * select(dot(bsdf.ng, direction) < 0.0f, -offset, offset);
-  };
+  return load(block.position, at) + ng * select(dot(ng, direction) < 0.0f, -offset, offset);
+}
 
-  // The light: Walker::light_at and shadow_ray().
+/// The light: Walker::light_at and shadow_ray(). The albedos as well.
+GATELIGHT_INLINE void light_at(ShadingBlock& block, const ShadingContext& context, const LaneBsdf& bsdf,
+                               int at) {
+  store(block.albedo, at, bsdf.albedo);
+  if (context.tells_wide) store(block.wide_albedo, at, bsdf.wide_albedo);
   const Float light_pdf = load(block.light_pdf + at);
   const Mask lit =
       (load(block.light_state + at) == state_of(LaneLight::done)) & (light_pdf > 0.0f) & ~bsdf.is_delta;
@@ -46,27 +44,31 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
     const Float3 light = load(block.light_radiance, at) * weight;
     store(block.direct, at, select_or_zero(lit, value.value * light));
     if (bsdf.tells_wide) store(block.wide_direct, at, select_or_zero(lit, value.wide * light));
-    store(block.shadow_origin, at, spawn(wi));
+    store(block.shadow_origin, at, spawn(block, at, bsdf.ng, wi));
     const Float distance = load(block.light_distance + at);
-    const Float length =
-        distance - (load(block.light_offset + at) + 2.0f * offset) / load(block.light_cosine + at);
+    const Float length = distance - (load(block.light_offset + at) + 2.0f * load(block.offset + at)) /
+                                        load(block.light_cosine + at);
     store(block.shadow_length + at, select(length > 0.0f, length, 0.5f * distance));
-    store(block.shadow_seed + at, hash(seed ^ 0x5bd1e995u));
+    store(block.shadow_seed + at, hash(load(block.seed + at) ^ 0x5bd1e995u));
   } else {
     store(block.direct, at, repeat(0.0f));
     store(block.wide_direct, at, repeat(0.0f));
   }
+}
 
-  // The direction: Walker::draw and survives.
+/// The light, and the direction: Walker::draw and survives.
+GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& context, int at) {
+  const LaneBsdf bsdf(block, context, at);
+  light_at(block, context, bsdf, at);
   const LaneSampler sampler{block.sampler, load(block.sampler_key + at), load(block.sampler_index + at)};
   const Int dimensions = load(block.dimensions + at);
   LaneSample s = bsdf.sample(sampler.get_1d(dimensions), sampler.get_2d(dimensions + 1u));
   Mask alive = (s.pdf > 0.0f) & any_positive(s.weight);
-  const Int next = hash(seed + 0x9e3779b9u);
+  const Int next = hash(load(block.seed + at) + 0x9e3779b9u);
   const Mask through_pane = s.delta & s.transmitted;
   const Mask plays = to_float(load(block.events_before_roulette + at)) <= select_or_zero(~through_pane, 1.0f);
-  const Float survival =
-      select(plays, min(0.95f, sqrt(largest(load(block.throughput, at) * s.weight))), 1.0f);
+  const Float kept = context.roulette.factor * sqrt(largest(load(block.throughput, at) * s.weight));
+  const Float survival = select(plays, min(context.roulette.most, kept), 1.0f);
   alive &= ~plays | (to_unit_float(hash(next ^ 0x68bc21ebu)) < survival);
   store(block.alive, at, alive);
   store(block.is_delta, at, s.delta);
@@ -77,7 +79,7 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
   store(block.pdf + at, s.pdf);
   store(block.spread + at, s.spread);
   store(block.survival + at, survival);
-  store(block.next_origin, at, spawn(s.wi));
+  store(block.next_origin, at, spawn(block, at, bsdf.ng, s.wi));
   store(block.next_seed + at, next);
 }
 

@@ -16,9 +16,12 @@ void scatter(ShadingBlock& block, const ShadingContext& context) {
 void albedo(ShadingBlock& block, const ShadingContext& context) {
   for (int at = 0; at < block.count; at += kLanes) albedo_at(block, context, at);
 }
+void light(ShadingBlock& block, const ShadingContext& context) {
+  for (int at = 0; at < block.count; at += kLanes) light_at(block, context, LaneBsdf(block, context, at), at);
+}
 
 }  // namespace
 
-const ShadingKernels GATELIGHT_KERNEL_TABLE = {sample_lights, scatter, albedo};
+const ShadingKernels GATELIGHT_KERNEL_TABLE = {sample_lights, scatter, albedo, light};
 
 }  // namespace gatelight::renderer

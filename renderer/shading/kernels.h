@@ -33,6 +33,12 @@ struct BsdfTables {
   const float* sheen = nullptr;      ///< SheenTables::values; null in scenes without sheen
 };
 
+/// Russian roulette: paths survive with the probability min(most, factor * sqrt(throughput)).
+struct Roulette {
+  float factor = 1.0f;
+  float most = 0.95f;
+};
+
 struct ShadingContext {
   LightView lights;
   BsdfTables tables;
@@ -40,6 +46,10 @@ struct ShadingContext {
   MisHeuristic heuristic = MisHeuristic::power;
   bool tells_wide = false;     ///< whether the outputs of the wide lobes are wanted
   float min_roughness = 0.0f;  ///< perceptual; narrower lobes are not wide (Bsdf::has_narrow)
+  /// Light, direction and roulette are those of the narrow lobes (Bsdf::narrow_part); tells_wide is set, for
+  /// the albedos.
+  bool narrow_alone = false;
+  Roulette roulette;
 };
 
 struct ShadingKernels {
@@ -50,6 +60,8 @@ struct ShadingKernels {
   void (*scatter)(ShadingBlock&, const ShadingContext&);
   /// The directional albedo alone.
   void (*albedo)(ShadingBlock&, const ShadingContext&);
+  /// The albedos and the light of the light samples: a part of `scatter`.
+  void (*light)(ShadingBlock&, const ShadingContext&);
 };
 
 }  // namespace gatelight::renderer

@@ -11,7 +11,8 @@ void append(std::vector<float>& to, const auto& vector) {
 
 }  // namespace
 
-LightArrays::LightArrays(const Lights& lights) : usable_(lights.tree() != nullptr) {
+LightArrays::LightArrays(const Lights& lights)
+    : usable_(lights.tree() != nullptr), placed_tree_(lights.placed_tree()) {
   if (!usable_) return;
   view_.tree = lights.tree()->node_numbers();
   view_.nearest2 = lights.tree()->nearest2();
@@ -51,6 +52,15 @@ LightArrays::LightArrays(const Lights& lights) : usable_(lights.tree() != nullpt
   if (!sky.black()) view_.sky = sky.constant() ? LightView::Sky::constant : LightView::Sky::picture;
   complete_ = complete_ && view_.sky != LightView::Sky::picture;
   for (int c = 0; c < 3; ++c) view_.sky_radiance[c] = sky.mean()[c];
+}
+
+LightView LightArrays::delta_view() const {
+  LightView view = view_;
+  view.tree = placed_tree_->node_numbers();
+  view.nearest2 = placed_tree_->nearest2();
+  view.triangle_count = 0;
+  view.sky = LightView::Sky::none;
+  return view;
 }
 
 }  // namespace gatelight::renderer

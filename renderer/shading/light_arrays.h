@@ -17,6 +17,8 @@ class LightArrays {
 
   /// Null where the kernels do not know how lights are chosen.
   const LightView* view() const { return usable_ ? &view_ : nullptr; }
+  /// Of the lights of Lights::sample_delta, where view() is not null. Their samples are always complete.
+  LightView delta_view() const;
   /// Whether the kernels complete all samples: there is no picture of the sky and no textured emitter.
   bool complete() const { return complete_; }
   std::size_t bytes() const { return (triangles_.size() + placed_.size() + suns_.size()) * sizeof(float); }
@@ -25,6 +27,7 @@ class LightArrays {
   bool usable_;
   bool complete_ = true;
   LightView view_;
+  const LightTree* placed_tree_;
   std::vector<float> triangles_;
   std::vector<float> placed_;
   std::vector<float> suns_;

@@ -53,23 +53,49 @@ WideShading::WideShading(const Lights& lights, const LightArrays& arrays, const 
       kernels_(kernels),
       wide_lights_(arrays.view() != nullptr),
       lights_are_complete_(arrays.complete()) {
-  if (wide_lights_) context_.lights = *arrays.view();
+  if (wide_lights_) {
+    context_.lights = *arrays.view();
+    delta_lights_ = arrays.delta_view();
+  }
   context_.tables = {GgxTables::get().values(), GgxTables::get().means(),
                      sheen ? SheenTables::get().values() : nullptr};
   context_.direct = direct;
   context_.heuristic = heuristic;
 }
 
-void WideShading::scatter(ShadingBlock& block) const {
+void WideShading::sample_lights(ShadingBlock& block) const {
   if (wide_lights_) {
     kernels_.sample_lights(block, context_);
     if (!lights_are_complete_) {
       for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane);
     }
   } else {
-    for (int lane = 0; lane < block.count; ++lane) sample_light(block, lane);
+    for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, false);
   }
+}
+
+void WideShading::scatter(ShadingBlock& block) const {
+  sample_lights(block);
   kernels_.scatter(block, context_);
+}
+
+void WideShading::scatter_narrow(ShadingBlock& block, const Roulette& roulette) const {
+  sample_lights(block);
+  ShadingContext context = context_;
+  context.narrow_alone = true;
+  context.roulette = roulette;
+  kernels_.scatter(block, context);
+}
+
+void WideShading::delta_light(ShadingBlock& block) const {
+  ShadingContext context = context_;
+  context.lights = delta_lights_;
+  if (wide_lights_) {
+    kernels_.sample_lights(block, context);
+  } else {
+    for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, true);
+  }
+  kernels_.light(block, context);
 }
 
 void WideShading::complete_light(ShadingBlock& block, int lane) const {
@@ -93,12 +119,16 @@ void WideShading::complete_light(ShadingBlock& block, int lane) const {
   block.light_state[lane] = static_cast<std::uint32_t>(LaneLight::done);
 }
 
-void WideShading::sample_light(ShadingBlock& block, int lane) const {
+/// By the scalar code. delta: Lights::sample_delta.
+void WideShading::put_light(ShadingBlock& block, int lane, bool delta) const {
   const Sampler sampler =
       Sampler::from_parts(block.sampler, block.sampler_key[lane], block.sampler_index[lane]);
   const std::uint32_t dimensions = block.dimensions[lane];
-  const LightSample s = lights_.sample(lane_vector(block.position, lane), light_normal(block, lane),
-                                       sampler.get_1d(dimensions + 2), sampler.get_2d(dimensions + 3));
+  const Vec3 position = lane_vector(block.position, lane), normal = light_normal(block, lane);
+  const float choice = sampler.get_1d(dimensions + 2);
+  const Vec2 point = sampler.get_2d(dimensions + 3);
+  const LightSample s = delta ? lights_.sample_delta(position, normal, choice, point)
+                              : lights_.sample(position, normal, choice, point);
   block.light_state[lane] = static_cast<std::uint32_t>(s.pdf > 0.0f ? LaneLight::done : LaneLight::none);
   block.light_is_delta[lane] = s.delta ? ~0u : 0u;
   put(block.light_direction, lane, s.wi);

@@ -38,16 +38,22 @@ class WideShading {
 
   /// Shades all lanes: light samples, BSDF values, new directions. The results are in the block.
   void scatter(ShadingBlock& block) const;
+  /// The same of the narrow lobes alone, with the albedos of scatter(). Only after tell_wide().
+  void scatter_narrow(ShadingBlock& block, const Roulette& roulette) const;
+  /// The light of Lights::sample_delta, and the albedos.
+  void delta_light(ShadingBlock& block) const;
   /// The directional albedos alone.
   void albedo(ShadingBlock& block) const { kernels_.albedo(block, context_); }
 
  private:
+  void sample_lights(ShadingBlock& block) const;
   void complete_light(ShadingBlock& block, int lane) const;
-  void sample_light(ShadingBlock& block, int lane) const;
+  void put_light(ShadingBlock& block, int lane, bool delta) const;
 
   const Lights& lights_;
   const ShadingKernels& kernels_;
   ShadingContext context_;
+  LightView delta_lights_;
   bool wide_lights_;
   bool lights_are_complete_;  ///< LightArrays::complete
 };

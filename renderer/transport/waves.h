@@ -23,7 +23,7 @@ struct RayLog {
 };
 
 /// Kinds of blocks that an integrator may fill side by side.
-inline constexpr int kBlockKinds = 2;
+inline constexpr int kBlockKinds = 3;
 
 /// The memory of one thread. `Pending` is a light sample whose shadow ray has not been traced yet.
 template <typename Path, typename Pending>

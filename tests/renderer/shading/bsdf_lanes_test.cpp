@@ -210,6 +210,73 @@ TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
   EXPECT_LT(weights.far, 1e-3 * weights.all);
 }
 
+TEST(BsdfLanes, NarrowPartsAreThoseOfTheScalarCode) {
+  Random random(7);
+  Worst values, weights, pdfs;
+  int lanes = 0, other = 0;
+  for (const float roughness : {0.0f, 0.25f, 0.6f}) {
+    ShadingContext context = tables_only();
+    context.tells_wide = true;
+    context.min_roughness = roughness;
+    ShadingContext narrow_alone = context;
+    narrow_alone.narrow_alone = true;
+    narrow_alone.roulette = {2.0f, 0.9f};
+    for (int b = 0; b < kBlocks / 3; ++b) {
+      ShadingBlock block;
+      const std::vector<LanePoint> points = fill(block, random);
+      std::vector<Vec3> wis;
+      for (int lane = 0; lane < block.count; ++lane) {
+        wis.push_back(random_above(random, points[lane].surface.geometric_normal));
+        put_light(block, lane, wis[lane], true, 1.0f);
+        block.events_before_roulette[lane] = 0;
+        for (int c = 0; c < 3; ++c) block.throughput[c][lane] = 0.3f;
+      }
+      const ShadingBlock whole = run_all(block, context, &ShadingKernels::scatter);
+      const ShadingBlock light = run_all(block, context, &ShadingKernels::light);
+      const ShadingBlock result = run_all(block, narrow_alone, &ShadingKernels::scatter);
+      for (int lane = 0; lane < block.count; ++lane) {
+        const LanePoint& p = points[lane];
+        for (int c = 0; c < 3; ++c) {
+          ASSERT_EQ(result.albedo[c][lane], whole.albedo[c][lane]);
+          ASSERT_EQ(result.wide_albedo[c][lane], whole.wide_albedo[c][lane]);
+          ASSERT_EQ(light.albedo[c][lane], whole.albedo[c][lane]);
+          ASSERT_EQ(light.wide_albedo[c][lane], whole.wide_albedo[c][lane]);
+          ASSERT_EQ(light.direct[c][lane], whole.direct[c][lane]);
+          ASSERT_EQ(light.wide_direct[c][lane], whole.wide_direct[c][lane]);
+        }
+        if (p.wo.dot(p.surface.geometric_normal) < 2e-3f ||
+            std::abs(wis[lane].dot(p.surface.geometric_normal)) < 1e-4f)
+          continue;
+        const Bsdf narrow = p.bsdf().narrow_part(roughness);
+        const Color value = narrow.is_delta() ? Color(Color::Zero()) : narrow.evaluate(wis[lane]).value;
+        for (int c = 0; c < 3; ++c) values.meet(result.direct[c][lane], value[c], 2e-2, 1e-3);
+        const BsdfSample expected = p.sample(narrow);
+        const float survival = std::min(0.9f, 2.0f * std::sqrt((0.3f * expected.weight).maxCoeff()));
+        const bool goes_on = expected.pdf > 0.0f && (expected.weight > 0.0f).any() &&
+                             roulette_number(next_seed(p.seed)) < survival;
+        ++lanes;
+        if (goes_on != (result.alive[lane] != 0) ||
+            (goes_on && (lane_vector(result.wi, lane) - expected.wi).norm() > 0.01f)) {
+          ++other;
+          continue;
+        }
+        if (!goes_on) continue;
+        pdfs.meet(result.pdf[lane], expected.pdf, 3e-2, 1e-3);
+        for (int c = 0; c < 3; ++c)
+          weights.meet(result.weight[c][lane] * result.survival[lane], expected.weight[c], 1e-2, 1e-2);
+      }
+    }
+  }
+  record("narrow value", values);
+  record("weight", weights);
+  record("sample pdf", pdfs);
+  std::printf("%d of %d samples differ\n", other, lanes);
+  EXPECT_LT(other, 2e-3 * lanes);
+  EXPECT_LT(values.far, 5e-4 * values.all);
+  EXPECT_LT(weights.far, 1e-3 * weights.all);
+  EXPECT_LT(pdfs.far, 1e-3 * pdfs.all);
+}
+
 TEST(BsdfLanes, RouletteIsThatOfTheScalarCode) {
   Random random(4);
   int ended = 0, survived = 0;

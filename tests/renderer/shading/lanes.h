@@ -87,6 +87,16 @@ inline ShadingContext tables_only() {
   return context;
 }
 
+/// Where light adds nothing, a shadow ray is written or not.
+inline void clear_unused_shadow_rays(ShadingBlock& block) {
+  for (int lane = 0; lane < block.count; ++lane) {
+    if ((lane_color(block.direct, lane) != 0.0f).any()) continue;
+    for (auto& x : block.shadow_origin) x[lane] = 0.0f;
+    block.shadow_length[lane] = 0.0f;
+    block.shadow_seed[lane] = 0;
+  }
+}
+
 /// Runs a kernel of every instruction set on copies of a block that is cleared beyond its lanes, and expects
 /// the same bits. Returns one of the results.
 inline ShadingBlock run_all(const ShadingBlock& block, const ShadingContext& context,
@@ -95,6 +105,7 @@ inline ShadingBlock run_all(const ShadingBlock& block, const ShadingContext& con
   for (std::size_t k = 0; k < all_kernels().size(); ++k) {
     ShadingBlock result = block;
     (all_kernels()[k].second->*kernel)(result, context);
+    clear_unused_shadow_rays(result);
     if (k == 0) {
       first = result;
       continue;

@@ -46,8 +46,17 @@ struct Agreement {
   double worst = 0.0;
 };
 
+LightSample sample(const LitScene& lit, const LanePoint& p, bool delta) {
+  const float choice = p.sampler.get_1d(p.dimensions + 2);
+  const Vec2 point = p.sampler.get_2d(p.dimensions + 3);
+  return delta ? lit.lights.sample_delta(p.surface.position, p.light_normal(), choice, point)
+               : lit.lights.sample(p.surface.position, p.light_normal(), choice, point);
+}
+
 /// Compares lanes at random points. Where another light was chosen, the pdf must be that of this light.
-Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = SamplerKind::sobol) {
+/// delta: with Lights::sample_delta.
+Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = SamplerKind::sobol,
+                  bool delta = false) {
   Random random(seed);
   const LightArrays arrays(lit.lights);
   Agreement agreement;
@@ -62,19 +71,16 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       put(block, p);
     }
     ShadingContext context = tables_only();
-    context.lights = *arrays.view();
+    context.lights = delta ? arrays.delta_view() : *arrays.view();
     const ShadingBlock raw = run_all(block, context, &ShadingKernels::sample_lights);
     // What the kernels leave open.
     ShadingBlock result = raw;
     const WideShading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
                               MisHeuristic::power);
     result = block;
-    shading.scatter(result);
+    delta ? shading.delta_light(result) : shading.scatter(result);
     for (int lane = 0; lane < block.count; ++lane) {
-      const LanePoint& p = points[lane];
-      const LightSample expected =
-          lit.lights.sample(p.surface.position, p.light_normal(), p.sampler.get_1d(p.dimensions + 2),
-                            p.sampler.get_2d(p.dimensions + 3));
+      const LightSample expected = sample(lit, points[lane], delta);
       const bool has = result.light_state[lane] == static_cast<std::uint32_t>(LaneLight::done) &&
                        result.light_pdf[lane] > 0.0f;
       const Vec3 wi = lane_vector(result.light_direction, lane);
@@ -135,12 +141,14 @@ TEST(LightLanes, PointsAndSpotsAndSunsAreSampledAsByTheScalarCode) {
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(0.2f, -1, 0.3f)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(-1, -0.1f, 0)));
   expect_agreement(compare(LitScene(scene), 7));
+  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true));
   scene::Scene only;
   only.lights = scene.lights;
   expect_agreement(compare(LitScene(std::move(only)), 8));
   scene::Scene suns;
   suns.lights = {scene.lights[2]};
-  expect_agreement(compare(LitScene(std::move(suns)), 9));
+  expect_agreement(compare(LitScene(suns), 9));
+  expect_agreement(compare(LitScene(std::move(suns)), 18, SamplerKind::sobol, true));
 }
 
 TEST(LightLanes, SkiesAreSampledAsByTheScalarCode) {
@@ -173,24 +181,26 @@ TEST(LightLanes, WithoutLightThereIsNoSample) {
 
 TEST(LightLanes, SelectionByPowerIsTheScalarCode) {
   Random random(16);
-  const LitScene lit(lamps(40, random), LightSelection::power);
+  scene::Scene scene = lamps(40, random);
+  for (int i = 0; i < 3; ++i)
+    scene.lights.push_back(
+        punctual(scene::LightType::point, 6.0f * random_direction(random), Vec3(0, -1, 0)));
+  const LitScene lit(std::move(scene), LightSelection::power);
   const LightArrays arrays(lit.lights);
   EXPECT_EQ(arrays.view(), nullptr);
   const WideShading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
                             MisHeuristic::power);
-  for (int b = 0; b < 100; ++b) {
+  for (int b = 0; b < 200; ++b) {
+    const bool delta = b % 2 == 1;
     ShadingBlock block = {};
     std::vector<LanePoint> points;
     for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) {
       points.push_back(random_point(random));
       put(block, points.back());
     }
-    shading.scatter(block);
+    delta ? shading.delta_light(block) : shading.scatter(block);
     for (int lane = 0; lane < block.count; ++lane) {
-      const LanePoint& p = points[lane];
-      const LightSample expected =
-          lit.lights.sample(p.surface.position, p.light_normal(), p.sampler.get_1d(p.dimensions + 2),
-                            p.sampler.get_2d(p.dimensions + 3));
+      const LightSample expected = sample(lit, points[lane], delta);
       ASSERT_EQ(block.light_pdf[lane], expected.pdf);
       if (expected.pdf > 0.0f) {
         ASSERT_EQ(lane_vector(block.light_direction, lane), expected.wi);
