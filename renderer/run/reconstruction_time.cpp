@@ -31,6 +31,7 @@ Film film_of_noise(int width, int height, const RenderOptions& options) {
         first.depth = 1.0f + next();
         first.normal = {0.0f, 0.0f, 1.0f};
         first.albedo.setConstant(0.5f);
+        first.guided = true;
         first.cache_radiance.setConstant(next());
         film.add(x, y, first);
         film.add(x, y, Color(next(), next(), next()));
