@@ -26,7 +26,7 @@ semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1
 Where no --preset, axis, --vary, --reconstruct, --view, --query-at or --cache-holds says what is wanted, a sweep shows
 what can be had for a time: 'path' as traced and 'path reconstructed' at the samples of --spp; 'nrc bare', which is
 --preset bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512
-and 2048 steps with 1, 3 and 12 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
+and 2048 steps with 2, 7 and 28 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
 measured both as traced and reconstructed. Time counts all phases: scouting, training, rendering, reconstruction.
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one

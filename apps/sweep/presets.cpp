@@ -7,7 +7,7 @@ namespace {
 
 /// Passes and steps of finished pictures: the preset's own in the middle, and about a third and four times
 /// as much work.
-const std::vector<std::string> kStandardSpp = {"1", "3", "12"};
+const std::vector<std::string> kStandardSpp = {"2", "7", "28"};
 const std::vector<int> kStandardSteps = {128, 512, 2048};
 
 /// The step counts of the paper: 128 in its tables, from 8 on in its figure.

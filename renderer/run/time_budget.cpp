@@ -7,7 +7,7 @@ namespace {
 
 /// Training's share of the time that it and the passes have together (README.md).
 constexpr double kTrainingShare = 0.2;
-constexpr double kShareOfTeachingSamples = 0.5;
+constexpr double kShareOfTeachingSamples = 0.4;
 
 }  // namespace
 

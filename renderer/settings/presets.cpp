@@ -26,13 +26,13 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       cache.holds = CacheHolds::no_delta;
       break;
     case CachePreset::preview:
-      set_finished(options, 2);
+      set_finished(options, 4);
       break;
     case CachePreset::standard:
-      set_finished(options, 3);
+      set_finished(options, 7);
       break;
     case CachePreset::final:
-      set_finished(options, 32);
+      set_finished(options, 48);
       break;
     case CachePreset::paper_nao:
     case CachePreset::paper_nrc: {

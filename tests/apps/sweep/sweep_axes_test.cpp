@@ -75,7 +75,7 @@ TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySize
   EXPECT_THAT(request.blocks[1].train_steps, ElementsAre(128, 512, 2048));
   EXPECT_THAT(request.blocks[1].base, ElementsAre(Pair("--preset", "standard"), Pair("--batch", "512")));
   ASSERT_EQ(request.blocks[1].axes.size(), 1u);
-  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("1", "3", "12"));
+  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("2", "7", "28"));
   EXPECT_THAT(request.plain_spp, ElementsAre(1, 4, 16, 64));
   EXPECT_TRUE(request.plain);
   EXPECT_EQ(request.seeds, 1);

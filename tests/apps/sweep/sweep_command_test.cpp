@@ -228,9 +228,9 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   EXPECT_EQ(cells, (std::map<std::string, int>{{"path", 2},
                                                {"path reconstructed", 2},
                                                {"nrc bare", 2},
-                                               {"nrc standard spp 1", 2},
-                                               {"nrc standard spp 3", 2},
-                                               {"nrc standard spp 12", 2}}));
+                                               {"nrc standard spp 2", 2},
+                                               {"nrc standard spp 7", 2},
+                                               {"nrc standard spp 28", 2}}));
   EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr(",axis_reconstruct"));
 }
 

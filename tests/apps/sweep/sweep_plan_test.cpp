@@ -119,8 +119,8 @@ SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> var
 
 TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
   const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
-  ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 1", "path reconstructed",
-                                        "nrc standard spp 3", "nrc standard spp 12"));
+  ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 2", "path reconstructed",
+                                        "nrc standard spp 7", "nrc standard spp 28"));
   EXPECT_EQ(plan.seeds.size(), 1u);
   const std::vector<PlannedSeries>& all = plan.scenes[0].series;
   for (const PlannedSeries& s : all) {
@@ -133,7 +133,7 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   EXPECT_THAT(all[1].points, ElementsAre(1, 4, 16, 64));
   EXPECT_EQ(all[3].points, all[1].points);
   EXPECT_THAT(all[4].points, ElementsAre(128, 512, 2048));
-  EXPECT_EQ(all[4].settings.render.spp, 3);
+  EXPECT_EQ(all[4].settings.render.spp, 7);
   EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
             "gatelight render room.glb --size 64x36 --integrator path --reconstruct on --spp 4 --seed 1 -o "
             "out.exr");
@@ -167,8 +167,7 @@ TEST(SweepPlan, WhatIsReconstructedHasPathTracingOfBothKindsBesideIt) {
 
 TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {
   const SweepPlan plan = plan_of({}, {"preset=bare,paper-nao"}, false);
-  ASSERT_THAT(labels(plan),
-              ElementsAre("nrc gate preset bare", "path", "nao gate preset paper-nao", "ao"));
+  ASSERT_THAT(labels(plan), ElementsAre("nrc gate preset bare", "path", "nao gate preset paper-nao", "ao"));
   EXPECT_EQ(plan.scenes[0].series[0].settings.render.spp, 4);
   EXPECT_EQ(plan.scenes[0].series[2].settings.render.cache.batch, 49152u);
   // The plain picture has the preset's size, so that it can be compared.
