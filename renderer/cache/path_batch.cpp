@@ -71,12 +71,14 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
   }
 }
 
-void PathBatch::copy_ends(SurfacePoints& points) const {
+std::size_t PathBatch::count_ends() const {
+  return ends.size() - static_cast<std::size_t>(std::count(ends.begin(), ends.end(), kNone));
+}
+
+void PathBatch::copy_ends(SurfacePoints& points, std::size_t at) const {
   for (const std::int32_t end : ends) {
     if (end == kNone) continue;
-    const auto record = static_cast<std::size_t>(vertices[static_cast<std::size_t>(end)].record);
-    points.resize(points.size() + 1);
-    points.copy(records, record, 1, points.size() - 1);
+    points.copy(records, static_cast<std::size_t>(vertices[static_cast<std::size_t>(end)].record), 1, at++);
   }
 }
 

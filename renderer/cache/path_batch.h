@@ -74,8 +74,10 @@ struct PathBatch {
   /// radiance: one for each path, or empty. Completes `targets`.
   void resolve(std::span<const float> answers, std::span<Color> radiance);
 
-  /// Appends the points where samples end.
-  void copy_ends(SurfacePoints& points) const;
+  /// The number of samples that end in the cache.
+  std::size_t count_ends() const;
+  /// Copies the points where they end to `points`, from `at` on.
+  void copy_ends(SurfacePoints& points, std::size_t at) const;
   /// Ends the samples in the cache: replaces what the cache holds of the light at `ends`, which the paths
   /// have found, by its answers, in the order of copy_ends(). Call it after resolve().
   void end_samples(std::span<const float> answers, std::span<Color> radiance) const;

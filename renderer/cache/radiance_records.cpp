@@ -119,16 +119,12 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
 
 /// The picture's samples end in the cache where its other samples will.
 void RadianceRecords::end_samples(const AnswerPoints& answer, RecordBatch& batch) const {
-  std::vector<std::size_t> offsets = offsets_of(batch.paths, [](const PathBatch& p) {
-    return p.ends.size() - static_cast<std::size_t>(std::count(p.ends.begin(), p.ends.end(), kNone));
-  });
+  const std::vector<std::size_t> offsets =
+      offsets_of(batch.paths, [](const PathBatch& p) { return p.count_ends(); });
   batch.queries.resize(offsets.back());
   batch.answers.resize(3 * offsets.back());
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
-    SurfacePoints ends(inputs_);
-    batch.paths[b].copy_ends(ends);
-    batch.queries.copy(ends, 0, ends.size(), offsets[b]);
-  });
+  tbb::parallel_for(std::size_t{0}, batch.paths.size(),
+                    [&](std::size_t b) { batch.paths[b].copy_ends(batch.queries, offsets[b]); });
   if (!batch.answers.empty()) answer(batch.queries, batch.answers);
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
     batch.paths[b].end_samples(std::span<const float>(batch.answers).subspan(3 * offsets[b]),

@@ -93,11 +93,18 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
 
 void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::size_t count,
                                   TrainingStarts& result) const {
-  std::vector<SampleOrder::Place> places(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { places[i] = order_.at(first + i); });
-  const auto key_of = [](const SampleOrder::Place& p) { return std::pair(morton(p.pixel), p.number); };
-  tbb::parallel_sort(places.begin(), places.end(),
-                     [&](const auto& a, const auto& b) { return key_of(a) < key_of(b); });
+  struct KeyedPlace {
+    std::uint32_t morton;
+    SampleOrder::Place place;
+  };
+  std::vector<KeyedPlace> places(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const SampleOrder::Place place = order_.at(first + i);
+    places[i] = {morton(place.pixel), place};
+  });
+  tbb::parallel_sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
+    return std::pair(a.morton, a.place.number) < std::pair(b.morton, b.place.number);
+  });
   result.starts.resize(count);
   result.pixels.resize(count);
   // Samples of one pixel stay in one block: they are added to the film in turn.
@@ -105,12 +112,12 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
   result.offsets.assign(1, 0);
   for (std::size_t end = 0; end < count;) {
     end = std::min(end + kBlock, count);
-    while (end < count && morton(places[end].pixel) == morton(places[end - 1].pixel)) ++end;
+    while (end < count && places[end].morton == places[end - 1].morton) ++end;
     result.offsets.push_back(end);
   }
   const std::uint32_t seed = step_seed(options_, step);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const auto& [pixel, number] = places[i];
+    const auto& [pixel, number] = places[i].place;
     result.pixels[i] = pixel;
     result.starts[i] = {make_camera_sample(pixel, number, options_, camera_, filter_),
                         runs_to_its_end(i, options_.cache.self_training.full_fraction, seed)};

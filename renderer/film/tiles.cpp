@@ -3,15 +3,24 @@
 namespace gatelight::renderer {
 namespace {
 
+/// The bits of a coordinate, at every second place.
+constexpr std::uint32_t spread(int coordinate) {
+  auto bits = static_cast<std::uint32_t>(coordinate) & 0xffffu;
+  bits = (bits | bits << 8) & 0x00ff00ffu;
+  bits = (bits | bits << 4) & 0x0f0f0f0fu;
+  bits = (bits | bits << 2) & 0x33333333u;
+  return (bits | bits << 1) & 0x55555555u;
+}
+
+constexpr std::uint32_t morton_of(const Pixel& pixel) {
+  return spread(pixel.x) | spread(pixel.y) << 1;
+}
+
 /// The places of a tile's pixels in Morton order.
 constexpr std::array<Pixel, kTile* kTile> kTileOrder = [] {
   std::array<Pixel, kTile * kTile> order{};
-  for (int i = 0; i < kTile * kTile; ++i) {
-    Pixel& p = order[static_cast<std::size_t>(i)];
-    for (int bit = 0; (1 << bit) < kTile; ++bit) {
-      p.x |= (i >> (2 * bit) & 1) << bit;
-      p.y |= (i >> (2 * bit + 1) & 1) << bit;
-    }
+  for (int y = 0; y < kTile; ++y) {
+    for (int x = 0; x < kTile; ++x) order[morton_of({x, y})] = {x, y};
   }
   return order;
 }();
@@ -19,14 +28,7 @@ constexpr std::array<Pixel, kTile* kTile> kTileOrder = [] {
 }  // namespace
 
 std::uint32_t morton(const Pixel& pixel) {
-  const auto spread = [](int coordinate) {
-    auto bits = static_cast<std::uint32_t>(coordinate) & 0xffffu;
-    bits = (bits | bits << 8) & 0x00ff00ffu;
-    bits = (bits | bits << 4) & 0x0f0f0f0fu;
-    bits = (bits | bits << 2) & 0x33333333u;
-    return (bits | bits << 1) & 0x55555555u;
-  };
-  return spread(pixel.x) | spread(pixel.y) << 1;
+  return morton_of(pixel);
 }
 
 TileGrid::TileGrid(const PixelRect& region)

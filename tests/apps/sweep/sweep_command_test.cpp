@@ -57,6 +57,18 @@ class SweepCommand : public ::testing::Test {
   json results(const std::string& out) const {
     return json::parse(read_file(folder / (out + "/results.json")));
   }
+  /// A cell of the sweep in "out" is the picture that its command makes.
+  void expect_picture_of_its_command(const json& cell) const {
+    std::istringstream line(cell["command"].get<std::string>());
+    Words command;
+    for (std::string word; line >> word;) command.push_back(word);
+    command.erase(command.begin());
+    command.back() = path("cell.png");
+    command.push_back("--quiet");
+    ASSERT_EQ(run_gatelight_inside(command).exit_code, 0) << line.str();
+    EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
+        << line.str();
+  }
 
   TemporaryFolder folder;
 };
@@ -173,15 +185,7 @@ TEST_F(SweepCommand, ACellIsThePictureThatItsCommandMakes) {
   ASSERT_EQ(run_gatelight_inside(words("out", {"--features", "2,4"})).exit_code, 0);
   const json all = results("out");
   for (const json& cell : all["cells"]) {
-    std::istringstream line(cell["command"].get<std::string>());
-    Words command;
-    for (std::string word; line >> word;) command.push_back(word);
-    command.erase(command.begin());
-    command.back() = path("cell.png");
-    command.push_back("--quiet");
-    ASSERT_EQ(run_gatelight_inside(command).exit_code, 0) << line.str();
-    EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
-        << line.str();
+    ASSERT_NO_FATAL_FAILURE(expect_picture_of_its_command(cell));
   }
 }
 
@@ -201,7 +205,6 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   ASSERT_EQ(output.exit_code, 0) << output.err;
   const json all = results("out");
   std::map<std::string, int> cells;
-  std::map<std::string, std::vector<float>> pixels;
   for (const json& cell : all["cells"]) {
     ++cells[cell["series"].get<std::string>()];
     const bool finished = cell["options"]["reconstruct"] == "on";
@@ -215,15 +218,7 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
     EXPECT_NEAR(seconds["total"].get<double>(), sum, 1e-9);
     EXPECT_EQ(cell["reference_id"], all["scenes"][0]["references"][0]["id"]);
     if (cell["series"] == "nrc bare" || (cell["series"] == "path" && cell["spp"] == 1)) continue;
-    std::istringstream line(cell["command"].get<std::string>());
-    Words command;
-    for (std::string word; line >> word;) command.push_back(word);
-    command.erase(command.begin());
-    command.back() = path("cell.png");
-    command.push_back("--quiet");
-    ASSERT_EQ(run_gatelight_inside(command).exit_code, 0) << line.str();
-    EXPECT_EQ(read_file(path("cell.png")), read_file(folder / ("out/" + cell["picture"].get<std::string>())))
-        << line.str();
+    ASSERT_NO_FATAL_FAILURE(expect_picture_of_its_command(cell));
   }
   EXPECT_EQ(cells, (std::map<std::string, int>{{"path", 2},
                                                {"path reconstructed", 2},

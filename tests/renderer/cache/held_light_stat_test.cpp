@@ -138,41 +138,25 @@ class Pictures {
   /// Composed by one setting, with answers that are records of another.
   std::vector<Color> answered(const Setting& composed, const Setting& learned, std::uint32_t seed,
                               int samples) const {
-    const StoredSurfaces stored;
-    RayCounts rays;
-    CachedPaths::Scratch scratch;
-    const RenderOptions ask_options = options(composed);
-    const CachedPaths ask(world_, cached_paths_options(ask_options), stored);
     PathPlan plan;
     plan.query_at = composed.query_at;
-    plan.max_depth = 16;
-    PathBatch batch(inputs());
-    const std::vector<PathStart> asking = starts(seed, samples);
-    ask.trace(asking, {}, plan, batch, {}, rays, scratch);
-
-    std::vector<Color> radiance(asking.size());
+    PathBatch batch = trace(composed, plan, starts(seed, samples), {});
+    std::vector<Color> radiance(batch.paths());
     batch.resolve(fresh_records(batch.queries, learned, seed), radiance);
     return radiance;
   }
 
   /// Samples that teach: paths to their end, of which a record is replaced by another one at the same point.
   std::vector<Color> taught(const Setting& setting, std::uint32_t seed, int samples) const {
-    const StoredSurfaces stored;
-    RayCounts rays;
-    CachedPaths::Scratch scratch;
-    const RenderOptions asked = options(setting);
-    const CachedPaths paths(world_, cached_paths_options(asked), stored);
     PathPlan plan;
     plan.records = true;
     plan.samples_at = setting.query_at;
-    plan.max_depth = 16;
-    PathBatch batch(inputs());
-    const std::vector<PathStart> starting = starts(seed, samples);
-    paths.trace(starting, {}, plan, batch, {}, rays, scratch);
-    std::vector<Color> radiance(starting.size());
+    PathBatch batch = trace(setting, plan, starts(seed, samples), {});
+    std::vector<Color> radiance(batch.paths());
     batch.resolve({}, radiance);
     SurfacePoints ends(inputs());
-    batch.copy_ends(ends);
+    ends.resize(batch.count_ends());
+    batch.copy_ends(ends, 0);
     batch.end_samples(fresh_records(ends, setting, seed), radiance);
     return radiance;
   }
@@ -185,17 +169,23 @@ class Pictures {
     return inputs;
   }
 
-  /// A record for each point, traced for it alone.
-  std::vector<float> fresh_records(const SurfacePoints& asked, const Setting& learned,
-                                   std::uint32_t seed) const {
+  PathBatch trace(const Setting& setting, PathPlan plan, const std::vector<PathStart>& starting,
+                  const std::vector<Hit>& hits) const {
     const StoredSurfaces stored;
     RayCounts rays;
     CachedPaths::Scratch scratch;
-    const RenderOptions learn_options = options(learned);
-    const CachedPaths learn(world_, cached_paths_options(learn_options), stored);
+    PathBatch batch(inputs());
+    plan.max_depth = 16;
+    CachedPaths(world_, cached_paths_options(options(setting)), stored)
+        .trace(starting, hits, plan, batch, {}, rays, scratch);
+    return batch;
+  }
+
+  /// A record for each point, traced for it alone.
+  std::vector<float> fresh_records(const SurfacePoints& asked, const Setting& learned,
+                                   std::uint32_t seed) const {
     PathPlan to_the_end;
     to_the_end.records = true;
-    to_the_end.max_depth = 16;
     const neural::QueryBatch queries = asked.batch();
     std::vector<PathStart> points(queries.size);
     std::vector<Hit> hits(queries.size);
@@ -210,8 +200,7 @@ class Pictures {
       hits[i] = {1.0f, queries.barycentrics[i][0], queries.barycentrics[i][1], queries.surfaces[i] / 2,
                  queries.triangles[i]};
     }
-    PathBatch records(inputs());
-    learn.trace(points, hits, to_the_end, records, {}, rays, scratch);
+    PathBatch records = trace(learned, to_the_end, points, hits);
     records.resolve({}, {});
     std::vector<float> answers(3 * queries.size, 0.0f);
     for (std::size_t i = 0; i < queries.size; ++i) {
