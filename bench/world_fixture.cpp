@@ -41,7 +41,7 @@ std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32
     grid.pixels(tile, pixels);
     for (const renderer::Pixel& pixel : pixels)
       result[static_cast<std::size_t>(tile)].push_back(
-          renderer::make_camera_sample(pixel, sample, options, camera, filter));
+          renderer::make_camera_sample({pixel, sample}, options, camera, filter));
   }
   return result;
 }

@@ -127,6 +127,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   }
   o.aovs.clear();
   o.reconstruct = false;
+  o.adaptive = false;
   o.nan_policy = renderer::NanPolicy::drop;
   o.checkpoint = defaults.checkpoint;
   o.cache = defaults.cache;

@@ -234,8 +234,8 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     statistics_.train_trace_seconds +=
         seconds_since(begin) - waited - (statistics_.train_query_seconds - queried);
     statistics_.training_paths += group.paths_traced;
-    samples_ += group.starts.pixels.size();
-    if (watch.samples && !group.starts.pixels.empty()) watch.samples(group);
+    samples_ += group.starts.samples.size();
+    if (watch.samples && !group.starts.samples.empty()) watch.samples(group);
     for (std::uint64_t batch = 0; batch < count; ++batch) {
       counts_.add(group, batch, steps_);
       learn(group, batch);

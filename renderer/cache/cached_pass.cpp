@@ -68,7 +68,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
   }
 }
 
-void CachedPass::run(int samples, Film& film, const std::function<void(double)>& report) {
+void CachedPass::add_samples(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& grid = context_.tiles;
   const RenderOptions& options = context_.options;
   const bool occlusion = options.integrator == Integrator::nao;
@@ -86,9 +86,10 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
         Tile& tile = tiles_[t];
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
-        make_camera_samples(tile.pixels, film, options, context_.camera, context_.filter, tile.samples);
-        tile.first_hits.resize(film.needs_first_hits() ? tile.pixels.size() : 0);
-        tile.results.resize(tile.pixels.size());
+        film.take_pass(tile.pixels, sample, tile.taken);
+        make_camera_samples(tile.taken, film, options, context_.camera, context_.filter, tile.samples);
+        tile.first_hits.resize(film.needs_first_hits() ? tile.taken.size() : 0);
+        tile.results.resize(tile.taken.size());
         CachedWorker& worker = workers_.local();
         occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
       });
@@ -116,7 +117,7 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
         CachedWorker& worker = workers_.local();
         occlusion ? finish_occlusion(tile) : finish_paths(tile);
         if (!tile.first_hits.empty()) describe_answers(tile, worker);
-        add_to_film(tile.pixels, options, tile.results, tile.first_hits, film, worker.counts);
+        add_to_film(tile.taken, options, tile.results, tile.first_hits, film, worker.counts);
       });
       for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
       statistics_.render_trace_seconds += seconds_since(start);

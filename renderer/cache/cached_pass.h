@@ -22,13 +22,14 @@ class CachedPass : public WorkerPass<CachedWorker> {
   /// options.integrator is nao or nrc. The session must outlive the pass, which uses it exclusively.
   CachedPass(const World& world, const PassContext& context, CacheSession& session);
 
-  void run(int samples, Film& film, const std::function<void(double)>& report) override;
   void add_to(CacheStatistics& statistics) const override;
 
  private:
+  void add_samples(int samples, Film& film, const std::function<void(double)>& report) override;
   /// A tile between its tracing and its answers.
   struct Tile {
     std::vector<Pixel> pixels;
+    std::vector<PixelSample> taken;
     std::vector<CameraSample> samples;
     std::vector<PathStart> starts;
     std::vector<SampleResult> results;

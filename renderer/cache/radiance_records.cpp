@@ -44,7 +44,7 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
 void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_,
                  request.samples ? std::optional(request.first_sample) : std::nullopt);
-  const bool samples = !batch.starts.pixels.empty();
+  const bool samples = !batch.starts.samples.empty();
   batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
   PathPlan plan;
   plan.records = true;
@@ -90,8 +90,8 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
       for (float& a : batch.answers) a *= attenuation;
     }
   }
-  const bool samples = !batch.starts.pixels.empty();
-  batch.radiance.resize(batch.starts.pixels.size());
+  const bool samples = !batch.starts.samples.empty();
+  batch.radiance.resize(batch.starts.samples.size());
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
     const std::size_t begin = 3 * query_offsets[b];
     const std::span<const float> answers =

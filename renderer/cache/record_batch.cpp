@@ -3,6 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <cassert>
+
 namespace gatelight::renderer {
 
 void RecordBatch::add_to(Film& film, const RenderOptions& options, SampleCounts& counts) const {
@@ -14,7 +16,12 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options, SampleCounts&
     for (std::size_t i = 0; i < size; ++i) results[i].radiance = radiance[begin + i];
     std::span<const FirstHit> hits;
     if (film.needs_first_hits()) hits = std::span(first_hits).subspan(begin, size);
-    add_to_film(std::span(starts.pixels).subspan(begin, size), options, results, hits, film, parts.local());
+    const auto samples = std::span(starts.samples).subspan(begin, size);
+    for ([[maybe_unused]] const PixelSample& sample : samples) {
+      [[maybe_unused]] const PixelSample taken = film.take(sample.pixel);
+      assert(taken.number == sample.number);
+    }
+    add_to_film(samples, options, results, hits, film, parts.local());
   });
   for (const SampleCounts& part : parts) counts.add(part);
   keep_first(counts.located);

@@ -78,7 +78,7 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
                             std::span<const std::uint32_t> counts, TrainingStarts& result, RayCounts& rays,
                             const std::optional<std::uint64_t>& first_sample) const {
   result.hits.clear();
-  result.pixels.clear();
+  result.samples.clear();
   if (first_sample) return from_picture(step, *first_sample, count, result);
   if (options_.cache.source == TrainingSource::surface && !by_area_.empty()) {
     from_surfaces(step, count, result);
@@ -95,18 +95,18 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
                                   TrainingStarts& result) const {
   struct KeyedPlace {
     std::uint32_t morton;
-    SampleOrder::Place place;
+    PixelSample place;
   };
   std::vector<KeyedPlace> places(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const SampleOrder::Place place = order_.at(first + i);
+    const PixelSample place = order_.at(first + i);
     places[i] = {morton(place.pixel), place};
   });
   tbb::parallel_sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
     return std::pair(a.morton, a.place.number) < std::pair(b.morton, b.place.number);
   });
   result.starts.resize(count);
-  result.pixels.resize(count);
+  result.samples.resize(count);
   // Samples of one pixel stay in one block: they are added to the film in turn.
   constexpr std::size_t kBlock = kTile * kTile;
   result.offsets.assign(1, 0);
@@ -117,9 +117,8 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
   }
   const std::uint32_t seed = step_seed(options_, step);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const auto& [pixel, number] = places[i].place;
-    result.pixels[i] = pixel;
-    result.starts[i] = {make_camera_sample(pixel, number, options_, camera_, filter_),
+    result.samples[i] = places[i].place;
+    result.starts[i] = {make_camera_sample(places[i].place, options_, camera_, filter_),
                         runs_to_its_end(i, options_.cache.self_training.full_fraction, seed)};
   });
 }

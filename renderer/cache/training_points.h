@@ -21,7 +21,7 @@ struct TrainingStarts {
   std::vector<PathStart> starts;
   std::vector<Hit> hits;  ///< of the starts' rays; empty where they are not traced yet
   std::vector<std::size_t> offsets;
-  std::vector<Pixel> pixels;  ///< of the starts, where they are samples of the picture; else empty
+  std::vector<PixelSample> samples;  ///< that the starts are, where they are samples of the picture
 
   std::size_t blocks() const { return offsets.size() - 1; }
 };

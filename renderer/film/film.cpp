@@ -51,7 +51,7 @@ void each_of_first(First& p, Take&& take) {
     for (auto& value : *array) take.sum(value);
   }
   for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
-  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guided}) take.count(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guided, &p.guided_half}) take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
 }
 
@@ -91,8 +91,39 @@ std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
   return sums * sizeof(Radiance) + (first ? sizeof(First) : 0);
 }
 
-void Film::add(int x, int y, const Color& radiance) {
-  const std::size_t at = pixel(x, y);
+PixelSample Film::take(const Pixel& p) {
+  const std::size_t i = at(p);
+  if (halves_[0].empty()) return {p, radiance_[i].taken++};
+  return take(p, halves_[1][i].taken < halves_[0][i].taken ? 1 : 0);
+}
+
+PixelSample Film::take(const Pixel& p, std::size_t half) {
+  const std::size_t i = at(p);
+  ++radiance_[i].taken;
+  return {p, 2 * halves_[half][i].taken++ + static_cast<std::uint32_t>(half)};
+}
+
+void Film::follow(SampleDensity density) {
+  density_ = std::move(density);
+  density_passes_ = 0;
+}
+
+void Film::take_pass(std::span<const Pixel> pixels, int ahead, std::vector<PixelSample>& samples) {
+  samples.clear();
+  const std::uint64_t pass = density_passes_ + static_cast<std::uint64_t>(ahead);
+  for (const Pixel& p : pixels) {
+    if (!density_) {
+      samples.push_back(take(p));
+      continue;
+    }
+    for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
+      for (std::uint32_t n = density_->count(p, half, pass); n > 0; --n) samples.push_back(take(p, half));
+    }
+  }
+}
+
+void Film::add(const PixelSample& sample, const Color& radiance) {
+  const std::size_t pixel = at(sample.pixel);
   const auto add_to = [&](Radiance& p) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
@@ -101,18 +132,22 @@ void Film::add(int x, int y, const Color& radiance) {
     }
     ++p.count;
   };
-  if (!halves_[0].empty()) add_to(halves_[radiance_[at].count % 2][at]);
-  add_to(radiance_[at]);
+  if (!halves_[0].empty()) add_to(halves_[sample.half()][pixel]);
+  add_to(radiance_[pixel]);
 }
 
-void Film::add(int x, int y, const FirstHit& first) {
-  First& p = first_[pixel(x, y)];
+void Film::add(const PixelSample& sample, const FirstHit& first) {
+  First& p = first_[at(sample.pixel)];
   if (p.count++ == 0 && first.hit) {
     p.instance = static_cast<float>(first.instance);
     p.primitive = static_cast<float>(first.primitive);
   }
   if (first.guided && first.cache_radiance.isFinite().all()) {
-    if (p.guided++ % 2 == 0) accumulate(p.cache_half, first.cache_radiance.matrix());
+    ++p.guided;
+    if (sample.half() == 0) {
+      ++p.guided_half;
+      accumulate(p.cache_half, first.cache_radiance.matrix());
+    }
     accumulate(p.cache_radiance, first.cache_radiance.matrix());
   }
   if (!first.hit) return;
@@ -130,8 +165,30 @@ void Film::add(int x, int y, const FirstHit& first) {
   ++p.asked;
 }
 
-double Film::mean(const Radiance& p, std::size_t channel) {
+double Film::mean_of(const Radiance& p, std::size_t channel) {
   return p.count > 0 ? p.sum[channel] / p.count : 0.0;
+}
+
+bool Film::uneven(std::size_t pixel) const {
+  if (halves_[0].empty()) return false;
+  const std::uint32_t a = halves_[0][pixel].count, b = halves_[1][pixel].count;
+  return a > 0 && b > 0 && a - b > 1;  // unsigned: also where b is greater
+}
+
+double Film::mean(std::size_t pixel, std::size_t channel) const {
+  const Radiance& all = radiance_[pixel];
+  if (!uneven(pixel)) return mean_of(all, channel);
+  const std::uint32_t b = all.count / 2;
+  return ((all.count - b) * mean_of(halves_[0][pixel], channel) + b * mean_of(halves_[1][pixel], channel)) /
+         all.count;
+}
+
+double Film::variance(std::size_t pixel, std::size_t channel) const {
+  const Radiance& all = radiance_[pixel];
+  const double variance = variance_of_mean(all, channel);
+  if (!uneven(pixel)) return variance;
+  const double n = all.count, b = all.count / 2, a = n - b;
+  return variance * (a * a / halves_[0][pixel].count + b * b / halves_[1][pixel].count) / n;
 }
 
 double Film::variance_of_mean(const Radiance& p, std::size_t channel) {
@@ -151,6 +208,13 @@ Layer Film::layer(Aov aov) const {
     layer.values.reserve(values.size() * n);
     for (const auto& p : values) {
       for (std::size_t i = 0; i < n; ++i) layer.values.push_back(finite_float(value(p, i)));
+    }
+  };
+  const auto fill_colors = [&](auto&& value) {
+    layer.channels = {"R", "G", "B"};
+    layer.values.reserve(3 * radiance_.size());
+    for (std::size_t p = 0; p < radiance_.size(); ++p) {
+      for (std::size_t i = 0; i < 3; ++i) layer.values.push_back(finite_float(value(p, i)));
     }
   };
   // The means of first hits. The background counts as black where samples are counted, as in the beauty
@@ -205,14 +269,13 @@ Layer Film::layer(Aov aov) const {
       fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
       break;
     case Aov::variance:
-      fill({"R", "G", "B"}, radiance_, variance_of_mean);
+      fill_colors([&](std::size_t p, std::size_t i) { return variance(p, i); });
       break;
     case Aov::raw:
-      fill({"R", "G", "B"}, radiance_, mean);
+      fill_colors([&](std::size_t p, std::size_t i) { return mean(p, i); });
       break;
     case Aov::error:
-      fill({"R", "G", "B"}, radiance_,
-           [](const Radiance& p, std::size_t i) { return std::sqrt(variance_of_mean(p, i)); });
+      fill_colors([&](std::size_t p, std::size_t i) { return std::sqrt(variance(p, i)); });
       break;
     case Aov::reconstruction:
       fill({"coverage"}, first_, [](const First& p, std::size_t) {
@@ -224,17 +287,23 @@ Layer Film::layer(Aov aov) const {
   return layer;
 }
 
+std::uint64_t Film::samples() const {
+  std::uint64_t sum = 0;
+  for (const Radiance& p : radiance_) sum += p.taken;
+  return sum;
+}
+
 double Film::samples_per_pixel() const {
   double sum = 0.0;
   for (const Radiance& p : radiance_) sum += p.count;
   return sum / static_cast<double>(radiance_.size());
 }
 
-float Film::faint(int x, int y) const {
+float Film::faint(const Pixel& p) const {
   // Of the mean's largest channel. More saves little more time and costs noise (transport/README.md).
   constexpr double kShare = 0.3;
   constexpr std::uint32_t kFewest = 4;  // samples that tell something of the mean
-  const Radiance& r = radiance_[pixel(x, y)];
+  const Radiance& r = radiance_[at(p)];
   if (r.count < kFewest) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
 }
@@ -244,10 +313,13 @@ void Film::add_halves(std::vector<Layer>& layers) const {
     const std::string name(1, static_cast<char>('a' + h));
     Layer color{.name = "half-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
     Layer variance{.name = "variance-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
-    for (const Radiance& p : halves_[h]) {
+    for (std::size_t pixel = 0; pixel < radiance_.size(); ++pixel) {
+      const Radiance &p = halves_[h][pixel], &all = radiance_[pixel];
       for (std::size_t i = 0; i < 3; ++i) {
-        color.values.push_back(finite_float(mean(p, i)));
-        variance.values.push_back(finite_float(variance_of_mean(p, i)));
+        color.values.push_back(finite_float(mean_of(p, i)));
+        // A single sample does not tell how it varies; all of the pixel's do.
+        variance.values.push_back(
+            finite_float(p.count == 1 ? all.count * variance_of_mean(all, i) : variance_of_mean(p, i)));
       }
     }
     layers.push_back(std::move(color));
@@ -255,8 +327,9 @@ void Film::add_halves(std::vector<Layer>& layers) const {
     if (!has(aovs_, Aov::cache_radiance)) continue;
     Layer cache{.name = "cache-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
     for (const First& p : first_) {
-      const std::uint32_t of_a = (p.guided + 1) / 2, of_b = p.guided / 2;
-      const bool second = h == 1 && of_b > 0;  // a single one stands for both halves
+      const std::uint32_t of_a = p.guided_half, of_b = p.guided - p.guided_half;
+      // A single sample stands for both halves.
+      const bool second = of_b > 0 && (h == 1 || of_a == 0);
       for (std::size_t i = 0; i < 3; ++i) {
         const double sum = second ? p.cache_radiance[i] - p.cache_half[i] : p.cache_half[i];
         cache.values.push_back(finite_float(sum / std::max(second ? of_b : of_a, 1u)));
@@ -275,7 +348,7 @@ Picture Film::resolve() const {
                   .full_height = full_height_};
   Layer beauty{.channels = {"R", "G", "B"}};
   beauty.values.reserve(radiance_.size() * 3);
-  for (const Radiance& p : radiance_) {
+  for (std::size_t p = 0; p < radiance_.size(); ++p) {
     for (std::size_t i = 0; i < 3; ++i) beauty.values.push_back(finite_float(mean(p, i)));
   }
   picture.layers.push_back(std::move(beauty));
@@ -290,7 +363,7 @@ FilmState Film::export_state() const {
   state.radiance.reserve(sums * 6);
   state.radiance_counts.reserve(2 * sums);
   state.first.reserve(first_.size() * 25);
-  state.first_counts.reserve(first_.size() * 4);
+  state.first_counts.reserve(first_.size() * 5);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};
   for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {
@@ -298,6 +371,11 @@ FilmState Film::export_state() const {
   }
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);
+  if (density_) {
+    for (const std::vector<float>& half : density_->values())
+      state.density.insert(state.density.end(), half.begin(), half.end());
+    state.density_passes = {density_passes_};
+  }
   return state;
 }
 
@@ -310,6 +388,12 @@ void Film::import_state(const FilmState& state) {
   }
   Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
   for (First& p : first_) each_of_first(p, first);
+  density_.reset();
+  if (state.density.empty()) return;
+  const auto middle = state.density.begin() + static_cast<std::ptrdiff_t>(radiance_.size());
+  density_ = SampleDensity::restore(rect_, {std::vector<float>(state.density.begin(), middle),
+                                            std::vector<float>(middle, state.density.end())});
+  density_passes_ = state.density_passes.front();
 }
 
 }  // namespace gatelight::renderer

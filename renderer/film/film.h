@@ -4,10 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "renderer/film/camera_sample.h"
+#include "renderer/film/sample_density.h"
+#include "renderer/film/tiles.h"
 #include "renderer/image/picture.h"
 #include "renderer/image/pixel_rect.h"
 #include "renderer/settings/options.h"
@@ -22,6 +25,9 @@ struct FilmState {
   std::vector<double> first;
   std::vector<std::uint32_t> first_counts;
   std::vector<float> first_ids;
+  // Of a film whose passes follow a density: its values, half after half, and the passes that followed it.
+  std::vector<float> density;
+  std::vector<std::uint32_t> density_passes;
 };
 
 class Film {
@@ -29,27 +35,43 @@ class Film {
   Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
 
   const PixelRect& rect() const { return rect_; }
+  std::size_t pixels() const { return radiance_.size(); }
   /// Whether some requested output variable comes from the primary hit.
   bool needs_first_hits() const { return !first_.empty(); }
 
-  void add(int x, int y, const Color& radiance);
-  void add(int x, int y, const FirstHit& first);
-
   /// Samples of a pixel so far, those that were dropped among them.
-  std::uint32_t taken(int x, int y) const { return radiance_[pixel(x, y)].taken; }
-  /// Counts one more. Returns its number.
-  std::uint32_t take(int x, int y) { return radiance_[pixel(x, y)].taken++; }
+  std::uint32_t taken(const Pixel& p) const { return radiance_[at(p)].taken; }
+  /// Counts the pixel's next sample. Where the film keeps halves, it belongs to the one that has less.
+  PixelSample take(const Pixel& p);
+  /// Counts the next sample of a half. The film must keep halves.
+  PixelSample take(const Pixel& p, std::size_t half);
+
+  /// Passes from now on follow a density. The film must keep halves.
+  void follow(SampleDensity density);
+  /// Takes what the pixels get in the pass that comes after `ahead` more of them: the next sample of each, or
+  /// what the density says. Replaces `samples`.
+  void take_pass(std::span<const Pixel> pixels, int ahead, std::vector<PixelSample>& samples);
+  /// Whether there is a density that no pass has followed yet.
+  bool new_density() const { return density_ && density_passes_ == 0; }
+  /// So many passes have ended.
+  void end_passes(int passes) { density_passes_ += static_cast<std::uint32_t>(passes); }
+
+  /// Of samples that were taken, in the order of their numbers in each half.
+  void add(const PixelSample& sample, const Color& radiance);
+  void add(const PixelSample& sample, const FirstHit& first);
 
   /// The means so far. A pixel without samples is black.
   Picture resolve() const;
 
   /// The layer of an output variable. Those of the primary hit need a film that keeps it.
   Layer layer(Aov aov) const;
-  /// Mean number of samples of a pixel.
+  /// Of all pixels, those that were dropped among them.
+  std::uint64_t samples() const;
+  /// Mean number of samples of a pixel that count.
   double samples_per_pixel() const;
 
   /// CameraSample::faint for a pixel's next sample: a share of its mean so far.
-  float faint(int x, int y) const;
+  float faint(const Pixel& p) const;
 
   FilmState export_state() const;
   /// The state comes from a film with the same size and output variables.
@@ -62,14 +84,14 @@ class Film {
     std::array<double, 3> sum{};
     std::array<double, 3> square{};
     std::uint32_t count = 0;
-    std::uint32_t taken = 0;  ///< with those that were dropped; 0 in halves
+    std::uint32_t taken = 0;  ///< with those that were dropped
   };
   struct First {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
     std::array<double, 3> position{};
     std::array<double, 3> cache_radiance{};
-    std::array<double, 3> cache_half{};  ///< of cache_radiance: every second one
+    std::array<double, 3> cache_half{};  ///< of cache_radiance: the first half
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
     double depth = 0.0;
@@ -80,15 +102,22 @@ class Film {
     std::uint32_t asked = 0;
     std::uint32_t hits = 0;
     std::uint32_t guided = 0;
+    std::uint32_t guided_half = 0;
     float instance = -1.0f;
     float primitive = -1.0f;
   };
-  static double mean(const Radiance& p, std::size_t channel);
+  static double mean_of(const Radiance& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
   static double variance_of_mean(const Radiance& p, std::size_t channel);
-  std::size_t pixel(int x, int y) const {
-    return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
-           static_cast<std::size_t>(x - rect_.x0);
+  /// The halves of a pixel whose numbers of samples differ.
+  bool uneven(std::size_t pixel) const;
+  /// Weighed as if the samples had gone to the halves in turn: how many a half has depends on the other half,
+  /// and what depends on samples must not decide how much they count.
+  double mean(std::size_t pixel, std::size_t channel) const;
+  double variance(std::size_t pixel, std::size_t channel) const;
+  std::size_t at(const Pixel& p) const {
+    return static_cast<std::size_t>(p.y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+           static_cast<std::size_t>(p.x - rect_.x0);
   }
   /// The layers of Aov::reconstruction that are no output variables of their own.
   void add_halves(std::vector<Layer>& layers) const;
@@ -100,6 +129,8 @@ class Film {
   std::vector<Radiance> radiance_;
   std::array<std::vector<Radiance>, 2> halves_;  ///< samples in turn; empty where nobody asks
   std::vector<First> first_;
+  std::optional<SampleDensity> density_;
+  std::uint32_t density_passes_ = 0;  ///< that followed the density
 };
 
 }  // namespace gatelight::renderer

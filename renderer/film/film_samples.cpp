@@ -10,8 +10,9 @@ constexpr std::size_t kNonFiniteKept = 16;
 
 }  // namespace
 
-CameraSample make_camera_sample(const Pixel& pixel, std::uint32_t number, const RenderOptions& options,
-                                const Camera& camera, const FilterSampler& filter) {
+CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& options, const Camera& camera,
+                                const FilterSampler& filter) {
+  const auto& [pixel, number] = sample;
   const auto x = static_cast<std::uint32_t>(pixel.x);
   const auto y = static_cast<std::uint32_t>(pixel.y);
   CameraSample s;
@@ -23,13 +24,13 @@ CameraSample make_camera_sample(const Pixel& pixel, std::uint32_t number, const 
   return s;
 }
 
-void make_camera_samples(std::span<const Pixel> pixels, const Film& film, const RenderOptions& options,
+void make_camera_samples(std::span<const PixelSample> wanted, const Film& film, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples) {
   samples.clear();
-  for (const Pixel& p : pixels) {
-    samples.push_back(make_camera_sample(p, film.taken(p.x, p.y), options, camera, filter));
-    samples.back().faint = film.faint(p.x, p.y);
+  for (const PixelSample& s : wanted) {
+    samples.push_back(make_camera_sample(s, options, camera, filter));
+    samples.back().faint = film.faint(s.pixel);
   }
 }
 
@@ -46,17 +47,16 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
   if (samples.size() > kNonFiniteKept) samples.resize(kNonFiniteKept);
 }
 
-void add_to_film(std::span<const Pixel> pixels, const RenderOptions& options,
+void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts) {
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto [x, y] = pixels[i];
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     Color radiance = results[i].radiance;
-    const std::uint32_t number = film.take(x, y);
-    if (!first_hits.empty()) film.add(x, y, first_hits[i]);
+    if (!first_hits.empty()) film.add(samples[i], first_hits[i]);
     if (!radiance.isFinite().all()) {
       ++counts.nonfinite;
-      counts.located.push_back({x, y, number, options.seed});
+      const auto& [pixel, number] = samples[i];
+      counts.located.push_back({pixel.x, pixel.y, number, options.seed});
       if (counts.located.size() > 16 * kNonFiniteKept) keep_first(counts.located);
       continue;
     }
@@ -67,7 +67,7 @@ void add_to_film(std::span<const Pixel> pixels, const RenderOptions& options,
         ++counts.clamped;
       }
     }
-    film.add(x, y, radiance);
+    film.add(samples[i], radiance);
   }
 }
 

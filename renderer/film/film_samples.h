@@ -14,12 +14,12 @@
 
 namespace gatelight::renderer {
 
-/// Sample `number` of a pixel. CameraSample::faint stays 0.
-CameraSample make_camera_sample(const Pixel& pixel, std::uint32_t number, const RenderOptions& options,
-                                const Camera& camera, const FilterSampler& filter);
+/// CameraSample::faint stays 0.
+CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& options, const Camera& camera,
+                                const FilterSampler& filter);
 
-/// Makes the next sample of each pixel of the film. CameraSample::faint follows from those that it has.
-void make_camera_samples(std::span<const Pixel> pixels, const Film& film, const RenderOptions& options,
+/// Makes samples that were taken from the film. CameraSample::faint follows from those that it has.
+void make_camera_samples(std::span<const PixelSample> wanted, const Film& film, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples);
 
@@ -35,9 +35,8 @@ struct SampleCounts {
 /// Keeps the first 16 in the order of (y, x, sample), for the statistics.
 void keep_first(std::vector<NonFiniteSample>& samples);
 
-/// Adds the results of the next sample of each pixel, in turn. `first_hits` is empty or as long as the
-/// pixels.
-void add_to_film(std::span<const Pixel> pixels, const RenderOptions& options,
+/// Adds the results of samples that were taken from the film. `first_hits` is empty or as long as these.
+void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts);
 

@@ -21,7 +21,7 @@ SampleOrder::SampleOrder(const PixelRect& region) : region_(region) {
   while (std::gcd(step_, pixels_) != 1) ++step_;
 }
 
-SampleOrder::Place SampleOrder::at(std::uint64_t index) const {
+PixelSample SampleOrder::at(std::uint64_t index) const {
   // Pictures have less than 2^32 pixels, so the product fits.
   const std::uint64_t place = index % pixels_ * (step_ % pixels_) % pixels_;
   const auto width = static_cast<std::uint64_t>(region_.width());

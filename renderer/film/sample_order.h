@@ -14,11 +14,7 @@ class SampleOrder {
  public:
   explicit SampleOrder(const PixelRect& region);
 
-  struct Place {
-    Pixel pixel;
-    std::uint32_t number = 0;  ///< of the sample in its pixel
-  };
-  Place at(std::uint64_t index) const;
+  PixelSample at(std::uint64_t index) const;
 
  private:
   PixelRect region_;

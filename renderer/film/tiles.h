@@ -2,6 +2,7 @@
 // Splits the picture into square tiles. A tile is the unit of work of a thread, and a batch of camera paths.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,15 @@ inline constexpr int kTile = 16;
 struct Pixel {
   int x = 0;
   int y = 0;
+};
+
+/// A sample of a pixel. Random numbers depend on its number. Even ones belong to the first half of the
+/// pixel's samples, odd ones to the second.
+struct PixelSample {
+  Pixel pixel;
+  std::uint32_t number = 0;
+
+  std::size_t half() const { return number % 2; }
 };
 
 /// Pixels in this order are near each other where their numbers are. Coordinates are below 2^16.

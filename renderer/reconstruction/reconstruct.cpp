@@ -46,6 +46,7 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
   result.color.resize(row * static_cast<std::size_t>(samples.height));
   result.error.resize(result.color.size());
   for (std::vector<float>& half : result.halves) half.resize(result.color.size());
+  for (std::vector<float>& half : result.noise) half.resize(result.color.size() / 3);
   // Regions begin at multiples of the halo, so that windows and bands lie the same way in each.
   const int step = std::max(options.rows_at_once / kHalo, 1) * kHalo;
   for (int first = 0; first < samples.height; first += step) {
@@ -55,8 +56,10 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
     region.join();
     for (int y = first; y < end; ++y) {
       const std::size_t at = static_cast<std::size_t>(y) * row;
-      region.write_row(
-          y, {&result.color[at], &result.error[at], {&result.halves[0][at], &result.halves[1][at]}});
+      region.write_row(y, {&result.color[at],
+                           &result.error[at],
+                           {&result.halves[0][at], &result.halves[1][at]},
+                           {&result.noise[0][at / 3], &result.noise[1][at / 3]}});
     }
   }
   return result;

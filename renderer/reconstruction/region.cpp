@@ -350,6 +350,15 @@ void Region::write_row(int y, Row to) const {
       for (int h = 0; h < 2; ++h) *to.halves[h]++ = color(halves_[h].fit[c]);
       *to.error++ = static_cast<float>(std::sqrt(static_cast<double>(error_[p])) * unit);
     }
+    for (int h = 0; h < 2; ++h) {
+      const Half& half = halves_[h];
+      double square = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        const double unit = static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]);
+        square += static_cast<double>(half.variance[c][p]) * unit * unit / 3.0;
+      }
+      *to.noise[h]++ = static_cast<float>(std::sqrt(square * static_cast<double>(half.influence[p])));
+    }
   }
 }
 

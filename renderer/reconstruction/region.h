@@ -21,11 +21,12 @@ class Region {
   void fit(const ReconstructionKernels& kernels);
   /// Joins the fits with the samples' mean by their estimated errors.
   void join();
-  /// Where a row of each goes, 3 floats a pixel.
+  /// Where a row of each goes, 3 floats a pixel, of noise one.
   struct Row {
     float* color;
     float* error;
     float* halves[2];
+    float* noise[2];
   };
   void write_row(int y, Row to) const;
 

@@ -24,7 +24,7 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
@@ -78,6 +78,8 @@ void each_array(State& film, Visit&& visit) {
   visit("film.first", TensorType::f64, film.first);
   visit("film.first_counts", TensorType::u32, film.first_counts);
   visit("film.first_ids", TensorType::f32, film.first_ids);
+  visit("film.density", TensorType::f32, film.density);
+  visit("film.density_passes", TensorType::u32, film.density_passes);
 }
 
 const char* phase_name(Phase phase) {
@@ -231,6 +233,10 @@ const CacheSetup& Checkpoint::cache_setup() const {
 void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
   if (progress_.samples > 0 || progress_.taught) {
     FilmState sums = film.export_state();  // of the sizes that are expected
+    if (file_.length("film.density", TensorType::f32) > 0) {
+      sums.density.resize(2 * film.pixels());
+      sums.density_passes.resize(1);
+    }
     each_array(sums, [&](const char* name, TensorType type, auto& values) {
       read_array(file_, name, type, values);
     });
@@ -240,6 +246,12 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
     if (bad != sums.radiance.end())
       file_.fail(fmt::format("tensor 'film.radiance': element {} is {}, expected a finite number",
                              bad - sums.radiance.begin(), *bad));
+    // The same of a density, which decides how many samples are taken.
+    const auto wrong = std::find_if(sums.density.begin(), sums.density.end(),
+                                    [](float x) { return !(x >= 0.0f && x <= SampleDensity::kMost); });
+    if (wrong != sums.density.end())
+      file_.fail(fmt::format("tensor 'film.density': element {} is {}, expected 0 to {}",
+                             wrong - sums.density.begin(), *wrong, SampleDensity::kMost));
     film.import_state(sums);
   }
   const auto read = [&](const char* name, auto& value) {

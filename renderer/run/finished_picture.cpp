@@ -50,7 +50,19 @@ double error_of(const Picture& picture, const Reconstruction& finished) {
   return estimated_error(picture, darker, errors, kHalfSmoothing);
 }
 
+SampledPicture samples_of(const Picture& picture, const RenderOptions& options) {
+  SampledPicture samples = sampled_picture(picture);
+  // Occlusion does not depend on what a surface reflects.
+  if (options.integrator == Integrator::ao || options.integrator == Integrator::nao)
+    std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
+  return samples;
+}
+
 }  // namespace
+
+Reconstruction finished_film(const Film& film, const RenderOptions& options) {
+  return reconstruct(samples_of(film.resolve(), options));
+}
 
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena) {
   FinishedPicture result{.picture = film.resolve()};
@@ -60,11 +72,8 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     return result;
   }
   const Clock::time_point start = Clock::now();
-  SampledPicture samples = sampled_picture(picture);
+  const SampledPicture samples = samples_of(picture, options);
   drop_unwanted(picture, options.aovs);
-  // Occlusion does not depend on what a surface reflects.
-  if (options.integrator == Integrator::ao || options.integrator == Integrator::nao)
-    std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
   arena.execute([&] {
     Reconstruction finished = reconstruct(samples);
     picture.layers.front().values = std::move(finished.color);

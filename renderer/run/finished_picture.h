@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/film/film.h"
+#include "renderer/reconstruction/reconstruct.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
@@ -20,6 +21,9 @@ struct FinishedPicture {
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of
 /// the options. The film keeps those of film_aovs(options).
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena);
+
+/// The reconstruction of a film that keeps film_aovs(options), with its halves. Runs in the caller's arena.
+Reconstruction finished_film(const Film& film, const RenderOptions& options);
 
 /// Its estimated_error alone, without reconstruction.
 std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena);

@@ -101,15 +101,13 @@ Film Renderer::Implementation::make_film() const {
   return {region, options.width, options.height, film_aovs(options)};
 }
 
-RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Pass* pass,
+RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Film& film, const Pass* pass,
                                                   const Training& training,
                                                   const RenderStatistics& earlier) const {
   RenderStatistics sum = statistics;
   sum.render_seconds = seconds;
   sum.spp = spp;
-  sum.samples = static_cast<std::uint64_t>(spp) * static_cast<std::uint64_t>(region.width()) *
-                    static_cast<std::uint64_t>(region.height()) +
-                training.samples();
+  sum.samples = film.samples();
   SampleCounts counts = pass ? pass->counts() : SampleCounts{};
   counts.add(training.counts);
   sum.rays = pass ? pass->rays() : RayCounts{};

@@ -57,8 +57,8 @@ struct Renderer::Implementation {
   Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Statistics of this run and of the earlier ones.
-  RenderStatistics sum_up(int spp, double seconds, const Pass* pass, const Training& training,
-                          const RenderStatistics& earlier) const;
+  RenderStatistics sum_up(int spp, double seconds, const Film& film, const Pass* pass,
+                          const Training& training, const RenderStatistics& earlier) const;
 
   class PictureRun;
   bool render_step_series(const std::vector<int>& train_steps, const SeriesPicture& picture,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
+#include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/error_checks.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
@@ -123,9 +123,11 @@ class Renderer::Implementation::PictureRun {
     if (training_.stopped) loop.stop();
     if (options_.max_error > 0.0 && is_check(loop.done()) && good_enough(loop)) return;
     while (loop.done() < options_.spp) {
+      adapt(loop);
+      int goal = std::min(options_.spp, next_density(options_, loop.done()));
+      if (options_.max_error > 0.0) goal = std::min(goal, next_check(loop.done()));
       try {
-        loop.run_pass(options_.max_error > 0.0 ? std::min(options_.spp, next_check(loop.done()))
-                                               : options_.spp);
+        loop.run_pass(goal);
       } catch (const neural::DeviceLost& error) {
         // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
         // not resume from it; the last checkpoint is kept.
@@ -147,6 +149,13 @@ class Renderer::Implementation::PictureRun {
   void limit_passes(SampleLoop& loop) const {
     // A checkpoint holds whole passes.
     if (budget_.limit > 0.0) loop.end_at(time_at(budget_.passes_end()), !identity_);
+  }
+
+  /// Chooses anew where samples go, where that is due.
+  void adapt(SampleLoop& loop) {
+    const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena);
+    reconstruct_seconds_ += seconds;
+    loop.leave_out(seconds);
   }
 
   /// Estimates the error.
@@ -175,11 +184,6 @@ class Renderer::Implementation::PictureRun {
     RenderStatistics& statistics = renderer_.statistics;
     statistics = sum_up(loop, pass);
     cut_short_ = pass.cut_short() || !device_lost_.empty();
-    if (cut_short_) {
-      const auto pixels = static_cast<double>(renderer_.region.width()) * renderer_.region.height();
-      statistics.samples =
-          static_cast<std::uint64_t>(std::llround(film_.samples_per_pixel() * pixels)) + statistics.nonfinite;
-    }
     statistics.device_lost = device_lost_;
     if (whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
     loop.report_end();
@@ -221,9 +225,9 @@ class Renderer::Implementation::PictureRun {
   /// A picture from an incomplete cache is a preview; it is never resumed.
   bool whole() const { return !training_.session || training_.complete; }
   /// Statistics before the first pass.
-  RenderStatistics sum_up() const { return renderer_.sum_up(0, 0.0, nullptr, training_, earlier_); }
+  RenderStatistics sum_up() const { return renderer_.sum_up(0, 0.0, film_, nullptr, training_, earlier_); }
   RenderStatistics sum_up(const SampleLoop& loop, const Pass& pass) const {
-    return renderer_.sum_up(loop.done(), loop.seconds(), &pass, training_, earlier_);
+    return renderer_.sum_up(loop.done(), loop.seconds(), film_, &pass, training_, earlier_);
   }
   bool checkpoint_due() const {
     return identity_ && seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds;

@@ -33,8 +33,9 @@ Film film_of_noise(int width, int height, const RenderOptions& options) {
         first.albedo.setConstant(0.5f);
         first.guided = true;
         first.cache_radiance.setConstant(next());
-        film.add(x, y, first);
-        film.add(x, y, Color(next(), next(), next()));
+        const PixelSample sample = film.take({x, y});
+        film.add(sample, first);
+        film.add(sample, Color(next(), next(), next()));
       }
     }
   }

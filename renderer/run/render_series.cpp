@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
+#include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
@@ -79,17 +80,21 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
       if (training.stopped) return false;
     }
     Film film = taught;
+    double reconstruct_seconds = 0.0;  // of densities
     const std::unique_ptr<Pass> pass = make_pass(training);
     SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
     while (loop.done() < options.spp) {
       if (loop.over()) return false;
-      loop.run_pass(options.spp);
+      const double adapting = adapt_density(film, loop.done(), options, arena);
+      reconstruct_seconds += adapting;
+      loop.leave_out(adapting);
+      loop.run_pass(std::min(options.spp, next_density(options, loop.done())));
     }
-    statistics = sum_up(loop.done(), loop.seconds(), pass.get(), training, {});
+    statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
     const FinishedPicture finished = finished_picture(film, options, arena);
-    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
@@ -105,19 +110,23 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
                                                     const Callbacks& callbacks) {
   Film film = make_film();
   Training untrained;
+  double reconstruct_seconds = 0.0;  // of densities
   const std::unique_ptr<Pass> pass = make_pass(untrained);
   SampleLoop loop(arena, options, callbacks, *pass, film, spp.back());
   for (std::size_t point = 0; point < spp.size(); ++point) {
     while (loop.done() < spp[point]) {
       if (loop.over()) return false;
-      loop.run_pass(spp[point]);
+      const double adapting = adapt_density(film, loop.done(), options, arena);
+      reconstruct_seconds += adapting;
+      loop.leave_out(adapting);
+      loop.run_pass(std::min(spp[point], next_density(options, loop.done())));
     }
-    statistics = sum_up(loop.done(), loop.seconds(), pass.get(), untrained, {});
+    statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), untrained, {});
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
     const FinishedPicture finished = finished_picture(film, options, arena);
-    statistics.reconstruct_seconds = finished.reconstruct_seconds;
+    statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));

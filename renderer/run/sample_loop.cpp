@@ -33,8 +33,10 @@ void SampleLoop::tell_error(double error, double samples) {
 void SampleLoop::run_pass(int goal) {
   const int batch = std::min(batch_, goal - done_);
   // Each pixel needs a sample, and a pass of several is not cut because it was chosen to fit.
-  if (in_part_ && batch == 1 && done_ > 0)
-    pass_.end_at(start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(end_)));
+  const bool in_part = in_part_ && batch == 1 && done_ > 0;
+  pass_.end_at(in_part
+                   ? start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(end_))
+                   : Clock::time_point::max());
   const double begin = now();
   arena_.execute([&] {
     pass_.run(batch, film_, [&](double fraction) {

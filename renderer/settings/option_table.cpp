@@ -163,8 +163,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
          threads, sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
-         reconstruct, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache, checkpoint] =
-      options;
+         reconstruct, adaptive, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache,
+         checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -192,6 +192,9 @@ std::vector<Option> option_table(RenderOptions& options) {
                      "Full width of the pixel filter; 0: the filter's own"));
   picture.add(choice("reconstruct", reconstruct, kOnOff,
                      "Fit the samples to normals and depth, which takes out most of the grain"));
+  picture.add(choice("adaptive", adaptive, kOnOff,
+                     "With --reconstruct on: from the third sample on, take more where the finished picture "
+                     "has more noise; --spp is then the mean over the picture"));
   picture.add(aov_option(aovs));
 
   add_view_options(table, camera, environment);

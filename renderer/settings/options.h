@@ -59,6 +59,7 @@ struct RenderOptions {
   float clamp = 0.0f;         ///< largest luminance of one sample; 0: off
   float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed
   bool reconstruct = false;   ///< fit the samples to their guides (reconstruction/README.md)
+  bool adaptive = true;       ///< with reconstruct: more samples where more noise is left
   std::vector<Aov> aovs;
   NanPolicy nan_policy = NanPolicy::drop;
   std::size_t memory_limit_bytes = 0;  ///< 0: no limit; building beyond it throws OutOfMemory

@@ -14,7 +14,7 @@ ReferencePass::ReferencePass(const World& world, const PassContext& context)
       path_(world, path_integrator_options(context.options)),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)) {}
 
-void ReferencePass::run(int samples, Film& film, const std::function<void(double)>& report) {
+void ReferencePass::add_samples(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& tiles = context_.tiles;
   const RenderOptions& options = context_.options;
   std::atomic<int> finished{0};
@@ -24,16 +24,17 @@ void ReferencePass::run(int samples, Film& film, const std::function<void(double
         ReferenceWorker& w = workers_.local();
         for (int tile = range.begin(); tile < range.end() && !out_of_time(); ++tile) {
           tiles.pixels(tile, w.pixels);
-          w.results.resize(w.pixels.size());
-          if (film.needs_first_hits()) w.first_hits.resize(w.pixels.size());
           for (int sample = 0; sample < samples; ++sample) {
-            make_camera_samples(w.pixels, film, options, context_.camera, context_.filter, w.samples);
+            film.take_pass(w.pixels, sample, w.taken);
+            w.results.resize(w.taken.size());
+            if (film.needs_first_hits()) w.first_hits.resize(w.taken.size());
+            make_camera_samples(w.taken, film, options, context_.camera, context_.filter, w.samples);
             if (options.integrator == Integrator::path) {
               path_.trace(w.samples, w.results, w.first_hits, w.rays, w.path);
             } else {
               ao_.trace(w.samples, w.results, w.first_hits, w.rays, w.ao);
             }
-            add_to_film(w.pixels, options, w.results, w.first_hits, film, w.counts);
+            add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts);
           }
           report(static_cast<double>(++finished) / tiles.count());
         }

@@ -9,6 +9,7 @@ namespace gatelight::renderer {
 
 struct ReferenceWorker {
   std::vector<Pixel> pixels;
+  std::vector<PixelSample> taken;
   std::vector<CameraSample> samples;
   std::vector<SampleResult> results;
   std::vector<FirstHit> first_hits;
@@ -23,9 +24,9 @@ class ReferencePass : public WorkerPass<ReferenceWorker> {
   /// options.integrator is path or ao.
   ReferencePass(const World& world, const PassContext& context);
 
-  void run(int samples, Film& film, const std::function<void(double)>& report) override;
-
  private:
+  void add_samples(int samples, Film& film, const std::function<void(double)>& report) override;
+
   PassContext context_;
   PathIntegrator path_;
   AoIntegrator ao_;

@@ -48,7 +48,7 @@ TEST(LongSums, AMillionEqualSamplesAreTheirMeanToTheLastBit) {
   int tried = 0;
   for (const float value : {1e-30f, 1e-6f, 0.1f, 1.0f / 3.0f, 0.7f, 1.0f, 1e6f, 1e30f}) {
     Film film({0, 0, 1, 1}, 1, 1, kVariance);
-    for (int i = 0; i < kSamples; ++i) film.add(0, 0, Color::Constant(value));
+    for (int i = 0; i < kSamples; ++i) film.add(film.take({0, 0}), Color::Constant(value));
     EXPECT_EQ(mean_of(film), value);
     worst = std::max(worst, std::sqrt(static_cast<double>(variance_of(film))) / static_cast<double>(value));
     ++tried;
@@ -72,7 +72,7 @@ TEST(LongSums, AMillionRandomSamplesHaveTheMeanAndVarianceOfTheirExactSums) {
     for (int i = 0; i < kSamples; ++i) {
       const double u = random.uniform(1e-12, 1.0);
       values.push_back(static_cast<float>(power == 0.0 ? 1e-6 * u : std::pow(10.0, power * u - 6.0)));
-      film.add(0, 0, Color::Constant(values.back()));
+      film.add(film.take({0, 0}), Color::Constant(values.back()));
       sum.add(static_cast<double>(values.back()));
     }
     const double mean = sum.value() / kSamples;

@@ -26,12 +26,12 @@ int main(int argc, char** argv) {
 
   renderer::Film film = fuzz::made_film();
   for (int pixel = 0; pixel < 4; ++pixel) {
-    film.add(pixel % 2, pixel / 2, scene::Color(0.25f, 0.5f, 1.0f));
+    film.add(film.take({pixel % 2, pixel / 2}), scene::Color(0.25f, 0.5f, 1.0f));
     renderer::FirstHit hit;
     hit.hit = true;
     hit.normal = scene::Vec3(0, 0, 1);
     hit.depth = 2.0f;
-    film.add(pixel % 2, pixel / 2, hit);
+    film.add(film.take({pixel % 2, pixel / 2}), hit);
   }
   renderer::RenderStatistics statistics;
   statistics.render_seconds = 0.5;

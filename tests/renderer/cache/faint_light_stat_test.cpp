@@ -135,10 +135,10 @@ TEST(FaintLight, RecordsKeepTheirMean) {
 
 TEST(FaintLight, AFilmTellsWhatIsFaint) {
   Film film({0, 0, 2, 1}, 2, 1, {});
-  EXPECT_EQ(film.faint(0, 0), 0.0f);
-  for (int i = 0; i < 8; ++i) film.add(0, 0, Color(1.0f, 2.0f, 0.5f));
-  EXPECT_FLOAT_EQ(film.faint(0, 0), 0.6f);
-  EXPECT_EQ(film.faint(1, 0), 0.0f);
+  EXPECT_EQ(film.faint({0, 0}), 0.0f);
+  for (int i = 0; i < 8; ++i) film.add(film.take({0, 0}), Color(1.0f, 2.0f, 0.5f));
+  EXPECT_FLOAT_EQ(film.faint({0, 0}), 0.6f);
+  EXPECT_EQ(film.faint({1, 0}), 0.0f);
 }
 
 }  // namespace

@@ -133,25 +133,26 @@ TEST(TrainingPoints, SamplesOfThePictureAreThoseThatItsPassesWouldTakeNext) {
     first += count;
     expect_blocks_cover(starts);
     ASSERT_EQ(starts.starts.size(), count);
-    ASSERT_EQ(starts.pixels.size(), count);
+    ASSERT_EQ(starts.samples.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto [x, y] = starts.pixels[i];
-      const CameraSample expected =
-          make_camera_sample({x, y}, film.take(x, y), options, walls.camera, filter);
+      const PixelSample next = film.take(starts.samples[i].pixel);
+      EXPECT_EQ(starts.samples[i].number, next.number);
+      const CameraSample expected = make_camera_sample(next, options, walls.camera, filter);
       EXPECT_EQ(starts.starts[i].sample.seed, expected.seed);
       EXPECT_EQ(starts.starts[i].sample.camera_ray.ray.direction, expected.camera_ray.ray.direction);
     }
     // Samples of a pixel are added in turn, by one thread.
     for (std::size_t b = 1; b + 1 < starts.offsets.size(); ++b) {
-      const Pixel &before = starts.pixels[starts.offsets[b] - 1], &after = starts.pixels[starts.offsets[b]];
+      const Pixel before = starts.samples[starts.offsets[b] - 1].pixel,
+                  after = starts.samples[starts.offsets[b]].pixel;
       EXPECT_FALSE(before.x == after.x && before.y == after.y);
     }
   }
   for (int y = region.y0; y < region.y1; ++y) {
-    for (int x = region.x0; x < region.x1; ++x) EXPECT_EQ(film.taken(x, y), 3u);
+    for (int x = region.x0; x < region.x1; ++x) EXPECT_EQ(film.taken({x, y}), 3u);
   }
   points.choose(7, 100, false, {}, starts, rays);
-  EXPECT_TRUE(starts.pixels.empty()) << "others are points of the picture alone";
+  EXPECT_TRUE(starts.samples.empty()) << "others are points of the picture alone";
 }
 
 TEST(TrainingPoints, NumbersThatFillNoGridAreNearlyKept) {

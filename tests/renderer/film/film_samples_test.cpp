@@ -17,12 +17,11 @@ struct Maker {
   FilterSampler filter{PixelFilter::box, 1.0f};
 
   std::vector<CameraSample> samples(const std::vector<Pixel>& pixels, std::uint32_t sample) const {
-    Film film({0, 0, 8, 8}, 8, 8, {});
-    for (const Pixel& p : pixels) {
-      for (std::uint32_t s = 0; s < sample; ++s) film.take(p.x, p.y);
-    }
+    const Film film({0, 0, 8, 8}, 8, 8, {});
+    std::vector<PixelSample> wanted;
+    for (const Pixel& p : pixels) wanted.push_back({p, sample});
     std::vector<CameraSample> result(3);  // what was there goes
-    make_camera_samples(pixels, film, options, camera, filter, result);
+    make_camera_samples(wanted, film, options, camera, filter, result);
     return result;
   }
 };
@@ -82,14 +81,15 @@ TEST(FirstHit, HoldsThePositionInTheFilesCoordinates) {
 TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
   Film film({0, 0, 2, 1}, 2, 1, {});
   SampleCounts counts;
-  const std::vector<Pixel> pixels = {{0, 0}, {1, 0}};
   RenderOptions options;
   options.seed = 9;
   const std::vector<SampleResult> good = {{Color(1, 2, 3)}, {Color(4, 5, 6)}};
   const std::vector<SampleResult> bad = {{Color(1, kInfinity, 3)}, {Color(4, 5, 8)}};
-  for (int s = 0; s < 6; ++s) film.take(0, 0), film.take(1, 0);
-  add_to_film(pixels, options, good, {}, film, counts);
-  add_to_film(pixels, options, bad, {}, film, counts);
+  const auto samples = [](std::uint32_t number) {
+    return std::vector<PixelSample>{{{0, 0}, number}, {{1, 0}, number}};
+  };
+  add_to_film(samples(6), options, good, {}, film, counts);
+  add_to_film(samples(7), options, bad, {}, film, counts);
   const std::vector<float> mean = film.resolve().layers[0].values;
   EXPECT_EQ(mean, (std::vector<float>{1, 2, 3, 4, 5, 7}));
   EXPECT_EQ(counts.nonfinite, 1u);
@@ -103,11 +103,11 @@ TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
 TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
   Film film({0, 0, 2, 1}, 2, 1, {});
   SampleCounts counts;
-  const std::vector<Pixel> pixels = {{0, 0}, {1, 0}};
+  const std::vector<PixelSample> samples = {{{0, 0}, 0}, {{1, 0}, 0}};
   RenderOptions options;
   options.clamp = 2.0f;
   const std::vector<SampleResult> results = {{Color(8, 8, 8)}, {Color(1.5f, 1.5f, 1.5f)}};
-  add_to_film(pixels, options, results, {}, film, counts);
+  add_to_film(samples, options, results, {}, film, counts);
   const std::vector<float> mean = film.resolve().layers[0].values;
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(mean[i], i < 3 ? 2.0f : 1.5f, 1e-6f);
   EXPECT_EQ(counts.clamped, 1u);
@@ -121,7 +121,7 @@ TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
   hit.hit = true;
   hit.depth = 4.0f;
   const std::vector<SampleResult> results = {{Color(kInfinity, 0, 0)}};
-  add_to_film(std::vector<Pixel>{{0, 0}}, {}, results, {&hit, 1}, film, counts);
+  add_to_film(std::vector<PixelSample>{{}}, {}, results, {&hit, 1}, film, counts);
   EXPECT_FLOAT_EQ(film.resolve().find("depth")->values[0], 4.0f);
 }
 
@@ -145,9 +145,9 @@ TEST(FilmSamples, TheFirst16NonFiniteOnesAreKeptInTheOrderOfThePicture) {
 TEST(FilmSamples, AFilmOfNothingButNonFiniteSamplesKeepsFewPlaces) {
   Film film({0, 0, 16, 16}, 16, 16, {});
   SampleCounts counts;
-  const std::vector<Pixel> pixels(256, Pixel{0, 0});
+  const std::vector<PixelSample> samples(256);
   const std::vector<SampleResult> results(256, SampleResult{Color::Constant(kInfinity)});
-  for (int s = 0; s < 8; ++s) add_to_film(pixels, {}, results, {}, film, counts);
+  for (int s = 0; s < 8; ++s) add_to_film(samples, {}, results, {}, film, counts);
   EXPECT_EQ(counts.nonfinite, 2048u);
   EXPECT_LE(counts.located.size(), 256u);
 }

@@ -14,7 +14,7 @@ namespace {
 TEST(Film, PixelIsTheMeanAndVarianceIsThatOfTheMean) {
   const Aov aovs[] = {Aov::variance, Aov::sample_count};
   Film film({2, 1, 4, 3}, 8, 8, aovs);
-  for (float v : {1.0f, 2.0f, 6.0f}) film.add(3, 2, Color(v, 2.0f * v, 0.0f));
+  for (float v : {1.0f, 2.0f, 6.0f}) film.add(film.take({3, 2}), Color(v, 2.0f * v, 0.0f));
   const Picture picture = film.resolve();
   EXPECT_EQ(picture.x0, 2);
   EXPECT_EQ(picture.full_width, 8);
@@ -38,8 +38,8 @@ TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
   hit.position = Vec3(1, 2, 3);
   hit.instance = 7;
   hit.primitive = 123456;
-  film.add(0, 0, hit);
-  film.add(0, 0, FirstHit{});
+  film.add(film.take({0, 0}), hit);
+  film.add(film.take({0, 0}), FirstHit{});
   const Picture picture = film.resolve();
   EXPECT_FLOAT_EQ(picture.find("albedo")->values[0], 0.4f);
   EXPECT_FLOAT_EQ(picture.find("depth")->values[0], 4.0f);
@@ -68,14 +68,14 @@ FirstHit asked_hit(float answer, float error, float count, float resolution) {
 TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
   Film film({0, 0, 1, 1}, 1, 1, kCacheAovs);
   EXPECT_TRUE(film.needs_first_hits());
-  film.add(0, 0, asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
-  film.add(0, 0, asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
+  film.add(film.take({0, 0}), asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
+  film.add(film.take({0, 0}), asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
   FirstHit silent = asked_hit(1e3f, 1e3f, 1e3f, 1e3f);
   silent.asked = false;  // a hit where the cache was not asked: black, and no number
-  film.add(0, 0, silent);
+  film.add(film.take({0, 0}), silent);
   FirstHit sky;
   sky.guided = true;
-  film.add(0, 0, sky);
+  film.add(film.take({0, 0}), sky);
   const Picture picture = film.resolve();
   const auto values = [&](const char* name) { return picture.find(name)->values; };
   EXPECT_EQ(values("cache-answer"), (std::vector<float>{2.0f, 4.0f, 8.0f}));
@@ -91,7 +91,7 @@ TEST(Film, CacheLayersAreBlackWhereNoCacheWasAsked) {
   Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
   FirstHit hit;
   hit.hit = true;
-  film.add(0, 0, hit);
+  film.add(film.take({0, 0}), hit);
   const Picture picture = film.resolve();
   ASSERT_EQ(picture.layers.size(), 1 + std::size(kCacheAovs));
   for (const Layer& layer : picture.layers) {
@@ -101,7 +101,7 @@ TEST(Film, CacheLayersAreBlackWhereNoCacheWasAsked) {
 
 TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
   Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
-  film.add(1, 0, asked_hit(1.0f, 2.0f, 3.0f, 4.0f));
+  film.add(film.take({1, 0}), asked_hit(1.0f, 2.0f, 3.0f, 4.0f));
   const Picture picture = film.resolve();
   const std::vector<std::string> rgb{"R", "G", "B"};
   struct Expected {
@@ -129,9 +129,31 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
   EXPECT_GT(Film::bytes_per_pixel(kCacheAovs), Film::bytes_per_pixel(counts));
 }
 
+TEST(Film, HalvesOfDifferentNumbersCountAsIfTheyHadTakenTurns) {
+  const Aov aovs[] = {Aov::reconstruction, Aov::variance};
+  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  const auto add = [&](std::size_t half, float value) {
+    film.add(film.take({0, 0}, half), Color::Constant(value));
+  };
+  for (const float value : {1.0f, 3.0f}) add(0, value);
+  for (const float value : {5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 13.0f}) add(1, value);
+  EXPECT_EQ(film.samples(), 8u);
+  const Picture picture = film.resolve();
+  EXPECT_FLOAT_EQ(picture.find("half-a")->values[0], 2.0f);
+  EXPECT_FLOAT_EQ(picture.find("half-b")->values[0], 8.0f);
+  // The mean of the halves, not that of the samples.
+  EXPECT_FLOAT_EQ(picture.layers[0].values[0], 5.0f);
+  EXPECT_FLOAT_EQ(picture.find("samples")->values[0], 8.0f);
+  // The variance of all samples, (1 + 9 + 25 + 36 + 49 + 64 + 81 + 169 - 52^2 / 8) / 7, over halves of two
+  // and six.
+  EXPECT_FLOAT_EQ(picture.find("variance")->values[0], 96.0f / 7.0f * (0.25f / 2.0f + 0.25f / 6.0f));
+  // The next ones even the halves out.
+  for (const std::uint32_t number : {4u, 6u, 8u, 10u, 12u, 13u}) EXPECT_EQ(film.take({0, 0}).number, number);
+}
+
 TEST(Film, AMillionSamplesDoNotDrift) {
   Film film({0, 0, 1, 1}, 1, 1, {});
-  for (int i = 0; i < 1000000; ++i) film.add(0, 0, Color(0.1f, 1e-6f, 1e6f));
+  for (int i = 0; i < 1000000; ++i) film.add(film.take({0, 0}), Color(0.1f, 1e-6f, 1e6f));
   const Picture picture = film.resolve();
   EXPECT_FLOAT_EQ(picture.layers[0].values[0], 0.1f);
   EXPECT_FLOAT_EQ(picture.layers[0].values[1], 1e-6f);
@@ -141,8 +163,8 @@ TEST(Film, AMillionSamplesDoNotDrift) {
 TEST(Film, WhatLeavesSinglePrecisionBecomesItsGreatestNumber) {
   const Aov aovs[] = {Aov::variance};
   Film film({0, 0, 1, 1}, 1, 1, aovs);
-  film.add(0, 0, Color(1e30f, 1.0f, 0.0f));
-  film.add(0, 0, Color(0.0f, 3.0f, 0.0f));
+  film.add(film.take({0, 0}), Color(1e30f, 1.0f, 0.0f));
+  film.add(film.take({0, 0}), Color(0.0f, 3.0f, 0.0f));
   const Picture picture = film.resolve();
   EXPECT_THAT(picture.find("variance")->values,
               ::testing::ElementsAre(std::numeric_limits<float>::max(), 1.0f, 0.0f));

@@ -42,6 +42,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) { o.direct = DirectLight::nee; }, {"direct", "mis", "nee"}},
       {[](O o, C) { o.light_selection = LightSelection::power; }, {"light-selection", "tree", "power"}},
       {[](O o, C) { o.watertight = false; }, {"watertight", "on", "off"}},
+      {[](O o, C) { o.adaptive = false; }, {"adaptive", "on", "off"}},
       {[](O o, C) { o.clamp = 1.5f; }, {"clamp", "0", "1.5"}},
       {[](O o, C) { o.ao_distance = 0.0f; }, {"ao-distance", "auto", "0"}},
       {[](O o, C) {

@@ -81,7 +81,13 @@ inline const Kind kKinds[] = {
     {"path_reconstructed", Integrator::path,
      [](RenderOptions& o) {
        o.reconstruct = true;
+       o.adaptive = false;
        o.aovs = {Aov::normal, Aov::raw, Aov::error};
+     }},
+    {"path_adaptive", Integrator::path,
+     [](RenderOptions& o) {
+       o.reconstruct = true;
+       o.aovs = {Aov::sample_count, Aov::raw, Aov::error};
      }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
     {"nao", Integrator::nao, [](RenderOptions&) {}},
@@ -99,7 +105,7 @@ inline const Kind kKinds[] = {
        o.cache.source = TrainingSource::surface;
        o.aovs.clear();
      }},
-    {"nrc_learns_from_samples", Integrator::nrc,
+    {"nrc_learns_from_samples_adaptive", Integrator::nrc,
      [](RenderOptions& o) {
        o.cache.candidates = 1;
        o.cache.source = TrainingSource::picture;

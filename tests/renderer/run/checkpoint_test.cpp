@@ -43,7 +43,7 @@ void add_sample(Film& film, std::uint64_t seed) {
   const auto next = [&] { return 1e-3f + static_cast<float>(neural::mix_bits(++i) >> 40) * 1e-7f; };
   for (int y = 1; y < 3; ++y) {
     for (int x = 1; x < 4; ++x) {
-      film.add(x, y, Color(next(), next(), next()));
+      film.add(film.take({x, y}), Color(next(), next(), next()));
       if (!film.needs_first_hits()) continue;
       FirstHit hit;
       hit.hit = x != 2;
@@ -55,7 +55,7 @@ void add_sample(Film& film, std::uint64_t seed) {
       hit.primitive = static_cast<decltype(hit.primitive)>(y);
       hit.training_count = static_cast<decltype(hit.training_count)>(x);
       hit.resolution = static_cast<decltype(hit.resolution)>(y);
-      film.add(x, y, hit);
+      film.add(film.take({x, y}), hit);
     }
   }
 }

@@ -26,6 +26,7 @@ class FinishedPicture : public ::testing::TestWithParam<Integrator> {
     options.cache.train_steps = 4;
     options.cache.batch = 500;
     options.reconstruct = reconstruct;
+    options.adaptive = false;
     options.aovs = aovs;
     Renderer renderer(scene, options);
     Picture picture = renderer.render();

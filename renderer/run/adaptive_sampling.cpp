@@ -1,0 +1,78 @@
+#include "renderer/run/adaptive_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "renderer/machine/clock.h"
+#include "renderer/reconstruction/planes.h"
+#include "renderer/run/finished_picture.h"
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr int kFirstDensity = 2;
+constexpr int kNextDensity = 4;  // times the one before
+/// Noise and brightness are smoothed over this many pixels around each, in each direction.
+constexpr int kDensitySmoothing = 3;
+/// Where noise falls with the root of the number of samples, its sum over the pixels is least with numbers in
+/// proportion to this power of it. The mean of squares asks for the first power, but sees few pixels alone.
+constexpr double kPower = 2.0 / 3.0;
+/// No pixel gets less or more than these times what is usual.
+constexpr double kLeast = 0.5, kMost = 8.0;
+/// Noise counts relative to brightness plus this share of the picture's mean: in the dark it is not seen.
+constexpr double kDark = 1.0;
+
+}  // namespace
+
+int next_density(const RenderOptions& options, int samples) {
+  if (!options.adaptive || !options.reconstruct) return std::numeric_limits<int>::max();
+  std::int64_t at = kFirstDensity;
+  while (at <= samples) at *= kNextDensity;
+  return static_cast<int>(std::min<std::int64_t>(at, std::numeric_limits<int>::max()));
+}
+
+SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished) {
+  const std::size_t pixels = finished.noise[0].size();
+  const auto smooth = [&](Plane& plane) {
+    box_filter(plane, rect.width(), rect.height(), kDensitySmoothing);
+  };
+  const auto mean = [&](const auto& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(pixels);
+  };
+  std::array<std::vector<float>, 2> values;
+  for (const std::size_t h : {0u, 1u}) {
+    // By the other half.
+    const std::vector<float>&color = finished.halves[1 - h], &noise = finished.noise[1 - h];
+    Plane brightness(pixels), square(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      brightness[p] = (color[3 * p] + color[3 * p + 1] + color[3 * p + 2]) / 3.0f;
+      square[p] = noise[p] * noise[p];
+    }
+    smooth(brightness);
+    smooth(square);
+    const double dark = kDark * mean(brightness) + 1e-30;
+    std::vector<float>& value = values[h];
+    value.resize(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      const double relative =
+          std::sqrt(static_cast<double>(square[p])) / (static_cast<double>(brightness[p]) + dark);
+      value[p] = static_cast<float>(std::pow(relative, kPower));
+    }
+    const double usual = mean(value);
+    const auto least = static_cast<float>(kLeast * usual), most = static_cast<float>(kMost * usual);
+    for (float& v : value) v = std::clamp(v, least, most);
+  }
+  return {rect, std::move(values)};
+}
+
+double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena) {
+  if (samples == 0 || next_density(options, samples - 1) != samples || film.new_density()) return 0.0;
+  const Clock::time_point start = Clock::now();
+  arena.execute([&] { film.follow(make_density(film.rect(), finished_film(film, options))); });
+  return seconds_since(start);
+}
+
+}  // namespace gatelight::renderer
