@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "renderer/cache/scene_layout.h"
-#include "renderer/film/camera_sample.h"
+#include "renderer/transport/guide_surface.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -103,14 +103,16 @@ void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf
 PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit,
                                 const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
                                 Scratch& scratch) const {
+  FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
   if (!hit) {
+    if (first) leave_guide(path, *first);
     add_emission(path, path.sky(walk_, ray.direction), batch);
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
-  FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
-  if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  if (first) meet_guide(path, m, *first);
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;
 
@@ -136,7 +138,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
     }
   }
   const Bsdf& bsdf = m.set_up_bsdf();
-  if (first) first->albedo = bsdf.albedo();
+  if (first) set_albedo(path, bsdf.albedo(), *first);
   if (path.emission_only) {
     std::optional<Drawn> drawn = path.draw(m, bsdf);
     if (drawn && path.survives(plan.min_depth, *drawn) &&
@@ -170,8 +172,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   std::int32_t vertices[ShadingBlock::kWidth];
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
-    if (path.surfaces == 0 && !first_hits.empty())
-      first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     if (goes_on) {
       continue_from(path, block, lane, plan, batch, scratch);
       continue;

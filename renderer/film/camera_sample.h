@@ -25,6 +25,17 @@ struct CameraSample {
   }
 };
 
+/// The first surface that is neither a mirror nor clear, for reconstruction: behind mirrors and glass the
+/// primary hit tells nothing of the picture. It is the last one that was met where there is none.
+struct GuideSurface {
+  bool hit = false;
+  std::int32_t surface = -1;       ///< its number on the path
+  Color tint{1.0f, 1.0f, 1.0f};    ///< of those before it
+  Color albedo{0.0f, 0.0f, 0.0f};  ///< times the tint
+  Vec3 normal = Vec3::Zero();
+  float depth = 0.0f;  ///< in metres along the path
+};
+
 /// The surface at the primary hit, for the output variables.
 struct FirstHit {
   bool hit = false;
@@ -34,6 +45,7 @@ struct FirstHit {
   float depth = 0.0f;  ///< in metres from the eye along the ray
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
+  GuideSurface guide;
   bool guided = false;                     ///< cache_radiance is known
   Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, as the cache alone gives it
   // These come from the first cache query of the path.
@@ -55,6 +67,7 @@ inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& or
   first.depth = hit.t;
   first.instance = hit.instance;
   first.primitive = hit.primitive;
+  first.guide = {true, 0, Color::Ones(), first.albedo, first.normal, hit.t};
   return first;
 }
 

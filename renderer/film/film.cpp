@@ -24,9 +24,7 @@ bool has(std::span<const Aov> aovs, Aov aov) {
 std::vector<Aov> with_what_they_need(std::span<const Aov> aovs) {
   std::vector<Aov> all(aovs.begin(), aovs.end());
   if (!has(aovs, Aov::reconstruction)) return all;
-  for (const Aov aov : {Aov::albedo, Aov::normal, Aov::depth, Aov::sample_count}) {
-    if (!has(all, aov)) all.push_back(aov);
-  }
+  if (!has(all, Aov::sample_count)) all.push_back(Aov::sample_count);
   return all;
 }
 
@@ -46,12 +44,13 @@ void each_of_radiance(Radiance& p, Take&& take) {
 
 template <class First, class Take>
 void each_of_first(First& p, Take&& take) {
-  for (auto* array :
-       {&p.albedo, &p.normal, &p.position, &p.cache_radiance, &p.cache_half, &p.answer, &p.node}) {
+  for (auto* array : {&p.albedo, &p.normal, &p.guide_albedo, &p.guide_normal, &p.position, &p.cache_radiance,
+                      &p.cache_half, &p.answer, &p.node}) {
     for (auto& value : *array) take.sum(value);
   }
-  for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
-  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guided, &p.guided_half}) take.count(*value);
+  for (auto* value : {&p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guide_hits, &p.guided, &p.guided_half})
+    take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
 }
 
@@ -149,6 +148,12 @@ void Film::add(const PixelSample& sample, const FirstHit& first) {
       accumulate(p.cache_half, first.cache_radiance.matrix());
     }
     accumulate(p.cache_radiance, first.cache_radiance.matrix());
+  }
+  if (first.guide.hit) {
+    ++p.guide_hits;
+    accumulate(p.guide_albedo, first.guide.albedo.matrix());
+    accumulate(p.guide_normal, first.guide.normal);
+    p.guide_depth += static_cast<double>(first.guide.depth);
   }
   if (!first.hit) return;
   accumulate(p.albedo, first.albedo.matrix());
@@ -279,7 +284,7 @@ Layer Film::layer(Aov aov) const {
       break;
     case Aov::reconstruction:
       fill({"coverage"}, first_, [](const First& p, std::size_t) {
-        return p.count > 0 ? static_cast<double>(p.hits) / p.count : 0.0;
+        return p.count > 0 ? static_cast<double>(p.guide_hits) / p.count : 0.0;
       });
       layer.name = "coverage";
       break;
@@ -306,6 +311,21 @@ float Film::faint(const Pixel& p) const {
   const Radiance& r = radiance_[at(p)];
   if (r.count < kFewest) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
+}
+
+void Film::add_guides(std::vector<Layer>& layers) const {
+  Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
+  Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
+  Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
+  for (const First& p : first_) {
+    const double over = p.count > 0 ? 1.0 / p.count : 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      albedo.values.push_back(finite_float(p.guide_albedo[i] * over));
+      normal.values.push_back(finite_float(p.guide_normal[i] * over));
+    }
+    depth.values.push_back(finite_float(p.guide_hits > 0 ? p.guide_depth / p.guide_hits : 0.0));
+  }
+  for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
 }
 
 void Film::add_halves(std::vector<Layer>& layers) const {
@@ -353,7 +373,9 @@ Picture Film::resolve() const {
   }
   picture.layers.push_back(std::move(beauty));
   for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
-  if (!halves_[0].empty()) add_halves(picture.layers);
+  if (halves_[0].empty()) return picture;
+  add_guides(picture.layers);
+  add_halves(picture.layers);
   return picture;
 }
 
@@ -362,8 +384,8 @@ FilmState Film::export_state() const {
   const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
   state.radiance.reserve(sums * 6);
   state.radiance_counts.reserve(2 * sums);
-  state.first.reserve(first_.size() * 25);
-  state.first_counts.reserve(first_.size() * 5);
+  state.first.reserve(first_.size() * 32);
+  state.first_counts.reserve(first_.size() * 6);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};
   for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {

@@ -89,18 +89,22 @@ class Film {
   struct First {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
+    std::array<double, 3> guide_albedo{};
+    std::array<double, 3> guide_normal{};
     std::array<double, 3> position{};
     std::array<double, 3> cache_radiance{};
     std::array<double, 3> cache_half{};  ///< of cache_radiance: the first half
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
     double depth = 0.0;
+    double guide_depth = 0.0;
     double error = 0.0;
     double training_count = 0.0;
     double resolution = 0.0;
     std::uint32_t count = 0;  ///< number of samples
     std::uint32_t asked = 0;
     std::uint32_t hits = 0;
+    std::uint32_t guide_hits = 0;
     std::uint32_t guided = 0;
     std::uint32_t guided_half = 0;
     float instance = -1.0f;
@@ -120,6 +124,7 @@ class Film {
            static_cast<std::size_t>(p.x - rect_.x0);
   }
   /// The layers of Aov::reconstruction that are no output variables of their own.
+  void add_guides(std::vector<Layer>& layers) const;
   void add_halves(std::vector<Layer>& layers) const;
 
   PixelRect rect_;

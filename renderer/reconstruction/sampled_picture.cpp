@@ -36,9 +36,9 @@ SampledPicture sampled_picture(const Picture& picture) {
                               {finite_values(picture, "half-b", 3), finite_values(picture, "variance-b", 3)}},
                    .counts = finite_values(picture, "samples", 1),
                    .coverage = finite_values(picture, "coverage", 1),
-                   .albedo = finite_values(picture, "albedo", 3),
-                   .normal = finite_values(picture, "normal", 3),
-                   .depth = finite_values(picture, "depth", 1)};
+                   .albedo = finite_values(picture, "guide-albedo", 3),
+                   .normal = finite_values(picture, "guide-normal", 3),
+                   .depth = finite_values(picture, "guide-depth", 1)};
   if (picture.find("cache-a")) {
     s.halves[0].cache = finite_values(picture, "cache-a", 3);
     s.halves[1].cache = finite_values(picture, "cache-b", 3);

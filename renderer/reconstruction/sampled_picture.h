@@ -21,7 +21,8 @@ struct SampledPicture {
   Half halves[2];
   std::vector<float> counts;    ///< samples a pixel; pixels without any are filled
   std::vector<float> coverage;  ///< share of the samples that hit a surface
-  // Means over a pixel's samples, at the primary hit; zero where nothing was hit.
+  // Means over a pixel's samples, at the first surface that is neither a mirror nor clear; zero where nothing
+  // was hit.
   std::vector<float> albedo;
   std::vector<float> normal;
   std::vector<float> depth;  ///< in metres, over the samples that hit

@@ -27,10 +27,10 @@ Film film_of_noise(int width, int height, const RenderOptions& options) {
     for (int x = 0; x < width; ++x) {
       for (int s = 0; s < kSamplesOfNoise; ++s) {
         FirstHit first;
-        first.hit = true;
-        first.depth = 1.0f + next();
-        first.normal = {0.0f, 0.0f, 1.0f};
-        first.albedo.setConstant(0.5f);
+        first.guide.hit = true;
+        first.guide.depth = 1.0f + next();
+        first.guide.normal = {0.0f, 0.0f, 1.0f};
+        first.guide.albedo.setConstant(0.5f);
         first.guided = true;
         first.cache_radiance.setConstant(next());
         const PixelSample sample = film.take({x, y});

@@ -1,6 +1,6 @@
 #include "renderer/transport/path_integrator.h"
 
-#include "renderer/film/camera_sample.h"
+#include "renderer/transport/guide_surface.h"
 
 namespace gatelight::renderer {
 
@@ -20,11 +20,13 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
     if (emission.any()) radiance += path.carried() * emission.radiance * emission.weight;
   };
   if (!hit) {
+    if (first) leave_guide(path, *first);
     add(path.sky(walk_, ray.direction));
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
-  if (first) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  if (first) meet_guide(path, m, *first);
   add(m.emission);
   if (m.ends) return nullptr;
   if (path.shades_wide(m)) {
@@ -32,7 +34,7 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
     return &scratch.blocks[0];
   }
   const Bsdf& bsdf = m.set_up_bsdf();
-  if (first) first->albedo = bsdf.albedo();
+  if (first) set_albedo(path, bsdf.albedo(), *first);
 
   const LightAt at = path.light_at(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
@@ -50,8 +52,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
     Walker& path = scratch.paths[scratch.path_of[number]];
-    if (path.surfaces == 0 && !first_hits.empty())
-      first_hits[path.index].albedo = lane_color(points.albedo, lane);
+    if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     const Color contribution = path.carried() * lane_color(points.direct, lane);
     add_light(
         path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
@@ -75,7 +76,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   trace_waves(
       walk_.world, {}, scratch, counts,
       [&](std::uint32_t number, Walker& path, Ray& ray, const Hit& hit) {
-        FirstHit* const first = path.surfaces == 0 && !first_hits.empty() ? &first_hits[path.index] : nullptr;
+        FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
         return scatter(number, path, ray, hit, results[path.index].radiance, first, scratch);
       },
       [&](PathBlock& block) { shade(block, first_hits, scratch); },

@@ -110,6 +110,7 @@ struct Walker {
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
   std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
+  bool sees_through = true;    ///< all surfaces so far were mirrors or clear
   bool emission_only = false;  ///< from here on the path only passes panes and counts emission
 
   Walker() = default;

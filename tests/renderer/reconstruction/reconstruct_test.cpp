@@ -166,7 +166,7 @@ Picture picture_with(const std::vector<std::string>& layers) {
   Picture picture{
       .width = 2, .height = 1, .layers = {{.channels = {"R", "G", "B"}, .values = std::vector<float>(6)}}};
   for (const std::string& name : layers) {
-    const bool number = name == "samples" || name == "coverage" || name == "depth";
+    const bool number = name == "samples" || name == "coverage" || name == "guide-depth";
     Layer layer{.name = name, .channels = {"R"}, .values = std::vector<float>(2, 1.0f)};
     if (!number) layer.channels = {"R", "G", "B"}, layer.values.assign(6, 1.0f);
     picture.layers.push_back(layer);
@@ -175,8 +175,8 @@ Picture picture_with(const std::vector<std::string>& layers) {
 }
 
 TEST(SampledPictures, ReadTheirLayersAndNameTheOneThatIsMissing) {
-  const std::vector<std::string> all = {"half-a",   "half-b", "variance-a", "variance-b", "samples",
-                                        "coverage", "albedo", "normal",     "depth"};
+  const std::vector<std::string> all = {"half-a",   "half-b",       "variance-a",   "variance-b", "samples",
+                                        "coverage", "guide-albedo", "guide-normal", "guide-depth"};
   Picture picture = picture_with(all);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   picture.layers[2].values[4] = nan;  // of half-b

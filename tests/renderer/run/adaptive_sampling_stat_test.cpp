@@ -49,10 +49,10 @@ class Wall {
   void run_pass() {
     film_.take_pass(pixels_, 0, samples_);
     FirstHit first;
-    first.hit = true;
-    first.albedo.setConstant(0.5f);
-    first.normal = {0.0f, 0.0f, 1.0f};
-    first.depth = 1.0f;
+    first.guide.hit = true;
+    first.guide.albedo.setConstant(0.5f);
+    first.guide.normal = {0.0f, 0.0f, 1.0f};
+    first.guide.depth = 1.0f;
     for (const PixelSample& s : samples_) {
       film_.add(s, first);
       film_.add(s, Color(Color::Constant(rare_light(s, seed_))));
