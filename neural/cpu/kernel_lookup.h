@@ -273,6 +273,7 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
         low[c][0] = cell * factor;
         low[c][1] = next * factor;
       }
+#pragma GCC unroll 8
       for (uint32_t k = 0; k < 8; ++k) {
         const Int a = low[0][k & 1], b = low[1][k >> 1 & 1], c = low[2][k >> 2];
         const Int number = level.dense != 0 ? a + b + c : a ^ b ^ c;
