@@ -10,22 +10,20 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     -mprefer-vector-width=512 -Wno-uninitialized -Wno-maybe-uninitialized)  # gcc 12 warns of its own headers
 endif()
 
-# gatelight_add_kernels(<target> <prefix> <source> TABLE <name> ISA <isa> [DEFINITIONS <name>...] [FLAGS <flag>...])
+# gatelight_add_kernels(<target> <prefix> <source> TABLE <name> ISA <isa> [FLAGS <flag>...])
 #
 # Compiles <source> to the object library <prefix>_<isa> and links it to <target>. GATELIGHT_KERNEL_TABLE is <name>.
 # Link-time optimisation is off because it could move instructions from one object to another.
 function(gatelight_add_kernels target prefix source)
-  cmake_parse_arguments(kernels "" "TABLE;ISA" "DEFINITIONS;FLAGS" ${ARGN})
+  cmake_parse_arguments(kernels "" "TABLE;ISA" "FLAGS" ${ARGN})
   set(object ${prefix}_${kernels_ISA})
   if(kernels_ISA MATCHES "^(avx512)_")
     set(kernels_ISA ${CMAKE_MATCH_1})
   endif()
-  string(TOUPPER ${kernels_ISA} isa)
   add_library(${object} OBJECT ${source})
   target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${object} PRIVATE gatelight_compile_options)
-  target_compile_definitions(${object} PRIVATE
-    GATELIGHT_KERNEL_TABLE=${kernels_TABLE} GATELIGHT_ISA_${isa} ${kernels_DEFINITIONS})
+  target_compile_definitions(${object} PRIVATE GATELIGHT_KERNEL_TABLE=${kernels_TABLE})
   target_compile_options(${object} PRIVATE
     -O3 -fno-exceptions -fno-rtti -fno-stack-protector -Wno-psabi -Wno-shadow
     ${GATELIGHT_KERNEL_FLAGS_${kernels_ISA}} ${kernels_FLAGS})

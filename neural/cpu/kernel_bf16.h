@@ -6,10 +6,10 @@
 
 namespace {
 
-#if defined(GATELIGHT_ISA_BF16)
+#if defined(__AVX512BF16__)
 
 GATELIGHT_INLINE void store_bf16(uint16_t* p, Float a) {
-  const __m256bh rounded = _mm512_cvtneps_pbh(a);
+  const __m256bh rounded = _mm512_cvtneps_pbh(a.v);
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
@@ -29,7 +29,7 @@ GATELIGHT_INLINE void forward_bf16(const KernelNetwork& n, const TileBuffers& b,
                                              between);
         });
   };
-  const Float slope = broadcast(n.slope);
+  const Float slope = n.slope;
   for (uint32_t l = 0; l + 1 < n.layer_count; ++l) {
     auto* y = reinterpret_cast<uint16_t*>(b.hidden[l]);
     multiply_layer(

@@ -3,7 +3,8 @@
 // normals, albedos and roughness. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
-#include "neural/cpu/simd.h"
+#include "neural/simd/fused.h"
+#include "neural/simd/groups.h"
 
 namespace {
 
@@ -22,8 +23,8 @@ GATELIGHT_INLINE Float arctangent_unit(Float a) {
   const float coefficients[9] = {0.999999984f,   -0.333330668f, 0.199924836f,   -0.142025705f, 0.106367541f,
                                  -0.0749544544f, 0.0425876075f, -0.0160050305f, 0.0028340643f};
   const Float z = a * a;
-  Float p = broadcast(coefficients[8]);
-  for (int i = 7; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
+  Float p = coefficients[8];
+  for (int i = 7; i >= 0; --i) p = fma(p, z, coefficients[i]);
   return p * a;
 }
 
@@ -31,25 +32,25 @@ GATELIGHT_INLINE Float arctangent_unit(Float a) {
 GATELIGHT_INLINE Float arctangent(Float y, Float x) {
   const Float ax = absolute(x), ay = absolute(y);
   const Float longest = max(ax, ay);
-  const Float ratio = min(ax, ay) / max(longest, broadcast(1e-37f));
+  const Float ratio = min(ax, ay) / max(longest, 1e-37f);
   Float angle = arctangent_unit(ratio);
-  angle = select(less(ax, ay), 1.57079632679f - angle, angle);
-  angle = select(less(x, zero()), 3.14159265359f - angle, angle);
-  return select(less(y, zero()), zero() - angle, angle);
+  angle = select(ax < ay, 1.57079632679f - angle, angle);
+  angle = select(x < 0.0f, 3.14159265359f - angle, angle);
+  return select(y < 0.0f, 0.0f - angle, angle);
 }
 
 // sin(pi x): an exact reduction of the argument, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
 GATELIGHT_INLINE Float sine_pi(Float x) {
   const float coefficients[5] = {3.14159264f, -5.16771008f, 2.55007752f, -0.598291286f, 0.0776576603f};
   const Float turns = round(x * 0.5f);
-  Float r = fma(turns, broadcast(-2.0f), x);  // in [-1, 1]
+  Float r = fma(turns, -2.0f, x);  // in [-1, 1]
   const Float magnitude = absolute(r);
   const Float folded = min(magnitude, 1.0f - magnitude);  // sin(pi r) = sin(pi (1 - r))
-  r = select(less(r, zero()), zero() - folded, folded);
+  r = select(r < 0.0f, 0.0f - folded, folded);
   r = clamp(r, -0.5f, 0.5f);
   const Float z = r * r;
-  Float p = broadcast(coefficients[4]);
-  for (int i = 3; i >= 0; --i) p = fma(p, z, broadcast(coefficients[i]));
+  Float p = coefficients[4];
+  for (int i = 3; i >= 0; --i) p = fma(p, z, coefficients[i]);
   return p * r;
 }
 
@@ -59,7 +60,7 @@ GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
     const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
     const Float theta = arctangent(sqrt(fma(x, x, y * y)), z);
     Float phi = arctangent(y, x) * 0.159154943092f;
-    phi = select(less(phi, zero()), phi + 1.0f, phi);
+    phi = select(phi < 0.0f, phi + 1.0f, phi);
     store(tile.lanes[0] + s, theta * 0.318309886184f);
     store(tile.lanes[1] + s, phi);
   }
@@ -75,14 +76,13 @@ GATELIGHT_INLINE const float* span_of(const KernelPoints& points, KernelSource s
 GATELIGHT_INLINE Float quartic_primitive(Float u) {
   u = clamp(u, -1.0f, 1.0f);
   const Float z = u * u;
-  const Float p = fma(fma(z, broadcast(0.2f), broadcast(-2.0f / 3.0f)), z, broadcast(1.0f));
-  return fma(u * (15.0f / 16.0f), p, broadcast(0.5f));
+  const Float p = fma(fma(z, 0.2f, -2.0f / 3.0f), z, 1.0f);
+  return fma(u * (15.0f / 16.0f), p, 0.5f);
 }
 
 // The part of a kernel of radius 1/size inside a bin whose centre has this distance from the kernel's.
 GATELIGHT_INLINE Float bin_share(Float distance, float size) {
-  return quartic_primitive(fma(distance, broadcast(size), broadcast(0.5f))) -
-         quartic_primitive(fma(distance, broadcast(size), broadcast(-0.5f)));
+  return quartic_primitive(fma(distance, size, 0.5f)) - quartic_primitive(fma(distance, size, -0.5f));
 }
 
 // One-blob (Mueller et al. 2019, 2021): each bin holds the part of a quartic kernel of radius 1/size around
@@ -91,13 +91,12 @@ GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordin
                                      uint32_t stride) {
   const bool wraps = a.transform == KernelTransform::spherical_one_blob;
   const float size = static_cast<float>(a.size);
-  const Int bins = broadcast_int(a.size);
-  const uint32_t log2_size = static_cast<uint32_t>(__builtin_ctz(a.size));
+  const int log2_size = __builtin_ctz(a.size);
   for (uint32_t first_bin = 0; first_bin < a.inputs; first_bin += kLanes) {
     const Int lane = lane_numbers() + first_bin;
     const Int coordinate = lane >> log2_size;
-    const Float center = (to_float(lane & (bins - 1u)) + 0.5f) * (1.0f / size);
-    const Float wrap = wraps ? select(equal(coordinate, broadcast_int(1)), broadcast(1.0f), zero()) : zero();
+    const Float center = (to_float(lane & (a.size - 1u)) + 0.5f) * (1.0f / size);
+    const Float wrap = wraps ? select_or_zero(coordinate == 1u, Float(1.0f)) : Float(0.0f);
     const uint32_t count = a.inputs - first_bin;
     float* row = inputs + a.first_input + first_bin;
     const Int picked = coordinate & 3u;
@@ -127,7 +126,7 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
         const Float x = load(tile.lanes[c] + s) * scale;
         store(sines, sine_pi(x));
         // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
-        const Float reduced = fma(round(x * 0.5f), broadcast(-2.0f), x);
+        const Float reduced = fma(round(x * 0.5f), -2.0f, x);
         store(cosines, sine_pi(reduced + 0.5f));
         float* column = inputs + s * stride + a.first_input + 2 * (c * a.size + i);
         for (uint32_t l = 0; l < kLanes; ++l) {
@@ -154,15 +153,15 @@ GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints
       rows = tile.raw;
     }
     for (uint32_t s = 0; s < kTile; s += kLanes) {
-      const Mask usable = less(zero(), load(valid + s));
-      Int columns[4];
+      const Mask usable = load(valid + s) > 0.0f;
+      Float4 columns;
       if (width == 1)
-        columns[0] = bits_of(load(rows + s));
+        columns.c[0] = load(rows + s);
       else
-        load_columns4(
-            [&](uint32_t l) __attribute__((always_inline)) { return rows + (s + l) * 3; }, columns);
+        columns =
+            load_columns4([&](uint32_t l) __attribute__((always_inline)) { return rows + (s + l) * 3; });
       for (uint32_t c = 0; c < width; ++c) {
-        Float x = select(usable, float_of(columns[c]), zero());
+        Float x = select_or_zero(usable, columns.c[c]);
         if (a.source == KernelSource::position)
           x = clamp((x - e.bounds_min[c]) * e.inverse_extent, 0.0f, 1.0f);
         store(tile.lanes[c] + s, x);

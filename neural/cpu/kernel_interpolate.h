@@ -20,7 +20,7 @@ GATELIGHT_ALONE void interpolate_rows(const Element* features, uint64_t feature_
       const float* weight = weights + l * kNodes * kTile + s;
       for_parts(
           length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
-            using V = typename Short<decltype(part)::value>::Type;
+            using V = decltype(part);
             V z = load_short<V>(features + node[0] * feature_stride + at) * weight[0];
             for (uint32_t n = 1; n < kNodes; ++n)
               z = z + load_short<V>(features + node[n * kTile] * feature_stride + at) * weight[n * kTile];

@@ -1,8 +1,10 @@
 #pragma once
 // Maps points to nodes of mesh colours or the hash grid, one point per lane. Part of kernel_table.cpp.
 
+#include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernels.h"
-#include "neural/cpu/simd.h"
+#include "neural/simd/fused.h"
+#include "neural/simd/groups.h"
 
 namespace {
 
@@ -42,26 +44,25 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
     i[c] = to_int(whole);
     w[c] = scaled - whole;
   }
-  const Int one = broadcast_int(1);
   Int rest = resolution - (i[0] + i[1] + i[2]);
   // Rounding can leave all three fractions just below one. The point is then on the next node.
-  const Mask three = equal(rest, broadcast_int(3));
-  for (int c = 0; c < 3; ++c) i[c] += select(three, one, broadcast_int(0));
-  rest = select(three, broadcast_int(0), rest);
-  const Mask upright = equal(rest, one);
-  const Mask inverted = equal(rest, broadcast_int(2));
-  const Mask inside = either(upright, inverted);
+  const Mask three = rest == 3u;
+  for (int c = 0; c < 3; ++c) i[c] += select_or_zero(three, Int(1u));
+  rest = select_or_zero(~three, rest);
+  const Mask upright = rest == 1u;
+  const Mask inverted = rest == 2u;
+  const Mask inside = upright | inverted;
 
   // In an upright triangle node c is i + e_c with weight w_c, in an inverted one i + 1 - e_c with 1 - w_c.
   // Else the point is on node i.
   for (int c = 0; c < 3; ++c) w[c] = select(inverted, 1.0f - w[c], w[c]);
-  const Float inverse = 1.0f / max(w[0] + (w[1] + w[2]), broadcast(1e-30f));
+  const Float inverse = 1.0f / max(w[0] + (w[1] + w[2]), 1e-30f);
   VirtualTriangle t;
-  const Int own = select(upright, one, broadcast_int(0));
-  const Int other = select(inverted, one, broadcast_int(0));
+  const Int own = select_or_zero(upright, Int(1u));
+  const Int other = select_or_zero(inverted, Int(1u));
   for (int n = 0; n < 3; ++n) {
     for (int c = 0; c < 3; ++c) t.node[n][c] = i[c] + (n == c ? own : other);
-    t.weight[n] = select(inside, w[n] * inverse, broadcast(n == 0 ? 1.0f : 0.0f));
+    t.weight[n] = select(inside, w[n] * inverse, n == 0 ? 1.0f : 0.0f);
   }
   return t;
 }
@@ -78,11 +79,11 @@ struct LaneBases {
 constexpr uint32_t kLevelWords = sizeof(GateSurfaceLevel) / sizeof(uint32_t);
 
 GATELIGHT_INLINE LaneLevel lane_level(const GateSurfaceLevel& level) {
-  return {broadcast_int(level.resolution), broadcast_int(level.vertex_base), broadcast_int(level.corners)};
+  return {level.resolution, level.vertex_base, level.corners};
 }
 
 GATELIGHT_INLINE LaneBases lane_bases(const GateSurfaceLevel& level) {
-  return {broadcast_int(level.edge_base), broadcast_int(level.interior_base)};
+  return {level.edge_base, level.interior_base};
 }
 
 // `at` is the offset of the level's first word.
@@ -97,43 +98,40 @@ GATELIGHT_INLINE LaneBases gather_bases(const GateSurfaceLevel* levels, Int at) 
 // Index of the node with integer barycentrics a (gate_tables.h). Only nodes on edges use `edges`.
 GATELIGHT_INLINE Int shared_node(const Int (&a)[3], const LaneLevel& level, const LaneBases& bases,
                                  const Int (&corners)[3], const Int (&edges)[3], Int triangle) {
-  const Int none = broadcast_int(0);
-  const Int one = broadcast_int(1);
-  const Int last = level.resolution - one;  // R - 1
+  const Int last = level.resolution - 1u;  // R - 1
   Mask at_zero[3], at_corner[3];
   for (int c = 0; c < 3; ++c) {
-    at_zero[c] = equal(a[c], none);
-    at_corner[c] = equal(a[c], level.resolution);
+    at_zero[c] = a[c] == 0u;
+    at_corner[c] = a[c] == level.resolution;
   }
-  const Mask vertex = either(at_corner[0], either(at_corner[1], at_corner[2]));
-  const Mask edge = either(at_zero[0], either(at_zero[1], at_zero[2]));
+  const Mask vertex = at_corner[0] | at_corner[1] | at_corner[2];
+  const Mask edge = at_zero[0] | at_zero[1] | at_zero[2];
   Int node =
       level.vertex_base + select(at_corner[0], corners[0], select(at_corner[1], corners[1], corners[2]));
   if (all(vertex)) return node;
 
   // The edge is opposite to the corner whose coordinate is zero. Steps from its lower corner equal the
   // coordinate of its higher corner.
-  const Mask swap0 = less(corners[1], corners[2]);
-  const Mask swap1 = less(corners[2], corners[0]);
-  const Mask swap2 = less(corners[0], corners[1]);
+  const Mask swap0 = corners[1] < corners[2];
+  const Mask swap1 = corners[2] < corners[0];
+  const Mask swap2 = corners[0] < corners[1];
   const Int steps0 = select(swap0, a[2], a[1]);
   const Int steps1 = select(swap1, a[0], a[2]);
   const Int steps2 = select(swap2, a[1], a[0]);
   const Int steps = select(at_zero[0], steps0, select(at_zero[1], steps1, steps2));
   const Int number = select(at_zero[0], edges[0], select(at_zero[1], edges[1], edges[2]));
-  const Int edge_node = bases.edge + number * last + steps - one;
+  const Int edge_node = bases.edge + number * last + steps - 1u;
 
-  const Int row = a[0] - one;
-  const Int interior_count = (last * (last - one)) >> 1;
+  const Int row = a[0] - 1u;
+  const Int interior_count = (last * (last - 1u)) >> 1;
   const Int before = (row * (last + last - a[0])) >> 1;
-  const Int interior_node = bases.interior + triangle * interior_count + before + a[1] - one;
+  const Int interior_node = bases.interior + triangle * interior_count + before + a[1] - 1u;
   return select(vertex, node, select(edge, edge_node, interior_node));
 }
 
 GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, Int triangle) {
   const Int r = level.resolution;
-  const Int one = broadcast_int(1);
-  const Int count = ((r + one) * (r + 2u)) >> 1;
+  const Int count = ((r + 1u) * (r + 2u)) >> 1;
   const Int before = (a[0] * (r + r + 3u - a[0])) >> 1;
   return level.vertex_base + triangle * count + before + a[1];
 }
@@ -147,17 +145,17 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
     Int surface = load(points.surfaces + s);
-    Mask stored = less(surface, broadcast_int(e.surface_count));
-    surface = select(stored, surface, broadcast_int(0));
-    const uint32_t leader = first_lane(surface);
-    const bool same = all(equal(surface, broadcast_int(leader)));
+    Mask stored = surface < e.surface_count;
+    surface = select_or_zero(stored, surface);
+    const uint32_t leader = surface.v[0];
+    const bool same = all(surface == leader);
 
     Int offset, stride, count;
     if (same) {
       const GateSurface& one = e.surfaces[leader];
-      offset = broadcast_int(one.topology_offset);
-      stride = broadcast_int(one.topology_stride);
-      count = broadcast_int(one.triangle_count);
+      offset = one.topology_offset;
+      stride = one.topology_stride;
+      count = one.triangle_count;
     } else {
       const Int at = surface * 4u;
       offset = gather(words, at);
@@ -165,52 +163,48 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
       count = gather(words, at + 2u);
     }
     Int triangle = load(points.triangles + s);
-    stored = both(stored, less(triangle, count));
+    stored &= triangle < count;
 
     Float b[3];
     load_pairs(points.barycentrics + 2 * s, b[1], b[2]);
     b[0] = 1.0f - b[1] - b[2];
     // Points far outside the triangle stay finite, so that every resulting node exists.
-    for (Float& x : b) x = min(max(x, zero()), broadcast(1e30f));
+    for (Float& x : b) x = clamp(x, 0.0f, 1e30f);
     const Float inverse = 1.0f / (b[0] + (b[1] + b[2]));
     for (Float& x : b) x *= inverse;
 
     Int corners[3], edges[3];
-    Int corners_read = broadcast_int(0);  // the row's word that `corners` was read from
-    Int row = broadcast_int(0);
+    Int corners_read = 0u;  // the row's word that `corners` was read from
+    Int row = 0u;
     bool edges_read = false;
-    alignas(64) uint32_t places[kLanes];
     const auto read_row = [&](Int first, Int(&three)[3]) __attribute__((always_inline)) {
-      store(places, row + first);
-      Int columns[4];
-      load_columns4(
-          [&](uint32_t i) __attribute__((always_inline)) { return e.topology + places[i]; }, columns);
-      for (uint32_t c = 0; c < 3; ++c) three[c] = columns[c];
+      const Float4 read = Records(row + first).four(e.topology, 0);
+      for (uint32_t c = 0; c < 3; ++c) three[c] = bits_of(read.c[c]);
     };
     for (uint32_t l = 0; l < e.levels; ++l) {
       const GateSurfaceLevel& one = e.surface_levels[leader * e.levels + l];
       const Int at = (surface * e.levels + l) * kLevelWords;
       const LaneLevel level = same ? lane_level(one) : gather_level(e.surface_levels, at);
       if (l == 0) {
-        stored = both(stored, less(broadcast_int(0), level.resolution));
-        triangle = select(stored, triangle, broadcast_int(0));
-        row = select(stored, offset + triangle * stride, broadcast_int(0));
+        stored &= Int(0u) < level.resolution;
+        triangle = select_or_zero(stored, triangle);
+        row = select_or_zero(stored, offset + triangle * stride);
       }
-      if (e.per_triangle == 0 && (l == 0 || !all(equal(level.corners, corners_read)))) {
+      if (e.per_triangle == 0 && (l == 0 || !all(level.corners == corners_read))) {
         read_row(level.corners, corners);
         corners_read = level.corners;
       }
       // If all lanes have R = 1, the nodes are the corners.
-      if (e.per_triangle == 0 && all(equal(level.resolution, broadcast_int(1)))) {
+      if (e.per_triangle == 0 && all(level.resolution == 1u)) {
         for (uint32_t n = 0; n < 3; ++n) {
           const Int node = level.vertex_base + corners[n];
-          store(nodes + (3 * l + n) * kTile + s, select(stored, node, broadcast_int(0)));
-          store(weights + (3 * l + n) * kTile + s, select(stored, valid * b[n], zero()));
+          store(nodes + (3 * l + n) * kTile + s, select_or_zero(stored, node));
+          store(weights + (3 * l + n) * kTile + s, select_or_zero(stored, valid * b[n]));
         }
         continue;
       }
       if (e.per_triangle == 0 && !edges_read) {
-        read_row(broadcast_int(kTopologyEdges), edges);
+        read_row(uint32_t{kTopologyEdges}, edges);
         edges_read = true;
       }
       const LaneBases bases = same ? lane_bases(one) : gather_bases(e.surface_levels, at);
@@ -218,25 +212,24 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
       if (e.per_triangle == 0) {
         // Lanes with R = 1 get the same values as above, so that a point's bits do not depend on its
         // neighbours.
-        const Mask plain = equal(level.resolution, broadcast_int(1));
+        const Mask plain = level.resolution == 1u;
         for (uint32_t n = 0; n < 3; ++n) {
           t.weight[n] = select(plain, b[n], t.weight[n]);
-          for (uint32_t c = 0; c < 3; ++c)
-            t.node[n][c] = select(plain, broadcast_int(n == c ? 1 : 0), t.node[n][c]);
+          for (uint32_t c = 0; c < 3; ++c) t.node[n][c] = select(plain, n == c ? 1u : 0u, t.node[n][c]);
         }
       }
       for (uint32_t n = 0; n < 3; ++n) {
         const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
                                              : shared_node(t.node[n], level, bases, corners, edges, triangle);
         const Float weight = valid * t.weight[n];
-        store(nodes + (3 * l + n) * kTile + s, select(stored, node, broadcast_int(0)));
-        store(weights + (3 * l + n) * kTile + s, select(stored, weight, zero()));
+        store(nodes + (3 * l + n) * kTile + s, select_or_zero(stored, node));
+        store(weights + (3 * l + n) * kTile + s, select_or_zero(stored, weight));
       }
     }
     if (!all(stored)) {
-      const Float left = select(stored, zero(), valid);
+      const Float left = select_or_zero(~stored, valid);
       unstored += static_cast<uint32_t>(sum(left));
-      store(points.valid + s, select(stored, valid, zero()));
+      store(points.valid + s, select_or_zero(stored, valid));
     }
   }
   return unstored;
@@ -247,7 +240,7 @@ GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points,
 // 1994).
 GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
   if ((level.entries & (level.entries - 1)) == 0) return number & (level.entries - 1);
-  const Int quotient = multiply_high(number >> 3, broadcast_int(level.multiplier)) >> level.shift;
+  const Int quotient = multiply_high(number >> 3, level.multiplier) >> static_cast<int>(level.shift);
   return number - quotient * level.entries;
 }
 
@@ -257,10 +250,10 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
     const Int triples = lane_numbers() * 3u;
-    const auto* positions = reinterpret_cast<const uint32_t*>(points.positions + 3 * s);
+    const float* positions = points.positions + 3 * s;
     Float x[3];
     for (uint32_t c = 0; c < 3; ++c) {
-      x[c] = (float_of(gather(positions + c, triples)) - e.bounds_min[c]) * e.inverse_extent;
+      x[c] = (gather(positions + c, triples) - e.bounds_min[c]) * e.inverse_extent;
       x[c] = clamp(x[c], 0.0f, 1.0f);
     }
     for (uint32_t l = 0; l < e.levels; ++l) {
@@ -268,7 +261,7 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
       Int low[3][2];  // each axis's term of the index, for the lower and the upper corner
       Float w[3][2];
       for (uint32_t c = 0; c < 3; ++c) {
-        const Float scaled = fma(x[c], broadcast(level.scale), broadcast(0.5f));
+        const Float scaled = fma(x[c], level.scale, 0.5f);
         const Float whole = floor(scaled);
         w[c][1] = scaled - whole;
         w[c][0] = 1.0f - w[c][1];
@@ -276,10 +269,11 @@ GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& 
         const Int next = cell + 1u;
         const uint32_t factors[2][3] = {{1u, 2654435761u, 805459861u},
                                         {1u, level.resolution, level.resolution * level.resolution}};
-        const Int factor = broadcast_int(factors[level.dense][c]);
+        const Int factor = factors[level.dense][c];
         low[c][0] = cell * factor;
         low[c][1] = next * factor;
       }
+#pragma GCC unroll 8
       for (uint32_t k = 0; k < 8; ++k) {
         const Int a = low[0][k & 1], b = low[1][k >> 1 & 1], c = low[2][k >> 2];
         const Int number = level.dense != 0 ? a + b + c : a ^ b ^ c;

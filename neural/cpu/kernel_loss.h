@@ -1,8 +1,8 @@
 #pragma once
 // Loss and its gradient for the rows of a tile. Part of kernel_table.cpp.
 
+#include "neural/cpu/kernel_short_vectors.h"
 #include "neural/cpu/kernels.h"
-#include "neural/cpu/simd.h"
 
 namespace {
 
@@ -55,10 +55,9 @@ GATELIGHT_INLINE double loss_rows(uint32_t outputs, bool relative, float max_tar
   return total;
 }
 
-typedef float Row4 __attribute__((vector_size(16)));
 typedef int32_t Index4 __attribute__((vector_size(16)));
 
-GATELIGHT_INLINE float sum4(Row4 v) {
+GATELIGHT_INLINE float sum4(Short4 v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
@@ -68,19 +67,19 @@ GATELIGHT_INLINE float sum4(Row4 v) {
 template <uint32_t kOutputs>
 GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uint32_t count, float* y) {
   const Index4 used = {-1, kOutputs > 1 ? -1 : 0, kOutputs > 2 ? -1 : 0, kOutputs > 3 ? -1 : 0};
-  const Row4 luminance = kOutputs == 3 ? Row4{0.299f, 0.587f, 0.114f, 0.0f}
-                                       : Row4{1.0f, 1.0f, 1.0f, 1.0f} / static_cast<float>(kOutputs);
-  Row4 total = {};
+  const Short4 luminance = kOutputs == 3 ? Short4{0.299f, 0.587f, 0.114f, 0.0f}
+                                         : Short4{1.0f, 1.0f, 1.0f, 1.0f} / static_cast<float>(kOutputs);
+  Short4 total = {};
 #pragma GCC unroll 2
   for (uint32_t r = 0; r < count; ++r, y += kOutputStride, targets += kOutputs) {
-    Row4 value, target;
+    Short4 value, target;
     __builtin_memcpy(&value, y, sizeof value);
     __builtin_memcpy(&target, targets, sizeof target);
-    value = (Row4)((Index4)value & used);
-    const Row4 difference = value - (Row4)((Index4)target & used);
-    Row4 scaled = difference;
+    value = (Short4)((Index4)value & used);
+    const Short4 difference = value - (Short4)((Index4)target & used);
+    Short4 scaled = difference;
     if (relative) {
-      Row4 l = value * luminance;
+      Short4 l = value * luminance;
       l += __builtin_shufflevector(l, l, 2, 3, 0, 1);
       l += __builtin_shufflevector(l, l, 1, 0, 3, 2);
       scaled = difference / (l * l + 0.01f);
@@ -95,12 +94,12 @@ GATELIGHT_INLINE double loss_plain_rows(bool relative, const float* targets, uin
 // Whether all rows of a full tile are valid and no target exceeds max_target.
 GATELIGHT_INLINE bool plain(const float* targets, uint32_t outputs, float max_target, const float* valid) {
   static_assert(kTile % kLanes == 0);
-  Float least = broadcast(1.0f);
+  Float least = 1.0f;
   for (uint32_t s = 0; s < kTile; s += kLanes) least = min(least, load(valid + s));
-  Float greatest = zero();
+  Float greatest = 0.0f;
   for (uint32_t i = 0; i < kTile * outputs; i += kLanes)
     greatest = max(greatest, absolute(load(targets + i)));
-  return all(less(zero(), least)) && !any(less(broadcast(max_target), greatest));
+  return all(least > 0.0f) && !any(greatest > max_target);
 }
 
 template <uint32_t kOutputs>

@@ -4,6 +4,8 @@
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_products.h"
 #include "neural/cpu/kernels.h"
+#include "neural/simd/fused.h"
+#include "neural/simd/groups.h"
 
 namespace {
 
@@ -40,11 +42,17 @@ GATELIGHT_INLINE Float leaky(Float a, Float slope) {
   return max(a, a * slope);
 }
 
+/// Rounds a finite value to the eight significant bits of bf16, ties to even.
+GATELIGHT_INLINE Float round_to_bf16(Float a) {
+  const Int word = bits_of(a);
+  return float_of((word + ((word >> 16 & 1u) + 0x7fffu)) & 0xffff0000u);
+}
+
 // y = activation(x W + b).
 template <bool kRounded>
 GATELIGHT_INLINE void forward_hidden(const KernelLayer& layer, const float* x, uint32_t x_stride, float* y,
                                      uint32_t y_stride, uint32_t rows, float slope, const Between& between) {
-  const Float s = broadcast(slope);
+  const Float s = slope;
   with_stride(
       x_stride, [&](auto stride) __attribute__((always_inline)) {
         multiply<decltype(stride)::value>(
@@ -58,7 +66,8 @@ GATELIGHT_INLINE void forward_hidden(const KernelLayer& layer, const float* x, u
       });
 }
 
-#if !defined(GATELIGHT_ISA_SCALAR)
+// Whether a last layer with up to four outputs has code of its own. With four lanes it is like other layers.
+constexpr bool kFewOutputs = kLanes > 4;
 
 // With up to four outputs most lanes of a vector would be idle. Here lanes are inputs: each lane of a group
 // of four sums one output over every fourth input, and the groups are added at the end.
@@ -75,7 +84,7 @@ GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* 
   const Float bias = load_first4(layer.biases);
 #pragma GCC unroll 2
   for (uint32_t r = 0; r < rows; ++r) {
-    Float even = bias, odd = zero();
+    Float even = bias, odd = 0.0f;
 #pragma GCC unroll 8
     for (uint32_t v = 0; v < kVectors; ++v) {
       const Float h = load(x + r * x_stride + v * kLanes);
@@ -88,13 +97,10 @@ GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* 
   }
 }
 
-#endif
-
 template <bool kRounded>
 GATELIGHT_INLINE void forward_output(const KernelLayer& layer, const float* x, uint32_t x_stride, float* y,
                                      uint32_t rows, const Between& between) {
-#if !defined(GATELIGHT_ISA_SCALAR)
-  if (layer.forward_groups != nullptr) {
+  if (kFewOutputs && layer.forward_groups != nullptr) {
     switch (layer.inputs / kLanes) {
       case 1:
         forward_few_outputs<kRounded, 1>(layer, x, x_stride, y, rows);
@@ -115,7 +121,6 @@ GATELIGHT_INLINE void forward_output(const KernelLayer& layer, const float* x, u
     between();
     return;
   }
-#endif
   with_stride(
       x_stride, [&](auto stride) __attribute__((always_inline)) {
         multiply<decltype(stride)::value>(
@@ -140,15 +145,13 @@ GATELIGHT_INLINE void forward(const KernelNetwork& n, const TileBuffers& b, uint
   forward_output<kRounded>(n.layers[n.layer_count - 1], x, stride, b.outputs, rows, between);
 }
 
-#if !defined(GATELIGHT_ISA_SCALAR)
-
 // Backward pass of a last layer with up to four outputs, in one pass over the activations below. Their
 // gradients overwrite them, and weight gradients stay in registers.
 template <uint32_t kVectors>
 GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float* d, float* h, uint32_t width,
                                           uint32_t rows, float slope, float* gradients,
                                           float* bias_gradients) {
-  const Float one = broadcast(1.0f), leak = broadcast(slope);
+  const Float one = 1.0f, leak = slope;
   for (uint32_t c = 0; c < width; c += kVectors * kLanes) {
     Float w[4][kVectors], g[4][kVectors];
 #pragma GCC unroll 4
@@ -156,13 +159,13 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
 #pragma GCC unroll 2
       for (uint32_t v = 0; v < kVectors; ++v) {
         const uint64_t at = uint64_t{o} * layer.padded_inputs + c + v * kLanes;
-        w[o][v] = o < layer.outputs ? load(layer.backward + at) : zero();
+        w[o][v] = o < layer.outputs ? load(layer.backward + at) : Float(0.0f);
         g[o][v] = load(gradients + at);
       }
     for (uint32_t r = 0; r < rows; ++r) {
       Float y[4];
 #pragma GCC unroll 4
-      for (uint32_t o = 0; o < 4; ++o) y[o] = broadcast(d[r * kOutputStride + o]);
+      for (uint32_t o = 0; o < 4; ++o) y[o] = d[r * kOutputStride + o];
 #pragma GCC unroll 2
       for (uint32_t v = 0; v < kVectors; ++v) {
         float* at = h + r * width + c + v * kLanes;
@@ -171,7 +174,7 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
         for (uint32_t o = 0; o < 4; ++o) g[o][v] = fma(y[o], active, g[o][v]);
         const Float below = fma(y[0], w[0][v], y[1] * w[1][v]);
         const Float other = fma(y[2], w[2][v], y[3] * w[3][v]);
-        store(at, (below + other) * select(less(zero(), active), one, leak));
+        store(at, (below + other) * select(active > 0.0f, one, leak));
       }
     }
 #pragma GCC unroll 4
@@ -180,15 +183,13 @@ GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float*
       for (uint32_t v = 0; v < kVectors; ++v)
         store(gradients + uint64_t{o} * layer.padded_inputs + c + v * kLanes, g[o][v]);
   }
-  Float even = load_first4(bias_gradients), odd = zero();
+  Float even = load_first4(bias_gradients), odd = 0.0f;
   for (uint32_t r = 0; r < rows; r += 2) {
     even += load_first4(d + r * kOutputStride);
     odd += load_first4(d + (r + 1) * kOutputStride);
   }
   store_partial(bias_gradients, even + odd, 4);
 }
-
-#endif
 
 // Propagates the gradients in `outputs`. Gradients of weights and biases are added to `gradients`;
 // finish_features(row, column, value) receives those of the feature inputs. `rows` is a multiple of
@@ -199,7 +200,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
   const uint32_t last = n.layer_count - 1;
   const KernelLayer& output = n.layers[last];
   const uint32_t width = n.width;
-  const Float one = broadcast(1.0f), slope = broadcast(n.slope);
+  const Float one = 1.0f, slope = n.slope;
 
   // Propagates through a layer's weights and the activation of the layer below, whose values it overwrites
   // with gradients.
@@ -209,16 +210,15 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
         d, rows, layer.outputs, layer.backward, layer.padded_inputs, nullptr, width,
         [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
           float* at = h + r * width + c;
-          store(at, a * select(less(zero(), load(at)), one, slope));
+          store(at, a * select(load(at) > 0.0f, one, slope));
         },
         between);
   };
   float* const output_gradients = gradients + output.gradient;
   float* const output_biases = gradients + output.bias_gradient;
-#if !defined(GATELIGHT_ISA_SCALAR)
   constexpr uint32_t kFewVectors =
       kLanes == 16 ? 2 : 1;  // 8 vectors each of weights and gradients with AVX-512, 4 with AVX2
-  if (output.outputs <= 4) {
+  if (kFewOutputs && output.outputs <= 4) {
     if (width % (kFewVectors * kLanes) == 0)
       backward_few_outputs<kFewVectors>(output, b.outputs, b.hidden[last - 1], width, rows, n.slope,
                                         output_gradients, output_biases);
@@ -226,9 +226,7 @@ GATELIGHT_INLINE void backward(const KernelNetwork& n, const TileBuffers& b, uin
       backward_few_outputs<1>(output, b.outputs, b.hidden[last - 1], width, rows, n.slope, output_gradients,
                               output_biases);
     between();
-  } else
-#endif
-  {
+  } else {
     float unused[kMaxWidth] = {};  // receives the sums of activations
     add_outer(output_gradients, output.padded_inputs, b.outputs, kOutputStride, output.outputs,
               b.hidden[last - 1], width, width, rows, unused, between);

@@ -8,7 +8,7 @@ namespace {
 
 // Whether all of `count` floats are finite.
 GATELIGHT_INLINE bool all_finite(const float* p, uint32_t count) {
-  Float total = zero();
+  Float total = 0.0f;
   uint32_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     const Float x = load(p + i);
@@ -18,7 +18,7 @@ GATELIGHT_INLINE bool all_finite(const float* p, uint32_t count) {
     const Float x = load_partial(p + i, count - i);
     total += x - x;
   }
-  return all(equal(total, zero()));
+  return all(total == 0.0f);
 }
 
 struct FiniteSpan {

@@ -2,11 +2,20 @@
 // Prefetches memory at the pace of the arithmetic. Part of kernel_table.cpp.
 
 #include "neural/cpu/kernels.h"
-#include "neural/cpu/simd.h"
+#include "neural/simd/vectors.h"
 
 namespace {
 
 using namespace gatelight::neural::cpu;
+
+/// Prefetches into the L1 cache, for data that is read soon.
+GATELIGHT_INLINE void prefetch(const void* p) {
+  __builtin_prefetch(p, 0, 3);
+}
+/// Prefetches into the L2 cache, for data that is read after a tile's arithmetic.
+GATELIGHT_INLINE void prefetch_far(const void* p) {
+  __builtin_prefetch(p, 0, 2);
+}
 
 // Prefetches the feature vectors of a tile, a few at a time between blocks of arithmetic, so that cache
 // misses overlap with it.

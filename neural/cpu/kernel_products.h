@@ -5,9 +5,20 @@
 // kernel_table.cpp.
 
 #include "neural/cpu/kernel_prefetch.h"
-#include "neural/cpu/simd.h"
+#include "neural/simd/fused.h"
 
 namespace {
+
+// A block of kBlockRows x kBlockVectors accumulators takes 24 of AVX-512's 32 registers, or 12 of 16, and
+// leaves the others for operands.
+constexpr uint32_t kBlockRows = kLanes == 16 ? 12 : 6;
+constexpr uint32_t kBlockVectors = 2;
+
+/// A number as a type, for lambdas that need a compile-time constant.
+template <uint32_t kValue>
+struct Constant {
+  static constexpr uint32_t value = kValue;
+};
 
 struct NoSums {
   __attribute__((always_inline)) void operator()(uint32_t, Float) const {}
@@ -28,14 +39,14 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const float* x, 
     }
 #pragma GCC unroll 16
     for (uint32_t r = 0; r < kRows; ++r) {
-      const Float a = broadcast(x[r * kRowStride]);
+      const Float a = x[r * kRowStride];
 #pragma GCC unroll 4
       for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = fma(a, column[v], acc[r][v]);
     }
   }
 }
 
-#if defined(GATELIGHT_ISA_BF16)
+#if defined(__AVX512BF16__)
 
 // The same with pairs of bf16 numbers along the depth; their products are summed in fp32 (vdpbf16ps).
 template <uint32_t kRows, uint32_t kVectors, uint32_t kRowStride>
@@ -49,9 +60,9 @@ GATELIGHT_INLINE void accumulate(Float (&acc)[kRows][kVectors], const uint16_t* 
     for (uint32_t r = 0; r < kRows; ++r) {
       uint32_t pair;
       __builtin_memcpy(&pair, x + r * kRowStride, 4);
-      const auto a = __builtin_bit_cast(__m512bh, broadcast_int(pair));
+      const auto a = __builtin_bit_cast(__m512bh, Int(pair).v);
 #pragma GCC unroll 4
-      for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = _mm512_dpbf16_ps(acc[r][v], a, column[v]);
+      for (uint32_t v = 0; v < kVectors; ++v) acc[r][v] = _mm512_dpbf16_ps(acc[r][v].v, a, column[v]);
     }
   }
 }
@@ -71,7 +82,8 @@ GATELIGHT_ALONE void multiply_block_columns(const Element* x, uint32_t rows, uin
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     Float start[kVectors];
 #pragma GCC unroll 4
-    for (uint32_t v = 0; v < kVectors; ++v) start[v] = bias != nullptr ? load(bias + c + v * kLanes) : zero();
+    for (uint32_t v = 0; v < kVectors; ++v)
+      start[v] = bias != nullptr ? load(bias + c + v * kLanes) : Float(0.0f);
     for (uint32_t r0 = 0; r0 < rows; r0 += kBlockRows) {
       Float acc[kBlockRows][kVectors];
 #pragma GCC unroll 16

@@ -2,73 +2,54 @@
 // Vectors of 8, 4, 2 or 1 floats for feature vectors and their parts, loaded from floats or halves. The
 // compiler maps them to the instruction set. Part of kernel_table.cpp.
 
-#include "neural/cpu/simd.h"
+#include "neural/simd/vectors.h"
 
-#if defined(GATELIGHT_ISA_SCALAR)
+#if !defined(__F16C__)
 #include "neural/base/half.h"
 #endif
 
 namespace {
 
-typedef float Float8 __attribute__((vector_size(32)));
-typedef float Float4 __attribute__((vector_size(16)));
+typedef float Short8 __attribute__((vector_size(32)));
+typedef float Short4 __attribute__((vector_size(16)));
 
 // Two floats in the lower half of four, because gcc 12 moves vectors of eight bytes through memory.
-struct Float2 {
-  Float4 v;
+struct Short2 {
+  Short4 v;
 };
-GATELIGHT_INLINE Float2 operator+(Float2 a, Float2 b) {
+GATELIGHT_INLINE Short2 operator+(Short2 a, Short2 b) {
   return {a.v + b.v};
 }
-GATELIGHT_INLINE Float2 operator-(Float2 a, Float2 b) {
+GATELIGHT_INLINE Short2 operator-(Short2 a, Short2 b) {
   return {a.v - b.v};
 }
-GATELIGHT_INLINE Float2 operator*(Float2 a, Float2 b) {
+GATELIGHT_INLINE Short2 operator*(Short2 a, Short2 b) {
   return {a.v * b.v};
 }
-GATELIGHT_INLINE Float2 operator/(Float2 a, Float2 b) {
+GATELIGHT_INLINE Short2 operator/(Short2 a, Short2 b) {
   return {a.v / b.v};
 }
-GATELIGHT_INLINE Float2 operator*(Float2 a, float b) {
+GATELIGHT_INLINE Short2 operator*(Short2 a, float b) {
   return {a.v * b};
 }
-GATELIGHT_INLINE Float2 operator+(Float2 a, float b) {
+GATELIGHT_INLINE Short2 operator+(Short2 a, float b) {
   return {a.v + b};
 }
-
-template <uint32_t kCount>
-struct Short;
-template <>
-struct Short<8> {
-  using Type = Float8;
-};
-template <>
-struct Short<4> {
-  using Type = Float4;
-};
-template <>
-struct Short<2> {
-  using Type = Float2;
-};
-template <>
-struct Short<1> {
-  using Type = float;
-};
 
 /// Number of floats in a V.
 template <class V>
 constexpr uint32_t kShort = sizeof(V) / 4;
 template <>
-constexpr uint32_t kShort<Float2> = 2;
+constexpr uint32_t kShort<Short2> = 2;
 
 template <class V>
 GATELIGHT_INLINE V load_short(const float* p) {
   V v;
-  if constexpr (__is_same(V, Float2)) {
+  if constexpr (__is_same(V, Short2)) {
     typedef long long Pair __attribute__((vector_size(16)));
     long long both_floats;
     __builtin_memcpy(&both_floats, p, 8);
-    v.v = (Float4)Pair{both_floats, 0};
+    v.v = (Short4)Pair{both_floats, 0};
   } else {
     __builtin_memcpy(&v, p, sizeof v);
   }
@@ -76,7 +57,7 @@ GATELIGHT_INLINE V load_short(const float* p) {
 }
 template <class V>
 GATELIGHT_INLINE void store_short(float* p, V v) {
-  if constexpr (__is_same(V, Float2)) {
+  if constexpr (__is_same(V, Short2)) {
     typedef long long Pair __attribute__((vector_size(16)));
     const long long both_floats = ((Pair)v.v)[0];
     __builtin_memcpy(p, &both_floats, 8);
@@ -87,7 +68,7 @@ GATELIGHT_INLINE void store_short(float* p, V v) {
 /// Lane i of v.
 template <class V>
 GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
-  if constexpr (__is_same(V, Float2))
+  if constexpr (__is_same(V, Short2))
     return v.v[i];
   else if constexpr (__is_same(V, float))
     return v;
@@ -95,7 +76,7 @@ GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
     return v[i];
 }
 
-#if defined(GATELIGHT_ISA_SCALAR)
+#if !defined(__F16C__)
 
 template <class V>
 GATELIGHT_INLINE V load_short(const uint16_t* p) {
@@ -155,21 +136,21 @@ GATELIGHT_INLINE V sqrt_short(V v) {
 
 #endif
 
-/// Calls part(Constant<size>, offset) for the parts of `count` floats: as many eights as fit, then four, two
-/// and one.
+/// Calls part(zeros, offset) for the parts of `count` floats: as many eights as fit, then four, two and one.
+/// The zeros have the type of the part.
 template <class F>
 GATELIGHT_INLINE void for_parts(uint32_t count, F&& part) {
   uint32_t at = 0;
-  for (; at + 8 <= count; at += 8) part(Constant<8>{}, at);
+  for (; at + 8 <= count; at += 8) part(Short8{}, at);
   if (at + 4 <= count) {
-    part(Constant<4>{}, at);
+    part(Short4{}, at);
     at += 4;
   }
   if (at + 2 <= count) {
-    part(Constant<2>{}, at);
+    part(Short2{}, at);
     at += 2;
   }
-  if (at < count) part(Constant<1>{}, at);
+  if (at < count) part(0.0f, at);
 }
 
 }  // namespace

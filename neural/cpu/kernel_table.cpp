@@ -1,6 +1,6 @@
 // The kernels for training, queries and node updates. This file is compiled once for each instruction set
-// (see simd.h). Encode, forward, loss and backward are fused per tile, so that activations stay in the
-// caches.
+// (see simd/vectors.h). Encode, forward, loss and backward are fused per tile, so that activations stay in
+// the caches.
 
 #include "neural/cpu/kernels.h"
 
@@ -69,7 +69,7 @@ void train(const KernelTraining& t) {
     float* weights = t.weights + (first_tile + k) * slots * kTile;
     statistics.rejected += take_points(e, t.points, t.targets, n.outputs, begin, count, tile);
     statistics.unstored += lookup(e, tile, nodes, weights);
-    Float accepted = zero();
+    Float accepted = 0.0f;
     for (uint32_t s = 0; s < kTile; s += kLanes) accepted += load(tile.valid + s);
     statistics.accepted += static_cast<uint32_t>(sum(accepted));
     if (uint8_t* flags = t.accepted; flags != nullptr)
@@ -129,12 +129,12 @@ void train(const KernelTraining& t) {
 }
 
 // Replaces values that are not finite by 0, then clamps to the range.
-GATELIGHT_INLINE Float4 in_range(Float4 y, uint32_t range) {
+GATELIGHT_INLINE Short4 in_range(Short4 y, uint32_t range) {
   typedef int32_t Int4 __attribute__((vector_size(16)));
   if (range == 0) return y;
-  const Float4 greatest = Float4{} + __FLT_MAX__;
-  y = (Float4)((Int4)y & (y > Float4{}) & (y <= greatest));
-  if (range == 2) y = (Float4)(((Int4)y & (y < 1.0f)) | ((Int4)(Float4{} + 1.0f) & (y >= 1.0f)));
+  const Short4 greatest = Short4{} + __FLT_MAX__;
+  y = (Short4)((Int4)y & (y > Short4{}) & (y <= greatest));
+  if (range == 2) y = (Short4)(((Int4)y & (y < 1.0f)) | ((Int4)(Short4{} + 1.0f) & (y >= 1.0f)));
   return y;
 }
 
@@ -143,7 +143,7 @@ GATELIGHT_INLINE void write_outputs(const float* y, uint32_t outputs, uint32_t c
   for (uint32_t c = 0; c < outputs; c += 4) {
     const uint32_t used = outputs - c < 4 ? outputs - c : 4;
     for (uint32_t s = 0; s < count; ++s) {
-      const Float4 answers = in_range(load_short<Float4>(y + s * kOutputStride + c), range);
+      const Short4 answers = in_range(load_short<Short4>(y + s * kOutputStride + c), range);
       float* to = out + s * outputs + c;
       // Store four values even if fewer are used, if the next row overwrites the rest.
       if (used == 4 || (outputs < 4 && s * outputs + 4 <= count * outputs)) {

@@ -1,6 +1,7 @@
 #pragma once
 // Sums feature gradients at their nodes and applies Adam. Part of kernel_table.cpp.
 
+#include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_short_vectors.h"
 #include "neural/cpu/kernels.h"
 
@@ -35,14 +36,14 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
   bool usable = true;
   for_parts(
       length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
-        using V = typename Short<decltype(part)::value>::Type;
+        using V = decltype(part);
         const V g = load_short<V>(sums + at) * u.adam.gradient_scale;
         usable = usable && finite_short<V>(g * g);
       });
   if (usable) {
     for_parts(
         length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
-          using V = typename Short<decltype(part)::value>::Type;
+          using V = decltype(part);
           const V g = load_short<V>(sums + at) * u.adam.gradient_scale;
           float* moments = u.moments + node * u.moment_stride + at;
           V m = load_short<V>(moments);
@@ -74,7 +75,7 @@ GATELIGHT_INLINE bool update_node(const KernelFeatureUpdate& u, uint64_t node, u
   }
   for_parts(
       length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
-        using V = typename Short<decltype(part)::value>::Type;
+        using V = decltype(part);
         store_short(sums + at, V{});
       });
   return usable;
@@ -103,7 +104,7 @@ void update_features_of(const KernelFeatureUpdate& given) {
     const float* gradient = u.feature_gradients + r.source;
     for_parts(
         length, [&](auto part, uint32_t at) __attribute__((always_inline)) {
-          using V = typename Short<decltype(part)::value>::Type;
+          using V = decltype(part);
           store_short(sum + at, load_short<V>(sum + at) + load_short<V>(gradient + at) * r.weight);
         });
     u.touched[local >> 6] |= uint64_t{1} << (local & 63);

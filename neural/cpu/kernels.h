@@ -1,6 +1,6 @@
 #pragma once
 // The interface of the kernels: a table of functions for each instruction set, and the plain structs that
-// they read. It is C-like, so that kernel_table.cpp can include it (see simd.h).
+// they read. It is C-like, so that kernel_table.cpp can include it (see simd/vectors.h).
 //
 // Kernels process records in tiles of kTile. A tile's activations stay in the L1 and L2 caches, and kTile is
 // a multiple of kBlockRows of every instruction set.

@@ -14,6 +14,9 @@
 #endif
 
 #define GATELIGHT_INLINE inline __attribute__((always_inline))
+// For loops that need all registers. If they are inlined, gcc keeps the caller's constants in registers
+// across them and spills an operand in each step (a third slower).
+#define GATELIGHT_ALONE static __attribute__((noinline))
 
 namespace {
 
@@ -29,6 +32,9 @@ using FloatRegister = __m256;
 using IntRegister = __m256i;
 #else
 constexpr int kLanes = 4;
+#if defined(__SSE2__)
+#define GATELIGHT_SIMD(name) _mm_##name
+#endif
 typedef float FloatRegister __attribute__((vector_size(16)));
 typedef long long IntRegister __attribute__((vector_size(16)));
 #endif
@@ -65,15 +71,21 @@ struct Mask {
 GATELIGHT_INLINE Mask no_lanes() {
   return {Mask::Register{}};
 }
-GATELIGHT_INLINE bool any(Mask a) {
+/// One bit for each lane.
+GATELIGHT_INLINE uint32_t lane_bits(Mask a) {
 #if defined(__AVX512F__)
-  return a.m != 0;
-#elif defined(__AVX2__)
-  return _mm256_movemask_ps((FloatRegister)a.m) != 0;
+  return a.m;
+#elif defined(GATELIGHT_SIMD)
+  return static_cast<uint32_t>(GATELIGHT_SIMD(movemask_ps)((FloatRegister)a.m));
 #else
-  const Pairs p = (Pairs)a.m;
-  return (p[0] | p[1]) != 0;
+  return (a.m[0] & 1u) | (a.m[1] & 2u) | (a.m[2] & 4u) | (a.m[3] & 8u);
 #endif
+}
+GATELIGHT_INLINE bool any(Mask a) {
+  return lane_bits(a) != 0;
+}
+GATELIGHT_INLINE bool all(Mask a) {
+  return lane_bits(a) == (1u << kLanes) - 1u;
 }
 
 /// Lanes of 32-bit numbers without a sign.
@@ -103,7 +115,7 @@ struct Float {
 
   Float() = default;
   GATELIGHT_INLINE Float(FloatRegister x) : v(x) {}
-  GATELIGHT_INLINE Float(float x) : v(FloatRegister{} + x) {}
+  GATELIGHT_INLINE Float(float x) : v(x - FloatRegister{}) {}  // exact for -0, too: costs no instruction
 
   friend GATELIGHT_INLINE Float operator+(Float a, Float b) { return a.v + b.v; }
   friend GATELIGHT_INLINE Float operator-(Float a, Float b) { return a.v - b.v; }
@@ -111,6 +123,7 @@ struct Float {
   friend GATELIGHT_INLINE Float operator/(Float a, Float b) { return a.v / b.v; }
   friend GATELIGHT_INLINE Float operator-(Float a) { return -a.v; }
   GATELIGHT_INLINE Float& operator+=(Float b) { return *this = *this + b; }
+  GATELIGHT_INLINE Float& operator-=(Float b) { return *this = *this - b; }
   GATELIGHT_INLINE Float& operator*=(Float b) { return *this = *this * b; }
 };
 
@@ -146,6 +159,9 @@ GATELIGHT_INLINE Int select(Mask m, Int a, Int b) {
 }
 GATELIGHT_INLINE Float select_or_zero(Mask m, Float a) {
   return _mm512_maskz_mov_ps(m.m, a.v);
+}
+GATELIGHT_INLINE Int select_or_zero(Mask m, Int a) {
+  return _mm512_maskz_mov_epi32(m.m, (IntRegister)a.v);
 }
 /// All bits of a lane, where the mask is set.
 GATELIGHT_INLINE Int words_of(Mask m) {
@@ -185,6 +201,9 @@ GATELIGHT_INLINE Int select(Mask m, Int a, Int b) {
 GATELIGHT_INLINE Float select_or_zero(Mask m, Float a) {
   return (FloatRegister)((SignedWords)a.v & m.m);
 }
+GATELIGHT_INLINE Int select_or_zero(Mask m, Int a) {
+  return a.v & (Words)m.m;
+}
 GATELIGHT_INLINE Int words_of(Mask m) {
   return (Words)m.m;
 }
@@ -202,28 +221,22 @@ GATELIGHT_INLINE Mask operator>=(Float a, Float b) {
 }
 // If an operand is NaN, the result is the second one, as with the instructions.
 GATELIGHT_INLINE Float min(Float a, Float b) {
-#if defined(__AVX2__)
+#if defined(GATELIGHT_SIMD)
   return GATELIGHT_SIMD(min_ps)(a.v, b.v);
-#elif defined(__SSE2__)
-  return _mm_min_ps(a.v, b.v);
 #else
   return select(a < b, a, b);
 #endif
 }
 GATELIGHT_INLINE Float max(Float a, Float b) {
-#if defined(__AVX2__)
+#if defined(GATELIGHT_SIMD)
   return GATELIGHT_SIMD(max_ps)(a.v, b.v);
-#elif defined(__SSE2__)
-  return _mm_max_ps(a.v, b.v);
 #else
   return select(a > b, a, b);
 #endif
 }
 GATELIGHT_INLINE Float sqrt(Float a) {
-#if defined(__AVX2__)
+#if defined(GATELIGHT_SIMD)
   return GATELIGHT_SIMD(sqrt_ps)(a.v);
-#elif defined(__SSE2__)
-  return _mm_sqrt_ps(a.v);
 #else
   for (int l = 0; l < kLanes; ++l) a.v[l] = __builtin_sqrtf(a.v[l]);
   return a;
@@ -239,6 +252,27 @@ GATELIGHT_INLINE Float sign_of(Float a) {
 GATELIGHT_INLINE Float clamp(Float a, Float low, Float high) {
   return min(max(a, low), high);
 }
+/// To the nearest whole number, ties to even.
+GATELIGHT_INLINE Float round(Float a) {
+#if defined(__AVX512F__)
+  return _mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+#elif defined(__AVX2__)
+  return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+#else
+  // From 2^23 on, all numbers are whole.
+  const Float magnitude = absolute(a);
+  const Float whole = select(magnitude < 0x1p23f, (magnitude + 0x1p23f) - 0x1p23f, magnitude);
+  return float_of(bits_of(whole) | (bits_of(a) & 0x80000000u));
+#endif
+}
+GATELIGHT_INLINE Float floor(Float a) {
+#if defined(__AVX2__)
+  return GATELIGHT_SIMD(floor_ps)(a.v);
+#else
+  const Float nearest = round(a);
+  return nearest - select_or_zero(nearest > a, Float(1.0f));
+#endif
+}
 /// Towards zero. The magnitude is below 2^31.
 GATELIGHT_INLINE Int to_int(Float a) {
   return (Words) __builtin_convertvector(a.v, SignedWords);
@@ -248,19 +282,24 @@ GATELIGHT_INLINE Float to_float(Int a) {
   return __builtin_convertvector((SignedWords)a.v, FloatRegister);
 }
 /// The upper half of the product.
-GATELIGHT_INLINE Int multiply_high(Int a, Int b) {
-#if defined(__AVX2__)
-  const auto even = (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)a.v, (IntRegister)b.v);
-  const auto odd =
-      (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)((Pairs)a.v >> 32), (IntRegister)((Pairs)b.v >> 32));
-#elif defined(__SSE2__)
-  const auto even = (Pairs)_mm_mul_epu32((IntRegister)a.v, (IntRegister)b.v);
-  const auto odd = (Pairs)_mm_mul_epu32((IntRegister)((Pairs)a.v >> 32), (IntRegister)((Pairs)b.v >> 32));
+GATELIGHT_INLINE Int multiply_high(Int a, uint32_t b) {
+#if defined(GATELIGHT_SIMD)
+  const auto multiply = [&](Pairs x) __attribute__((always_inline)) {
+    return (Pairs)GATELIGHT_SIMD(mul_epu32)((IntRegister)x, (IntRegister)Int(b).v);
+  };
 #else
-  const Pairs even = ((Pairs)a.v & 0xffffffffu) * ((Pairs)b.v & 0xffffffffu);
-  const Pairs odd = ((Pairs)a.v >> 32) * ((Pairs)b.v >> 32);
+  const auto multiply = [&](Pairs x) __attribute__((always_inline)) {
+    return (x & 0xffffffffu) * b;
+  };
 #endif
-  return (Words)((even >> 32) | (odd & ~uint64_t{0xffffffffu}));
+  const Pairs even = multiply((Pairs)a.v) >> 32, odd = multiply((Pairs)a.v >> 32);
+#if defined(__AVX512F__)
+  return _mm512_mask_blend_epi32(0xaaaa, (IntRegister)even, (IntRegister)odd);
+#elif defined(__AVX2__)
+  return _mm256_blend_epi32((IntRegister)even, (IntRegister)odd, 0xaa);
+#else
+  return (Words)(even | (odd & ~uint64_t{0xffffffffu}));
+#endif
 }
 GATELIGHT_INLINE Int lane_numbers() {
   Words lanes;
@@ -283,6 +322,54 @@ GATELIGHT_INLINE void store(float* p, Float a) {
 }
 GATELIGHT_INLINE void store(uint32_t* p, Int a) {
   *reinterpret_cast<WordsAt*>(p) = a.v;
+}
+#if defined(__AVX512F__)
+GATELIGHT_INLINE Mask::Register first_lanes(uint32_t count) {
+  return static_cast<Mask::Register>(count >= 16 ? 0xffffu : (1u << count) - 1u);
+}
+#elif defined(__AVX2__)
+GATELIGHT_INLINE IntRegister first_lanes(uint32_t count) {
+  return _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count)), (IntRegister)lane_numbers().v);
+}
+#endif
+/// The first `count` numbers at p, which alone are read, and zeros.
+GATELIGHT_INLINE Float load_partial(const float* p, uint32_t count) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_loadu_ps(first_lanes(count), p);
+#elif defined(__AVX2__)
+  return _mm256_maskload_ps(p, first_lanes(count));
+#else
+  FloatRegister result = {};
+  for (uint32_t l = 0; l < kLanes && l < count; ++l) result[l] = p[l];
+  return result;
+#endif
+}
+/// Stores the first `count` lanes.
+GATELIGHT_INLINE void store_partial(float* p, Float a, uint32_t count) {
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_ps(p, first_lanes(count), a.v);
+#elif defined(__AVX2__)
+  _mm256_maskstore_ps(p, first_lanes(count), a.v);
+#else
+  for (uint32_t l = 0; l < kLanes && l < count; ++l) p[l] = a.v[l];
+#endif
+}
+/// Separates consecutive pairs: first[l] = p[2 l], second[l] = p[2 l + 1].
+GATELIGHT_INLINE void load_pairs(const float* p, Float& first, Float& second) {
+  const FloatRegister a = load(p).v, b = load(p + kLanes).v;
+#if defined(__AVX512F__)
+  const Int even = lane_numbers() * 2u;
+  first = _mm512_permutex2var_ps(a, (IntRegister)even.v, b);
+  second = _mm512_permutex2var_ps(a, (IntRegister)(even + 1u).v, b);
+#elif defined(__AVX2__)
+  const __m256i even = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
+  const __m256i odd = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+  first = _mm256_castsi256_ps(_mm256_permute4x64_epi64(even, 0xd8));
+  second = _mm256_castsi256_ps(_mm256_permute4x64_epi64(odd, 0xd8));
+#else
+  first = __builtin_shufflevector(a, b, 0, 2, 4, 6);
+  second = __builtin_shufflevector(a, b, 1, 3, 5, 7);
+#endif
 }
 /// Lane l is p[i[l]]; i is below 2^31.
 GATELIGHT_INLINE Int gather(const uint32_t* p, Int i) {
@@ -307,88 +394,5 @@ GATELIGHT_INLINE Float gather(const float* p, Int i) {
   return result;
 #endif
 }
-
-/// Four numbers for each lane, as four vectors.
-struct Float4 {
-  Float c[4];
-};
-
-/// Four vectors hold four numbers for each of kLanes / 4 lanes: vector j those of the lanes j, j + 4, j + 8
-/// ... This sorts them by number.
-GATELIGHT_INLINE Float4 transpose4(Float r0, Float r1, Float r2, Float r3) {
-#if defined(__AVX2__)
-  const auto low = [](Float a, Float b) __attribute__((always_inline)) {
-    return GATELIGHT_SIMD(unpacklo_ps)(a.v, b.v);
-  };
-  const auto high = [](Float a, Float b) __attribute__((always_inline)) {
-    return GATELIGHT_SIMD(unpackhi_ps)(a.v, b.v);
-  };
-  const auto join_low = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
-    return Float((FloatRegister)GATELIGHT_SIMD(unpacklo_epi64)((IntRegister)a, (IntRegister)b));
-  };
-  const auto join_high = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
-    return Float((FloatRegister)GATELIGHT_SIMD(unpackhi_epi64)((IntRegister)a, (IntRegister)b));
-  };
-#else
-  const auto low = [](Float a, Float b) __attribute__((always_inline)) {
-    return __builtin_shufflevector(a.v, b.v, 0, 4, 1, 5);
-  };
-  const auto high = [](Float a, Float b) __attribute__((always_inline)) {
-    return __builtin_shufflevector(a.v, b.v, 2, 6, 3, 7);
-  };
-  const auto join_low = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
-    return Float(__builtin_shufflevector(a, b, 0, 1, 4, 5));
-  };
-  const auto join_high = [](FloatRegister a, FloatRegister b) __attribute__((always_inline)) {
-    return Float(__builtin_shufflevector(a, b, 2, 3, 6, 7));
-  };
-#endif
-  const FloatRegister a = low(r0, r1), b = low(r2, r3), c = high(r0, r1), d = high(r2, r3);
-  return {{join_low(a, b), join_high(a, b), join_low(c, d), join_high(c, d)}};
-}
-
-/// Four numbers from each of kLanes / 4 addresses: address(0), address(1) ...
-template <class Address>
-GATELIGHT_INLINE Float load_groups4(Address address) {
-#if defined(__AVX512F__)
-  __m512 r = _mm512_castps128_ps512(_mm_loadu_ps(address(0)));
-  r = _mm512_insertf32x4(r, _mm_loadu_ps(address(1)), 1);
-  r = _mm512_insertf32x4(r, _mm_loadu_ps(address(2)), 2);
-  return _mm512_insertf32x4(r, _mm_loadu_ps(address(3)), 3);
-#elif defined(__AVX2__)
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(address(0))), _mm_loadu_ps(address(1)), 1);
-#else
-  return load(address(0));
-#endif
-}
-/// One number from each of kLanes / 4 addresses, each four times.
-template <class Address>
-GATELIGHT_INLINE Float repeat_groups4(Address address) {
-#if defined(__AVX512F__)
-  __m512 r = _mm512_castps128_ps512(_mm_load_ps1(address(0)));
-  r = _mm512_insertf32x4(r, _mm_load_ps1(address(1)), 1);
-  r = _mm512_insertf32x4(r, _mm_load_ps1(address(2)), 2);
-  return _mm512_insertf32x4(r, _mm_load_ps1(address(3)), 3);
-#elif defined(__AVX2__)
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps1(address(0))), _mm_load_ps1(address(1)), 1);
-#else
-  return *address(0);
-#endif
-}
-
-/// Indices in memory, for several reads of the same records.
-struct Records {
-  alignas(64) uint32_t first[kLanes];  ///< number of a record's first float
-
-  GATELIGHT_INLINE explicit Records(Int i) { store(first, i); }
-  /// The four floats at p[first + offset] of each lane. A quarter of the reads of four gathers.
-  GATELIGHT_INLINE Float4 four(const float* p, uint32_t offset) const {
-    const auto row = [&](int j) __attribute__((always_inline)) {
-      return load_groups4([&](int k)
-                              __attribute__((always_inline)) { return p + offset + first[j + 4 * k]; });
-    };
-    return transpose4(row(0), row(1), row(2), row(3));
-  }
-};
 
 }  // namespace

@@ -2,6 +2,7 @@
 // The opaque and thin-walled BSDF for all lanes: the wide side of renderer/bsdf, lobe by lobe. Microfacets
 // and clearcoat may be deltas. Part of kernel_table.cpp.
 
+#include "neural/simd/groups.h"
 #include "renderer/shading/kernel_math.h"
 #include "renderer/shading/kernel_sampler.h"
 #include "renderer/shading/kernels.h"

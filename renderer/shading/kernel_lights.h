@@ -1,6 +1,7 @@
 #pragma once
 // Light samples for all lanes: the wide side of renderer/light (Lights::sample). Part of kernel_table.cpp.
 
+#include "neural/simd/groups.h"
 #include "renderer/shading/kernel_math.h"
 #include "renderer/shading/kernel_sampler.h"
 #include "renderer/shading/kernels.h"
@@ -255,7 +256,7 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
   r.p = load(block.position, at);
   const Mask sheet = load(block.transmission + at) * (1.0f - load(block.metallic + at)) > 0.0f;
   r.n = select_or_zero(~sheet, load(block.shading_normal, at));
-  r.free = select_or_zero(sheet, 1.0f);
+  r.free = select_or_zero(sheet, Float(1.0f));
 
   Weights root;
   Mask local = no_lanes();
