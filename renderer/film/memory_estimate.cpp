@@ -40,10 +40,12 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
                            static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
                      : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   // The sums, and at the same time the resolved picture: 13 floats at most, 21 more for the layers that
-  // reconstruction reads, and 36 more for what it reads and writes.
+  // reconstruction reads, and 38 more for what it reads and writes.
   const std::vector<Aov> aovs = film_aovs(options);
   const bool halves = std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end();
-  const std::size_t floats = (options.reconstruct ? 70 : halves ? 34 : 13) + aovs.size() * 3;
+  const std::size_t density =
+      options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
+  const std::size_t floats = (options.reconstruct ? 72 : halves ? 34 : 13) + density + aovs.size() * 3;
   need.film = pixels * (Film::bytes_per_pixel(aovs) + floats * sizeof(float));
   return need;
 }
