@@ -5,9 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "renderer/machine/finite_float.h"
-#include "renderer/settings/words.h"
-
 namespace gatelight::renderer {
 
 namespace {
@@ -202,96 +199,6 @@ double Film::variance_of_mean(const Radiance& p, std::size_t channel) {
   return std::max(0.0, (p.square[channel] - sum * sum / n) / (n * (n - 1.0)));
 }
 
-Layer Film::layer(Aov aov) const {
-  Layer layer;
-  layer.name = word(aov);
-  layer.full_precision =
-      aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
-  const auto fill = [&](std::vector<std::string> channels, const auto& values, auto&& value) {
-    const std::size_t n = channels.size();
-    layer.channels = std::move(channels);
-    layer.values.reserve(values.size() * n);
-    for (const auto& p : values) {
-      for (std::size_t i = 0; i < n; ++i) layer.values.push_back(finite_float(value(p, i)));
-    }
-  };
-  const auto fill_colors = [&](auto&& value) {
-    layer.channels = {"R", "G", "B"};
-    layer.values.reserve(3 * radiance_.size());
-    for (std::size_t p = 0; p < radiance_.size(); ++p) {
-      for (std::size_t i = 0; i < 3; ++i) layer.values.push_back(finite_float(value(p, i)));
-    }
-  };
-  // The means of first hits. The background counts as black where samples are counted, as in the beauty
-  // layer, so edges stay soft.
-  const auto fill_vector = [&](std::vector<std::string> channels, std::array<double, 3> First::*sum,
-                               std::uint32_t First::*count) {
-    fill(std::move(channels), first_,
-         [&](const First& p, std::size_t i) { return p.*count > 0 ? (p.*sum)[i] / p.*count : 0.0; });
-  };
-  const auto fill_number = [&](const char* channel, double First::*sum, std::uint32_t First::*count) {
-    fill({channel}, first_,
-         [&](const First& p, std::size_t) { return p.*count > 0 ? p.*sum / p.*count : 0.0; });
-  };
-  switch (aov) {
-    case Aov::albedo:
-      fill_vector({"R", "G", "B"}, &First::albedo, &First::count);
-      break;
-    case Aov::normal:
-      fill_vector({"X", "Y", "Z"}, &First::normal, &First::count);
-      break;
-    case Aov::depth:
-      fill_number("Z", &First::depth, &First::hits);
-      break;
-    case Aov::position:
-      fill_vector({"X", "Y", "Z"}, &First::position, &First::hits);
-      break;
-    case Aov::primitive_id:
-      fill({"id"}, first_, [](const First& p, std::size_t) { return p.primitive; });
-      break;
-    case Aov::instance_id:
-      fill({"id"}, first_, [](const First& p, std::size_t) { return p.instance; });
-      break;
-    case Aov::cache_radiance:
-      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::guided);
-      break;
-    case Aov::cache_answer:
-      fill_vector({"R", "G", "B"}, &First::answer, &First::count);
-      break;
-    case Aov::nearest_node:
-      fill_vector({"R", "G", "B"}, &First::node, &First::count);
-      break;
-    case Aov::cache_error:
-      fill_number("error", &First::error, &First::asked);
-      break;
-    case Aov::training_count:
-      fill_number("count", &First::training_count, &First::asked);
-      break;
-    case Aov::resolution:
-      fill_number("R", &First::resolution, &First::asked);
-      break;
-    case Aov::sample_count:
-      fill({"count"}, radiance_, [](const Radiance& p, std::size_t) { return p.count; });
-      break;
-    case Aov::variance:
-      fill_colors([&](std::size_t p, std::size_t i) { return variance(p, i); });
-      break;
-    case Aov::raw:
-      fill_colors([&](std::size_t p, std::size_t i) { return mean(p, i); });
-      break;
-    case Aov::error:
-      fill_colors([&](std::size_t p, std::size_t i) { return std::sqrt(variance(p, i)); });
-      break;
-    case Aov::reconstruction:
-      fill({"coverage"}, first_, [](const First& p, std::size_t) {
-        return p.count > 0 ? static_cast<double>(p.guide_hits) / p.count : 0.0;
-      });
-      layer.name = "coverage";
-      break;
-  }
-  return layer;
-}
-
 std::uint64_t Film::samples() const {
   std::uint64_t sum = 0;
   for (const Radiance& p : radiance_) sum += p.taken;
@@ -311,72 +218,6 @@ float Film::faint(const Pixel& p) const {
   const Radiance& r = radiance_[at(p)];
   if (r.count < kFewest) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
-}
-
-void Film::add_guides(std::vector<Layer>& layers) const {
-  Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
-  Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
-  Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
-  for (const First& p : first_) {
-    const double over = p.count > 0 ? 1.0 / p.count : 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      albedo.values.push_back(finite_float(p.guide_albedo[i] * over));
-      normal.values.push_back(finite_float(p.guide_normal[i] * over));
-    }
-    depth.values.push_back(finite_float(p.guide_hits > 0 ? p.guide_depth / p.guide_hits : 0.0));
-  }
-  for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
-}
-
-void Film::add_halves(std::vector<Layer>& layers) const {
-  for (const std::size_t h : {0u, 1u}) {
-    const std::string name(1, static_cast<char>('a' + h));
-    Layer color{.name = "half-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
-    Layer variance{.name = "variance-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
-    for (std::size_t pixel = 0; pixel < radiance_.size(); ++pixel) {
-      const Radiance &p = halves_[h][pixel], &all = radiance_[pixel];
-      for (std::size_t i = 0; i < 3; ++i) {
-        color.values.push_back(finite_float(mean_of(p, i)));
-        // A single sample does not tell how it varies; all of the pixel's do.
-        variance.values.push_back(
-            finite_float(p.count == 1 ? all.count * variance_of_mean(all, i) : variance_of_mean(p, i)));
-      }
-    }
-    layers.push_back(std::move(color));
-    layers.push_back(std::move(variance));
-    if (!has(aovs_, Aov::cache_radiance)) continue;
-    Layer cache{.name = "cache-" + name, .channels = {"R", "G", "B"}, .full_precision = true};
-    for (const First& p : first_) {
-      const std::uint32_t of_a = p.guided_half, of_b = p.guided - p.guided_half;
-      // A single sample stands for both halves.
-      const bool second = of_b > 0 && (h == 1 || of_a == 0);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double sum = second ? p.cache_radiance[i] - p.cache_half[i] : p.cache_half[i];
-        cache.values.push_back(finite_float(sum / std::max(second ? of_b : of_a, 1u)));
-      }
-    }
-    layers.push_back(std::move(cache));
-  }
-}
-
-Picture Film::resolve() const {
-  Picture picture{.width = rect_.width(),
-                  .height = rect_.height(),
-                  .x0 = rect_.x0,
-                  .y0 = rect_.y0,
-                  .full_width = full_width_,
-                  .full_height = full_height_};
-  Layer beauty{.channels = {"R", "G", "B"}};
-  beauty.values.reserve(radiance_.size() * 3);
-  for (std::size_t p = 0; p < radiance_.size(); ++p) {
-    for (std::size_t i = 0; i < 3; ++i) beauty.values.push_back(finite_float(mean(p, i)));
-  }
-  picture.layers.push_back(std::move(beauty));
-  for (Aov aov : aovs_) picture.layers.push_back(layer(aov));
-  if (halves_[0].empty()) return picture;
-  add_guides(picture.layers);
-  add_halves(picture.layers);
-  return picture;
 }
 
 FilmState Film::export_state() const {

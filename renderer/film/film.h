@@ -60,7 +60,7 @@ class Film {
   void add(const PixelSample& sample, const Color& radiance);
   void add(const PixelSample& sample, const FirstHit& first);
 
-  /// The means so far. A pixel without samples is black.
+  /// The means so far. A pixel without samples is black. Runs in the caller's arena.
   Picture resolve() const;
 
   /// The layer of an output variable. Those of the primary hit need a film that keeps it.
@@ -125,7 +125,7 @@ class Film {
   }
   /// The layers of Aov::reconstruction that are no output variables of their own.
   void add_guides(std::vector<Layer>& layers) const;
-  void add_halves(std::vector<Layer>& layers) const;
+  void add_halves(std::vector<Layer>& layers, bool of_cache) const;
 
   PixelRect rect_;
   int full_width_;

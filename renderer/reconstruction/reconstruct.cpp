@@ -1,5 +1,7 @@
 #include "renderer/reconstruction/reconstruct.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "neural/simd/isa.h"
@@ -54,13 +56,13 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
     Region region(samples, std::max(first - kHalo, 0), std::min(end + kHalo, samples.height), scale);
     region.fit(kernels);
     region.join();
-    for (int y = first; y < end; ++y) {
+    tbb::parallel_for(first, end, [&](int y) {
       const std::size_t at = static_cast<std::size_t>(y) * row;
       region.write_row(y, {&result.color[at],
                            &result.error[at],
                            {&result.halves[0][at], &result.halves[1][at]},
                            {&result.noise[0][at / 3], &result.noise[1][at / 3]}});
-    }
+    });
   }
   return result;
 }

@@ -1,6 +1,8 @@
 #include "renderer/reconstruction/sampled_picture.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +24,13 @@ const Layer& expect_layer(const Picture& picture, const char* name, std::size_t 
 }
 
 std::vector<float> finite_values(const Picture& picture, const char* name, std::size_t channels) {
-  std::vector<float> values = expect_layer(picture, name, channels).values;
-  for (float& value : values) value = std::isfinite(value) ? value : 0.0f;
+  const std::vector<float>& from = expect_layer(picture, name, channels).values;
+  std::vector<float> values(from.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 65536),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        values[i] = std::isfinite(from[i]) ? from[i] : 0.0f;
+                    });
   return values;
 }
 

@@ -24,6 +24,8 @@ constexpr double kPower = 2.0 / 3.0;
 constexpr double kLeast = 0.5, kMost = 8.0;
 /// Noise counts relative to brightness plus this share of the picture's mean: in the dark it is not seen.
 constexpr double kDark = 1.0;
+/// In the same unit. Squares stay in single precision.
+constexpr double kBrightest = 1e15;
 
 }  // namespace
 
@@ -46,20 +48,22 @@ SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished
   for (const std::size_t h : {0u, 1u}) {
     // By the other half.
     const std::vector<float>&color = finished.halves[1 - h], &noise = finished.noise[1 - h];
+    const double of_picture = mean(color) / 3.0 + std::numeric_limits<double>::min();
     Plane brightness(pixels), square(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
-      brightness[p] = (color[3 * p] + color[3 * p + 1] + color[3 * p + 2]) / 3.0f;
-      square[p] = noise[p] * noise[p];
+      const auto relative = [&](double value) { return std::min(value / of_picture, kBrightest); };
+      const double sum = static_cast<double>(color[3 * p]) + static_cast<double>(color[3 * p + 1]) +
+                         static_cast<double>(color[3 * p + 2]);
+      brightness[p] = static_cast<float>(relative(sum / 3.0));
+      square[p] = static_cast<float>(std::pow(relative(static_cast<double>(noise[p])), 2));
     }
     smooth(brightness);
     smooth(square);
-    const double dark = kDark * mean(brightness) + 1e-30;
     std::vector<float>& value = values[h];
     value.resize(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
-      const double relative =
-          std::sqrt(static_cast<double>(square[p])) / (static_cast<double>(brightness[p]) + dark);
-      value[p] = static_cast<float>(std::pow(relative, kPower));
+      value[p] = static_cast<float>(std::pow(
+          std::sqrt(static_cast<double>(square[p])) / (static_cast<double>(brightness[p]) + kDark), kPower));
     }
     const double usual = mean(value);
     const auto least = static_cast<float>(kLeast * usual), most = static_cast<float>(kMost * usual);

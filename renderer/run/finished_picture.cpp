@@ -65,16 +65,17 @@ Reconstruction finished_film(const Film& film, const RenderOptions& options) {
 }
 
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena) {
-  FinishedPicture result{.picture = film.resolve()};
+  FinishedPicture result;
   Picture& picture = result.picture;
-  if (!options.reconstruct) {
-    result.estimated_error = arena.execute([&] { return error_of(film, picture); });
-    return result;
-  }
   const Clock::time_point start = Clock::now();
-  const SampledPicture samples = samples_of(picture, options);
-  drop_unwanted(picture, options.aovs);
   arena.execute([&] {
+    picture = film.resolve();
+    if (!options.reconstruct) {
+      result.estimated_error = error_of(film, picture);
+      return;
+    }
+    const SampledPicture samples = samples_of(picture, options);
+    drop_unwanted(picture, options.aovs);
     Reconstruction finished = reconstruct(samples);
     picture.layers.front().values = std::move(finished.color);
     if (tells_error(film)) result.estimated_error = error_of(picture, finished);
@@ -82,7 +83,7 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
       if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
     }
   });
-  result.reconstruct_seconds = seconds_since(start);
+  if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
   return result;
 }
 

@@ -1,0 +1,176 @@
+// The layers of a film: what its sums say, as a picture.
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "renderer/film/film.h"
+#include "renderer/machine/finite_float.h"
+#include "renderer/settings/words.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Fills a layer by value(pixel, channel).
+template <class Value>
+void fill(Layer& layer, std::size_t pixels, Value value) {
+  const std::size_t channels = layer.channels.size();
+  layer.values.resize(pixels * channels);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t p = range.begin(); p < range.end(); ++p) {
+                        for (std::size_t i = 0; i < channels; ++i)
+                          layer.values[p * channels + i] = finite_float(value(p, i));
+                      }
+                    });
+}
+
+}  // namespace
+
+Layer Film::layer(Aov aov) const {
+  Layer layer;
+  layer.name = aov == Aov::reconstruction ? "coverage" : word(aov);
+  layer.full_precision =
+      aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
+  const auto fill_with = [&](std::vector<std::string> channels, auto&& value) {
+    layer.channels = std::move(channels);
+    fill(layer, pixels(), value);
+  };
+  // The means of first hits. The background counts as black where samples are counted, as in the beauty
+  // layer, so edges stay soft.
+  const auto fill_vector = [&](std::vector<std::string> channels, std::array<double, 3> First::*sum,
+                               std::uint32_t First::*count) {
+    fill_with(std::move(channels), [&, sum, count](std::size_t p, std::size_t i) {
+      const First& first = first_[p];
+      return first.*count > 0 ? (first.*sum)[i] / first.*count : 0.0;
+    });
+  };
+  const auto fill_number = [&](const char* channel, double First::*sum, std::uint32_t First::*count) {
+    fill_with({channel}, [&, sum, count](std::size_t p, std::size_t) {
+      const First& first = first_[p];
+      return first.*count > 0 ? first.*sum / first.*count : 0.0;
+    });
+  };
+  switch (aov) {
+    case Aov::albedo:
+      fill_vector({"R", "G", "B"}, &First::albedo, &First::count);
+      break;
+    case Aov::normal:
+      fill_vector({"X", "Y", "Z"}, &First::normal, &First::count);
+      break;
+    case Aov::depth:
+      fill_number("Z", &First::depth, &First::hits);
+      break;
+    case Aov::position:
+      fill_vector({"X", "Y", "Z"}, &First::position, &First::hits);
+      break;
+    case Aov::primitive_id:
+      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].primitive; });
+      break;
+    case Aov::instance_id:
+      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].instance; });
+      break;
+    case Aov::cache_radiance:
+      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::guided);
+      break;
+    case Aov::cache_answer:
+      fill_vector({"R", "G", "B"}, &First::answer, &First::count);
+      break;
+    case Aov::nearest_node:
+      fill_vector({"R", "G", "B"}, &First::node, &First::count);
+      break;
+    case Aov::cache_error:
+      fill_number("error", &First::error, &First::asked);
+      break;
+    case Aov::training_count:
+      fill_number("count", &First::training_count, &First::asked);
+      break;
+    case Aov::resolution:
+      fill_number("R", &First::resolution, &First::asked);
+      break;
+    case Aov::sample_count:
+      fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance_[p].count; });
+      break;
+    case Aov::variance:
+      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return variance(p, i); });
+      break;
+    case Aov::raw:
+      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return mean(p, i); });
+      break;
+    case Aov::error:
+      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return std::sqrt(variance(p, i)); });
+      break;
+    case Aov::reconstruction:
+      fill_with({"coverage"}, [&](std::size_t p, std::size_t) {
+        const First& first = first_[p];
+        return first.count > 0 ? static_cast<double>(first.guide_hits) / first.count : 0.0;
+      });
+      break;
+  }
+  return layer;
+}
+
+void Film::add_guides(std::vector<Layer>& layers) const {
+  const auto mean_over = [](double sum, std::uint32_t count) { return count > 0 ? sum / count : 0.0; };
+  Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
+  fill(albedo, pixels(),
+       [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_albedo[i], first_[p].count); });
+  Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
+  fill(normal, pixels(),
+       [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_normal[i], first_[p].count); });
+  Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
+  fill(depth, pixels(),
+       [&](std::size_t p, std::size_t) { return mean_over(first_[p].guide_depth, first_[p].guide_hits); });
+  for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
+}
+
+void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
+  for (const std::size_t h : {0u, 1u}) {
+    const auto layer_of = [&](const char* what) {
+      const char half[] = {static_cast<char>('a' + h), '\0'};
+      return Layer{.name = std::string(what) + half, .channels = {"R", "G", "B"}, .full_precision = true};
+    };
+    Layer color = layer_of("half-"), variance = layer_of("variance-");
+    fill(color, pixels(), [&](std::size_t p, std::size_t i) { return mean_of(halves_[h][p], i); });
+    fill(variance, pixels(), [&](std::size_t p, std::size_t i) {
+      const Radiance &half = halves_[h][p], &all = radiance_[p];
+      // A single sample does not tell how it varies; all of the pixel's do.
+      return half.count == 1 ? all.count * variance_of_mean(all, i) : variance_of_mean(half, i);
+    });
+    layers.push_back(std::move(color));
+    layers.push_back(std::move(variance));
+    if (!of_cache) continue;
+    Layer cache = layer_of("cache-");
+    fill(cache, pixels(), [&](std::size_t p, std::size_t i) {
+      const First& first = first_[p];
+      const std::uint32_t of_a = first.guided_half, of_b = first.guided - first.guided_half;
+      // A single sample stands for both halves.
+      const bool second = of_b > 0 && (h == 1 || of_a == 0);
+      const double sum = second ? first.cache_radiance[i] - first.cache_half[i] : first.cache_half[i];
+      return sum / std::max(second ? of_b : of_a, 1u);
+    });
+    layers.push_back(std::move(cache));
+  }
+}
+
+Picture Film::resolve() const {
+  Picture picture{.width = rect_.width(),
+                  .height = rect_.height(),
+                  .x0 = rect_.x0,
+                  .y0 = rect_.y0,
+                  .full_width = full_width_,
+                  .full_height = full_height_};
+  Layer beauty{.channels = {"R", "G", "B"}};
+  fill(beauty, pixels(), [&](std::size_t p, std::size_t i) { return mean(p, i); });
+  picture.layers.push_back(std::move(beauty));
+  for (const Aov aov : aovs_) picture.layers.push_back(layer(aov));
+  if (halves_[0].empty()) return picture;
+  add_guides(picture.layers);
+  add_halves(picture.layers, std::find(aovs_.begin(), aovs_.end(), Aov::cache_radiance) != aovs_.end());
+  return picture;
+}
+
+}  // namespace gatelight::renderer
