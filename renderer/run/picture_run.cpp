@@ -154,8 +154,12 @@ class Renderer::Implementation::PictureRun {
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
     const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena);
+    if (seconds == 0.0) return;
     reconstruct_seconds_ += seconds;
     loop.leave_out(seconds);
+    // The last reconstruction takes as long, which is known better now.
+    budget_.reconstruct = seconds;
+    limit_passes(loop);
   }
 
   /// Estimates the error.

@@ -67,18 +67,27 @@ class MaxError : public ::testing::TestWithParam<Kind> {
 };
 
 TEST_P(MaxError, EndsAtTheFirstCheckThatReachesIt) {
-  const double goal = 1.001 * error_of(16);
-  for (const int earlier : {4, 6, 8, 11}) ASSERT_GT(error_of(earlier), goal) << "the case is no test";
+  // Estimates of small pictures do not always fall: the last check that is better than all before it.
+  int last = 4;
+  double least = error_of(last);
+  for (const int check : {6, 8, 11, 16}) {
+    const double error = error_of(check);
+    if (!(error < 0.999 * least)) continue;
+    last = check;
+    least = error;
+  }
+  ASSERT_GT(last, 6) << "the case is no test";
+  const double goal = 1.0005 * least;
   RenderOptions limited = options();
   limited.max_error = goal;
   const Result result = render(limited);
-  EXPECT_EQ(result.statistics.spp, 16);
+  EXPECT_EQ(result.statistics.spp, last);
   EXPECT_EQ(result.statistics.ended_by, EndedBy::max_error);
   EXPECT_FALSE(result.statistics.interrupted);
   EXPECT_LE(result.statistics.estimated_error.value(), goal);
   EXPECT_NEAR(told, *result.statistics.estimated_error, 1e-12) << "progress tells it";
   limited.max_error = 0.0;
-  limited.spp = 16;
+  limited.spp = last;
   EXPECT_EQ(render(limited).picture.layers[0].values, result.picture.layers[0].values)
       << "the picture is that of as many samples";
 }
