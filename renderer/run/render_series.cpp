@@ -45,6 +45,15 @@ void check_series(const Series& series, const RenderOptions& options) {
   refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
 }
 
+/// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the density.
+double run_adaptive_pass(SampleLoop& loop, Film& film, int goal, const RenderOptions& options,
+                         tbb::task_arena& arena) {
+  const double seconds = adapt_density(film, loop.done(), options, arena);
+  loop.leave_out(seconds);
+  loop.run_pass(std::min(goal, next_density(options, loop.done())));
+  return seconds;
+}
+
 }  // namespace
 
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
@@ -85,10 +94,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
     while (loop.done() < options.spp) {
       if (loop.over()) return false;
-      const double adapting = adapt_density(film, loop.done(), options, arena);
-      reconstruct_seconds += adapting;
-      loop.leave_out(adapting);
-      loop.run_pass(std::min(options.spp, next_density(options, loop.done())));
+      reconstruct_seconds += run_adaptive_pass(loop, film, options.spp, options, arena);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
@@ -116,10 +122,7 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
   for (std::size_t point = 0; point < spp.size(); ++point) {
     while (loop.done() < spp[point]) {
       if (loop.over()) return false;
-      const double adapting = adapt_density(film, loop.done(), options, arena);
-      reconstruct_seconds += adapting;
-      loop.leave_out(adapting);
-      loop.run_pass(std::min(spp[point], next_density(options, loop.done())));
+      reconstruct_seconds += run_adaptive_pass(loop, film, spp[point], options, arena);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), untrained, {});
     statistics.interrupted = false;
