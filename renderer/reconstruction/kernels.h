@@ -8,7 +8,7 @@ namespace gatelight::renderer {
 /// The shape of windows and patches, in pixels.
 namespace window {
 inline constexpr int kStride = 4;   ///< from one window's centre to the next, in both directions
-inline constexpr int kRadius = 9;   ///< of a window
+inline constexpr int kRadius = 7;   ///< of a window
 inline constexpr int kPatch = 2;    ///< radius of the patches whose differences are the weights
 inline constexpr int kMargin = 12;  ///< pixels around the picture, a multiple of the stride
 inline constexpr int kFirst = 1;    ///< the first centre, in pixels from the picture's corner

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/image/box_filter.h"
+
 namespace gatelight::renderer {
 namespace {
 

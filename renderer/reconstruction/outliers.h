@@ -1,7 +1,7 @@
 #pragma once
 // Bright samples that stand alone.
 
-#include "renderer/reconstruction/planes.h"
+#include "renderer/reconstruction/dealt_layout.h"
 
 namespace gatelight::renderer {
 

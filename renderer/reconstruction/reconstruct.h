@@ -19,8 +19,8 @@ struct Reconstruction {
   /// What each half of the samples gives, of which `color` is about the mean. Their difference tells the
   /// error of the whole picture better than the sum of `error`, which is smoothed over bright and dark.
   std::vector<float> halves[2];
-  /// What the noise of a half's samples leaves in its picture: one standard deviation a pixel, of a channel's
-  /// mean. It is told by that half alone, but for the weights.
+  /// What noise as that of a half's samples leaves in the other half's picture: one standard deviation a
+  /// pixel, of a channel's mean. It is told by that half alone, whose samples weigh the other's.
   std::vector<float> noise[2];
 };
 

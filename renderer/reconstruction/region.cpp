@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+
+#include "renderer/image/box_filter.h"
+#include "renderer/reconstruction/dealt_layout.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -13,7 +18,7 @@ constexpr float kLeastDivisor = 0.02f;
 /// Non-local means: differences count in these standard deviations.
 constexpr float kBandwidth = 0.5f;
 /// Pixels of one surface: normals and divisors differ by less.
-constexpr float kEdge = 0.3f;
+constexpr float kEdge = 0.45f;
 /// Relative to the cache's answers, differences that say nothing.
 constexpr float kCacheNoise = 0.02f;
 /// A pixel's own samples count as a window of this weight where windows hardly reach it.
@@ -95,19 +100,39 @@ void Region::read(const SampledPicture& s) {
   });
 }
 
-/// Where a half has fewer than two samples, its variance is that of the difference between the halves, or,
-/// with one sample alone, between neighbours.
+/// Where a half has fewer than two samples, its variance is that between neighbours of the same surface. The
+/// other half may not tell it: neither how its samples are weighed nor how many it gets may depend on them.
 void Region::complete_variance() {
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  };
+  const auto unlikeness = [&](std::size_t p, std::size_t q) {
+    float sum = 0.0f;
+    for (const auto* planes : {&normal_, &divisor_}) {
+      for (const Plane& plane : *planes) sum += (plane[p] - plane[q]) * (plane[p] - plane[q]);
+    }
+    return sum;
+  };
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
-      const std::size_t p =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const std::size_t p = at(x, y);
       if (!(counts_[p] < 4.0f)) continue;
-      const std::size_t next = x + 1 < width_ ? p + 1 : p - (width_ > 1 ? 1 : 0);
-      for (int c = 0; c < 3; ++c) {
-        const float e = counts_[p] < 2.0f ? halves_[0].color[c][p] - halves_[0].color[c][next]
-                                          : halves_[0].color[c][p] - halves_[1].color[c][p];
-        for (Half& half : halves_) half.variance[c][p] = 0.5f * e * e;
+      float total = 0.0f, sums[2][3] = {};
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
+        const int u = x + dx, v = y + dy;
+        if (u < 0 || u >= width_ || v < 0 || v >= height_) continue;
+        const std::size_t q = at(u, v);
+        const float alike = std::exp(-unlikeness(p, q) / (kEdge * kEdge)) + 1e-6f;
+        total += alike;
+        for (int h = 0; h < 2; ++h) {
+          for (int c = 0; c < 3; ++c) {
+            const float e = halves_[h].color[c][p] - halves_[h].color[c][q];
+            sums[h][c] += alike * 0.5f * e * e;
+          }
+        }
+      }
+      for (int h = 0; h < 2; ++h) {
+        for (int c = 0; c < 3; ++c) halves_[h].variance[c][p] = sums[h][c] / std::max(total, 1e-6f);
       }
     }
   });
@@ -357,7 +382,7 @@ void Region::write_row(int y, Row to) const {
         const double unit = static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]);
         square += static_cast<double>(half.variance[c][p]) * unit * unit / 3.0;
       }
-      *to.noise[h]++ = static_cast<float>(std::sqrt(square * static_cast<double>(half.influence[p])));
+      *to.noise[h]++ = static_cast<float>(std::sqrt(square * static_cast<double>(halves_[1 - h].influence[p])));
     }
   }
 }

@@ -2,7 +2,6 @@
 // Some rows of a picture on their way from samples to the finished picture.
 
 #include "renderer/reconstruction/outliers.h"
-#include "renderer/reconstruction/planes.h"
 #include "renderer/reconstruction/sampled_picture.h"
 
 namespace gatelight::renderer {

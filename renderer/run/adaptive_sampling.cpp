@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "renderer/machine/clock.h"
-#include "renderer/reconstruction/planes.h"
+#include "renderer/image/box_filter.h"
 #include "renderer/run/finished_picture.h"
 
 namespace gatelight::renderer {
@@ -21,7 +21,7 @@ constexpr int kDensitySmoothing = 3;
 /// proportion to this power of it. The mean of squares asks for the first power, but sees few pixels alone.
 constexpr double kPower = 2.0 / 3.0;
 /// No pixel gets less or more than these times what is usual.
-constexpr double kLeast = 0.5, kMost = 8.0;
+constexpr double kLeast = 0.25, kMost = 8.0;
 /// Noise counts relative to brightness plus this share of the picture's mean: in the dark it is not seen.
 constexpr double kDark = 1.0;
 /// In the same unit. Squares stay in single precision.
@@ -38,7 +38,7 @@ int next_density(const RenderOptions& options, int samples) {
 
 SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished) {
   const std::size_t pixels = finished.noise[0].size();
-  const auto smooth = [&](Plane& plane) {
+  const auto smooth = [&](std::vector<float>& plane) {
     box_filter(plane, rect.width(), rect.height(), kDensitySmoothing);
   };
   const auto mean = [&](const auto& values) {
@@ -49,7 +49,7 @@ SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished
     // By the other half.
     const std::vector<float>&color = finished.halves[1 - h], &noise = finished.noise[1 - h];
     const double of_picture = mean(color) / 3.0 + std::numeric_limits<double>::min();
-    Plane brightness(pixels), square(pixels);
+    std::vector<float> brightness(pixels), square(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
       const auto relative = [&](double value) { return std::min(value / of_picture, kBrightest); };
       const double sum = static_cast<double>(color[3 * p]) + static_cast<double>(color[3 * p + 1]) +
@@ -72,10 +72,13 @@ SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished
   return {rect, std::move(values)};
 }
 
-double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena) {
+double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena,
+                     const Reconstruction* known) {
   if (samples == 0 || next_density(options, samples - 1) != samples || film.new_density()) return 0.0;
   const Clock::time_point start = Clock::now();
-  arena.execute([&] { film.follow(make_density(film.rect(), finished_film(film, options))); });
+  arena.execute([&] {
+    film.follow(make_density(film.rect(), known ? *known : finished_film(film, options)));
+  });
   return seconds_since(start);
 }
 

@@ -21,7 +21,8 @@ int next_density(const RenderOptions& options, int samples);
 SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished);
 
 /// Before a pass: where `samples` per pixel are one of these numbers, the film follows the density of its
-/// finished picture from now on. Returns the seconds that this took.
-double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena);
+/// finished picture from now on. `known`: its reconstruction, if it is. Returns the seconds that this took.
+double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena,
+                     const Reconstruction* known = nullptr);
 
 }  // namespace gatelight::renderer

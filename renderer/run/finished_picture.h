@@ -13,6 +13,7 @@ namespace gatelight::renderer {
 
 struct FinishedPicture {
   Picture picture;
+  Reconstruction reconstruction;  ///< what the picture does not hold of it: halves and their noise
   double reconstruct_seconds = 0.0;
   /// Relative RMS, as metrics/estimated_error.h defines it. Empty where pixels have less than two samples.
   std::optional<double> estimated_error;

@@ -153,10 +153,14 @@ class Renderer::Implementation::PictureRun {
 
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
-    const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena);
+    const bool known = checked_ && checked_samples_ == loop.done();
+    const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena,
+                                         known ? &checked_->reconstruction : nullptr);
+    if (checked_) checked_->reconstruction = {};
     if (seconds == 0.0) return;
     reconstruct_seconds_ += seconds;
     loop.leave_out(seconds);
+    if (known) return;
     // The last reconstruction takes as long, which is known better now.
     budget_.reconstruct = seconds;
     limit_passes(loop);

@@ -59,10 +59,10 @@ TEST(AdaptiveSampling, OneBrightSampleTakesNoMoreThanItsShare) {
     }
     most = std::max(most, sum / (60 * 40));
   }
-  // It is one of 49 pixels that follow it, and no pixel gets more than 16 times the least.
-  EXPECT_LT(most, 0.26);
+  // It is one of 49 pixels that follow it, and no pixel gets more than 32 times the least.
+  EXPECT_LT(most, 0.41);
   tell_extreme("one sample of 1e4 to 3e38", "density of samples, 60x40",
-               fmt::format("at most {:.0f} % of them go to its neighbours (bound 26 %)", 100.0 * most), "");
+               fmt::format("at most {:.0f} % of them go to its neighbours (bound 41 %)", 100.0 * most), "");
 }
 
 TEST(AdaptiveSampling, TinyPicturesAndFewSamples) {

@@ -76,7 +76,7 @@ class Wall {
 /// Means of many walls, whose density is made after 2, 8 and 32 samples.
 Moments means_of_walls(const std::function<void(Film&, int)>& adapt) {
   Moments means;
-  for (std::uint32_t seed = 0; seed < 1500; ++seed) {
+  for (std::uint32_t seed = 0; seed < 4000; ++seed) {
     Wall wall(seed);
     for (int pass = 0; pass < 24; ++pass) {
       adapt(wall.film(), pass);
@@ -91,7 +91,7 @@ TEST(AdaptiveSampling, KeepsTheMeanOfRareLight) {
   tbb::task_arena arena(1);
   const Moments means = means_of_walls(
       [&](Film& film, int samples) { adapt_density(film, samples, adaptive_options(), arena); });
-  EXPECT_LT(means.standard_error(), 0.005 * kRareLightMean);
+  EXPECT_LT(means.standard_error(), 0.001 * kRareLightMean);
   EXPECT_GT(testing::mean_p_value(means, kRareLightMean), 1e-3)
       << means.mean() << " +- " << means.standard_error() << ", expected " << kRareLightMean;
 }

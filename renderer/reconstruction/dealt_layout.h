@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as planes of floats, one for each channel.
+// Pictures as planes of floats, one for each channel, and their order for the kernel.
 
 #include <vector>
 
@@ -9,10 +9,6 @@ namespace gatelight::renderer {
 
 /// A channel, row by row.
 using Plane = std::vector<float>;
-
-/// Replaces each value by the mean of the square of `radius` pixels around it, as far as it is in the
-/// picture. Runs in the caller's arena.
-void box_filter(Plane& plane, int width, int height, int radius);
 
 /// Where the pixels of a picture lie in planes whose columns are dealt to phases (BandView).
 class DealtLayout {

@@ -1,4 +1,4 @@
-#include "renderer/reconstruction/planes.h"
+#include "renderer/reconstruction/dealt_layout.h"
 
 #include <tbb/parallel_for.h>
 
@@ -14,37 +14,7 @@ int windows(int pixels) {
   return (pixels + window::kStride - 1) / window::kStride;
 }
 
-/// Means along lines of `count` values that lie `step` apart.
-void box_line(const float* from, float* to, std::size_t step, int count, int radius) {
-  for (int i = 0; i < count; ++i) {
-    const int first = std::max(i - radius, 0), end = std::min(i + radius + 1, count);
-    float sum = 0.0f;
-    for (int k = first; k < end; ++k) sum += from[static_cast<std::size_t>(k) * step];
-    to[static_cast<std::size_t>(i) * step] = sum / static_cast<float>(end - first);
-  }
-}
-
 }  // namespace
-
-void box_filter(Plane& plane, int width, int height, int radius) {
-  Plane rows(plane.size());
-  const auto w = static_cast<std::size_t>(width);
-  tbb::parallel_for(0, height, [&](int y) {
-    const std::size_t at = static_cast<std::size_t>(y) * w;
-    box_line(&plane[at], &rows[at], 1, width, radius);
-  });
-  tbb::parallel_for(0, height, [&](int y) {
-    const int first = std::max(y - radius, 0), end = std::min(y + radius + 1, height);
-    float* const to = &plane[static_cast<std::size_t>(y) * w];
-    std::fill(to, to + width, 0.0f);
-    for (int k = first; k < end; ++k) {
-      const float* const from = &rows[static_cast<std::size_t>(k) * w];
-      for (int x = 0; x < width; ++x) to[x] += from[x];
-    }
-    const float over = 1.0f / static_cast<float>(end - first);
-    for (int x = 0; x < width; ++x) to[x] *= over;
-  });
-}
 
 DealtLayout::DealtLayout(int width, int height)
     : width_(width),
