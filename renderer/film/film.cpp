@@ -189,7 +189,8 @@ double Film::variance(std::size_t pixel, std::size_t channel) const {
   const Radiance& all = radiance_[pixel];
   const double variance = variance_of_mean(all, channel);
   if (!uneven(pixel)) return variance;
-  const double n = all.count, b = all.count / 2, a = n - b;
+  const std::uint32_t in_b = all.count / 2;
+  const double n = all.count, b = in_b, a = n - b;
   return variance * (a * a / halves_[0][pixel].count + b * b / halves_[1][pixel].count) / n;
 }
 

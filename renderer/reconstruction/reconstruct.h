@@ -1,6 +1,7 @@
 #pragma once
 // The finished picture from samples.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,10 @@ struct Reconstruction {
   std::vector<float> error;  ///< estimated standard error of `color`
   /// What each half of the samples gives, of which `color` is about the mean. Their difference tells the
   /// error of the whole picture better than the sum of `error`, which is smoothed over bright and dark.
-  std::vector<float> halves[2];
+  std::array<std::vector<float>, 2> halves;
   /// What noise as that of a half's samples leaves in the other half's picture: one standard deviation a
   /// pixel, of a channel's mean. It is told by that half alone, whose samples weigh the other's.
-  std::vector<float> noise[2];
+  std::array<std::vector<float>, 2> noise;
 };
 
 /// Fits the samples to the guides in small windows. Both halves are fitted on their own, each with weights

@@ -189,29 +189,28 @@ class Renderer::Implementation::PictureRun {
   }
 
   void end(const SampleLoop& loop, const Pass& pass) {
-    RenderStatistics& statistics = renderer_.statistics;
-    statistics = sum_up(loop, pass);
+    RenderStatistics& told = renderer_.statistics;
+    told = sum_up(loop, pass);
     cut_short_ = pass.cut_short() || !device_lost_.empty();
-    statistics.device_lost = device_lost_;
-    if (whole() && device_lost_.empty()) keep(Phase::render, statistics, false);
+    told.device_lost = device_lost_;
+    if (whole() && device_lost_.empty()) keep(Phase::render, told, false);
     loop.report_end();
   }
 
   /// What ended the picture; its error is known.
   void note_end(const SampleLoop& loop) {
-    RenderStatistics& statistics = renderer_.statistics;
+    RenderStatistics& told = renderer_.statistics;
     if (!device_lost_.empty()) {
-      statistics.ended_by = EndedBy::device;
+      told.ended_by = EndedBy::device;
     } else if (loop.stopped() && (loop.done() < options_.spp || !whole())) {
-      statistics.ended_by = EndedBy::caller;
-    } else if (options_.max_error > 0.0 &&
-               statistics.estimated_error.value_or(kNever) <= options_.max_error) {
-      statistics.ended_by = EndedBy::max_error;
+      told.ended_by = EndedBy::caller;
+    } else if (options_.max_error > 0.0 && told.estimated_error.value_or(kNever) <= options_.max_error) {
+      told.ended_by = EndedBy::max_error;
     } else {
-      statistics.ended_by = loop.done() < options_.spp ? EndedBy::time_limit : EndedBy::spp;
+      told.ended_by = loop.done() < options_.spp ? EndedBy::time_limit : EndedBy::spp;
     }
-    const bool early = statistics.ended_by != EndedBy::max_error && loop.done() < options_.spp;
-    statistics.interrupted = early || !whole();
+    const bool early = told.ended_by != EndedBy::max_error && loop.done() < options_.spp;
+    told.interrupted = early || !whole();
   }
 
   /// The picture of the film, with its statistics. `samples`: that every pixel has.
