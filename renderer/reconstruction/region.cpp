@@ -70,8 +70,7 @@ void Region::read(const SampledPicture& s) {
   const std::size_t offset = static_cast<std::size_t>(first_) * static_cast<std::size_t>(width_);
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
-      const std::size_t p =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const std::size_t p = at(x, y);
       const std::size_t from = offset + p;
       counts_[p] = s.counts[from];
       coverage_[p] = s.coverage[from];
@@ -103,9 +102,6 @@ void Region::read(const SampledPicture& s) {
 /// Where a half has fewer than two samples, its variance is that between neighbours of the same surface. The
 /// other half may not tell it: neither how its samples are weighed nor how many it gets may depend on them.
 void Region::complete_variance() {
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  };
   const auto unlikeness = [&](std::size_t p, std::size_t q) {
     float sum = 0.0f;
     for (const auto* planes : {&normal_, &divisor_}) {
@@ -141,9 +137,6 @@ void Region::complete_variance() {
 /// A pixel without samples looks like those around it, and could be anything.
 void Region::fill_gaps() {
   constexpr float kAnything = 1e6f;
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  };
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
       const std::size_t p = at(x, y);
@@ -172,8 +165,7 @@ Plane Region::smooth_variance(const Half& half) const {
   Plane variance(pixels());
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
-      const std::size_t p =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const std::size_t p = at(x, y);
       for (int c = 0; c < 3; ++c) variance[p] += half.variance[c][p];
     }
   });
@@ -279,14 +271,13 @@ void Region::fit(const ReconstructionKernels& kernels) {
     half.influence.resize(pixels());
     for_each_row(height_, [&](int y) {
       for (int x = 0; x < width_; ++x) {
-        const std::size_t p =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-        const std::size_t at = layout.at(x, y);
-        const float own = valid[p] * kOwnWeight / (1.0f + sums[3][at] * sums[3][at]);
-        const float over = 1.0f / std::max(sums[3][at] + own, 1e-20f);
+        const std::size_t p = at(x, y);
+        const std::size_t dealt = layout.at(x, y);
+        const float own = valid[p] * kOwnWeight / (1.0f + sums[3][dealt] * sums[3][dealt]);
+        const float over = 1.0f / std::max(sums[3][dealt] + own, 1e-20f);
         for (int c = 0; c < 3; ++c)
-          half.fit[c][p] = (sums[static_cast<std::size_t>(c)][at] + own * half.color[c][p]) * over;
-        half.influence[p] = std::min((sums[4][at] + own) * over, 1.0f);
+          half.fit[c][p] = (sums[static_cast<std::size_t>(c)][dealt] + own * half.color[c][p]) * over;
+        half.influence[p] = std::min((sums[4][dealt] + own) * over, 1.0f);
       }
     });
   }
@@ -303,8 +294,7 @@ void Region::join() {
   const auto each_pixel = [&](auto&& function) {
     for_each_row(height_, [&](int y) {
       for (int x = 0; x < width_; ++x) {
-        function(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                 static_cast<std::size_t>(x));
+        function(at(x, y));
       }
     });
   };
@@ -382,7 +372,8 @@ void Region::write_row(int y, Row to) const {
         const double unit = static_cast<double>(scale_) * static_cast<double>(divisor_[c][p]);
         square += static_cast<double>(half.variance[c][p]) * unit * unit / 3.0;
       }
-      *to.noise[h]++ = static_cast<float>(std::sqrt(square * static_cast<double>(halves_[1 - h].influence[p])));
+      *to.noise[h]++ =
+          static_cast<float>(std::sqrt(square * static_cast<double>(halves_[1 - h].influence[p])));
     }
   }
 }

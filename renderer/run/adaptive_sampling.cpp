@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "renderer/machine/clock.h"
 #include "renderer/image/box_filter.h"
+#include "renderer/machine/clock.h"
 #include "renderer/run/finished_picture.h"
 
 namespace gatelight::renderer {
@@ -76,9 +76,8 @@ double adapt_density(Film& film, int samples, const RenderOptions& options, tbb:
                      const Reconstruction* known) {
   if (samples == 0 || next_density(options, samples - 1) != samples || film.new_density()) return 0.0;
   const Clock::time_point start = Clock::now();
-  arena.execute([&] {
-    film.follow(make_density(film.rect(), known ? *known : finished_film(film, options)));
-  });
+  arena.execute(
+      [&] { film.follow(make_density(film.rect(), known ? *known : finished_film(film, options))); });
   return seconds_since(start);
 }
 

@@ -12,8 +12,7 @@ import cache_table
 import results_tables as tables
 from measured_scenes import SCENES
 
-COLUMNS = ("scene", "size", "run", "pair", "threads", "isa", "version", "spp", "seconds", "rel_mse_clean", "bias_rel_mse", "flip",
-           "memory_parameters")
+COLUMNS = ("scene", "size", "run", "pair", "threads", "isa", "version", "seconds", "rel_mse_clean", "flip", "memory_parameters")
 RUNS = ("bare, 512 steps", "preview", "standard", "final")
 HEAD = """## What reconstruction changes: the caches as guides
 
