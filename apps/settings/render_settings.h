@@ -18,7 +18,7 @@ namespace gatelight::apps {
 struct RenderSettings {
   std::string scene;
   std::vector<std::string> outputs;
-  renderer::RenderOptions render;
+  renderer::RenderOptions render{.environment = {.automatic = true}};
   scene::LoadOptions load;
   renderer::ImageWriteOptions image;
   std::optional<std::array<float, 3>>

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "renderer/film/framing.h"
 #include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
@@ -33,24 +34,6 @@ scene::Affine look_at(const LookAt& view) {
   transform.linear().col(2) = back.cast<float>();
   transform.translation() = view.eye;
   return transform;
-}
-
-/// A camera in front of the scene, a little to the right and above. The bounding sphere just fits the
-/// picture.
-scene::Camera frame_scene(const scene::Scene& scene, float fov, float aspect) {
-  scene::Camera camera;
-  camera.name = "auto";
-  camera.vertical_fov = fov;
-  LookAt view;
-  if (!scene.bounds.isEmpty()) {
-    const scene::Vec3 center = scene.bounds.center();
-    const float radius = std::max(0.5f * scene.bounds.diagonal().norm(), 1e-6f * center.norm() + 1e-30f);
-    const float narrow = std::min(0.5f * fov, std::atan(std::tan(0.5f * fov) * aspect));
-    view.target = center;
-    view.eye = center + scene::Vec3(0.45f, 0.3f, 1.0f).normalized() * (radius / std::sin(narrow));
-  }
-  camera.transform = look_at(view);
-  return camera;
 }
 
 std::string names_of(const scene::Scene& scene) {

@@ -118,14 +118,15 @@ Digest digest_file(const std::string& path) {
 }
 
 Digest digest_environment(const EnvironmentOptions& environment) {
-  const auto& [file, constant, rotation_degrees, scale] = environment;
+  const auto& [automatic, file, constant, rotation_degrees, scale] = environment;
   DigestRecord record;
+  record.add(automatic);
   record.add(!file.empty());
-  if (file.empty()) {
-    add_numbers(record, constant);
-  } else {
-    record.add(digest_file(file));
+  if (!file.empty()) record.add(digest_file(file));
+  if (automatic || !file.empty()) {
     record.add(rotation_degrees);
+  } else {
+    add_numbers(record, constant);
   }
   record.add(scale);
   return record.digest();

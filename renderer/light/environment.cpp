@@ -11,6 +11,7 @@
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/image_read.h"
+#include "renderer/light/soft_sky.h"
 #include "renderer/sampling/warp.h"
 
 namespace gatelight::renderer {
@@ -112,7 +113,10 @@ Environment::Environment(const EnvironmentOptions& options) {
   const double angle = static_cast<double>(options.rotation_degrees) * M_PI / 180.0;
   cos_ = static_cast<float>(std::cos(angle));
   sin_ = static_cast<float>(std::sin(angle));
-  if (options.file.empty()) {
+  if (options.automatic) {
+    picture_ = make_soft_sky(options.scale);
+    mean_ = picture_->mean();
+  } else if (options.file.empty()) {
     for (Eigen::Index c = 0; c < 3; ++c) mean_[c] = scaled(options.constant[c], options.scale);
   } else {
     picture_ = load(options, warning_);

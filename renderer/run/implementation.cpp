@@ -12,10 +12,12 @@
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/identity/deciding_options.h"
+#include "renderer/light/soft_sky.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
+#include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -39,11 +41,46 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
   return options.memory_limit_bytes - (need.total() - need.bvh);
 }
 
+/// Whether the integrator shows light, and not the openness of surfaces.
+bool shows_light(Integrator integrator) {
+  return integrator == Integrator::path || integrator == Integrator::nrc;
+}
+
+/// The options with what an automatic environment stands for in this scene.
+RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
+  options.environment.automatic &= shows_light(options.integrator) && needs_light(scene);
+  return options;
+}
+
+/// Says what a scene without light gets. `options` are those of with_sky().
+std::string sky_warning(const scene::Scene& scene, const RenderOptions& options) {
+  if (options.environment.automatic) {
+    return fmt::format("{} has no light: a soft sky lights it; --environment none, r,g,b or FILE replaces it",
+                       scene.path);
+  }
+  if (shows_light(options.integrator) && options.environment.none() && needs_light(scene)) {
+    return fmt::format("{} has no light, and the environment is 'none': the picture is black", scene.path);
+  }
+  return "";
+}
+
+/// Tells how to see the same again, where the file has no camera.
+std::string made_view(const scene::Scene& scene, const CameraOptions& options, const scene::Camera& view) {
+  if (!scene.cameras.empty() || options.look_at) return "";
+  const scene::Vec3 eye = view.transform.translation() + scene.origin;
+  const scene::Vec3 target =
+      eye - view.transform.linear().col(2) * (view.transform.translation() - scene.bounds.center()).norm();
+  return fmt::format(
+      "{} has no camera: the view shows all of it, as --eye {:.6g},{:.6g},{:.6g} --target "
+      "{:.6g},{:.6g},{:.6g}",
+      scene.path, eye.x(), eye.y(), eye.z(), target.x(), target.y(), target.z());
+}
+
 }  // namespace
 
 Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in)
     : scene(scene_in),
-      options(options_in),
+      options(with_sky(scene, options_in)),
       threads(options.threads > 0 ? options.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads),
@@ -65,9 +102,13 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   }
   arena.execute([&] {
     world.emplace(scene, options.environment, options.light_selection,
-                  AccelOptions{threads, options.isa, budget, options.watertight});
+                  AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
   });
-  if (!world->environment.warning().empty()) statistics.warnings.push_back(world->environment.warning());
+  for (std::string warning :
+       {sky_warning(scene, options), made_view(scene, options.camera, view), world->environment.warning(),
+        view_warning(*world, camera, options.width, options.height)}) {
+    if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
+  }
   statistics.build_seconds = seconds_since(start);
   statistics.width = region.width();
   statistics.height = region.height();

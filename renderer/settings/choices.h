@@ -17,6 +17,11 @@ constexpr bool uses_cache(Integrator integrator) {
 }
 enum class MisHeuristic : std::uint8_t { balance, power };
 enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< nee and bsdf alone are for tests and teaching
+/// How light reaches rough surfaces through glass that has an inside.
+enum class GlassShadows : std::uint8_t {
+  refract,   ///< as it is: shadow rays end at the glass, and bounces find what light it bends
+  straight,  ///< tinted but not bent (an approximation): shadow rays and bounces pass as through panes
+};
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
 enum class NanPolicy : std::uint8_t { drop, error };
 

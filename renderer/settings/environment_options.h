@@ -7,12 +7,14 @@
 namespace gatelight::renderer {
 
 struct EnvironmentOptions {
+  /// A soft sky (light/soft_sky.h), where the scene has no light of its own. The others are then not set.
+  bool automatic = false;
   std::string file;                         ///< EXR or HDR picture, latitude-longitude; empty: constant
   scene::Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
   float rotation_degrees = 0.0f;            ///< about +y, counter-clockwise seen from above
   float scale = 1.0f;
 
-  bool none() const { return file.empty() && (constant == 0.0f).all(); }
+  bool none() const { return !automatic && file.empty() && (constant == 0.0f).all(); }
 };
 
 }  // namespace gatelight::renderer

@@ -99,9 +99,10 @@ Option aov_option(std::vector<Aov>& aovs) {
 }
 
 void read_environment(EnvironmentOptions& environment, const std::string& text) {
+  environment.automatic = text == "auto";
   environment.file.clear();
   environment.constant = scene::Color::Zero();
-  if (text == "none") return;
+  if (text == "none" || text == "auto") return;
   if (looks_like_triple(text)) {
     const std::array<float, 3> rgb = parse_triple("--environment", text, kNotNegative);
     environment.constant = {rgb[0], rgb[1], rgb[2]};
@@ -111,6 +112,7 @@ void read_environment(EnvironmentOptions& environment, const std::string& text) 
 }
 
 OptionValue environment_value(const EnvironmentOptions& environment) {
+  if (environment.automatic) return "auto";
   if (environment.none()) return "none";
   if (!environment.file.empty()) return environment.file;
   const scene::Color& rgb = environment.constant;
@@ -127,10 +129,11 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   // Beyond these bounds tangents leave the range of single precision.
   add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
                 "Vertical field of view; overrides the camera's"));
-  auto& [file, constant, rotation_degrees, scale] = environment;  // one flag sets file and constant
+  auto& [automatic, file, constant, rotation_degrees, scale] = environment;  // one flag sets the first three
   add({.name = "environment",
-       .unit = "FILE|r,g,b|none",
-       .help = "Light from all around: a latitude-longitude EXR or HDR, or one radiance",
+       .unit = "auto|none|r,g,b|FILE",
+       .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
+               "latitude-longitude EXR or HDR",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); }});
   add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
@@ -162,9 +165,9 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
-         threads, sampler, filter, filter_width, mis, direct, light_selection, watertight, clamp, ao_distance,
-         reconstruct, adaptive, aovs, nan_policy, memory_limit_bytes, isa, camera, environment, cache,
-         checkpoint] = options;
+         threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
+         clamp, ao_distance, reconstruct, adaptive, aovs, nan_policy, memory_limit_bytes, isa, camera,
+         environment, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -210,6 +213,10 @@ std::vector<Option> option_table(RenderOptions& options) {
                    "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
   light.add(choice("mis", mis, "Heuristic of multiple importance sampling"));
   light.add(choice("light-selection", light_selection, "How one of many lights is chosen"));
+  light.add(choice(
+      "glass-shadows", glass_shadows,
+      "Light behind glass with an inside: found by bounces alone, so that suns and small lamps give none "
+      "(refract), or not bent, as through panes (straight: an approximation, that of the presets)"));
   light.add(
       choice("watertight", watertight, kOnOff,
              "Whether no ray slips between triangles that share an edge; off is faster where triangles are "

@@ -55,6 +55,7 @@ struct RenderOptions {
   MisHeuristic mis = MisHeuristic::power;
   DirectLight direct = DirectLight::mis;
   LightSelection light_selection = LightSelection::tree;
+  GlassShadows glass_shadows = GlassShadows::refract;
   bool watertight = true;     ///< no ray slips between triangles that share an edge
   float clamp = 0.0f;         ///< largest luminance of one sample; 0: off
   float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed

@@ -9,6 +9,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.integrator = Integrator::nrc;
   options.spp = spp;
   options.reconstruct = true;
+  options.glass_shadows = GlassShadows::straight;
   options.cache.source = TrainingSource::picture;
   options.cache.query_at = QueryAt::gather;
   options.cache.holds = CacheHolds::no_delta;
@@ -22,6 +23,7 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
     case CachePreset::bare:
       options.integrator = Integrator::nrc;
       options.spp = 4;
+      options.glass_shadows = GlassShadows::straight;
       cache.query_at = QueryAt::primary;
       cache.holds = CacheHolds::no_delta;
       break;

@@ -24,6 +24,9 @@ template <>
 inline constexpr Choice<DirectLight> kWords<DirectLight>[] = {
     {"mis", DirectLight::mis}, {"nee", DirectLight::nee}, {"bsdf", DirectLight::bsdf}};
 template <>
+inline constexpr Choice<GlassShadows> kWords<GlassShadows>[] = {{"refract", GlassShadows::refract},
+                                                                {"straight", GlassShadows::straight}};
+template <>
 inline constexpr Choice<PixelFilter> kWords<PixelFilter>[] = {
     {"box", PixelFilter::box},
     {"tent", PixelFilter::tent},

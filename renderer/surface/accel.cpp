@@ -21,8 +21,29 @@ struct Lane {
   std::uint32_t seed = 0;
   Vec3 direction = Vec3::Zero();  ///< in world space; Embree's is in the space of the instance
   Color transmittance{1.0f, 1.0f, 1.0f};
+  /// Of the media along the ray: their optical depth up to the ends that were met, less that before their
+  /// beginnings, and the absorption per metre of those that have not ended.
+  Color depth{0.0f, 0.0f, 0.0f};
+  Color inside{0.0f, 0.0f, 0.0f};
+  bool absorbed = false;  ///< whether one of them absorbs
   int panes = 0;
   std::uint64_t seen[Accel::kMaxPanes];  ///< the first `panes`: spatial splits repeat a triangle
+
+  void pass(const Passage& passage, float t) {
+    transmittance *= passage.transmittance;
+    if ((passage.absorption == 0.0f).all()) return;
+    absorbed = true;
+    depth -= passage.absorption * t;
+    inside += passage.absorption;
+  }
+  /// The light that is left. A medium without an end in this distance absorbs all along it, but none of the
+  /// light of a sky: walkers do the same.
+  Color passed(float distance) const {
+    if (!absorbed) return transmittance;
+    Color all = depth;
+    if (distance < scene::kInfinity) all += inside.max(0.0f) * distance;
+    return transmittance * (-all.max(0.0f)).exp();
+  }
 };
 
 /// Embree passes its context to the filters, so the lanes are stored behind it.
@@ -73,13 +94,13 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
       args->valid[i] = 0;
       continue;
     }
-    const Color passed = context.coverage->pane_transmittance(hit, lane.direction);
-    if ((passed <= 0.0f).all()) continue;
+    const Passage passage = context.coverage->pass(hit, lane.direction);
+    if ((passage.transmittance <= 0.0f).all()) continue;
     const std::uint64_t id = static_cast<std::uint64_t>(hit.instance) << 32 | hit.primitive;
     if (std::find(lane.seen, lane.seen + lane.panes, id) == lane.seen + lane.panes) {
       if (lane.panes == Accel::kMaxPanes) continue;
       lane.seen[lane.panes++] = id;
-      lane.transmittance *= passed;
+      lane.pass(passage, hit.t);
     }
     args->valid[i] = 0;
   }
@@ -297,6 +318,11 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
     lane.seed = ray.seed;
     lane.direction = ray.direction;
     lane.transmittance = Color::Ones();
+    if (lane.absorbed) {
+      lane.depth.setZero();
+      lane.inside.setZero();
+      lane.absorbed = false;
+    }
     lane.panes = 0;
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
@@ -304,7 +330,7 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
       result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)
-                          : state_->any_filter ? context.lanes[i].transmittance
+                          : state_->any_filter ? context.lanes[i].passed(rays[first + i].t_max)
                                                : Color(1.0f, 1.0f, 1.0f);
     }
   });

@@ -1,6 +1,5 @@
 #include "renderer/surface/coverage.h"
 
-#include "renderer/bsdf/bsdf.h"
 #include "renderer/surface/interpolate.h"
 
 namespace gatelight::renderer {
@@ -31,7 +30,21 @@ struct FinestLevel {
 
 }  // namespace
 
-Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_(scene), textures_(textures) {
+Color absorption_of(const scene::Material& m) {
+  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
+  // Finite, so that no distance makes it NaN.
+  return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
+}
+
+void straighten(SurfaceMaterial& material) {
+  material.thin_walled = true;
+  material.roughness = 0.0f;
+  material.clearcoat = 0.0f;
+  material.sheen_color.setZero();
+}
+
+Coverage::Coverage(const scene::Scene& scene, const Textures& textures, bool straight_glass)
+    : scene_(scene), textures_(textures), straight_glass_(straight_glass) {
   flags_.resize(scene.instances.size(), 0);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& m = scene.material_of(scene.instances[i]);
@@ -40,6 +53,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures) : scene_
         m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
+    if (m.has_volume() && straight_glass) flags_[i] |= kStraightGlass;
   }
 }
 
@@ -58,8 +72,9 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
   return static_cast<float>(h >> 8) * 0x1p-24f < a;
 }
 
-Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const {
-  if (!(flags_[hit.instance] & kPane)) return Color::Zero();
+Passage Coverage::pass(const Hit& hit, const Vec3& direction) const {
+  Passage passage;
+  if (!(flags_[hit.instance] & (kPane | kStraightGlass))) return passage;
   const scene::Instance& instance = scene_.instances[hit.instance];
   const scene::Material& m = scene_.material_of(instance);
   const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
@@ -74,8 +89,13 @@ Color Coverage::pane_transmittance(const Hit& hit, const Vec3& direction) const 
   s.transmission = m.transmission * read(m.transmission_texture, Encoding::linear).x();
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);
   const bool front = n.dot(direction) < 0.0f;
+  if (is_straight_glass(hit.instance)) {
+    straighten(s);
+    passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
+  }
   const Vec3 facing = front ? n : Vec3(-n);
-  return Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();
+  passage.transmittance = Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();
+  return passage;
 }
 
 }  // namespace gatelight::renderer

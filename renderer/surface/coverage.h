@@ -5,20 +5,37 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/bsdf/bsdf.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
 
+/// A shadow ray through a surface.
+struct Passage {
+  Color transmittance{0.0f, 0.0f, 0.0f};  ///< zero: blocked
+  /// Per metre, of the medium that begins at the surface; negative where it ends.
+  Color absorption{0.0f, 0.0f, 0.0f};
+};
+
+/// Absorption per metre inside a material. Light has the colour c = exp(-absorption d) after the distance d.
+/// A black channel absorbs within a thousandth of the distance.
+Color absorption_of(const scene::Material& m);
+
+/// Makes of glass with an inside what light that is not bent meets: a smooth bare sheet.
+void straighten(SurfaceMaterial& material);
+
 /// Thread-safe after construction; holds references to its arguments.
 class Coverage {
  public:
-  Coverage(const scene::Scene& scene, const Textures& textures);
+  /// `straight_glass`: GlassShadows::straight.
+  Coverage(const scene::Scene& scene, const Textures& textures, bool straight_glass = false);
 
   /// Whether rays may pass through this instance because it has an alpha test.
   bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }
-  /// Whether shadow rays may pass through this instance: it has an alpha test or is a pane.
+  /// Whether shadow rays may pass through this instance: it has an alpha test, is a pane, or
+  /// is glass that shadow rays pass.
   bool filters_shadows(std::uint32_t instance) const { return flags_[instance] != 0; }
 
   /// False where a ray with this seed passes through the surface. A blended surface decides by a hash of the
@@ -26,18 +43,25 @@ class Coverage {
   /// which they are hit.
   bool is_there(const Hit& hit, std::uint32_t seed) const;
 
-  /// The fraction of light that a shadow ray keeps behind the surface. Only smooth thin-walled transmission
-  /// lets light go straight on; the fraction is zero for every other surface.
-  Color pane_transmittance(const Hit& hit, const Vec3& direction) const;
+  /// Whether rays between rough surfaces and lights pass glass with an inside unbent; whether this instance
+  /// is such glass.
+  bool straight_glass() const { return straight_glass_; }
+  bool is_straight_glass(std::uint32_t instance) const { return flags_[instance] & kStraightGlass; }
+
+  /// What a shadow ray keeps behind the surface. Smooth thin-walled transmission and straight glass let light
+  /// go straight on; every other surface blocks it.
+  Passage pass(const Hit& hit, const Vec3& direction) const;
 
  private:
   static constexpr std::uint8_t kAlpha = 1;
   static constexpr std::uint8_t kPane = 2;
+  static constexpr std::uint8_t kStraightGlass = 4;
 
   float alpha(const Hit& hit) const;
 
   const scene::Scene& scene_;
   const Textures& textures_;
+  bool straight_glass_;
   std::vector<std::uint8_t> flags_;  ///< by instance
 };
 

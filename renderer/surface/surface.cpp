@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/surface/interpolate.h"
+#include "renderer/surface/shadow_terminator.h"
 #include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
@@ -64,6 +65,21 @@ Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& ta
   return mapped / std::sqrt(squared);
 }
 
+/// Moves a point of a flat triangle onto the round surface that the normals of its corners describe.
+void round(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights, const Vec3& wo) {
+  // A smooth normal that is further from the triangle's comes from a file whose normals are wrong.
+  constexpr float kLeastCosine = 0.1f;
+  const float cosine = s.smooth_normal.dot(s.geometric_normal);
+  const Vec3 raise = terminator_raise(s.position, p, n, weights);
+  if (!(raise.dot(s.geometric_normal) > s.offset && cosine > kLeastCosine &&
+        s.smooth_normal.dot(wo) > 0.0f)) {
+    return;
+  }
+  s.position += raise;
+  s.geometric_normal = s.smooth_normal;
+  s.offset /= cosine;
+}
+
 }  // namespace
 
 Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textures_(textures) {
@@ -81,6 +97,13 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
       view.rounding = PlacementRounding(instance);
     }
   }
+}
+
+Vec3 Surfaces::View::world_normal(const Vec3& normal, bool turn) const {
+  Vec3 n = baked ? normal : Vec3(normal_matrix * normal);
+  const float squared = n.squaredNorm();
+  if (squared > 0.0f) n /= turn ? -std::sqrt(squared) : std::sqrt(squared);
+  return n;
 }
 
 void Surfaces::prefetch_vertices(const Hit& hit) const {
@@ -101,20 +124,17 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   const Corners& corners = mesh.triangles[hit.primitive];
   const Vec3 b(1.0f - hit.u - hit.v, hit.u, hit.v);
 
-  Vec3 p0 = mesh.positions[corners[0]];
-  Vec3 p1 = mesh.positions[corners[1]];
-  Vec3 p2 = mesh.positions[corners[2]];
-  if (!view.baked) {
-    p0 = view.transform * p0;
-    p1 = view.transform * p1;
-    p2 = view.transform * p2;
+  Vec3 p[3];
+  for (int corner = 0; corner < 3; ++corner) {
+    p[corner] = mesh.positions[corners[corner]];
+    if (!view.baked) p[corner] = view.transform * p[corner];
   }
   float area = 0.0f;  // twice the area
-  Vec3 ng = scene::triangle_normal(p0, p1, p2, area);
+  Vec3 ng = scene::triangle_normal(p[0], p[1], p[2], area);
   if (!(area > 0.0f)) ng = -direction;
   Surface s;
-  s.position = p0 * b.x() + p1 * b.y() + p2 * b.z();
-  s.offset = rounding_offset(p0, p1, p2, view.rounding);
+  s.position = p[0] * b.x() + p[1] * b.y() + p[2] * b.z();
+  s.offset = rounding_offset(p[0], p[1], p[2], view.rounding);
 
   if (view.mirrors) ng = -ng;
   s.front = ng.dot(direction) <= 0.0f;
@@ -131,6 +151,12 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   s.smooth_normal = turn ? Vec3(-ns) : ns;
   s.shading_normal = s.smooth_normal;
   s.coat_normal = s.smooth_normal;
+  if (!mesh.normals.empty() && !m.transmits()) {
+    Vec3 n[3];
+    for (int corner = 0; corner < 3; ++corner)
+      n[corner] = view.world_normal(mesh.normals[corners[corner]], turn);
+    round(s, p, n, b, -direction);
+  }
 
   const float cosine = std::abs(ng.dot(direction));
   // The short side of the footprint is the cone's width, the long side is width / cosine. This is their

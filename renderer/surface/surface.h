@@ -21,10 +21,12 @@ struct RayCone {
 
 struct Surface {
   Vec3 position = Vec3::Zero();
-  Vec3 geometric_normal = Vec3::Zero();  ///< unit, on the side of the viewer
-  Vec3 shading_normal = Vec3::Zero();    ///< unit, on the side of the viewer, normal map applied
-  Vec3 smooth_normal = Vec3::Zero();     ///< unit, on the side of the viewer, without the normal map
-  Vec3 coat_normal = Vec3::Zero();       ///< unit, on the side of the viewer
+  /// Unit, on the side of the viewer; bounds where light comes from. On the round surface of vertex normals
+  /// (shadow_terminator.h) it is the smooth normal.
+  Vec3 geometric_normal = Vec3::Zero();
+  Vec3 shading_normal = Vec3::Zero();  ///< unit, on the side of the viewer, normal map applied
+  Vec3 smooth_normal = Vec3::Zero();   ///< unit, on the side of the viewer, without the normal map
+  Vec3 coat_normal = Vec3::Zero();     ///< unit, on the side of the viewer
   float offset = 0.0f;  ///< in metres along the geometric normal: bounds the error of `position`
   bool front = true;    ///< whether the viewer is on the front side
   bool unlit = false;
@@ -64,6 +66,9 @@ class Surfaces {
     PlacementRounding rounding;
     bool baked = true;
     bool mirrors = false;
+
+    /// A unit vector, or zero; `turn` turns it round.
+    Vec3 world_normal(const Vec3& normal, bool turn) const;
   };
 
   const Textures& textures_;

@@ -48,8 +48,10 @@ struct Departure {
   Vec3 normal = Vec3::Zero();  ///< that next-event estimation used there
   float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
   float pdf = 0.0f;            ///< of the direction, per solid angle
-  bool delta = true;  ///< the direction came from the camera or a delta lobe: no light sample competes
-  int panes = 0;      ///< between `position` and the ray's origin
+  /// The direction came from the camera, a delta lobe or refraction beside straight glass: no light sample
+  /// competes.
+  bool delta = true;
+  int panes = 0;  ///< between `position` and the ray's origin
 
   /// Whether a light sample from `position` could have found the same light.
   bool competes() const { return !delta && panes <= Accel::kMaxPanes; }
@@ -83,14 +85,6 @@ inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uin
   ray.seed = hash(seed ^ 0x5bd1e995u);
   if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
   return ray;
-}
-
-/// Absorption per metre. Light has the colour c = exp(-absorption d) after the distance d. A black channel
-/// absorbs within a thousandth of the distance.
-inline Color absorption_of(const scene::Material& m) {
-  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
-  // Finite, so that no distance makes it NaN.
-  return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }
 
 /// Survival probability of Russian roulette: the square root of the throughput. In bright rooms, where long

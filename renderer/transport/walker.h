@@ -50,6 +50,7 @@ struct Meeting {
   Vec3 wo;                         ///< unit, back along the ray
   float cone_width;                ///< metres
   Color passed{1.0f, 1.0f, 1.0f};  ///< transmittance of the medium before the surface
+  bool straight = false;           ///< glass with an inside that does not bend this ray
   Emission emission;
   bool ends = false;                 ///< the path ends here
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
@@ -144,7 +145,13 @@ struct Walker {
       m.passed = (-absorption * hit.t).exp();
       throughput *= m.passed;
     }
-    const Surface& surface = m.surface;
+    Surface& surface = m.surface;
+    // Rays that light samples compete with go where shadow rays go.
+    if (!departure.delta && walk.world.coverage.is_straight_glass(hit.instance)) {
+      m.straight = true;
+      straighten(surface.material);
+      surface.shading_normal = surface.geometric_normal;
+    }
     m.emission.radiance = surface.emission;
     if (m.emission.any())
       m.emission.weight = emission_weight(walk.world, walk.mis, departure, hit, surface, ray.direction);
@@ -156,7 +163,9 @@ struct Walker {
   }
 
   /// Whether the kernels can shade what comes next: light_at, draw, survives and advance in one.
-  bool shades_wide(const Meeting& m) const { return !emission_only && renderer::shades_wide(m.surface); }
+  bool shades_wide(const Meeting& m) const {
+    return !emission_only && !m.straight && renderer::shades_wide(m.surface);
+  }
 
   /// Adds the path to a block that is not full. `which` is the caller's number of the path.
   void wait(const Meeting& m, std::uint32_t which, int min_depth, PathBlock& block) const {
@@ -187,6 +196,7 @@ struct Walker {
                    ? lights.sample_delta(m.surface.position, m.light_normal, choice, point)
                    : lights.sample(m.surface.position, m.light_normal, choice, point);
     if (!(at.light.pdf > 0.0f) || (kinds == LightKinds::shapes && at.light.delta)) return at;
+    if (refracts_alone(walk, m.surface) && at.light.wi.dot(m.surface.geometric_normal) < 0.0f) return at;
     at.value = bsdf.evaluate(at.light.wi);
     at.weight = (at.light.delta ? 1.0f : walk.mis.light_weight(at.light.pdf, at.value.pdf)) / at.light.pdf;
     return at;
@@ -231,12 +241,13 @@ struct Walker {
 
   /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
   bool advance(const Walk& walk, const Meeting& m, const Drawn& drawn) {
-    if (drawn.transmitted && !m.surface.material.thin_walled) {
+    if (drawn.transmitted && (m.straight || !m.surface.material.thin_walled)) {
       absorption = m.surface.front ? absorption_of(walk.world.surfaces.material(m.hit.instance))
                                    : Color(0.0f, 0.0f, 0.0f);
     }
+    const bool alone = drawn.transmitted && refracts_alone(walk, m.surface);
     return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
-                   m.surface.spawn(drawn.wi), m.ray);
+                   m.surface.spawn(drawn.wi), m.ray, alone);
   }
 
   /// The same for a lane of a block, after Walk::shading. `t` is the distance of its hit.
@@ -248,14 +259,22 @@ struct Walker {
   }
 
  private:
+  /// Whether light that the surface refracts is found by bounces alone. Where shadow rays pass glass unbent,
+  /// they would leave its inside unbent too.
+  static bool refracts_alone(const Walk& walk, const Surface& surface) {
+    return walk.world.coverage.straight_glass() && !surface.material.thin_walled &&
+           surface.material.transmission > 0.0f;
+  }
+
+  /// `alone`: no light sample competes with the next ray.
   bool advance(const Drawn& drawn, const Vec3& position, const Vec3& light_normal, float t, float cone_width,
-               const Vec3& origin, Ray& ray) {
+               const Vec3& origin, Ray& ray, bool alone = false) {
     if (drawn.through_pane) {
       departure.travelled += t;
       departure.panes += 1;
     } else {
       depth += 1;
-      departure = {position, light_normal, 0.0f, drawn.pdf, drawn.delta};
+      departure = {position, light_normal, 0.0f, drawn.pdf, drawn.delta || alone};
     }
     surfaces += 1;
     if (surfaces > depth + kMaxPassed) return false;

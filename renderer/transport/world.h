@@ -18,12 +18,13 @@ namespace gatelight::renderer {
 struct World {
   /// Works in the caller's arena. The scene must outlive the world. Throws what the members throw.
   explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},
-                 LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {})
+                 LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {},
+                 GlassShadows glass = GlassShadows::refract)
       : scene(scene_in),
         requirements(scene::compute_requirements(scene)),
         textures(scene),
         environment(sky),
-        coverage(scene, textures),
+        coverage(scene, textures, glass == GlassShadows::straight),
         surfaces(scene, textures),
         accel(scene, coverage, acceleration),
         lights(scene, textures, environment, selection),

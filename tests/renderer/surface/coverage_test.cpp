@@ -25,7 +25,7 @@ Color through(const scene::Scene& scene) {
   hit.u = 0.25f;
   hit.v = 0.25f;
   EXPECT_TRUE(coverage.filters_shadows(0));
-  return coverage.pane_transmittance(hit, Vec3(0, 0, -1));
+  return coverage.pass(hit, Vec3(0, 0, -1)).transmittance;
 }
 
 scene::Scene pane_of(const scene::Material& material, const scene::Image* image = nullptr) {
@@ -120,7 +120,7 @@ TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
     const Surface s = Surfaces(scene, textures).at(hit, direction, 0.0f, 0.0f);
     const Bsdf bsdf(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, -direction, s.front);
     const Color expected = bsdf.straight_transmittance();
-    const Color seen = Coverage(scene, textures).pane_transmittance(hit, direction);
+    const Color seen = Coverage(scene, textures).pass(hit, direction).transmittance;
     EXPECT_GT(expected.minCoeff(), 0.0f);
     EXPECT_TRUE(seen.isApprox(expected, 1e-5f)) << seen.transpose() << " and " << expected.transpose();
   }

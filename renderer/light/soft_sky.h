@@ -1,0 +1,16 @@
+#pragma once
+// Light for scenes that have none of their own.
+
+#include "renderer/light/environment_picture.h"
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+/// Whether some surface shows light that falls on it, but no light and no surface of the scene sends any.
+bool needs_light(const scene::Scene& scene);
+
+/// A grey-blue sky over a darker ground, with a broad bright spot at the upper left, behind a viewer who
+/// looks along -z. A white surface in it has a radiance near 1. Times `scale`.
+EnvironmentPicture make_soft_sky(float scale);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,50 @@
+#include "renderer/transport/view_check.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+std::string view_warning(const World& world, const Camera& camera, int width, int height) {
+  constexpr int kGrid = 32;
+  constexpr double kAll = kGrid * kGrid;
+  constexpr double kMostBacks = 0.75;
+  std::vector<Ray> rays;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      rays.push_back(camera
+                         .ray((static_cast<float>(x) + 0.5f) / kGrid * static_cast<float>(width),
+                              (static_cast<float>(y) + 0.5f) / kGrid * static_cast<float>(height))
+                         .ray);
+    }
+  }
+  std::vector<Hit> hits(rays.size());
+  world.accel.intersect(rays, hits, true);
+  int backs = 0, missed = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Hit& hit = hits[i];
+    if (!hit) {
+      missed += 1;
+      continue;
+    }
+    const scene::Instance& instance = world.scene.instances[hit.instance];
+    const scene::Material& material = world.scene.material_of(instance);
+    if (material.double_sided || material.transmits()) continue;
+    const Vec3 normal = scene::world_normal(world.scene, instance, hit.primitive);
+    backs += normal.dot(rays[i].direction) > 0.0f ? 1 : 0;
+  }
+  if (missed == static_cast<int>(rays.size())) {
+    return fmt::format("{}: the camera sees nothing: 100 % of its rays meet no surface", world.scene.path);
+  }
+  if (backs >= kMostBacks * kAll) {
+    return fmt::format("{}: the camera may stand inside an object: {:.0f} % of its rays meet back faces",
+                       world.scene.path, 100.0 * backs / kAll);
+  }
+  return "";
+}
+
+}  // namespace gatelight::renderer

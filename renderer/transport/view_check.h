@@ -1,0 +1,16 @@
+#pragma once
+// Whether a camera sees the scene.
+
+#include <string>
+
+#include "renderer/film/camera.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+/// One line for a view that shows nothing, or mostly the backs of surfaces that have no back side, as from
+/// inside an object; empty for any other. It tells the share of rays of a coarse grid over the picture. Size
+/// in pixels.
+std::string view_warning(const World& world, const Camera& camera, int width, int height);
+
+}  // namespace gatelight::renderer
