@@ -7,6 +7,7 @@
 #include "renderer/film/camera_choice.h"
 #include "renderer/machine/errors.h"
 #include "tests/support/messages.h"
+#include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -83,24 +84,42 @@ TEST(Camera, LookAtPutsTheTargetInTheCentreAndUpAbove) {
   EXPECT_THROW(choose_camera({}, options, 1.0f), BadOption);
 }
 
-TEST(Camera, AutoFramingHoldsTheWholeSceneAtAnyScaleAndAspect) {
-  for (float scale : {1e-3f, 1.0f, 1e6f}) {
-    for (float aspect : {0.4f, 1.0f, 2.5f}) {
-      scene::Scene s;
-      s.bounds = scene::Box(Vec3(-1, 0, 2) * scale, Vec3(3, 1, 4) * scale);
-      const int width = static_cast<int>(1000 * aspect);
-      const scene::Camera c = choose_camera(s, {}, aspect);
-      const scene::Affine to_camera(c.transform.inverse());
-      for (int i = 0; i < 8; ++i) {
-        const Vec3 corner = s.bounds.corner(static_cast<scene::Box::CornerType>(i));
-        const Vec3 p = to_camera * corner;
-        ASSERT_LT(p.z(), 0.0f);
-        EXPECT_LE(std::abs(p.y() / p.z()), std::tan(0.5f * c.vertical_fov));
-        EXPECT_LE(std::abs(p.x() / p.z()),
-                  std::tan(0.5f * c.vertical_fov) * static_cast<float>(width) / 1000.0f);
+TEST(Camera, AutoFramingFillsThePictureWithTheWholeSceneAtAnyScaleAndAspect) {
+  for (const float scale : {1e-3f, 1.0f, 1e6f}) {
+    for (const float aspect : {0.4f, 1.0f, 2.5f}) {
+      for (const Vec3& size : {Vec3(4, 1, 2), Vec3(1, 8, 1), Vec3(3, 3, 3)}) {
+        testing::SceneBuilder builder;
+        const Vec3 low = Vec3(-1, 0, 2) * scale, high = low + size * scale;
+        builder.box(builder.material({}), low, high);
+        const scene::Scene& s = builder.scene();
+        const scene::Camera c = choose_camera(s, {}, aspect);
+        const scene::Affine to_camera(c.transform.inverse());
+        const float top = std::tan(0.5f * c.vertical_fov);
+        scene::Box picture;  // in units of half the picture's height
+        for (int i = 0; i < 8; ++i) {
+          const Vec3 p = to_camera * s.bounds.corner(static_cast<scene::Box::CornerType>(i));
+          ASSERT_LT(p.z(), 0.0f);
+          picture.extend(Vec3(p.x(), p.y(), 0.0f) / (-p.z() * top));
+        }
+        EXPECT_LE(picture.max().y(), 1.0f);
+        EXPECT_GE(picture.min().y(), -1.0f);
+        EXPECT_LE(picture.max().x(), aspect);
+        EXPECT_GE(picture.min().x(), -aspect);
+        const float shorter = 2.0f * std::min(1.0f, aspect);
+        EXPECT_GE(picture.sizes().maxCoeff(), 2.0f / 3.0f * shorter);
+        EXPECT_LT(std::abs(picture.center().x()), 0.15f * aspect);
+        EXPECT_LT(std::abs(picture.center().y()), 0.15f);
       }
     }
   }
+}
+
+TEST(Camera, AutoFramingOfNothingAndOfAPointIsAView) {
+  EXPECT_TRUE(choose_camera({}, {}, 1.0f).transform.matrix().allFinite());
+  testing::SceneBuilder builder;
+  builder.mesh(builder.material({}), {Vec3(5, 5, 5), Vec3(5, 5, 5), Vec3(5, 5, 5)}, {{0, 1, 2}});
+  const scene::Camera c = choose_camera(builder.scene(), {}, 1.0f);
+  EXPECT_GT((c.transform.translation() - Vec3(5, 5, 5)).norm(), 0.0f);
 }
 
 TEST(Camera, TargetsAndUpsOfAnyLengthAreDirections) {

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
-#include <vector>
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
@@ -44,35 +42,97 @@ Vec2 random_2d(std::uint32_t i, std::uint32_t dimension) {
   return Sampler(SamplerKind::independent, 1, 0, 0, i).get_2d(dimension);
 }
 
-/// The share of light from above the smooth horizon, weighted by its cosine, that points of a ball lose.
-double lost_light(int segments) {
-  SceneBuilder builder;
-  builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 0, 0), 1.0f, segments, true);
-  const World world(builder.scene());
+/// Of the light that falls on a ball from above its smooth horizon, by the cosine, the share that its points
+/// lose.
+double lost_light(const scene::Scene& ball) {
+  const World world(ball);
   int lost = 0, all = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const Vec3 from = sample_uniform_sphere(random_2d(i, 0));
     Ray ray;
-    ray.origin = 3.0f * from;
+    ray.origin = 3.0f * sample_uniform_sphere(random_2d(i, 0));
     ray.direction = (0.7f * sample_uniform_sphere(random_2d(i, 2)) - ray.origin).normalized();
     const Hit hit = world.hit(ray);
     if (!hit) continue;
     const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
     const Vec3 wi = Basis(surface.smooth_normal).to_world(sample_cosine_hemisphere(random_2d(i, 4)));
+    const bool above = wi.dot(surface.geometric_normal) > 0.0f;
     all += 1;
-    if (!(wi.dot(surface.geometric_normal) > 0.0f)) {
-      lost += 1;
-    } else {
-      lost += world.blocked({surface.spawn(wi), scene::kInfinity, wi, i}) ? 1 : 0;
-    }
+    lost += above && !world.blocked({surface.spawn(wi), scene::kInfinity, wi, i}) ? 0 : 1;
   }
   return lost / static_cast<double>(all);
 }
 
+scene::Scene ball(int segments, bool smooth, const scene::Material& material) {
+  SceneBuilder builder;
+  builder.sphere(builder.material(material), Vec3(0, 0, 0), 1.0f, segments, smooth);
+  return builder.scene();
+}
+
 TEST(ShadowTerminator, ABallLosesNoLightToItsTriangles) {
   for (const int segments : {12, 24, 48}) {
-    std::printf("%d %.5f\n", segments, lost_light(segments));
+    const scene::Material clay = SceneBuilder::lambert(Color::Ones());
+    EXPECT_LT(lost_light(ball(segments, true, clay)), 1e-4) << segments;
+    EXPECT_LT(lost_light(ball(segments, false, clay)), 1e-4) << segments;
   }
+}
+
+TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoneEither) {
+  scene::Scene placed = ball(12, true, SceneBuilder::lambert(Color::Ones()));
+  for (const Vec3& scale : {Vec3(0.9f, 0.9f, 0.9f), Vec3(-0.9f, 0.9f, 0.9f)}) {
+    placed.instances[0].baked = false;
+    placed.instances[0].transform =
+        scene::Affine(Eigen::AngleAxisf(0.4f, Vec3(1, 2, 3).normalized())).scale(scale);
+    placed.instances[0].mirrors = scale.x() < 0.0f;
+    EXPECT_LT(lost_light(placed), 1e-4);
+  }
+}
+
+/// A view of a ball from the front, with this in it.
+Surface seen(const scene::Scene& s, const Vec3& eye, const Vec3& target) {
+  const World world(s);
+  Ray ray;
+  ray.origin = eye;
+  ray.direction = (target - eye).normalized();
+  const Hit hit = world.hit(ray);
+  EXPECT_TRUE(hit);
+  return world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+}
+
+TEST(ShadowTerminator, PointsRiseBetweenTheTrianglesAndTheTangentPlanes) {
+  const scene::Scene s = ball(12, true, SceneBuilder::lambert(Color::Ones()));
+  // The middle of an edge of the equator, and a quarter of it.
+  const float half = scene::kPi / 12.0f;
+  for (const float at : {0.5f, 0.25f}) {
+    const Vec3 a(1, 0, 0), b(std::cos(2.0f * half), 0, -std::sin(2.0f * half));
+    const Vec3 on_edge = a + (b - a) * at + Vec3(0, 1e-4f, 0);
+    const float radius = seen(s, 3.0f * on_edge, on_edge).position.norm();
+    EXPECT_GT(radius, on_edge.norm());
+    EXPECT_GT(radius, 0.999f);
+    EXPECT_LT(radius, 1.0f / std::cos(half));
+  }
+}
+
+TEST(ShadowTerminator, FlatHollowAndTransparentSurfacesStayWhereTheyAre) {
+  const Vec3 eye(0.3f, 0.4f, 2.5f), target(0.05f, 0.1f, 0.0f);
+  const auto stays = [&](const scene::Scene& s, const Vec3& from) {
+    const World world(s);
+    Ray ray;
+    ray.origin = from;
+    ray.direction = (target - from).normalized();
+    const Hit hit = world.hit(ray);
+    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Vec3 ng = scene::world_normal(s, s.instances[0], hit.primitive);
+    return (surface.position - (ray.origin + hit.t * ray.direction)).norm() < 1e-5f &&
+           std::abs(std::abs(surface.geometric_normal.dot(ng)) - 1.0f) < 1e-6f;
+  };
+  const scene::Material clay = SceneBuilder::lambert(Color::Ones());
+  scene::Material glass = SceneBuilder::clear_glass();
+  EXPECT_FALSE(stays(ball(12, true, clay), eye));
+  EXPECT_TRUE(stays(ball(12, false, clay), eye));
+  EXPECT_TRUE(stays(ball(12, true, clay), Vec3(0, 0.05f, -0.4f))) << "seen from its inside";
+  EXPECT_TRUE(stays(ball(12, true, glass), eye));
+  glass.thickness = 1.0f;
+  EXPECT_TRUE(stays(ball(12, true, glass), eye));
 }
 
 }  // namespace
