@@ -1,6 +1,7 @@
 #pragma once
 // Loads glTF 2.0. The loader checks every index, range, stride, count and number before use.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -9,12 +10,20 @@
 
 namespace gatelight::scene {
 
+/// What happens at the back faces of materials that are neither doubleSided nor transparent.
+enum class BackFaces : std::uint8_t {
+  show,   ///< they are seen and reflect, but do not emit
+  cull,   ///< rays pass them, as the specification wants it
+  light,  ///< they are seen, reflect and emit, as the front
+};
+
 struct LoadOptions {
   int scene = -1;       ///< index of the glTF scene; -1 means the file's default, or its first
   std::string variant;  ///< name of a KHR_materials_variants variant; empty means the default materials
   bool missing_is_error =
       true;                     ///< an unreadable texture is an error; else white replaces it, with a warning
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
+  BackFaces back_faces = BackFaces::show;
   bool bake_transforms = true;  ///< see scene/bake.h; if false, every instance stays an instance
 };
 

@@ -62,13 +62,16 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
-  bool unlit = false;  ///< KHR_materials_unlit
+  bool culled = false;  ///< rays pass its back faces (BackFaces::cull)
+  bool unlit = false;   ///< KHR_materials_unlit
 
-  float ior = 1.5f;                           ///< KHR_materials_ior; 0 means Fresnel is 1 everywhere
-  float specular = 1.0f;                      ///< KHR_materials_specular
-  TextureSlot specular_texture;               ///< A
-  Color specular_color{1.0f, 1.0f, 1.0f};     ///< KHR_materials_specular
-  TextureSlot specular_color_texture;         ///< RGB sRGB
+  float ior = 1.5f;                        ///< KHR_materials_ior; 0 means Fresnel is 1 everywhere
+  float specular = 1.0f;                   ///< KHR_materials_specular
+  TextureSlot specular_texture;            ///< A
+  Color specular_color{1.0f, 1.0f, 1.0f};  ///< KHR_materials_specular
+  TextureSlot specular_color_texture;      ///< RGB sRGB
+  /// A: multiplies 1 - roughness (KHR_materials_pbrSpecularGlossiness).
+  TextureSlot glossiness_texture;
   float transmission = 0.0f;                  ///< KHR_materials_transmission
   TextureSlot transmission_texture;           ///< R
   float thickness = 0.0f;                     ///< KHR_materials_volume; 0 is thin-walled

@@ -14,6 +14,8 @@ using namespace renderer;
 constexpr renderer::RealRange kStops{-100.0, 100.0};
 constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
 constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
+constexpr Choice<scene::BackFaces> kBackFaces[] = {
+    {"show", scene::BackFaces::show}, {"cull", scene::BackFaces::cull}, {"light", scene::BackFaces::light}};
 constexpr Choice<bool> kMissing[] = {{"error", true}, {"warn", false}};
 constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automatic},
                                                    {"bar", ProgressMode::bar},
@@ -61,11 +63,16 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, bake_transforms] = load;  // all are baked
+  auto& [scene, variant, missing_is_error, allow_external, back_faces, bake_transforms] =
+      load;  // all are baked
   group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
   group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
     return load.variant;
   };
+  group.add(choice(
+      "backfaces", back_faces, kBackFaces,
+      "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
+      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
   group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
   group.add(external_option(allow_external));
 }

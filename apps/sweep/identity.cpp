@@ -29,11 +29,12 @@ std::string scene_options(const RenderSettings& settings) {
                         text_of(camera.look_at->target), text_of(camera.look_at->up));
   }
   if (camera.fov_degrees) text += fmt::format(" fov {}", *camera.fov_degrees);
-  return text + fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}'",
-                            environment.file, environment.constant.x(), environment.constant.y(),
-                            environment.constant.z(), environment.automatic ? " auto" : "",
-                            environment.rotation_degrees, environment.scale, settings.load.scene,
-                            settings.load.variant);
+  return text +
+         fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
+                     environment.file, environment.constant.x(), environment.constant.y(),
+                     environment.constant.z(), environment.automatic ? " auto" : "",
+                     environment.rotation_degrees, environment.scale, settings.load.scene,
+                     settings.load.variant, static_cast<int>(settings.load.back_faces));
 }
 
 }  // namespace

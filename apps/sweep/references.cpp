@@ -117,6 +117,8 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   o.direct = defaults.direct;
   o.light_selection = defaults.light_selection;
   o.watertight = defaults.watertight;
+  // The cache is compared with what it should have learned, a picture with the true light.
+  if (kind != ReferenceKind::cache) o.glass_shadows = defaults.glass_shadows;
   o.min_depth = defaults.min_depth;
   o.clamp = 0.0f;
   // Radiance and occlusion have different limits of length.

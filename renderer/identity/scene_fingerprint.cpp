@@ -75,11 +75,12 @@ void add_material(DigestRecord& record, const scene::Material& material) {
   // Names every member: a new one in the struct stops this from compiling.
   const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
                metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
-               alpha_mode, alpha_cutoff, double_sided, unlit, ior, specular, specular_texture, specular_color,
-               specular_color_texture, transmission, transmission_texture, thickness, attenuation_distance,
-               attenuation_color, clearcoat, clearcoat_texture, clearcoat_roughness,
-               clearcoat_roughness_texture, clearcoat_normal_texture, clearcoat_normal_scale, sheen_color,
-               sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
+               alpha_mode, alpha_cutoff, double_sided, culled, unlit, ior, specular, specular_texture,
+               specular_color, specular_color_texture, glossiness_texture, transmission, transmission_texture,
+               thickness, attenuation_distance, attenuation_color, clearcoat, clearcoat_texture,
+               clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
+               clearcoat_normal_scale, sheen_color, sheen_color_texture, sheen_roughness,
+               sheen_roughness_texture] = material;
   for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color})
     add_numbers(record, *color);
   for (const float value :
@@ -87,12 +88,13 @@ void add_material(DigestRecord& record, const scene::Material& material) {
         attenuation_distance, clearcoat, clearcoat_roughness, clearcoat_normal_scale, sheen_roughness})
     record.add(value);
   for (const auto* slot : {&base_color_texture, &metallic_roughness_texture, &normal_texture,
-                           &emission_texture, &specular_texture, &specular_color_texture,
+                           &emission_texture, &specular_texture, &specular_color_texture, &glossiness_texture,
                            &transmission_texture, &clearcoat_texture, &clearcoat_roughness_texture,
                            &clearcoat_normal_texture, &sheen_color_texture, &sheen_roughness_texture})
     add_slot(record, *slot);
   record.add(alpha_mode);
   record.add(double_sided);
+  record.add(culled);
   record.add(unlit);
 }
 

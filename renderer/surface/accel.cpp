@@ -56,7 +56,8 @@ struct Context {
     rtcInitIntersectContext(&embree);
     embree.flags = flags;
   }
-  bool lets_pass(const Hit& hit, const Lane& lane) const {
+  bool lets_pass(const Hit& hit, bool back, const Lane& lane) const {
+    if (back && coverage->culls_backs(hit.instance)) return true;
     return coverage->tests_alpha(hit.instance) && !coverage->is_there(hit, lane.seed);
   }
 };
@@ -75,12 +76,20 @@ Hit candidate(const RTCFilterFunctionNArguments* args, unsigned i) {
   return hit;
 }
 
-void alpha_filter(const RTCFilterFunctionNArguments* args) {
+/// Whether the ray meets the back of its triangle. Both are in the space of the mesh.
+bool meets_back(const RTCFilterFunctionNArguments* args, unsigned i) {
+  return RTCHitN_Ng_x(args->hit, args->N, i) * RTCRayN_dir_x(args->ray, args->N, i) +
+             RTCHitN_Ng_y(args->hit, args->N, i) * RTCRayN_dir_y(args->ray, args->N, i) +
+             RTCHitN_Ng_z(args->hit, args->N, i) * RTCRayN_dir_z(args->ray, args->N, i) >
+         0.0f;
+}
+
+void ray_filter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
-    if (context.lets_pass(candidate(args, i), lane)) args->valid[i] = 0;
+    if (context.lets_pass(candidate(args, i), meets_back(args, i), lane)) args->valid[i] = 0;
   }
 }
 
@@ -90,7 +99,7 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] != -1) continue;
     Lane& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
     const Hit hit = candidate(args, i);
-    if (context.lets_pass(hit, lane)) {
+    if (context.lets_pass(hit, meets_back(args, i), lane)) {
       args->valid[i] = 0;
       continue;
     }
@@ -230,7 +239,9 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
                                0, sizeof(Vec3), mesh.positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(mesh.triangles[0]), mesh.triangles.size());
-    if (coverage.tests_alpha(instance)) rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+    if (coverage.tests_alpha(instance) || coverage.culls_backs(instance)) {
+      rtcSetGeometryIntersectFilterFunction(geometry, ray_filter);
+    }
     if (coverage.filters_shadows(instance)) {
       rtcSetGeometryOccludedFilterFunction(geometry, shadow_filter);
       state.any_filter = true;

@@ -49,6 +49,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures, bool str
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& m = scene.material_of(scene.instances[i]);
     if (m.alpha_mode != scene::AlphaMode::opaque) flags_[i] |= kAlpha;
+    if (m.culled) flags_[i] |= kCulled;
     const bool smooth =
         m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();

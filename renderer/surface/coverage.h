@@ -34,7 +34,9 @@ class Coverage {
 
   /// Whether rays may pass through this instance because it has an alpha test.
   bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }
-  /// Whether shadow rays may pass through this instance: it has an alpha test, is a pane, or
+  /// Whether rays pass the back faces of this instance.
+  bool culls_backs(std::uint32_t instance) const { return flags_[instance] & kCulled; }
+  /// Whether shadow rays may pass through this instance: it has an alpha test, is a pane, is culled, or
   /// is glass that shadow rays pass.
   bool filters_shadows(std::uint32_t instance) const { return flags_[instance] != 0; }
 
@@ -56,6 +58,7 @@ class Coverage {
   static constexpr std::uint8_t kAlpha = 1;
   static constexpr std::uint8_t kPane = 2;
   static constexpr std::uint8_t kStraightGlass = 4;
+  static constexpr std::uint8_t kCulled = 8;
 
   float alpha(const Hit& hit) const;
 

@@ -185,6 +185,10 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     s.material.roughness *= t.y();
     s.material.metallic *= t.z();
   }
+  if (m.glossiness_texture) {
+    const float glossiness = read(m.glossiness_texture, Encoding::srgb).w();
+    s.material.roughness = 1.0f - (1.0f - s.material.roughness) * glossiness;
+  }
   s.material.ior = m.ior;
   s.material.specular = m.specular;
   s.material.specular_color = m.specular_color;

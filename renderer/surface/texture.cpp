@@ -202,6 +202,7 @@ Textures::Textures(const scene::Scene& scene) {
     need(m.base_color_texture, Encoding::srgb);
     need(m.emission_texture, Encoding::srgb);
     need(m.specular_color_texture, Encoding::srgb);
+    need(m.glossiness_texture, Encoding::srgb);
     need(m.sheen_color_texture, Encoding::srgb);
     for (const scene::TextureSlot* slot :
          {&m.metallic_roughness_texture, &m.normal_texture, &m.specular_texture, &m.transmission_texture,

@@ -33,7 +33,7 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
     }
     const scene::Instance& instance = world.scene.instances[hit.instance];
     const scene::Material& material = world.scene.material_of(instance);
-    if (material.double_sided || material.transmits()) continue;
+    if (material.double_sided || material.culled || material.transmits()) continue;
     const Vec3 normal = scene::world_normal(world.scene, instance, hit.primitive);
     backs += normal.dot(rays[i].direction) > 0.0f ? 1 : 0;
   }

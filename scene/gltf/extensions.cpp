@@ -8,12 +8,15 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 15> kSupported = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_sheen",     "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",     "KHR_materials_variants",
-    "KHR_materials_volume",       "KHR_mesh_quantization",   "KHR_texture_transform"};
+constexpr std::array<std::string_view, 16> kSupported = {
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_sheen",
+    "KHR_materials_specular",     "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_mesh_quantization",
+    "KHR_texture_transform",      "KHR_materials_pbrSpecularGlossiness"};
 
 bool is_supported(std::string_view name) {
   return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();

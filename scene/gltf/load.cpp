@@ -135,6 +135,9 @@ class Loader {
       for_each_slot(material, [&](TextureSlot& slot) {
         if (slot) slot.texture = textures.number_of(slot.texture);
       });
+      const bool one_sided = !material.double_sided && !material.transmits();
+      material.culled = one_sided && options_.back_faces == BackFaces::cull;
+      material.double_sided |= material.emits() && options_.back_faces == BackFaces::light;
       scene_.materials.push_back(std::move(material));
     }
     for (const int original : textures.order()) {

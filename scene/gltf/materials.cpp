@@ -25,14 +25,15 @@ class Converter {
   Material convert(const json& source) {
     Material m;
     m.name = source.value("name", "");
-    const json pbr = source.value("pbrMetallicRoughness", json::object());
-    const auto base = vector_or<Eigen::Vector4d>(pbr, "baseColorFactor", Eigen::Vector4d::Ones());
-    m.base_color = unit(base.head<3>(), "baseColorFactor");
-    m.base_alpha = unit(base[3], "baseColorFactor");
-    m.base_color_texture = slot(pbr, "baseColorTexture");
-    m.metallic = unit(pbr, "metallicFactor", 1.0);
-    m.roughness = unit(pbr, "roughnessFactor", 1.0);
-    m.metallic_roughness_texture = slot(pbr, "metallicRoughnessTexture");
+    if (const json* old = find_extension(source, "KHR_materials_pbrSpecularGlossiness")) {
+      read_specular_glossiness(*old, m);
+    } else {
+      const json pbr = source.value("pbrMetallicRoughness", json::object());
+      read_base(pbr, "baseColorFactor", "baseColorTexture", m);
+      m.metallic = unit(pbr, "metallicFactor", 1.0);
+      m.roughness = unit(pbr, "roughnessFactor", 1.0);
+      m.metallic_roughness_texture = slot(pbr, "metallicRoughnessTexture");
+    }
     m.normal_texture = slot(source, "normalTexture");
     m.normal_scale = normal_scale(source, "normalTexture");
     m.emission_texture = slot(source, "emissiveTexture");
@@ -49,6 +50,25 @@ class Converter {
   }
 
  private:
+  void read_base(const json& object, const char* factor, const char* texture, Material& m) {
+    const auto base = vector_or<Eigen::Vector4d>(object, factor, Eigen::Vector4d::Ones());
+    m.base_color = unit(base.head<3>(), factor);
+    m.base_alpha = unit(base[3], factor);
+    m.base_color_texture = slot(object, texture);
+  }
+
+  /// The older material model: a dielectric whose reflectance at normal incidence is a colour.
+  /// KHR_materials_ior keeps the index 0 for this: its Fresnel reflectance is 1, which the colour scales.
+  void read_specular_glossiness(const json& old, Material& m) {
+    read_base(old, "diffuseFactor", "diffuseTexture", m);
+    m.metallic = 0.0f;
+    m.ior = 0.0f;
+    m.specular_color =
+        unit(vector_or<Eigen::Vector3d>(old, "specularFactor", Eigen::Vector3d::Ones()), "specularFactor");
+    m.roughness = 1.0f - unit(old, "glossinessFactor", 1.0);
+    m.specular_color_texture = m.glossiness_texture = slot(old, "specularGlossinessTexture");
+  }
+
   void read_extensions(const json& material, Material& m) {
     m.unlit = find_extension(material, "KHR_materials_unlit") != nullptr;
     if (const json* e = find_extension(material, "KHR_materials_emissive_strength")) {
@@ -101,7 +121,8 @@ class Converter {
         if (!condition) *slot = {};
       }
     };
-    keep(!m.unlit, {&m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture});
+    keep(!m.unlit,
+         {&m.metallic_roughness_texture, &m.glossiness_texture, &m.normal_texture, &m.emission_texture});
     keep(m.emits(), {&m.emission_texture});
     keep(!m.unlit && m.specular > 0.0f, {&m.specular_texture, &m.specular_color_texture});
     keep(!m.unlit && m.transmits(), {&m.transmission_texture});

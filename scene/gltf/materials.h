@@ -24,6 +24,7 @@ void for_each_slot(M& m, const Visit& visit) {
   visit(m.emission_texture);
   visit(m.specular_texture);
   visit(m.specular_color_texture);
+  visit(m.glossiness_texture);
   visit(m.transmission_texture);
   visit(m.clearcoat_texture);
   visit(m.clearcoat_roughness_texture);

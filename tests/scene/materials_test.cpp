@@ -99,6 +99,60 @@ TEST(Materials, EmissiveStrengthMultiplies) {
   EXPECT_TRUE(only_material(material).emission.isApprox(Color(40, 20, 0)));
 }
 
+TEST(Materials, SpecularAndGlossinessBecomeADielectricOfThatReflectance) {
+  json material =
+      extension("KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                                                        {"diffuseTexture", {{"index", 0}}},
+                                                        {"specularFactor", {0.5, 0.6, 0.7}},
+                                                        {"glossinessFactor", 0.75},
+                                                        {"specularGlossinessTexture", {{"index", 1}}}});
+  material["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0, 0, 1}}, {"metallicFactor", 1}};
+  const Material m = only_material(material);
+  EXPECT_TRUE(m.base_color.isApprox(Color(0.1f, 0.2f, 0.3f)));
+  EXPECT_FLOAT_EQ(m.base_alpha, 0.4f);
+  EXPECT_EQ(m.metallic, 0.0f);
+  EXPECT_EQ(m.ior, 0.0f);
+  EXPECT_TRUE(m.specular_color.isApprox(Color(0.5f, 0.6f, 0.7f)));
+  EXPECT_FLOAT_EQ(m.roughness, 0.25f);
+  EXPECT_TRUE(m.base_color_texture && m.specular_color_texture);
+  EXPECT_EQ(m.glossiness_texture.texture, m.specular_color_texture.texture);
+  const Material defaults = only_material(extension("KHR_materials_pbrSpecularGlossiness", json::object()));
+  EXPECT_TRUE((defaults.specular_color == 1.0f).all());
+  EXPECT_EQ(defaults.roughness, 0.0f);
+}
+
+TEST(Materials, BackFacesAreShownCulledOrLitAsAsked) {
+  GltfBuilder file;
+  for (const bool double_sided : {false, true}) {
+    for (const bool emits : {false, true}) {
+      json primitive = file.triangle();
+      primitive["material"] = file.add("materials", {{"doubleSided", double_sided},
+                                                     {"emissiveFactor", json::array({emits ? 1 : 0, 0, 0})}});
+      file.node({{"mesh", file.mesh(primitive)}});
+    }
+  }
+  json glass = extension("KHR_materials_transmission", {{"transmissionFactor", 1}});
+  json primitive = file.triangle();
+  primitive["material"] = file.add("materials", glass);
+  file.node({{"mesh", file.mesh(primitive)}});
+  const auto loaded = [&](BackFaces back_faces) {
+    GltfBuilder copy = file;
+    std::vector<std::pair<bool, bool>> sides;
+    for (const Material& m : copy.load({.back_faces = back_faces}).materials)
+      sides.emplace_back(m.double_sided, m.culled);
+    return sides;
+  };
+  using Sides = std::pair<bool, bool>;
+  EXPECT_THAT(loaded(BackFaces::show),
+              ElementsAre(Sides(false, false), Sides(false, false), Sides(true, false), Sides(true, false),
+                          Sides(false, false)));
+  EXPECT_THAT(loaded(BackFaces::cull), ElementsAre(Sides(false, true), Sides(false, true), Sides(true, false),
+                                                   Sides(true, false), Sides(false, false)));
+  EXPECT_THAT(loaded(BackFaces::light),
+              ElementsAre(Sides(false, false), Sides(true, false), Sides(true, false), Sides(true, false),
+                          Sides(false, false)));
+}
+
 TEST(Materials, IorSpecularAndUnlit) {
   EXPECT_FLOAT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 1.33}})).ior, 1.33f);
   EXPECT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0.0f);

@@ -268,9 +268,10 @@ TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
   words.scene_flags = {"hall:camera=gate=1", "a/hall.glb:environment=1,1,1"};
   const SweepPlan plan = make_plan(make_request(words));
   EXPECT_EQ(plan.scenes[0].series[0].settings.render.camera.name, "front");
-  EXPECT_TRUE(plan.scenes[0].series[0].settings.render.environment.none());
+  EXPECT_TRUE(plan.scenes[0].series[0].settings.render.environment.automatic);
   for (const PlannedSeries& series : plan.scenes[1].series) {
     EXPECT_EQ(series.settings.render.camera.name, "gate=1");
+    EXPECT_FALSE(series.settings.render.environment.automatic);
     EXPECT_FALSE(series.settings.render.environment.none());
     EXPECT_THAT(series.flags, Contains(Pair("--camera", "gate=1")));
   }

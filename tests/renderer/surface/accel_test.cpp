@@ -74,6 +74,29 @@ TEST(Accel, BatchesOfAnySizeAgreeWithSingleRays) {
   }
 }
 
+TEST(Accel, RaysPassCulledBackFaces) {
+  SceneBuilder builder;
+  scene::Material clay = SceneBuilder::lambert(Color::Ones());
+  clay.culled = true;
+  builder.quad(builder.material(clay), Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));
+  scene::Scene& s = builder.scene();
+  const auto expect_culled_from_behind = [&] {
+    const Tracer tracer(s);
+    const Vec3 front(0.1f, 0.2f, 1), back(0.1f, 0.2f, -1);
+    EXPECT_TRUE(tracer.hit(front, Vec3(0, 0, -1)));
+    EXPECT_FALSE(tracer.hit(back, Vec3(0, 0, 1)));
+    EXPECT_TRUE((tracer.passed(front, Vec3(0, 0, -1), 2.0f) == 0.0f).all());
+    EXPECT_TRUE((tracer.passed(back, Vec3(0, 0, 1), 2.0f) == 1.0f).all());
+  };
+  expect_culled_from_behind();
+  s.instances[0].baked = false;
+  expect_culled_from_behind();
+  // A mirrored node keeps its fronts in front.
+  s.instances[0].transform.linear().col(0) = Vec3(-1, 0, 0);
+  s.instances[0].mirrors = true;
+  expect_culled_from_behind();
+}
+
 /// From a metre scene of millimetres to one of a thousand kilometres, and far from the origin.
 class AccelScale : public ::testing::TestWithParam<std::pair<float, float>> {};
 

@@ -193,6 +193,15 @@ TEST(Surfaces, HaveTheFactorsOfTheirMaterial) {
   EXPECT_FALSE(front_of(painted(m)).material.thin_walled);
 }
 
+TEST(Surfaces, GlossinessIsTheAlphaOfItsTexture) {
+  scene::Material m = rich_material();
+  m.roughness = 0.25f;
+  m.glossiness_texture.texture = 0;
+  const scene::Scene scene = painted(m);
+  const float alpha = static_cast<float>(scene.images[0].pixels[3]) / 255.0f;
+  EXPECT_NEAR(front_of(scene).material.roughness, 1.0f - 0.75f * alpha, 1e-6f);
+}
+
 TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
   for (const int set : {0, 1}) {
     scene::Material m = rich_material();
