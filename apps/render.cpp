@@ -19,6 +19,7 @@
 #include "apps/terminal/text.h"
 #include "neural/base/errors.h"
 #include "renderer/film/memory_estimate.h"
+#include "renderer/image/auto_exposure.h"
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
@@ -112,12 +113,15 @@ class RenderRun {
   }
 
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
-  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) const {
+  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
+    renderer::ImageWriteOptions image = settings_.image;
+    if (!settings_.exposure) image.exposure = renderer::auto_exposure(picture);
+    report_.exposure = image.exposure;
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
     for (const std::string& output : settings_.outputs) {
       try {
-        renderer::write_image(picture, output, settings_.image);
+        renderer::write_image(picture, output, image);
       } catch (...) {
         if (!first_error) first_error = std::current_exception();
       }
@@ -186,6 +190,10 @@ class RenderRun {
 };
 
 int run_render(RenderSettings settings, const std::vector<std::string>& command) {
+  if (settings.preset && settings.render.integrator == renderer::Integrator::nrc &&
+      !settings.given.contains("--exposure")) {
+    settings.exposure.reset();
+  }
   complete_settings(settings);
   check_files(settings);
   set_log_level(settings.quiet, settings.verbose);

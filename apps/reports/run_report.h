@@ -15,6 +15,7 @@ struct RunReport {
   double load_seconds = 0.0;
   double write_seconds = 0.0;
   double total_seconds = 0.0;
+  float exposure = 0.0f;  ///< of the PNG files, in stops
   std::vector<std::string> warnings;
   int signal = 0;  ///< that stopped the run; 0: none
 };

@@ -45,6 +45,10 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
                       s.threads, s.threads == 1 ? "" : "s", error);
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, s.render_seconds) * 1e-6);
+  if (!settings.exposure) {
+    text += fmt::format("exposure  {:.1f} EV by the picture's light; --exposure {:.1f} keeps it\n",
+                        report.exposure, report.exposure);
+  }
   text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",
                       format_bytes(peak_resident_bytes()), format_bytes(s.geometry_bytes),
                       format_bytes(s.bvh_bytes), format_bytes(s.texture_bytes));

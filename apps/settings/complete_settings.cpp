@@ -210,6 +210,7 @@ std::set<std::string> flags_without_effect(RenderSettings settings) {
 void complete_settings(RenderSettings& settings) {
   if (settings.quiet && settings.verbose)
     throw UsageError("--quiet and --verbose exclude each other, expected one");
+  settings.image.exposure = settings.exposure.value_or(0.0f);
   complete_view(settings);
   check_picture(settings.render);
   refuse_without_effect(settings);

@@ -23,15 +23,18 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
                                                    {"none", ProgressMode::none}};
 
 void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
-                       renderer::ImageWriteOptions& image) {
-  auto& [exr_float, exposure, tonemap] = image;
+                       renderer::ImageWriteOptions& image, std::optional<float>& stops) {
+  auto& [exr_float, exposure, tonemap] = image;  // `stops` sets the exposure
   Option& output = group.add(
       any_words("output", outputs, "FILE", "Picture to write, .exr or .png; may be given several times"));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
   group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
-  group.add(number("exposure", exposure, kStops, "EV", "Stops by which PNG files are brighter"));
+  group.add(number_or(
+      "auto", "exposure", stops, kStops, "EV",
+      "Stops by which PNG files are brighter; auto: by the picture's own light, told at the end; the "
+      "presets of radiance have auto"));
   group.add(choice("tonemap", tonemap, "Curve of PNG files"));
 }
 
@@ -115,12 +118,12 @@ Option positional(const char* name, std::string& member, const char* help) {
 
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
-  auto& [scene, outputs, render, load, image, eye, target, up, config, stats, progress, reproducible, quiet,
-         verbose, preset, given] = settings;
+  auto& [scene, outputs, render, load, image, exposure, eye, target, up, config, stats, progress,
+         reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
   OptionGroup output{table, "Output"};
-  add_picture_files(output, outputs, image);
+  add_picture_files(output, outputs, image, exposure);
   add_call_options(output, stats, progress, reproducible, quiet, verbose);
   OptionGroup view{table, "Scene and view"};
   for (Option& option : renderer::option_table(render)) {

@@ -21,6 +21,8 @@ struct RenderSettings {
   renderer::RenderOptions render{.environment = {.automatic = true}};
   scene::LoadOptions load;
   renderer::ImageWriteOptions image;
+  /// In stops; none: auto_exposure() of the picture. complete_settings() makes image.exposure of it.
+  std::optional<float> exposure = 0.0f;
   std::optional<std::array<float, 3>>
       eye;  ///< complete_settings() makes render.camera.look_at of these three
   std::optional<std::array<float, 3>> target;

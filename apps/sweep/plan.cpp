@@ -47,6 +47,9 @@ RenderSettings settle(FlagValues& flags) {
     }
     if (!has_cache) dropped |= drop_flag(flags, "--spp");
   }
+  if (!settings.exposure) {
+    throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
+  }
   complete_settings(settings);
   return settings;
 }

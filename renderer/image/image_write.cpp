@@ -57,10 +57,12 @@ std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWrite
   const float scale = exposure_scale(options.exposure);
   std::vector<std::uint8_t> bytes(3 * pixels);
   for (std::size_t p = 0; p < pixels; ++p) {
+    scene::Color color;
     for (std::size_t c = 0; c < 3; ++c) {
-      const float value = beauty.values[p * channels + std::min(c, channels - 1)];
-      bytes[3 * p + c] = display_byte(value, scale, options.tonemap);
+      color[static_cast<Eigen::Index>(c)] = beauty.values[p * channels + std::min(c, channels - 1)];
     }
+    const std::array<std::uint8_t, 3> shown = display_color(color, scale, options.tonemap);
+    std::copy(shown.begin(), shown.end(), &bytes[3 * p]);
   }
   return bytes;
 }

@@ -1,25 +1,36 @@
 #pragma once
 // Converts linear light to the bytes that a screen shows.
 
+#include <array>
 #include <cstdint>
 
 #include "scene/math.h"
 
 namespace gatelight::renderer {
 
+/// Curves from radiance to what a screen shows. In all of them but `none` and `filmic` bright colours lose
+/// saturation as film does, and hues hold.
 enum class Tonemap : std::uint8_t {
-  none,    ///< values above 1 are clamped
-  filmic,  ///< a smooth shoulder and toe
+  none,     ///< values above 1 are clamped
+  filmic,   ///< K. Narkowicz's fit of the ACES curve, for each channel alone (2016)
+  neutral,  ///< Khronos PBR Neutral (2024): colours below 0.8 stay as they are but for 0.04 of glare
+  aces,     ///< S. Hill's fit of the ACES reference and output transforms (2017), in ACES' working space
+  agx,      ///< B. Wrensch's fit of T. Sobotka's AgX, its base look (2023)
 };
 
-/// K. Narkowicz's fit of the ACES reference curve (2016): x(2.51x + 0.03) / (x(2.43x + 0.59) + 0.14), clamped
-/// to [0, 1]. Input and output are linear; each channel is separate.
+/// x(2.51x + 0.03) / (x(2.43x + 0.59) + 0.14), clamped to [0, 1]. Input and output are linear.
 float filmic(float x);
 
-/// The byte of one channel: x times exposure_scale, through the curve and sRGB, rounded to nearest.
+/// Linear colours of Rec. 709, to be shown by a screen of that gamut: in [0, 1]. NaN and negative values
+/// count as 0.
+scene::Color tonemapped(const scene::Color& color, Tonemap tonemap);
+
+/// The bytes of a colour: times exposure_scale, through the curve and sRGB, rounded to nearest.
+std::array<std::uint8_t, 3> display_color(const scene::Color& color, float exposure_scale, Tonemap tonemap);
+/// The same of a grey.
 std::uint8_t display_byte(float x, float exposure_scale, Tonemap tonemap);
 
-/// 2^stops, the exposure_scale of display_byte().
+/// 2^stops, the exposure_scale of display_color().
 float exposure_scale(float stops);
 
 }  // namespace gatelight::renderer

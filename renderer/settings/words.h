@@ -80,7 +80,11 @@ inline constexpr Choice<CachePreset> kWords<CachePreset>[] = {
     {"standard", CachePreset::standard},   {"final", CachePreset::final},
     {"paper-nao", CachePreset::paper_nao}, {"paper-nrc", CachePreset::paper_nrc}};
 template <>
-inline constexpr Choice<Tonemap> kWords<Tonemap>[] = {{"none", Tonemap::none}, {"filmic", Tonemap::filmic}};
+inline constexpr Choice<Tonemap> kWords<Tonemap>[] = {{"none", Tonemap::none},
+                                                      {"filmic", Tonemap::filmic},
+                                                      {"neutral", Tonemap::neutral},
+                                                      {"aces", Tonemap::aces},
+                                                      {"agx", Tonemap::agx}};
 template <>
 inline constexpr Choice<neural::FeatureEncoding> kWords<neural::FeatureEncoding>[] = {
     {"none", neural::FeatureEncoding::none},

@@ -32,11 +32,14 @@ RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
 RgbPlanes read_shown(const NamedPicture& named, const char* measure, float exposure, Tonemap tonemap) {
   RgbPlanes planes = read_planes(named, measure);
   const float scale = exposure_scale(exposure);
-  for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
-    *plane = plane->unaryExpr([&](float x) {
-      const float exposed = x * scale;
-      return tonemap == Tonemap::filmic ? filmic(exposed) : std::min(exposed, 1.0f);
-    });
+  for (Eigen::Index i = 0; i < planes.r.size(); ++i) {
+    float& r = planes.r.data()[i];
+    float& g = planes.g.data()[i];
+    float& b = planes.b.data()[i];
+    const scene::Color shown = tonemapped(scene::Color(r, g, b) * scale, tonemap);
+    r = shown[0];
+    g = shown[1];
+    b = shown[2];
   }
   return planes;
 }

@@ -1,0 +1,33 @@
+#include "renderer/image/auto_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scene/math.h"
+
+namespace gatelight::renderer {
+
+float auto_exposure(const Picture& picture) {
+  constexpr double kGrey = 0.18, kBright = 32.0, kShare = 0.98;
+  const Layer& beauty = picture.layers.front();
+  const std::size_t channels = beauty.channels.size();
+  std::vector<float> lit;
+  double logs = 0.0;
+  for (std::size_t i = 0; i + channels <= beauty.values.size(); i += channels) {
+    const float* v = &beauty.values[i];
+    const float y = channels < 3 ? v[0] : scene::luminance(scene::Color(v[0], v[1], v[2]));
+    if (!(y > 1e-6f) || !std::isfinite(y)) continue;
+    lit.push_back(y);
+    logs += std::log(static_cast<double>(y));
+  }
+  if (lit.empty()) return 0.0f;
+  const double average = std::exp(logs / static_cast<double>(lit.size()));
+  const auto bright = lit.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), bright, lit.end());
+  const double stops =
+      std::min(std::log2(kGrey / average), std::log2(kBright / static_cast<double>(*bright)));
+  return static_cast<float>(std::round(10.0 * stops) / 10.0);
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,13 @@
+#pragma once
+// The exposure that suits a picture.
+
+#include "renderer/image/picture.h"
+
+namespace gatelight::renderer {
+
+/// In stops, to a tenth: brings the log-average of the luminance to a middle grey of 0.18 (Reinhard et al.
+/// 2002, equation 1), but the pixel that 98 % do not exceed to at most 32, so that a picture that is mostly
+/// sky or window keeps it. Black pixels do not count. 0 for a picture without light.
+float auto_exposure(const Picture& picture);
+
+}  // namespace gatelight::renderer
