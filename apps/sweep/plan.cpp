@@ -50,6 +50,8 @@ RenderSettings settle(FlagValues& flags) {
   if (!settings.exposure) {
     throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
   }
+  // A preset alone would let each picture choose its exposure.
+  if (find_flag(flags, "--preset") && !find_flag(flags, "--exposure")) set_flag(flags, "--exposure", "0");
   complete_settings(settings);
   return settings;
 }

@@ -1,5 +1,6 @@
 // Real renders through the real program.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -268,6 +269,25 @@ TEST_F(RenderCommand, AnErrorThatIsNotReachedIsTold) {
   const Output missed = render({"-o", path("a.png"), "--max-error", "1e-9", "--spp", "8"});
   ASSERT_EQ(missed.exit_code, 0) << missed.err;
   EXPECT_THAT(missed.err, HasSubstr("--spp ended it first"));
+}
+
+TEST_F(RenderCommand, APresetFindsTheExposureOfItsPngAndTellsIt) {
+  const std::vector<std::string> preset = {"--preset", "preview", "--spp", "2", "--train-steps", "1"};
+  const auto exposed = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = preset;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return render_open(arguments);
+  };
+  const Output found = exposed({"-o", path("auto.png"), "--stats", path("auto.json")});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const double stops = json::parse(read_file(path("auto.json")))["exposure"];
+  EXPECT_NE(stops, 0.0);
+  EXPECT_THAT(found.err, HasSubstr(fmt::format("--exposure {:.1f} keeps it", stops)));
+  const Output kept = exposed({"-o", path("kept.png"), "--exposure", fmt::format("{:.1f}", stops)});
+  EXPECT_EQ(read_file(path("auto.png")), read_file(path("kept.png")));
+  EXPECT_THAT(kept.err, Not(HasSubstr("exposure")));
+  // Without a preset radiance stays what it is.
+  EXPECT_THAT(render_open({"-o", path("plain.png")}).err, Not(HasSubstr("exposure")));
 }
 
 TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {

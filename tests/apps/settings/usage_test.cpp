@@ -89,9 +89,10 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
     EXPECT_THAT(render.out, HasSubstr(word));
   }
   EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
-  EXPECT_THAT(run_gatelight({"info", "--help"}).out,
-              AllOf(HasSubstr("Examples:"), HasSubstr("--integrator path|ao|nao|nrc"),
-                    HasSubstr("--stack LIST"), HasSubstr("--environment FILE"), HasSubstr("[warn]")));
+  EXPECT_THAT(
+      run_gatelight({"info", "--help"}).out,
+      AllOf(HasSubstr("Examples:"), HasSubstr("--integrator path|ao|nao|nrc"), HasSubstr("--stack LIST"),
+            HasSubstr("--environment auto|none|r,g,b|FILE"), HasSubstr("[warn]")));
   EXPECT_THAT(run_gatelight_inside({"merge", "--help"}).out, HasSubstr("Example:"));
 }
 
