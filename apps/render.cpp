@@ -10,6 +10,7 @@
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/unused_flags.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -83,6 +84,7 @@ class RenderRun {
 
  private:
   scene::Scene load() {
+    for (const std::string& unused : unused_output_flags(settings_)) warn(unused);
     progress_.phase("load");
     const Clock::time_point start = Clock::now();
     scene::Scene scene = scene::load_gltf(settings_.scene, settings_.load);
@@ -115,8 +117,8 @@ class RenderRun {
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
     renderer::ImageWriteOptions image = settings_.image;
-    if (!settings_.exposure) image.exposure = renderer::auto_exposure(picture);
-    report_.exposure = image.exposure;
+    if (!settings_.exposure) image.display.exposure = renderer::auto_exposure(picture);
+    report_.exposure = image.display.exposure;
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
     for (const std::string& output : settings_.outputs) {

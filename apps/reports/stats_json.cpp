@@ -77,6 +77,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["interrupted"] = s.interrupted;
   json["ended_by"] = name_of(kEnds, s.ended_by);
   if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
+  if (settings.render.reconstruct) json["lost_light"] = s.lost_light;
   json["exposure"] = report.exposure;
   if (report.signal != 0) json["signal"] = report.signal;
   json["seconds"] = seconds(report, with_cache, settings.render.reconstruct);

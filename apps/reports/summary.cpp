@@ -40,6 +40,9 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
     error += fmt::format(", not {}: {} ended it first", format_percent(settings.render.max_error),
                          s.ended_by == EndedBy::spp ? "--spp" : "--time-limit");
   }
+  constexpr double kToldLoss = 0.001;
+  if (s.lost_light >= kToldLoss)
+    error += fmt::format("; lost with fireflies {} of the light", format_percent(s.lost_light));
   text += fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}{}\n",
                       format_integer(s.samples), s.spp, per_second(samples, s.render_seconds) * 1e-6,
                       s.threads, s.threads == 1 ? "" : "s", error);

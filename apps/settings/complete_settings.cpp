@@ -210,7 +210,7 @@ std::set<std::string> flags_without_effect(RenderSettings settings) {
 void complete_settings(RenderSettings& settings) {
   if (settings.quiet && settings.verbose)
     throw UsageError("--quiet and --verbose exclude each other, expected one");
-  settings.image.exposure = settings.exposure.value_or(0.0f);
+  settings.image.display.exposure = settings.exposure.value_or(0.0f);
   complete_view(settings);
   check_picture(settings.render);
   refuse_without_effect(settings);
@@ -229,6 +229,7 @@ void check_files(const RenderSettings& settings) {
     check_image_input(settings.render.environment.file);
   }
   for (const std::string& output : settings.outputs) check_image_output(output);
+  check_display(settings.image.display);
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
   const CacheOptions& cache = settings.render.cache;
   if (!cache.cache_in.empty()) require_file("the cache", cache.cache_in);

@@ -13,6 +13,8 @@ using namespace renderer;
 /// Beyond this 2^EV leaves the range of float.
 constexpr renderer::RealRange kStops{-100.0, 100.0};
 constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
+constexpr renderer::RealRange kKelvin{1667.0, 25000.0};
+constexpr Choice<int> kBits[] = {{"8", 8}, {"16", 16}};
 constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
 constexpr Choice<scene::BackFaces> kBackFaces[] = {
     {"show", scene::BackFaces::show}, {"cull", scene::BackFaces::cull}, {"light", scene::BackFaces::light}};
@@ -24,18 +26,32 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 
 void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
                        renderer::ImageWriteOptions& image, std::optional<float>& stops) {
-  auto& [exr_float, exposure, tonemap] = image;  // `stops` sets the exposure
+  auto& [exr_float, bits, display] = image;
+  auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
+  auto& [ocio_config, ocio_display, ocio_view] = ocio;
   Option& output = group.add(
-      any_words("output", outputs, "FILE", "Picture to write, .exr or .png; may be given several times"));
+      any_words("output", outputs, "FILE", "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
   group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
   group.add(number_or(
       "auto", "exposure", stops, kStops, "EV",
-      "Stops by which PNG files are brighter; auto: by the picture's own light, told at the end; the "
-      "presets of radiance have auto"));
-  group.add(choice("tonemap", tonemap, "Curve of PNG files"));
+      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto: by the picture's own light, "
+      "told at the end; the presets of radiance have auto"));
+  group.add(number("white-balance", white_balance, kKelvin, "KELVIN",
+                   "Colour of light that displayed pictures show as white"));
+  group.add(choice("tonemap", tonemap, "Curve of displayed pictures"));
+  group.add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"));
+  const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
+    group.add(any_word(name, member, unit, help)).value = [&] {
+      return member.empty() ? OptionValue() : member;
+    };
+  };
+  add_ocio("ocio", ocio_config, "FILE",
+           "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures");
+  add_ocio("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)");
+  add_ocio("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)");
 }
 
 /// Options of the call, which do not change its results.

@@ -52,7 +52,7 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
   }
   // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
-                            settings.image.exposure, renderer::word(settings.image.tonemap), o.threads,
+                            settings.image.display.exposure, renderer::word(settings.image.display.tonemap), o.threads,
                             o.memory_limit_bytes, renderer::word(o.nan_policy));
 }
 

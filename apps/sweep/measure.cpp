@@ -11,10 +11,10 @@ std::optional<CellErrors> measure_errors(const renderer::NamedPicture& reference
   CellErrors errors{.metrics = renderer::compare_pictures(reference, test)};
   if (noise) errors.rel_mse_clean = errors.metrics.rel_mse - *noise;
   if (errors.metrics.nonfinite_reference + errors.metrics.nonfinite_test > 0) return errors;
-  const renderer::FlipOptions options{.exposure = image.exposure, .tonemap = image.tonemap};
+  const renderer::FlipOptions options{.exposure = image.display.exposure, .tonemap = image.display.tonemap};
   errors.flip = renderer::ldr_flip(reference, test, options);
   if (renderer::has_ssim(test.picture)) {
-    errors.ssim = renderer::ssim(reference, test, {.exposure = image.exposure, .tonemap = image.tonemap});
+    errors.ssim = renderer::ssim(reference, test, {.exposure = image.display.exposure, .tonemap = image.display.tonemap});
   }
   if (with_hdr_flip) {
     const std::optional<renderer::FlipResult> result = renderer::hdr_flip(reference, test, options, go_on);

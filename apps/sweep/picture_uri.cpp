@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/sweep/jpeg_write.h"
+#include "renderer/image/jpeg_write.h"
 #include "renderer/image/image_library.h"
 #include "renderer/image/srgb.h"
 
@@ -58,12 +58,12 @@ std::string encode_base64(const std::vector<std::uint8_t>& bytes) {
 
 EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::ImageWriteOptions& display,
                               PictureKind kind, int max_width) {
-  Pixels pixels{picture.width, picture.height, renderer::display_bytes(picture, display)};
+  Pixels pixels{picture.width, picture.height, renderer::display_bytes(picture, display.display)};
   if (pixels.width > max_width) pixels = shrink(pixels, kind, max_width);
   const bool map = kind == PictureKind::map;
   // Noise is coloured, so subsampled colour would change what is compared.
   const std::vector<std::uint8_t> jpeg =
-      encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
+      renderer::encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
   return {.size = {picture.width, picture.height},
           .width = pixels.width,
           .uri = "data:image/jpeg;base64," + encode_base64(jpeg)};

@@ -82,9 +82,9 @@ std::vector<Wanted> list_pictures(const ordered_json& results) {
 
 renderer::ImageWriteOptions write_options(const ordered_json& display) {
   renderer::ImageWriteOptions options;
-  if (at(display, "exposure").is_number()) options.exposure = at(display, "exposure").get<float>();
+  if (at(display, "exposure").is_number()) options.display.exposure = at(display, "exposure").get<float>();
   for (const renderer::Choice<renderer::Tonemap>& choice : renderer::kWords<renderer::Tonemap>) {
-    if (choice.name == word(display, "tonemap")) options.tonemap = choice.value;
+    if (choice.name == word(display, "tonemap")) options.display.tonemap = choice.value;
   }
   return options;
 }

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
@@ -66,6 +67,13 @@ char* origin(void* base, std::size_t pixel_bytes, std::size_t row_bytes, const P
          picture.y0 * static_cast<std::ptrdiff_t>(row_bytes);
 }
 
+/// OpenEXR multiplies points by matrices from the left.
+Imath::M44f row_vectors(const std::array<float, 16>& columns) {
+  Imath::M44f matrix;
+  std::copy(columns.begin(), columns.end(), &matrix[0][0]);
+  return matrix;
+}
+
 Imf::Header make_header(const Picture& picture) {
   const int full_width = picture.full_width > 0 ? picture.full_width : picture.width;
   const int full_height = picture.full_height > 0 ? picture.full_height : picture.height;
@@ -73,6 +81,12 @@ Imf::Header make_header(const Picture& picture) {
   const Imath::Box2i data({picture.x0, picture.y0},
                           {picture.x0 + picture.width - 1, picture.y0 + picture.height - 1});
   Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  // Rec. 709, which the format assumes too; readers of other gamuts ask for it.
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  if (picture.view) {
+    Imf::addWorldToCamera(header, row_vectors(picture.view->world_to_camera));
+    Imf::addWorldToNDC(header, row_vectors(picture.view->world_to_ndc));
+  }
   for (const auto& [key, value] : picture.metadata) {
     header.insert("gatelight:" + key, Imf::StringAttribute(value));
   }

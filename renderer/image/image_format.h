@@ -5,7 +5,7 @@
 
 namespace gatelight::renderer {
 
-enum class ImageFormat { exr, png, hdr, unknown };
+enum class ImageFormat { exr, png, jpeg, tiff, hdr, unknown };
 
 /// The extension decides, in upper or lower case.
 ImageFormat image_format(const std::filesystem::path& path);

@@ -2,9 +2,12 @@
 // What OpenImageIO does for us. It brings 260 shared libraries, so it stands behind a library of our own that
 // is loaded when it is needed first.
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
+#include "renderer/image/display.h"
+#include "renderer/image/image_format.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
@@ -17,6 +20,12 @@ class ImageLibrary {
   /// std::runtime_error.
   virtual std::vector<float> resize(const std::vector<float>& rgb, int width, int height, int to_width,
                                     int to_height) const = 0;
+  /// A file in memory, of 3 or 4 values a pixel, rows from the top. TIFF: display values in [0, 1] with
+  /// straight alpha, in 8 or 16 bits. HDR: radiance, three channels. Throws std::runtime_error.
+  virtual std::vector<std::uint8_t> encode(ImageFormat format, const std::vector<float>& values, int width,
+                                           int height, int bits) const = 0;
+  /// Replaces linear colours of Rec. 709, three values each, by the code values of a view. Throws BadOption.
+  virtual void show(std::vector<float>& rgb, const OcioView& ocio) const = 0;
 
  protected:
   ~ImageLibrary() = default;

@@ -1,18 +1,77 @@
 // The library that image_library() loads.
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/image_library.h"
+#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
+
+/// Linear light of Rec. 709, as configurations call it.
+constexpr const char* kLinearNames[] = {"lin_rec709",
+                                        "Linear Rec.709 (sRGB)",
+                                        "Linear Rec.709",
+                                        "lin_srgb",
+                                        "Linear BT.709",
+                                        "Utility - Linear - sRGB",
+                                        "Utility - Linear - Rec.709"};
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// `named`: the flag, with its value.
+void require(const std::vector<std::string>& names, const std::string& name, const std::string& flag) {
+  if (!has(names, name))
+    throw BadOption(fmt::format("{} '{}': expected one of '{}'", flag, name, fmt::join(names, "', '")));
+}
+
+std::string linear_name(const OIIO::ColorConfig& config) {
+  const std::vector<std::string> names = config.getColorSpaceNames();
+  for (const char* name : kLinearNames) {
+    if (has(names, name)) return name;
+  }
+  const char* const scene_linear = config.getColorSpaceNameByRole("scene_linear");
+  return scene_linear ? scene_linear : "linear";
+}
+
+/// The library's own files in memory cannot be read, which libtiff does while it writes.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("picture", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "memory for a picture");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+  std::vector<std::uint8_t> read() const {
+    std::ifstream file(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  int descriptor_;
+};
 
 class OpenImageIO final : public ImageLibrary {
  public:
@@ -45,6 +104,49 @@ class OpenImageIO final : public ImageLibrary {
                               static_cast<std::size_t>(to_height));
     target.get_pixels(target.roi(), OIIO::TypeDesc::FLOAT, result.data());
     return result;
+  }
+
+  std::vector<std::uint8_t> encode(ImageFormat format, const std::vector<float>& values, int width,
+                                   int height, int bits) const override {
+    const char* const name = format == ImageFormat::hdr ? "hdr" : format == ImageFormat::png ? "png" : "tiff";
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+    if (!output) throw std::runtime_error(OIIO::geterror());
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const int channels = static_cast<int>(values.size() / pixels);
+    OIIO::ImageSpec spec(width, height, channels,
+                         bits == 32   ? OIIO::TypeDesc::FLOAT
+                         : bits == 16 ? OIIO::TypeDesc::UINT16
+                                      : OIIO::TypeDesc::UINT8);
+    if (bits != 32) spec["oiio:ColorSpace"] = "sRGB";
+    if (format == ImageFormat::tiff) spec["compression"] = "zip";
+    // The time of writing would make equal pictures differ.
+    spec["DateTime"] = "";
+    spec["oiio:UnassociatedAlpha"] = 1;
+    const MemoryFile file;
+    if (!output->open(file.path(), spec) ||
+        !output->write_image(OIIO::TypeDesc::FLOAT, values.data()) || !output->close())
+      throw std::runtime_error(output->geterror());
+    return file.read();
+  }
+
+  void show(std::vector<float>& rgb, const OcioView& ocio) const override {
+    OIIO::ColorConfig config(ocio.config);
+    if (config.has_error()) throw BadOption(fmt::format("--ocio '{}': {}", ocio.config, config.geterror()));
+    const auto or_default = [](const std::string& name, const char* usual) {
+      return name.empty() ? std::string(usual ? usual : "") : name;
+    };
+    const std::string display = or_default(ocio.display, config.getDefaultDisplayName());
+    require(config.getDisplayNames(), display, "--ocio-display");
+    const std::string view = or_default(ocio.view, config.getDefaultViewName(display));
+    require(config.getViewNames(display), view, "--ocio-view");
+    const OIIO::ColorProcessorHandle processor =
+        config.createDisplayTransform(display, view, linear_name(config));
+    if (!processor) throw BadOption(fmt::format("--ocio '{}': {}", ocio.config, config.geterror()));
+    const int pixels = static_cast<int>(rgb.size() / 3);
+    processor->apply(rgb.data(), pixels, 1, 3, sizeof(float), 3 * sizeof(float),
+                     std::size_t{3} * sizeof(float) * static_cast<std::size_t>(pixels));
+    // NaN becomes 0.
+    for (float& x : rgb) x = x > 0.0f ? std::min(x, 1.0f) : 0.0f;
   }
 };
 

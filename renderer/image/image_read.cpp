@@ -70,7 +70,7 @@ std::string one_line(std::string text) {
 
 void check_image_input(const std::filesystem::path& path) {
   const ImageFormat format = image_format(path);
-  if (format == ImageFormat::unknown) {
+  if (format != ImageFormat::exr && format != ImageFormat::hdr && format != ImageFormat::png) {
     throw UnknownFormat(
         fmt::format("cannot read '{}': its extension is '{}', supported are .exr, .hdr and .png",
                     path.string(), path.extension().string()));

@@ -4,36 +4,67 @@
 #include <png.h>
 
 #include <algorithm>
-#include <memory>
+#include <cmath>
+#include <utility>
 
 #include "renderer/image/exr.h"
 #include "renderer/image/image_format.h"
+#include "renderer/image/image_library.h"
+#include "renderer/image/jpeg_write.h"
+#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
-void write_png(const Picture& picture, AtomicFile& file, const ImageWriteOptions& options) {
-  const std::vector<std::uint8_t> bytes = display_bytes(picture, options);
+std::vector<std::uint8_t> bytes_of(const std::vector<float>& values) {
+  std::vector<std::uint8_t> bytes(values.size());
+  std::transform(values.begin(), values.end(), bytes.begin(),
+                 [](float x) { return static_cast<std::uint8_t>(std::lround(255.0f * x)); });
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_png(const Picture& picture, const DisplayOptions& display) {
+  const std::vector<std::uint8_t> pixels = bytes_of(displayed(picture, display));
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
-  image.format = PNG_FORMAT_RGB;
+  image.format = picture.layers.front().has_alpha() ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   // Rendered pictures hold noise, of which filters of rows make little.
   image.flags = PNG_IMAGE_FLAG_FAST;
-  // The PNG is encoded in memory, so that AtomicFile reports every error of the disk.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  const auto encoded = std::make_unique_for_overwrite<std::uint8_t[]>(size);
-  if (png_image_write_to_memory(&image, encoded.get(), &size, 0, bytes.data(), 0, nullptr) == 0)
+  std::vector<std::uint8_t> encoded(size);
+  if (png_image_write_to_memory(&image, encoded.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
     throw std::runtime_error(image.message);
-  file.write(encoded.get(), size);
+  encoded.resize(size);
+  return encoded;
 }
 
-void require_writable_format(const std::filesystem::path& path) {
-  const ImageFormat format = image_format(path);
-  if (format != ImageFormat::exr && format != ImageFormat::png) {
-    throw UnknownFormat(fmt::format("cannot write '{}': its extension is '{}', supported are .exr and .png",
-                                    path.string(), path.extension().string()));
+/// Three values a pixel, as the scene has them.
+std::vector<float> radiance_of(const Picture& picture) {
+  const Layer& beauty = picture.layers.front();
+  const std::size_t channels = beauty.channels.size(), colors = channels - (beauty.has_alpha() ? 1 : 0);
+  std::vector<float> rgb(beauty.values.size() / channels * 3);
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    rgb[i] = beauty.values[i / 3 * channels + std::min(i % 3, colors - 1)];
+  return rgb;
+}
+
+/// The file is encoded in memory, so that AtomicFile reports every error of the disk.
+std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
+                                 const ImageWriteOptions& options) {
+  constexpr int kQuality = 92;
+  const auto [width, height] = std::pair{picture.width, picture.height};
+  switch (format) {
+    case ImageFormat::jpeg:
+      return encode_jpeg(display_bytes(picture, options.display), width, height, kQuality, false);
+    case ImageFormat::hdr:
+      return image_library().encode(format, radiance_of(picture), width, height, 32);
+    case ImageFormat::png:
+      if (options.bits == 8) return encode_png(picture, options.display);
+      [[fallthrough]];
+    default:
+      return image_library().encode(format, displayed(picture, options.display), width, height, options.bits);
   }
 }
 
@@ -45,44 +76,46 @@ ImageFormat image_format(const std::filesystem::path& path) {
                  [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
   if (extension == ".exr") return ImageFormat::exr;
   if (extension == ".png") return ImageFormat::png;
+  if (extension == ".jpg" || extension == ".jpeg") return ImageFormat::jpeg;
+  if (extension == ".tif" || extension == ".tiff") return ImageFormat::tiff;
   if (extension == ".hdr") return ImageFormat::hdr;
   return ImageFormat::unknown;
 }
 
-std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWriteOptions& options) {
-  const Layer& beauty = picture.layers.front();
-  const std::size_t channels = beauty.channels.size();
-  const std::size_t pixels =
-      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  const float scale = exposure_scale(options.exposure);
-  std::vector<std::uint8_t> bytes(3 * pixels);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    scene::Color color;
-    for (std::size_t c = 0; c < 3; ++c) {
-      color[static_cast<Eigen::Index>(c)] = beauty.values[p * channels + std::min(c, channels - 1)];
-    }
-    const std::array<std::uint8_t, 3> shown = display_color(color, scale, options.tonemap);
-    std::copy(shown.begin(), shown.end(), &bytes[3 * p]);
+std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options) {
+  std::vector<float> values = displayed(picture, options);
+  if (!picture.layers.front().has_alpha()) return bytes_of(values);
+  std::vector<float> over_black;
+  for (std::size_t i = 0; i < values.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c) over_black.push_back(values[i + c] * values[i + 3]);
   }
-  return bytes;
+  return bytes_of(over_black);
 }
 
 void check_image_output(const std::filesystem::path& path) {
-  require_writable_format(path);
+  if (image_format(path) == ImageFormat::unknown) {
+    throw UnknownFormat(
+        fmt::format("cannot write '{}': its extension is '{}', supported are .exr, .png, .jpg, .tif and .hdr",
+                    path.string(), path.extension().string()));
+  }
   check_writable(path);
 }
 
 void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options) {
-  require_writable_format(path);
+  check_image_output(path);
   AtomicFile file(path);
   try {
-    if (image_format(path) == ImageFormat::exr) {
+    const ImageFormat format = image_format(path);
+    if (format == ImageFormat::exr) {
       write_exr(picture, file.stream(), options.exr_float);
     } else {
-      write_png(picture, file, options);
+      const std::vector<std::uint8_t> bytes = encode(picture, format, options);
+      file.write(bytes.data(), bytes.size());
     }
   } catch (const OutputError&) {
+    throw;
+  } catch (const BadOption&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;

@@ -1,21 +1,21 @@
 #pragma once
-// Writes pictures to files. The extension chooses the format: .exr or .png.
+// Writes pictures to files. The extension chooses the format: .exr, .png, .jpg, .tif or .hdr.
 
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
 
+#include "renderer/image/display.h"
 #include "renderer/image/picture.h"
-#include "renderer/image/tonemap.h"
 #include "renderer/machine/atomic_file.h"
 
 namespace gatelight::renderer {
 
 struct ImageWriteOptions {
   bool exr_float = false;  ///< all layers as 32-bit float; otherwise half, except Layer::full_precision
-  float exposure = 0.0f;   ///< in stops; PNG only, EXR keeps the scene's radiance
-  Tonemap tonemap = Tonemap::none;  ///< PNG only
+  int bits = 8;            ///< of PNG and TIFF: 8 or 16
+  DisplayOptions display;  ///< of PNG, JPEG and TIFF; EXR and HDR keep the scene's radiance
 };
 
 /// Thrown for an extension that is not supported. The message names the file and the supported extensions.
@@ -26,13 +26,14 @@ struct UnknownFormat : std::invalid_argument {
 /// Throws UnknownFormat or OutputError if write_image() cannot write to `path`.
 void check_image_output(const std::filesystem::path& path);
 
-/// The beauty layer as a screen shows it: R, G, B of each pixel in sRGB. A layer of one channel is grey.
-std::vector<std::uint8_t> display_bytes(const Picture& picture, const ImageWriteOptions& options = {});
+/// displayed() in bytes, three a pixel; with alpha over black.
+std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options = {});
 
 /// An EXR holds every layer and has the metadata in its header, with ZIP compression. Its data window is the
-/// picture, its display window the full picture. The same picture gives the same bytes. A PNG holds the
-/// beauty layer in 8 bits, sRGB. The file is either complete or unchanged (AtomicFile). Throws UnknownFormat
-/// or OutputError.
+/// picture, its display window the full picture. The same picture gives the same bytes. The other formats hold
+/// the beauty layer: PNG and TIFF as displayed, with straight alpha; JPEG (quality 92) the same over black; HDR
+/// its radiance. The file is either complete or unchanged (AtomicFile). Throws UnknownFormat, OutputError, or
+/// what displayed() throws.
 void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options = {});
 

@@ -1,7 +1,9 @@
 #pragma once
 // A picture in memory: named layers of floats and metadata.
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,15 @@ struct Layer {
   std::vector<std::string> channels;  ///< "R","G","B" | "X","Y","Z" | "Z" | "id" ...
   std::vector<float> values;          ///< width * height * channels, interleaved; the first row is the top
   bool full_precision = false;        ///< always written as 32-bit float (ids, depth, position)
+
+  /// Whether the last channel is A. Colours are then multiplied by it.
+  bool has_alpha() const { return channels.back() == "A"; }
+};
+
+/// From points in metres, of the scene's file, to the picture. Column after column, for column vectors.
+struct ViewMatrices {
+  std::array<float, 16> world_to_camera;  ///< x right, y up, z into the picture
+  std::array<float, 16> world_to_ndc;     ///< (0, 0) top left to (1, 1) bottom right of the full picture
 };
 
 struct Picture {
@@ -24,6 +35,8 @@ struct Picture {
   std::vector<Layer> layers;  ///< the first one is the beauty layer
   std::map<std::string, std::string>
       metadata;  ///< how the picture was made; in the EXR header as "gatelight:KEY"
+
+  std::optional<ViewMatrices> view;  ///< in the EXR header as worldToCamera and worldToNDC
 
   const Layer* find(const std::string& name) const {
     for (const Layer& layer : layers) {

@@ -100,18 +100,12 @@ Color tonemapped(const Color& color, Tonemap tonemap) {
   }
 }
 
-std::array<std::uint8_t, 3> display_color(const Color& color, float scale, Tonemap tonemap) {
-  const Color shown = tonemapped(color * scale, tonemap);
-  std::array<std::uint8_t, 3> bytes;
-  for (std::size_t c = 0; c < 3; ++c) {
-    bytes[c] =
-        static_cast<std::uint8_t>(std::lround(255.0f * linear_to_srgb(shown[static_cast<Eigen::Index>(c)])));
-  }
-  return bytes;
+Color display_color(const Color& color, Tonemap tonemap) {
+  return tonemapped(color, tonemap).unaryExpr([](float x) { return linear_to_srgb(x); });
 }
 
 std::uint8_t display_byte(float x, float scale, Tonemap tonemap) {
-  return display_color(Color::Constant(x), scale, tonemap)[0];
+  return static_cast<std::uint8_t>(std::lround(255.0f * display_color(Color::Constant(x * scale), tonemap)[0]));
 }
 
 float exposure_scale(float stops) {

@@ -1,7 +1,6 @@
 #pragma once
 // Converts linear light to the bytes that a screen shows.
 
-#include <array>
 #include <cstdint>
 
 #include "scene/math.h"
@@ -25,12 +24,15 @@ float filmic(float x);
 /// count as 0.
 scene::Color tonemapped(const scene::Color& color, Tonemap tonemap);
 
-/// The bytes of a colour: times exposure_scale, through the curve and sRGB, rounded to nearest.
-std::array<std::uint8_t, 3> display_color(const scene::Color& color, float exposure_scale, Tonemap tonemap);
-/// The same of a grey.
+/// The colour that a screen of 6504 K shows as white: CIE's D65.
+inline constexpr float kDaylightKelvin = 6504.0f;
+
+/// Through the curve and sRGB: code values in [0, 1].
+scene::Color display_color(const scene::Color& color, Tonemap tonemap);
+/// A grey times exposure_scale as a byte, rounded to nearest.
 std::uint8_t display_byte(float x, float exposure_scale, Tonemap tonemap);
 
-/// 2^stops, the exposure_scale of display_color().
+/// 2^stops.
 float exposure_scale(float stops);
 
 }  // namespace gatelight::renderer

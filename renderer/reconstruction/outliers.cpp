@@ -18,7 +18,9 @@ constexpr float kTimesOther = 2.0f;
 constexpr int kNear = 5;
 /// Radius of the neighbourhood that gets its light.
 constexpr int kFar = 12;
-/// A pixel gets at most so many times its own light.
+/// One outlier gives its neighbours at most so much of their own light: more would be seen as a square.
+constexpr float kMostOfOne = 0.02f;
+/// A pixel gets at most so many times its own light from all of them.
 constexpr float kMostGain = 1.0f;
 static_assert(kOutlierReach == 2 * kFar + kNear);
 
@@ -56,7 +58,8 @@ class Outliers {
     });
   }
 
-  void spread(const Plane (&divisor)[3]) {
+  void spread(const Plane (&divisor)[3], Plane& lost) {
+    lost.assign(mean_square_.size(), 0.0f);
     for (int c = 0; c < 3; ++c) {
       Plane gain(mean_square_.size()), kept(mean_square_.size());
       each_pixel([&](std::size_t p, int, int) {
@@ -65,19 +68,22 @@ class Outliers {
           gain[p] += light * (1.0f - share_[h][p]);
           kept[p] += light * share_[h][p];
         }
+        lost[p] += gain[p];
       });
       box_filter(kept, width_, height_, kFar);
       // What a pixel gives over the light of all that receive it. They get as much as was given, as "to be in
       // each other's neighbourhood" is symmetric.
       each_pixel([&](std::size_t p, int x, int y) {
         const float n = Square(x, y, kFar, width_, height_).count();
-        gain[p] = kept[p] > 0.0f ? gain[p] / (kept[p] * n) : 0.0f;
+        gain[p] = kept[p] > 0.0f ? std::min(gain[p] / (kept[p] * n), kMostOfOne) : 0.0f;
       });
       box_filter(gain, width_, height_, kFar);
       each_pixel([&](std::size_t p, int x, int y) {
         const float n = Square(x, y, kFar, width_, height_).count();
+        const float more = 1.0f + std::min(gain[p] * n, kMostGain);
         for (int h = 0; h < 2; ++h) {
-          const float times = share_[h][p] * (1.0f + std::min(gain[p] * n, kMostGain));
+          const float times = share_[h][p] * more;
+          lost[p] -= halves_[h]->color[c][p] * divisor[c][p] * share_[h][p] * (more - 1.0f);
           halves_[h]->color[c][p] *= times;
           halves_[h]->variance[c][p] *= times * times;
         }
@@ -126,8 +132,10 @@ class Outliers {
 
 }  // namespace
 
-void spread_outliers(HalfPlanes& a, HalfPlanes& b, const Plane (&divisor)[3], int width, int height) {
-  Outliers(a, b, width, height).spread(divisor);
+Plane spread_outliers(HalfPlanes& a, HalfPlanes& b, const Plane (&divisor)[3], int width, int height) {
+  Plane lost;
+  Outliers(a, b, width, height).spread(divisor, lost);
+  return lost;
 }
 
 }  // namespace gatelight::renderer

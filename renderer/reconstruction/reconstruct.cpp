@@ -49,6 +49,7 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
   result.error.resize(result.color.size());
   for (std::vector<float>& half : result.halves) half.resize(result.color.size());
   for (std::vector<float>& half : result.noise) half.resize(result.color.size() / 3);
+  Region::Light light;
   // Regions begin at multiples of the halo, so that windows and bands lie the same way in each.
   const int step = std::max(options.rows_at_once / kHalo, 1) * kHalo;
   for (int first = 0; first < samples.height; first += step) {
@@ -63,7 +64,13 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
                            {&result.halves[0][at], &result.halves[1][at]},
                            {&result.noise[0][at / 3], &result.noise[1][at / 3]}});
     });
+    for (int y = first; y < end; ++y) {
+      const Region::Light of_row = region.light_of_row(y);
+      light.kept += of_row.kept;
+      light.lost += of_row.lost;
+    }
   }
+  result.lost_light = light.lost > 0.0 ? light.lost / (light.kept + light.lost) : 0.0;
   return result;
 }
 

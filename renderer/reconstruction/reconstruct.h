@@ -23,6 +23,7 @@ struct Reconstruction {
   /// What noise as that of a half's samples leaves in the other half's picture: one standard deviation a
   /// pixel, of a channel's mean. It is told by that half alone, whose samples weigh the other's.
   std::array<std::vector<float>, 2> noise;
+  double lost_light = 0.0;  ///< with outliers, of all light of the samples: 0 to 1
 };
 
 /// Fits the samples to the guides in small windows. Both halves are fitted on their own, each with weights

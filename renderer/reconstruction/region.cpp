@@ -50,7 +50,7 @@ Region::Region(const SampledPicture& samples, int first, int end, float scale)
   read(samples);
   complete_variance();
   fill_gaps();
-  spread_outliers(halves_[0], halves_[1], divisor_, width_, height_);
+  lost_ = spread_outliers(halves_[0], halves_[1], divisor_, width_, height_);
 }
 
 void Region::read(const SampledPicture& s) {
@@ -350,6 +350,18 @@ void Region::join() {
       }
     }
   });
+}
+
+Region::Light Region::light_of_row(int y) const {
+  const std::size_t row = static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_);
+  Light light;
+  for (std::size_t p = row; p < row + static_cast<std::size_t>(width_); ++p) {
+    light.lost += static_cast<double>(lost_[p]);
+    for (const Half& half : halves_) {
+      for (int c = 0; c < 3; ++c) light.kept += static_cast<double>(half.color[c][p] * divisor_[c][p]);
+    }
+  }
+  return light;
 }
 
 void Region::write_row(int y, Row to) const {

@@ -28,6 +28,13 @@ class Region {
     float* noise[2];
   };
   void write_row(int y, Row to) const;
+  /// Sums over a row of the samples, relative to each other: what stays and what is lost with outliers. A row
+  /// may get more than it gives.
+  struct Light {
+    double kept = 0.0;
+    double lost = 0.0;
+  };
+  Light light_of_row(int y) const;
 
  private:
   struct Half : HalfPlanes {
@@ -52,6 +59,7 @@ class Region {
   int first_;
   float scale_;
   Half halves_[2];
+  Plane lost_;  ///< light that outliers gave less what the pixel got
   Plane counts_;
   Plane coverage_;
   Plane divisor_[3];  ///< of colours: what the surface reflects

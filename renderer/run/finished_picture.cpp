@@ -77,6 +77,7 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     const SampledPicture samples = samples_of(picture, options);
     drop_unwanted(picture, options.aovs);
     Reconstruction& finished = result.reconstruction = reconstruct(samples);
+    result.lost_light = finished.lost_light;
     picture.layers.front().values = std::move(finished.color);
     if (tells_error(film)) result.estimated_error = error_of(picture, finished);
     for (Layer& layer : picture.layers) {

@@ -17,6 +17,7 @@ struct FinishedPicture {
   double reconstruct_seconds = 0.0;
   /// Relative RMS, as metrics/estimated_error.h defines it. Empty where pixels have less than two samples.
   std::optional<double> estimated_error;
+  double lost_light = 0.0;  ///< with bright samples, of the samples' light
 };
 
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of

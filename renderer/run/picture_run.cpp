@@ -226,6 +226,7 @@ class Renderer::Implementation::PictureRun {
     checked_.reset();
     renderer_.statistics.reconstruct_seconds = reconstruct_seconds_;
     renderer_.statistics.estimated_error = finished.estimated_error;
+    renderer_.statistics.lost_light = finished.lost_light;
     return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }

@@ -102,6 +102,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     const FinishedPicture finished = finished_picture(film, options, arena);
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
+    statistics.lost_light = finished.lost_light;
     picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
     if (bookmark) {
@@ -131,6 +132,7 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     const FinishedPicture finished = finished_picture(film, options, arena);
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
+    statistics.lost_light = finished.lost_light;
     picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));
   }

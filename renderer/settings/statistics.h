@@ -98,6 +98,7 @@ struct RenderStatistics {
   std::vector<NonFiniteSample> nonfinite_samples;  ///< the first 16, in the order of (y, x, sample)
   std::uint64_t clamped = 0;
   CacheStatistics cache;
+  double lost_light = 0.0;  ///< what reconstruction lost with bright samples, of the samples' light
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller

@@ -73,7 +73,7 @@ TEST_F(SweepReferences, AreSharedByCellsThatEstimateTheSame) {
   same[3].render.cache.gate.features = 8;
   same[4].render.seed = 9;
   same[5].render.threads = 3;
-  same[6].image.exposure = 1.0f;
+  same[6].image.display.exposure = 1.0f;
   same[7].render.ao_distance = 1.0f;
   same[8].render.isa = "scalar";
   for (const RenderSettings& other : same) EXPECT_EQ(plan(other, ReferenceKind::path).key, key);

@@ -162,7 +162,7 @@ TEST(Png, BytesFollowTheSrgbFormulaAndExposure) {
   const TemporaryFolder folder;
   const Picture ramp = grey_ramp();
   for (const float stops : {0.0f, 1.0f, -2.5f}) {
-    write_image(ramp, folder / "a.png", {.exposure = stops});
+    write_image(ramp, folder / "a.png", {.display = {.exposure = stops}});
     const Picture read = read_image(folder / "a.png");
     ASSERT_EQ(read.width, 512);
     ASSERT_THAT(read.layers[0].channels, ElementsAre("R", "G", "B"));
@@ -196,7 +196,7 @@ TEST(Png, ByteStepsAreExactWhereTheFormulaIsFarFromOneHalf) {
 TEST(Png, FilmicCurveIsNarkowiczsFit) {
   const TemporaryFolder folder;
   const Picture ramp = grey_ramp();
-  write_image(ramp, folder / "a.png", {.exposure = 1.0f, .tonemap = Tonemap::filmic});
+  write_image(ramp, folder / "a.png", {.display = {.exposure = 1.0f, .tonemap = Tonemap::filmic}});
   const Picture read = read_image(folder / "a.png");
   for (std::size_t i = 0; i < ramp.layers[0].values.size() - 3; ++i) {
     const double x = std::max(0.0, 2.0 * ramp.layers[0].values[i]);

@@ -1,4 +1,4 @@
-#include "apps/sweep/jpeg_write.h"
+#include "renderer/image/jpeg_write.h"
 
 #include <cstddef>
 #include <cstdio>  // before jpeglib.h, which needs FILE
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gatelight::apps {
+namespace gatelight::renderer {
 namespace {
 
 // libjpeg leaves a failed call by longjmp, so encode() holds no objects with a destructor.
@@ -71,4 +71,4 @@ std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int 
   return {encoder.bytes, encoder.bytes + encoder.size};
 }
 
-}  // namespace gatelight::apps
+}  // namespace gatelight::renderer

@@ -1,0 +1,15 @@
+#pragma once
+// Flags of outputs that no output reads.
+
+#include <string>
+#include <vector>
+
+#include "apps/settings/render_settings.h"
+
+namespace gatelight::apps {
+
+/// A line for each flag that was given and changes none of the outputs, as --exposure of an EXR. They harm
+/// nothing, so they are told and not refused.
+std::vector<std::string> unused_output_flags(const RenderSettings& settings);
+
+}  // namespace gatelight::apps
