@@ -194,6 +194,7 @@ FileNames read_files(const RenderSettings& settings) {
   FileNames names;
   names.read("SCENE", settings.scene);
   names.read("--environment", settings.render.environment.file);
+  names.read("--background", settings.render.background.file);
   names.read("--config", settings.config);
   names.read("--cache-in", settings.render.cache.cache_in);
   return names;
@@ -227,6 +228,10 @@ void check_files(const RenderSettings& settings) {
   if (!settings.render.environment.file.empty()) {
     require_file("the environment", settings.render.environment.file);
     check_image_input(settings.render.environment.file);
+  }
+  if (const std::string& background = settings.render.background.file; !background.empty()) {
+    require_file("the background", background);
+    check_image_input(background);
   }
   for (const std::string& output : settings.outputs) check_image_output(output);
   check_display(settings.image.display);

@@ -17,10 +17,10 @@ struct CameraSample {
   /// A light sample that adds less radiance than this is traced by Russian roulette. 0: all are traced.
   float faint = 0.0f;
 
-  /// The camera's ray. Its stochastic decisions use the seed of the sample.
+  /// The camera's ray.
   Ray ray() const {
     Ray ray = camera_ray.ray;
-    ray.seed = seed;
+    ray.seed = sampler.kind() == SamplerKind::sobol ? alpha_seed(sampler) : seed;
     return ray;
   }
 };
@@ -39,6 +39,7 @@ struct GuideSurface {
 /// The surface at the primary hit, for the output variables.
 struct FirstHit {
   bool hit = false;
+  float alpha = 1.0f;  ///< 1 less what of the background is seen
   Color albedo{0.0f, 0.0f, 0.0f};
   Vec3 normal = Vec3::Zero();
   Vec3 position = Vec3::Zero();

@@ -45,8 +45,8 @@ void each_of_first(First& p, Take&& take) {
                       &p.cache_half, &p.answer, &p.node}) {
     for (auto& value : *array) take.sum(value);
   }
-  for (auto* value : {&p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
-  for (auto* value : {&p.count, &p.asked, &p.hits, &p.guide_hits, &p.guided, &p.guided_half})
+  for (auto* value : {&p.alpha, &p.alpha_half, &p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value : {&p.count, &p.count_half, &p.asked, &p.hits, &p.guide_hits, &p.guided, &p.guided_half})
     take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
 }
@@ -137,6 +137,11 @@ void Film::add(const PixelSample& sample, const FirstHit& first) {
   if (p.count++ == 0 && first.hit) {
     p.instance = static_cast<float>(first.instance);
     p.primitive = static_cast<float>(first.primitive);
+  }
+  p.alpha += static_cast<double>(first.alpha);
+  if (sample.half() == 0) {
+    ++p.count_half;
+    p.alpha_half += static_cast<double>(first.alpha);
   }
   if (first.guided && first.cache_radiance.isFinite().all()) {
     ++p.guided;

@@ -65,6 +65,8 @@ class Film {
 
   /// The layer of an output variable. Those of the primary hit need a film that keeps it.
   Layer layer(Aov aov) const;
+  /// The mean alpha of a half's samples, of all where the half has none. The film must keep first hits.
+  std::vector<float> alpha_of_half(std::size_t half) const;
   /// Of all pixels, those that were dropped among them.
   std::uint64_t samples() const;
   /// Mean number of samples of a pixel that count.
@@ -96,6 +98,8 @@ class Film {
     std::array<double, 3> cache_half{};  ///< of cache_radiance: the first half
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
+    double alpha = 0.0;
+    double alpha_half = 0.0;  ///< the first half
     double depth = 0.0;
     double guide_depth = 0.0;
     double error = 0.0;
@@ -103,6 +107,7 @@ class Film {
     double resolution = 0.0;
     std::uint32_t count = 0;  ///< number of samples
     std::uint32_t asked = 0;
+    std::uint32_t count_half = 0;  ///< of `count`, the first half
     std::uint32_t hits = 0;
     std::uint32_t guide_hits = 0;
     std::uint32_t guided = 0;

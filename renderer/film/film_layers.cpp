@@ -91,6 +91,9 @@ Layer Film::layer(Aov aov) const {
     case Aov::resolution:
       fill_number("R", &First::resolution, &First::asked);
       break;
+    case Aov::alpha:
+      fill_number("A", &First::alpha, &First::count);
+      break;
     case Aov::sample_count:
       fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance_[p].count; });
       break;
@@ -111,6 +114,17 @@ Layer Film::layer(Aov aov) const {
       break;
   }
   return layer;
+}
+
+std::vector<float> Film::alpha_of_half(std::size_t half) const {
+  Layer layer{.channels = {"A"}};
+  fill(layer, pixels(), [&](std::size_t p, std::size_t) {
+    const First& f = first_[p];
+    const std::uint32_t in_b = f.count - f.count_half, n = half == 0 ? f.count_half : in_b;
+    if (n == 0) return f.count > 0 ? f.alpha / f.count : 0.0;
+    return (half == 0 ? f.alpha_half : f.alpha - f.alpha_half) / n;
+  });
+  return std::move(layer.values);
 }
 
 void Film::add_guides(std::vector<Layer>& layers) const {

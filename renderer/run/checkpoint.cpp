@@ -24,7 +24,7 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 6;
+constexpr int kVersion = 7;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";

@@ -6,6 +6,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/metrics/estimated_error.h"
 #include "renderer/reconstruction/reconstruct.h"
+#include "renderer/run/background.h"
 #include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
@@ -58,6 +59,28 @@ SampledPicture samples_of(const Picture& picture, const RenderOptions& options) 
   return samples;
 }
 
+/// A value for each pixel. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
+/// finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
+std::vector<float> finished_alpha(const Film& film, SampledPicture* samples) {
+  if (!samples) return film.layer(Aov::alpha).values;
+  for (std::size_t h = 0; h < 2; ++h) {
+    SampledPicture::Half& half = samples->halves[h];
+    const std::vector<float> alpha = film.alpha_of_half(h);
+    for (std::size_t i = 0; i < half.color.size(); ++i) {
+      const float a = std::clamp(alpha[i / 3], 0.0f, 1.0f);
+      half.color[i] = a;
+      // The variance of a share.
+      half.variance[i] = a * (1.0f - a) / std::max(0.5f * samples->counts[i / 3], 1.0f);
+    }
+    half.cache.clear();
+  }
+  std::fill(samples->albedo.begin(), samples->albedo.end(), 1.0f);
+  const std::vector<float> color = reconstruct(*samples).color;
+  std::vector<float> result(color.size() / 3);
+  for (std::size_t p = 0; p < result.size(); ++p) result[p] = color[3 * p];
+  return result;
+}
+
 }  // namespace
 
 Reconstruction finished_film(const Film& film, const RenderOptions& options) {
@@ -72,9 +95,11 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     picture = film.resolve();
     if (!options.reconstruct) {
       result.estimated_error = error_of(film, picture);
+      drop_unwanted(picture, options.aovs);
+      if (options.background.apart()) put_before(picture, finished_alpha(film, nullptr), options.background);
       return;
     }
-    const SampledPicture samples = samples_of(picture, options);
+    SampledPicture samples = samples_of(picture, options);
     drop_unwanted(picture, options.aovs);
     Reconstruction& finished = result.reconstruction = reconstruct(samples);
     result.lost_light = finished.lost_light;
@@ -83,6 +108,7 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     for (Layer& layer : picture.layers) {
       if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
     }
+    if (options.background.apart()) put_before(picture, finished_alpha(film, &samples), options.background);
   });
   if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
   return result;

@@ -103,6 +103,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   arena.execute([&] {
     world.emplace(scene, options.environment, options.light_selection,
                   AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
+    world->background_apart = options.background.apart();
   });
   for (std::string warning :
        {sky_warning(scene, options), made_view(scene, options.camera, view), world->environment.warning(),

@@ -32,6 +32,7 @@ enum class Aov : std::uint8_t {
   position,
   primitive_id,
   instance_id,
+  alpha,  ///< 1 less what of the background is seen
   sample_count,
   variance,
   raw,             ///< the samples' mean

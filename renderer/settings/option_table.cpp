@@ -86,7 +86,7 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
+      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
       "the "
       "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-radiance, "
       "cache-answer, cache-error, "
@@ -119,8 +119,31 @@ OptionValue environment_value(const EnvironmentOptions& environment) {
   return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
 }
 
+void read_background(BackgroundOptions& background, const std::string& text) {
+  using Kind = BackgroundOptions::Kind;
+  background = {};
+  if (text == "scene") return;
+  if (text == "transparent") {
+    background.kind = Kind::transparent;
+  } else if (looks_like_triple(text)) {
+    const std::array<float, 3> rgb = parse_triple("--background", text, kNotNegative);
+    background = {.kind = Kind::color, .color = {rgb[0], rgb[1], rgb[2]}, .file = {}};
+  } else {
+    background = {.kind = Kind::file, .color = scene::Color::Zero(), .file = text};
+  }
+}
+
+OptionValue background_value(const BackgroundOptions& background) {
+  using Kind = BackgroundOptions::Kind;
+  if (background.kind == Kind::scene) return "scene";
+  if (background.kind == Kind::transparent) return "transparent";
+  if (background.kind == Kind::file) return background.file;
+  return std::vector<float>{background.color.x(), background.color.y(), background.color.z()};
+}
+
 /// Checkpoints store the chosen camera and the scene's fingerprint instead.
-void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment) {
+void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment,
+                      BackgroundOptions& background) {
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
   auto& [name, look_at, fov_degrees] = camera;  // flags of the application set look_at
@@ -136,6 +159,14 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
                "latitude-longitude EXR or HDR",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); }});
+  [[maybe_unused]] auto& [kind, color, background_file] = background;  // one flag sets all
+  view.add({.name = "background",
+            .unit = "scene|transparent|r,g,b|FILE",
+            .help = "Behind the scene the camera sees its environment, nothing (the picture has an alpha), one "
+                    "radiance or a picture; so it does through holes and panes, while mirrors and solid glass "
+                    "show the environment",
+            .value = [&background] { return background_value(background); },
+            .read = [&background](const std::string& text) { read_background(background, text); }});
   add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
              "Turns the environment about +y, counter-clockwise from above"));
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
@@ -167,7 +198,7 @@ std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
          threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
          clamp, ao_distance, reconstruct, adaptive, aovs, nan_policy, memory_limit_bytes, isa, camera,
-         environment, cache, checkpoint] = options;
+         environment, background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -200,7 +231,7 @@ std::vector<Option> option_table(RenderOptions& options) {
                      "has more noise; --spp is then the mean over the picture"));
   picture.add(aov_option(aovs));
 
-  add_view_options(table, camera, environment);
+  add_view_options(table, camera, environment, background);
 
   OptionGroup light{table, "Light transport"};
   light.add(choice("integrator", integrator,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/settings/background_options.h"
 #include "renderer/settings/cache_options.h"
 #include "renderer/settings/choices.h"
 #include "renderer/settings/environment_options.h"
@@ -67,6 +68,7 @@ struct RenderOptions {
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512
   CameraOptions camera;
   EnvironmentOptions environment;
+  BackgroundOptions background;
   CacheOptions cache;  ///< of nao and nrc
   CheckpointOptions checkpoint;
 };

@@ -16,6 +16,7 @@ std::vector<Aov> film_aovs(const RenderOptions& options) {
   if (options.reconstruct && !has(Aov::reconstruction)) aovs.push_back(Aov::reconstruction);
   if (has(Aov::reconstruction) && !has(Aov::cache_radiance) && options.integrator == Integrator::nrc)
     aovs.push_back(Aov::cache_radiance);
+  if (options.background.apart() && !has(Aov::alpha)) aovs.push_back(Aov::alpha);
   return aovs;
 }
 

@@ -1,5 +1,6 @@
 #include "renderer/surface/coverage.h"
 
+#include "renderer/sampling/sampler.h"
 #include "renderer/surface/interpolate.h"
 
 namespace gatelight::renderer {
@@ -69,8 +70,8 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
   const scene::Material& m = scene_.material_of(scene_.instances[hit.instance]);
   const float a = alpha(hit);
   if (m.alpha_mode == scene::AlphaMode::mask) return a >= m.alpha_cutoff;
-  const std::uint32_t h = hash(seed ^ hash(hit.primitive ^ hash(hit.instance + 0x9e3779b9u)));
-  return static_cast<float>(h >> 8) * 0x1p-24f < a;
+  const std::uint32_t surface = hash(hit.primitive ^ hash(hit.instance + 0x9e3779b9u));
+  return alpha_number(seed, surface) < a;
 }
 
 Passage Coverage::pass(const Hit& hit, const Vec3& direction) const {

@@ -22,7 +22,11 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     results[i].radiance = Color::Ones();
     if (!first_hits.empty()) first_hits[i] = {};
     const Hit& hit = hits[i];
-    if (!hit) continue;
+    if (!hit) {
+      if (!first_hits.empty()) first_hits[i].alpha = 0.0f;
+      if (world_.background_apart) results[i].radiance = Color::Zero();
+      continue;
+    }
     const RayCone& cone = samples[i].camera_ray.cone;
     const Surface surface =
         world_.surfaces.at(hit, rays[i].direction, cone.width + cone.spread * hit.t, 0.5f);

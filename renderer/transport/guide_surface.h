@@ -38,6 +38,7 @@ inline void set_albedo(const Walker& path, const Color& albedo, FirstHit& first)
 
 /// A path has left the scene. Behind mirrors and clear glass the sky is no surface.
 inline void leave_guide(const Walker& path, FirstHit& first) {
+  first.alpha -= path.background();
   if (path.sees_through) first.guide.hit = false;
 }
 

@@ -129,8 +129,13 @@ struct Walker {
   /// The same with the losses.
   Color carried() const { return throughput * scale(); }
 
+  /// The share of the background in the sample, where the ray leaves the scene: it came here straight from the
+  /// camera.
+  float background() const { return depth == 0 ? scene::luminance(carried()) : 0.0f; }
+
   /// The ray leaves the scene.
   Emission sky(const Walk& walk, const Vec3& direction) const {
+    if (walk.world.background_apart && depth == 0) return {};
     Emission sky{walk.world.environment.radiance(direction)};
     if (sky.any()) sky.weight = sky_weight(walk.world, walk.mis, departure, direction);
     return sky;

@@ -43,6 +43,7 @@ struct World {
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
+  bool background_apart = false;  ///< the environment lights, and the camera does not see it
 };
 
 }  // namespace gatelight::renderer
