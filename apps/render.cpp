@@ -7,6 +7,7 @@
 
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
+#include "apps/settings/camera_names.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -54,17 +55,31 @@ double count_pixels(const renderer::RenderOptions& options) {
 
 class RenderRun {
  public:
-  RenderRun(const RenderSettings& settings, const std::vector<std::string>& command)
-      : settings_(settings),
-        progress_(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render)) {
+  RenderRun(RenderSettings settings, const std::vector<std::string>& command)
+      : settings_(std::move(settings)),
+        progress_(settings_.quiet ? ProgressMode::none : settings_.progress, count_pixels(settings_.render)) {
     report_.command = command;
   }
 
   int run() {
     const scene::Scene scene = load();
     if (stop_signal() != 0) return stop_without_picture();
+    const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
+    settings_ = pictures.front();
     progress_.phase("build");
     renderer::Renderer renderer(scene, settings_.render);
+    int code = make_picture(renderer);
+    for (std::size_t i = 1; i < pictures.size() && code == kDone; ++i) {
+      settings_ = pictures[i];
+      start_ = Clock::now();
+      renderer.set_camera(settings_.render.camera);
+      code = make_picture(renderer);
+    }
+    return code;
+  }
+
+ private:
+  int make_picture(renderer::Renderer& renderer) {
     for (const std::string& warning : renderer.statistics().warnings) warn(warning);
     if (stop_signal() != 0) return stop_without_picture();
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
@@ -82,7 +97,6 @@ class RenderRun {
     return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
   }
 
- private:
   scene::Scene load() {
     for (const std::string& unused : unused_output_flags(settings_)) warn(unused);
     progress_.phase("load");
@@ -184,9 +198,9 @@ class RenderRun {
     report_.warnings.push_back(text);
   }
 
-  const RenderSettings& settings_;
+  RenderSettings settings_;  ///< of the picture that is made
   RunReport report_;
-  const Clock::time_point start_ = Clock::now();
+  Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };

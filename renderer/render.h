@@ -70,6 +70,10 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
+  /// The pictures from now on have another view; nothing is built again. A cache is trained anew for it.
+  /// Throws BadOption as the constructor does, with the view unchanged.
+  void set_camera(const CameraOptions& camera);
+
   /// The same scene, options and Embree ISA give the same bits for any number of threads, unless a time limit
   /// ends it.
   Picture render(const Callbacks& callbacks = {});

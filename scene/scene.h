@@ -137,7 +137,8 @@ struct PunctualLight {
 
 /// A camera that looks along -z of its transform, with y up.
 struct Camera {
-  std::string name;
+  std::string name;  ///< of the camera, else of its node
+  std::string node;
   Affine transform = Affine::Identity();  ///< camera to world, without scale
   bool orthographic = false;
   float vertical_fov = 0.8f;  ///< radians; perspective

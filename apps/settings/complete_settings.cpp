@@ -5,7 +5,9 @@
 #include <array>
 #include <filesystem>
 
+#include "apps/settings/camera_names.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/view_file.h"
 #include "apps/terminal/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
@@ -34,6 +36,8 @@ std::uint64_t pixels_of(const RenderOptions& options) {
 }
 
 void complete_view(RenderSettings& settings) {
+  if (settings.render.camera.fov_degrees && settings.render.camera.focal_mm)
+    throw UsageError("--fov and --lens exclude each other, expected one of them");
   if (!settings.eye && !settings.target && !settings.up) return;
   if (!settings.eye || !settings.target) {
     throw UsageError(fmt::format("{} is missing: a view by hand needs --eye and --target",
@@ -195,6 +199,7 @@ FileNames read_files(const RenderSettings& settings) {
   names.read("SCENE", settings.scene);
   names.read("--environment", settings.render.environment.file);
   names.read("--background", settings.render.background.file);
+  names.read("--view-file", settings.view_file);
   names.read("--config", settings.config);
   names.read("--cache-in", settings.render.cache.cache_in);
   return names;
@@ -212,6 +217,7 @@ void complete_settings(RenderSettings& settings) {
   if (settings.quiet && settings.verbose)
     throw UsageError("--quiet and --verbose exclude each other, expected one");
   settings.image.display.exposure = settings.exposure.value_or(0.0f);
+  read_view_file(settings);
   complete_view(settings);
   check_picture(settings.render);
   refuse_without_effect(settings);
@@ -219,6 +225,7 @@ void complete_settings(RenderSettings& settings) {
   open_samples(settings);
   complete_aovs(settings.render);
   check_checkpoint(settings);
+  check_camera_names(settings);
   check_file_names(settings);
   if (settings.render.threads == 0) settings.render.threads = available_threads();
 }

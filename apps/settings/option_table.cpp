@@ -134,7 +134,7 @@ Option positional(const char* name, std::string& member, const char* help) {
 
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
-  auto& [scene, outputs, render, load, image, exposure, eye, target, up, config, stats, progress,
+  auto& [scene, outputs, render, load, image, exposure, eye, target, up, view_file, config, stats, progress,
          reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
@@ -152,6 +152,10 @@ std::vector<Option> option_table(RenderSettings& settings) {
     view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
     view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
     view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
+    view.add(any_word("view-file", view_file, "FILE",
+                      "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
+                      "aperture, focus, blades; flags beside it win"))
+        .in_recipe = InRecipe::never;
   }
   return table;
 }

@@ -29,6 +29,12 @@ std::string scene_options(const RenderSettings& settings) {
                         text_of(camera.look_at->target), text_of(camera.look_at->up));
   }
   if (camera.fov_degrees) text += fmt::format(" fov {}", *camera.fov_degrees);
+  if (camera.focal_mm) text += fmt::format(" lens {}", *camera.focal_mm);
+  if (camera.projection != renderer::Projection::camera)
+    text += fmt::format(" projection {}", renderer::word(camera.projection));
+  if (camera.view_height) text += fmt::format(" height {}", *camera.view_height);
+  if (const renderer::LensOptions& lens = camera.lens; lens.aperture > 0.0f || lens.f_stop > 0.0f)
+    text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus, lens.blades);
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),
@@ -39,15 +45,15 @@ std::string scene_options(const RenderSettings& settings) {
 
 }  // namespace
 
-scene::Camera view_of(const scene::Scene& scene, const renderer::RenderOptions& options) {
+renderer::View view_of(const scene::Scene& scene, const renderer::RenderOptions& options) {
   return renderer::choose_camera(scene, options.camera,
                                  static_cast<float>(options.width) / static_cast<float>(options.height));
 }
 
-std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera) {
+std::string deciding_text(const RenderSettings& settings, const renderer::View& view) {
   const renderer::RenderOptions& o = settings.render;
   std::string text;
-  for (const renderer::NamedText& option : renderer::deciding_options(o, camera, {{"isa", o.isa}})) {
+  for (const renderer::NamedText& option : renderer::deciding_options(o, view, {{"isa", o.isa}})) {
     text += fmt::format("{} {}\n", option.name, option.text);
   }
   // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
@@ -57,7 +63,7 @@ std::string deciding_text(const RenderSettings& settings, const scene::Camera& c
 }
 
 std::string deciding_text(const RenderSettings& settings) {
-  return deciding_text(settings, scene::Camera{}) + scene_options(settings);
+  return deciding_text(settings, renderer::View{}) + scene_options(settings);
 }
 
 std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts) {

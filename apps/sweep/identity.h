@@ -6,16 +6,17 @@
 
 #include "apps/settings/render_settings.h"
 #include "renderer/identity/scene_fingerprint.h"
+#include "renderer/settings/view.h"
 #include "scene/scene.h"
 
 namespace gatelight::apps {
 
 /// The camera that the options choose in a scene. Throws what renderer::choose_camera() throws.
-scene::Camera view_of(const scene::Scene& scene, const renderer::RenderOptions& options);
+renderer::View view_of(const scene::Scene& scene, const renderer::RenderOptions& options);
 
 /// Every option that decides picture, errors or time, including seed, steps and samples, but not the content
-/// of the scene's files. `camera` is the chosen camera.
-std::string deciding_text(const RenderSettings& settings, const scene::Camera& camera);
+/// of the scene's files. `view` is the chosen one.
+std::string deciding_text(const RenderSettings& settings, const renderer::View& view);
 /// The same before the scene is loaded, with the camera by its name.
 std::string deciding_text(const RenderSettings& settings);
 

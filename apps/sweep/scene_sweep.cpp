@@ -112,7 +112,7 @@ void SceneSweep::name_cells() {
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const PlannedSeries& series = series_[i];
     const renderer::SceneFingerprint& fingerprint = fingerprint_of(series.settings);
-    const scene::Camera view = view_of(scene_, series.settings.render);
+    const renderer::View view = view_of(scene_, series.settings.render);
     const std::string machine = machine_text(series.settings.render);
     Reference reference = given ? *given : planned_reference(series);
     read_reference_numbers(reference);

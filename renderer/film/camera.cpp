@@ -1,24 +1,61 @@
 #include "renderer/film/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gatelight::renderer {
+namespace {
 
-Camera::Camera(const scene::Camera& camera, int width, int height) {
-  const Eigen::Matrix3f frame = camera.transform.linear();
-  origin_ = camera.transform.translation();
+/// Uniform on the unit disk: Shirley and Chiu's concentric map (1997).
+scene::Vec2 disk_point(const scene::Vec2& u) {
+  const scene::Vec2 p = 2.0f * u - scene::Vec2::Ones();
+  if (p.x() == 0.0f && p.y() == 0.0f) return p;
+  const bool wide = std::abs(p.x()) > std::abs(p.y());
+  const float r = wide ? p.x() : p.y();
+  const float angle = wide ? 0.25f * scene::kPi * p.y() / p.x()
+                           : 0.5f * scene::kPi - 0.25f * scene::kPi * p.x() / p.y();
+  return r * scene::Vec2(std::cos(angle), std::sin(angle));
+}
+
+/// Uniform on a regular polygon with corners on the unit circle, one of them at the top.
+scene::Vec2 polygon_point(const scene::Vec2& u, int corners) {
+  const auto count = static_cast<float>(corners);
+  const float scaled = std::min(u.x() * count, std::nextafter(count, 0.0f));
+  const float side = std::floor(scaled);
+  const auto corner = [&](float k) {
+    const float angle = 0.5f * scene::kPi + 2.0f * scene::kPi * k / count;
+    return scene::Vec2(std::cos(angle), std::sin(angle));
+  };
+  // Uniform in the triangle of the middle and two corners.
+  const float root = std::sqrt(scaled - side);
+  return root * ((1.0f - u.y()) * corner(side) + u.y() * corner(side + 1.0f));
+}
+
+}  // namespace
+
+Camera::Camera(const View& view, int width, int height)
+    : width_(static_cast<float>(width)),
+      height_(static_cast<float>(height)),
+      lens_radius_(view.lens_radius),
+      focus_distance_(view.focus_distance),
+      blades_(view.blades),
+      orthographic_(view.orthographic),
+      panorama_(view.panorama) {
+  const Eigen::Matrix3f frame = view.transform.linear();
+  origin_ = view.transform.translation();
   forward_ = -frame.col(2).normalized();
-  const Vec3 right = frame.col(0).normalized();
-  const Vec3 up = frame.col(1).normalized();
-  const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  orthographic_ = camera.orthographic;
-  const float half_height = orthographic_ ? camera.half_height : std::tan(0.5f * camera.vertical_fov);
+  unit_right_ = frame.col(0).normalized();
+  unit_up_ = frame.col(1).normalized();
+  const float aspect = width_ / height_;
+  const float half_height = orthographic_ ? view.half_height : std::tan(0.5f * view.vertical_fov);
   const float half_width = half_height * aspect;
-  right_ = right * (2.0f * half_width / static_cast<float>(width));
-  down_ = up * (-2.0f * half_height / static_cast<float>(height));
-  corner_ = up * half_height - right * half_width;
-  const float pixel = 2.0f * half_height / static_cast<float>(height);
-  if (orthographic_) {
+  right_ = unit_right_ * (2.0f * half_width / width_);
+  down_ = unit_up_ * (-2.0f * half_height / height_);
+  corner_ = unit_up_ * half_height - unit_right_ * half_width;
+  const float pixel = 2.0f * half_height / height_;
+  if (panorama_) {
+    cone_ = {0.0f, scene::kPi / height_};
+  } else if (orthographic_) {
     corner_ += origin_;
     cone_ = {pixel, 0.0f};
   } else {
@@ -27,12 +64,67 @@ Camera::Camera(const scene::Camera& camera, int width, int height) {
   }
 }
 
+CameraRay Camera::panorama_ray(float x, float y) const {
+  // The filter may reach beyond the poles.
+  const float azimuth = (x / width_ - 0.5f) * 2.0f * scene::kPi, polar = y / height_ * scene::kPi;
+  const float level = std::sin(polar);
+  CameraRay result;
+  result.ray.origin = origin_;
+  result.ray.direction = (level * std::sin(azimuth) * unit_right_ + std::cos(polar) * unit_up_ +
+                          level * std::cos(azimuth) * forward_)
+                             .normalized();
+  result.cone = cone_;
+  return result;
+}
+
 CameraRay Camera::ray(float x, float y) const {
+  if (panorama_) return panorama_ray(x, y);
   CameraRay result;
   const Vec3 on_plane = corner_ + right_ * x + down_ * y;
   result.ray.origin = orthographic_ ? on_plane : origin_;
   result.ray.direction = orthographic_ ? forward_ : Vec3(on_plane.normalized());
   result.cone = cone_;
+  return result;
+}
+
+CameraRay Camera::ray(float x, float y, const scene::Vec2& lens) const {
+  if (!(lens_radius_ > 0.0f) || !(focus_distance_ > 0.0f)) return ray(x, y);
+  const scene::Vec2 p = lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : disk_point(lens));
+  const Vec3 offset = p.x() * unit_right_ + p.y() * unit_up_;
+  CameraRay result;
+  result.ray.origin = origin_ + offset;
+  result.ray.direction =
+      ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized();
+  result.cone = cone_;
+  return result;
+}
+
+std::optional<ViewMatrices> Camera::matrices(const Vec3& origin) const {
+  if (panorama_) return std::nullopt;
+  Eigen::Matrix4d to_camera = Eigen::Matrix4d::Identity();
+  const Eigen::Vector3d rows[] = {unit_right_.cast<double>(), unit_up_.cast<double>(),
+                                  forward_.cast<double>()};
+  const Eigen::Vector3d eye = (origin_ + origin).cast<double>();
+  for (int i = 0; i < 3; ++i) {
+    to_camera.block<1, 3>(i, 0) = rows[i].transpose();
+    to_camera(i, 3) = -rows[i].dot(eye);
+  }
+  // x and y from the middle to an edge, at a distance of one metre or in the world.
+  const auto half_width = static_cast<double>(0.5f * width_ * right_.norm());
+  const auto half_height = static_cast<double>(0.5f * height_ * down_.norm());
+  Eigen::Matrix4d to_ndc = Eigen::Matrix4d::Identity();
+  to_ndc(0, 0) = 0.5 / half_width;
+  to_ndc(1, 1) = -0.5 / half_height;
+  if (orthographic_) {
+    to_ndc(0, 3) = to_ndc(1, 3) = 0.5;
+  } else {
+    to_ndc(0, 2) = to_ndc(1, 2) = 0.5;
+    to_ndc(3, 2) = 1.0;
+    to_ndc(3, 3) = 0.0;
+  }
+  ViewMatrices result;
+  Eigen::Map<Eigen::Matrix4f>(result.world_to_camera.data()) = to_camera.cast<float>();
+  Eigen::Map<Eigen::Matrix4f>(result.world_to_ndc.data()) = (to_ndc * to_camera).cast<float>();
   return result;
 }
 

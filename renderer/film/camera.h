@@ -1,9 +1,10 @@
 #pragma once
 // Generates primary rays.
 
+#include "renderer/settings/view.h"
+#include "renderer/image/picture.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
-#include "scene/scene.h"
 
 namespace gatelight::renderer {
 
@@ -14,21 +15,37 @@ struct CameraRay {
 
 class Camera {
  public:
-  /// Takes the scene's camera and the size of the picture in pixels. The picture's aspect ratio replaces that
-  /// of the camera; the vertical field of view stays.
-  Camera(const scene::Camera& camera, int width, int height);
+  /// Takes the view and the size of the picture in pixels. The picture's aspect ratio replaces that of the
+  /// camera; the vertical field of view stays.
+  Camera(const View& view, int width, int height);
 
-  /// `x` and `y` are in pixels from the top left corner of the picture.
+  /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
+  /// lens; that of a pinhole is ignored.
+  CameraRay ray(float x, float y, const scene::Vec2& lens) const;
+  /// The ray through the middle of the lens.
   CameraRay ray(float x, float y) const;
 
+  /// For points in the file's coordinates, whose origin is at -`origin`. A panorama has none.
+  std::optional<ViewMatrices> matrices(const Vec3& origin) const;
+
  private:
+  CameraRay panorama_ray(float x, float y) const;
+
   Vec3 origin_;
   Vec3 right_;  ///< one pixel, at a distance of one metre (perspective) or in the world (orthographic)
   Vec3 down_;
   Vec3 corner_;  ///< the top left corner of the picture: a direction (perspective) or a point (orthographic)
   Vec3 forward_;
+  Vec3 unit_right_;
+  Vec3 unit_up_;
   RayCone cone_;
-  bool orthographic_ = false;
+  float width_;   ///< pixels
+  float height_;
+  float lens_radius_;
+  float focus_distance_;
+  int blades_;
+  bool orthographic_;
+  bool panorama_;
 };
 
 }  // namespace gatelight::renderer

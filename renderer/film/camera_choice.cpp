@@ -16,6 +16,9 @@ namespace {
 /// distances would leave single precision.
 constexpr float kFurthest = 1e12f;
 
+/// Millimetres across the wider side of the picture, as of a full-frame film.
+constexpr float kSensor = 36.0f;
+
 /// Computed in double, because the square of a float may overflow or become zero.
 scene::Affine look_at(const LookAt& view) {
   using Eigen::Vector3d;
@@ -39,9 +42,32 @@ scene::Affine look_at(const LookAt& view) {
 std::string names_of(const scene::Scene& scene) {
   if (scene.cameras.empty()) return "the file has no camera";
   std::string text = "expected one of";
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    text += fmt::format(" {} ({})", i, scene.cameras[i].name);
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const scene::Camera& camera = scene.cameras[i];
+    text += fmt::format("{} {} ({}", i == 0 ? "" : ",", i, camera.name);
+    if (!camera.node.empty() && camera.node != camera.name) text += fmt::format(", node {}", camera.node);
+    text += ")";
+  }
   return text;
+}
+
+/// A name of a camera wins over that of a node, both win over an index.
+const scene::Camera& find_named(const scene::Scene& scene, const std::string& name) {
+  const std::vector<scene::Camera>& cameras = scene.cameras;
+  for (std::string scene::Camera::*member : {&scene::Camera::name, &scene::Camera::node}) {
+    const auto has_name = [&](const scene::Camera& camera) { return camera.*member == name; };
+    const auto found = std::find_if(cameras.begin(), cameras.end(), has_name);
+    if (found == cameras.end()) continue;
+    if (std::find_if(found + 1, cameras.end(), has_name) != cameras.end())
+      throw BadOption(fmt::format("--camera {}: several cameras in {} have this name; {}", name, scene.path,
+                                  names_of(scene)));
+    return *found;
+  }
+  std::size_t index = cameras.size();
+  const char* const end = name.data() + name.size();
+  if (std::from_chars(name.data(), end, index).ptr != end || index >= cameras.size())
+    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}", name, scene.path, names_of(scene)));
+  return cameras[index];
 }
 
 /// Throws BadOption for a camera that is too far away or shows too much. `named` describes it in the message.
@@ -58,43 +84,97 @@ void require_near(const scene::Camera& camera, float aspect, const std::string& 
   }
 }
 
-scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
-  const float fov = options.fov_degrees ? *options.fov_degrees * scene::kPi / 180.0f : 0.0f;
+scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& options, float fov, float aspect) {
   scene::Camera camera;
   if (options.look_at) {
     camera.name = "look-at";
     camera.transform = look_at(*options.look_at);
     camera.transform.translation() -= scene.origin;
-  } else if (!options.name.empty()) {
-    const auto& cameras = scene.cameras;
-    std::size_t index = static_cast<std::size_t>(
-        std::find_if(cameras.begin(), cameras.end(), [&](const auto& c) { return c.name == options.name; }) -
-        cameras.begin());
-    const char* end = options.name.data() + options.name.size();
-    const bool known =
-        index < cameras.size() ||
-        (std::from_chars(options.name.data(), end, index).ptr == end && index < cameras.size());
-    if (!known) {
-      throw BadOption(
-          fmt::format("--camera {}: no such camera in {}; {}", options.name, scene.path, names_of(scene)));
-    }
-    camera = cameras[index];
-  } else if (!scene.cameras.empty()) {
-    camera = scene.cameras.front();
-  } else {
-    return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
+    return camera;
   }
-  if (fov > 0.0f) camera.vertical_fov = fov;
-  return camera;
+  if (!options.name.empty()) return find_named(scene, options.name);
+  if (!scene.cameras.empty()) return scene.cameras.front();
+  return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
+}
+
+/// The vertical field of view that the options set, in radians; 0: none.
+float chosen_fov(const CameraOptions& options, float aspect) {
+  if (options.fov_degrees) return *options.fov_degrees * scene::kPi / 180.0f;
+  if (!options.focal_mm) return 0.0f;
+  return 2.0f * std::atan(0.5f * kSensor / (*options.focal_mm * std::max(1.0f, aspect)));
+}
+
+float distance_to_subject(const scene::Scene& scene, const CameraOptions& options, const View& view) {
+  if (options.look_at) return (options.look_at->eye - options.look_at->target).norm();
+  return scene.bounds.isEmpty() ? 1.0f : (scene.bounds.center() - view.transform.translation()).norm();
+}
+
+void project(const scene::Scene& scene, const CameraOptions& options, View& view) {
+  if (options.projection == Projection::orthographic && !view.orthographic) {
+    // As large as the perspective shows the subject.
+    view.half_height = distance_to_subject(scene, options, view) * std::tan(0.5f * view.vertical_fov);
+    view.half_width = 0.0f;
+  }
+  if (options.projection != Projection::camera)
+    view.orthographic = options.projection == Projection::orthographic;
+  view.panorama = options.projection == Projection::panorama;
+  if (!options.view_height) return;
+  if (!view.orthographic)
+    throw BadOption("--view-height: the view is not orthographic, expected --projection orthographic");
+  view.half_height = 0.5f * *options.view_height;
+}
+
+scene::Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
+  scene::Box box;
+  for (const scene::Vec3& p : scene.mesh_of(instance).positions) box.extend(scene::Vec3(instance.transform * p));
+  return box;
+}
+
+/// Metres along the view.
+float focus_distance(const scene::Scene& scene, const std::string& focus, const View& view) {
+  if (focus.empty()) return 0.0f;
+  float distance = 0.0f;
+  const char* const end = focus.data() + focus.size();
+  if (std::from_chars(focus.data(), end, distance).ptr != end) {
+    scene::Box box;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+      if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
+    }
+    if (box.isEmpty())
+      throw BadOption(
+          fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus, scene.path));
+    distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
+    if (!(distance > 0.0f))
+      throw BadOption(fmt::format("--focus {}: it is behind the camera '{}'", focus, view.name));
+  }
+  if (!(distance > 0.0f))
+    throw BadOption(fmt::format("--focus {}: expected metres above 0, or a node", focus));
+  return distance;
+}
+
+void set_lens(const scene::Scene& scene, const LensOptions& lens, float aspect, View& view) {
+  const bool any = lens.aperture > 0.0f || lens.f_stop > 0.0f;
+  if (!any) return;
+  if (view.orthographic || view.panorama)
+    throw BadOption("--aperture: the view has no lens, expected --projection perspective");
+  // The focal length that shows this field of view on a sensor of 36 mm.
+  const float focal = 0.5e-3f * kSensor / (std::tan(0.5f * view.vertical_fov) * std::max(1.0f, aspect));
+  view.lens_radius = 0.5f * (lens.f_stop > 0.0f ? focal / lens.f_stop : lens.aperture);
+  view.focus_distance = focus_distance(scene, lens.focus, view);
+  view.blades = lens.blades;
 }
 
 }  // namespace
 
-scene::Camera choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
-  scene::Camera camera = find_camera(scene, options, aspect);
-  require_near(camera, aspect,
-               options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", camera.name, scene.path));
-  return camera;
+View choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
+  const float fov = chosen_fov(options, aspect);
+  View view = find_camera(scene, options, fov, aspect);
+  if (fov > 0.0f) view.vertical_fov = fov;
+  project(scene, options, view);
+  require_near(view, aspect,
+               options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", view.name, scene.path));
+  set_lens(scene, options.lens, aspect, view);
+  return view;
 }
 
 }  // namespace gatelight::renderer

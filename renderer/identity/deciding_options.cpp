@@ -31,11 +31,16 @@ std::string numbers(const Eigen::DenseBase<Dense>& values) {
   return text;
 }
 
-std::string text_of(const scene::Camera& camera) {
-  const auto& [name, transform, orthographic, vertical_fov, aspect, half_height, half_width] = camera;
-  return fmt::format("{} {}", numbers(transform.matrix()),
+std::string text_of(const View& view) {
+  const scene::Camera& camera = view;
+  const auto& [name, node, transform, orthographic, vertical_fov, aspect, half_height, half_width] = camera;
+  std::string text = fmt::format("{} {}", numbers(transform.matrix()),
                      orthographic ? fmt::format("orthographic {},{}", half_height, half_width)
                                   : fmt::format("fov {} aspect {}", vertical_fov, aspect));
+  if (view.panorama) text += " panorama";
+  if (view.lens_radius > 0.0f)
+    text += fmt::format(" lens {},{},{}", view.lens_radius, view.focus_distance, view.blades);
+  return text;
 }
 
 std::string deciding_text(const Option& option) {
@@ -46,7 +51,7 @@ std::string deciding_text(const Option& option) {
 
 }  // namespace
 
-NamedTexts deciding_options(const RenderOptions& options, const scene::Camera& camera,
+NamedTexts deciding_options(const RenderOptions& options, const View& view,
                             const NamedTexts& machine) {
   RenderOptions copy = options;
   std::vector<Option> table = option_table(copy);
@@ -57,7 +62,7 @@ NamedTexts deciding_options(const RenderOptions& options, const scene::Camera& c
         (option.encoding && *option.encoding != options.cache.encoding))
       continue;
     texts.push_back({option.name, deciding_text(option)});
-    if (option.name == "region") texts.push_back({"camera", text_of(camera)});
+    if (option.name == "region") texts.push_back({"camera", text_of(view)});
   }
   texts.insert(texts.end(), machine.begin(), machine.end());
   return texts;

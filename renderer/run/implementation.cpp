@@ -86,9 +86,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       arena(threads),
       region(resolve_region(options)),
       tiles(region),
-      view(choose_camera(scene, options.camera,
-                         static_cast<float>(options.width) / static_cast<float>(options.height))),
-      camera(view, options.width, options.height),
+      view(chosen_view(options.camera)),
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
   const neural::FlushDenormals flush;  // also on the arena's threads, as the arena is made here
@@ -105,11 +103,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
                   AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
     world->background_apart = options.background.apart();
   });
-  for (std::string warning :
-       {sky_warning(scene, options), made_view(scene, options.camera, view), world->environment.warning(),
-        view_warning(*world, camera, options.width, options.height)}) {
-    if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
-  }
+  look_through(options.camera);
   statistics.build_seconds = seconds_since(start);
   statistics.width = region.width();
   statistics.height = region.height();
@@ -119,6 +113,29 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   statistics.bvh_bytes = world->accel.bytes();
   statistics.texture_bytes = world->textures.bytes() + world->environment.bytes();
   statistics.light_bytes = world->lights.bytes() + world->light_arrays.bytes();
+}
+
+View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
+  return choose_camera(scene, chosen, static_cast<float>(options.width) / static_cast<float>(options.height));
+}
+
+void Renderer::Implementation::look_through(const CameraOptions& chosen) {
+  view = chosen_view(chosen);
+  options.camera = chosen;
+  camera = Camera(view, options.width, options.height);
+  std::string focus;
+  if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
+    view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);
+    camera = Camera(view, options.width, options.height);
+    focus = fmt::format("the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
+                        view.focus_distance, view.focus_distance);
+  }
+  statistics.warnings.clear();
+  for (std::string warning :
+       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
+        view_warning(*world, camera, options.width, options.height)}) {
+    if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
+  }
 }
 
 SceneFingerprint Renderer::Implementation::scene_fingerprint() {
@@ -172,6 +189,10 @@ Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
     : implementation_(std::make_unique<Implementation>(scene, options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
+
+void Renderer::set_camera(const CameraOptions& camera) {
+  implementation_->look_through(camera);
+}
 
 const RenderStatistics& Renderer::statistics() const {
   return implementation_->statistics;

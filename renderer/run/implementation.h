@@ -42,6 +42,9 @@ struct Training {
 struct Renderer::Implementation {
   Implementation(const scene::Scene& scene_in, const RenderOptions& options_in);
 
+  View chosen_view(const CameraOptions& chosen) const;
+  /// Chooses the view, and says in the statistics what is to be told of it.
+  void look_through(const CameraOptions& chosen);
   /// The fingerprint of the scene with its environment.
   SceneFingerprint scene_fingerprint();
   CheckpointIdentity identity(const SceneFingerprint& fingerprint) const;
@@ -73,8 +76,8 @@ struct Renderer::Implementation {
   tbb::task_arena arena;
   PixelRect region;
   TileGrid tiles;
-  scene::Camera view;
-  Camera camera;
+  View view;
+  Camera camera{view, 1, 1};
   FilterSampler filter;
   std::size_t budget;
   std::optional<World> world;

@@ -227,6 +227,7 @@ class Renderer::Implementation::PictureRun {
     renderer_.statistics.reconstruct_seconds = reconstruct_seconds_;
     renderer_.statistics.estimated_error = finished.estimated_error;
     renderer_.statistics.lost_light = finished.lost_light;
+    finished.picture.view = renderer_.camera.matrices(renderer_.scene.origin);
     return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }

@@ -22,6 +22,13 @@ enum class GlassShadows : std::uint8_t {
   refract,   ///< as it is: shadow rays end at the glass, and bounces find what light it bends
   straight,  ///< tinted but not bent (an approximation): shadow rays and bounces pass as through panes
 };
+/// How a picture shows the scene.
+enum class Projection : std::uint8_t {
+  camera,  ///< as the camera of the file
+  perspective,
+  orthographic,
+  panorama,  ///< all directions around the camera: latitude-longitude
+};
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
 enum class NanPolicy : std::uint8_t { drop, error };
 

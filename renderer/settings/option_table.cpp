@@ -141,17 +141,55 @@ OptionValue background_value(const BackgroundOptions& background) {
   return std::vector<float>{background.color.x(), background.color.y(), background.color.z()};
 }
 
+void read_aperture(LensOptions& lens, const std::string& text) {
+  const RealRange range{.min = 0.0, .max = 1e6};
+  const bool stops = text.starts_with("f/");
+  const auto value = static_cast<float>(parse_real("--aperture", stops ? text.substr(2) : text, range));
+  lens.f_stop = stops ? value : 0.0f;
+  lens.aperture = stops ? 0.0f : value;
+}
+
+void add_lens_options(OptionGroup& view, LensOptions& lens) {
+  [[maybe_unused]] auto& [aperture, f_stop, focus, blades] = lens;  // one flag sets the first two
+  const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
+  const auto aperture_value = [&lens]() -> OptionValue {
+    return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
+  };
+  add({.name = "aperture",
+       .unit = "f/N|METRES",
+       .help = "Opening of the lens, as an f-stop or its diameter: what is not in focus is blurred; 0: all is "
+               "sharp",
+       .value = aperture_value,
+       .read = [&lens](const std::string& text) { read_aperture(lens, text); }});
+  add(any_word("focus", focus, "METRES|NODE",
+               "With --aperture: distance along the view, or an object (default: what the middle of the picture "
+               "sees, told)"))
+      .value = [&focus] { return focus.empty() ? OptionValue() : focus; };
+  add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"));
+}
+
 /// Checkpoints store the chosen camera and the scene's fingerprint instead.
 void add_view_options(std::vector<Option>& table, CameraOptions& camera, EnvironmentOptions& environment,
                       BackgroundOptions& background) {
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
-  auto& [name, look_at, fov_degrees] = camera;  // flags of the application set look_at
-  add(any_word("camera", name, "NAME|INDEX", "Camera of the file, by name or index (default: the first)"))
+  // Flags of the application set look_at.
+  auto& [name, look_at, fov_degrees, focal_mm, projection, view_height, lens] = camera;
+  add(any_word("camera", name, "NAME|INDEX",
+               "Camera of the file, by its name, its node's or its index (default: the first); all of "
+               "them with 'all' and {camera} in the outputs' names"))
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
   // Beyond these bounds tangents leave the range of single precision.
   add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
                 "Vertical field of view; overrides the camera's"));
+  add(number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
+                "The same by a focal length, with 36 mm across the wider side of the picture"));
+  add(choice("projection", projection,
+             "As the camera of the file, or one of these; a panorama shows all directions around the camera "
+             "(latitude-longitude, expected twice as wide as high)"));
+  add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true}, "METRES",
+                "What an orthographic picture shows from bottom to top"));
+  add_lens_options(view, lens);
   auto& [automatic, file, constant, rotation_degrees, scale] = environment;  // one flag sets the first three
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",

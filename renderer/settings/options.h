@@ -28,10 +28,22 @@ struct LookAt {
   scene::Vec3 up{0.0f, 1.0f, 0.0f};
 };
 
+/// Depth of field. Without an aperture all is sharp.
+struct LensOptions {
+  float aperture = 0.0f;  ///< diameter in metres, unless f_stop is set
+  float f_stop = 0.0f;    ///< focal length over diameter; 0: not set
+  std::string focus;      ///< metres along the view, or a node; empty: what the middle of the picture sees
+  int blades = 0;         ///< corners of the aperture; 0: round
+};
+
 struct CameraOptions {
-  std::string name;  ///< name or index of a camera of the file; empty: the first, or auto-framing
+  std::string name;  ///< of a camera or its node, or an index; empty: the first, or auto-framing
   std::optional<LookAt> look_at;
   std::optional<float> fov_degrees;  ///< vertical; overrides the camera's
+  std::optional<float> focal_mm;     ///< the same, with 36 mm across the wider side of the picture
+  Projection projection = Projection::camera;
+  std::optional<float> view_height;  ///< metres, of an orthographic picture
+  LensOptions lens;
 };
 
 /// So many samples per pixel mean that something else ends the picture.

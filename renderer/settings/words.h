@@ -27,6 +27,11 @@ template <>
 inline constexpr Choice<GlassShadows> kWords<GlassShadows>[] = {{"refract", GlassShadows::refract},
                                                                 {"straight", GlassShadows::straight}};
 template <>
+inline constexpr Choice<Projection> kWords<Projection>[] = {{"camera", Projection::camera},
+                                                            {"perspective", Projection::perspective},
+                                                            {"orthographic", Projection::orthographic},
+                                                            {"panorama", Projection::panorama}};
+template <>
 inline constexpr Choice<PixelFilter> kWords<PixelFilter>[] = {
     {"box", PixelFilter::box},
     {"tent", PixelFilter::tent},

@@ -47,4 +47,14 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
   return "";
 }
 
+float distance_in_the_middle(const World& world, const Camera& camera, int width, int height) {
+  const Ray ray = camera.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)).ray;
+  Hit hit;
+  world.accel.intersect({&ray, 1}, {&hit, 1}, true);
+  if (hit) return hit.t;
+  if (world.scene.bounds.isEmpty()) return 1.0f;
+  const float along = (world.scene.bounds.center() - ray.origin).dot(ray.direction);
+  return along > 0.0f ? along : world.scene.bounds.diagonal().norm();
+}
+
 }  // namespace gatelight::renderer

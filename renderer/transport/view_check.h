@@ -13,4 +13,8 @@ namespace gatelight::renderer {
 /// in pixels.
 std::string view_warning(const World& world, const Camera& camera, int width, int height);
 
+/// Metres along the view to what the middle of the picture sees; where it sees nothing, to the middle of the
+/// scene.
+float distance_in_the_middle(const World& world, const Camera& camera, int width, int height);
+
 }  // namespace gatelight::renderer

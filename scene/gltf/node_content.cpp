@@ -39,6 +39,7 @@ Camera make_camera(const Document& document, int node_index, const Eigen::Affine
   const std::string where = fmt::format("cameras[{}]", index);
   Camera camera;
   camera.name = name_of(source, node);
+  camera.node = node.value("name", "");
   camera.transform = rigid(document, node_index, world);
   const json& lens = source[source["type"].get<std::string>()];
   if (source["type"] == "orthographic") {

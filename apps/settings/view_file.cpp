@@ -1,0 +1,61 @@
+#include "apps/settings/view_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "apps/settings/option_table.h"
+#include "apps/terminal/errors.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::json;
+using renderer::Option;
+
+constexpr const char* kMembers[] = {"camera",     "eye",         "target",   "up",    "fov",   "lens",
+                                    "projection", "view-height", "aperture", "focus", "blades"};
+
+std::string text_of(const json& value) {
+  if (value.is_string()) return value;
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> parts;
+  for (const json& part : value) parts.push_back(text_of(part));
+  return fmt::format("{}", fmt::join(parts, ","));
+}
+
+json read_object(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("cannot read the view '{}': there is no such file", path));
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  json view = json::parse(text, nullptr, false);
+  if (!view.is_object()) throw InputError(fmt::format("cannot read the view '{}': it is no JSON object", path));
+  return view;
+}
+
+}  // namespace
+
+void read_view_file(RenderSettings& settings) {
+  if (settings.view_file.empty()) return;
+  const json view = read_object(settings.view_file);
+  const std::vector<Option> table = option_table(settings);
+  for (const auto& [name, value] : view.items()) {
+    if (std::find(std::begin(kMembers), std::end(kMembers), name) == std::end(kMembers))
+      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}", settings.view_file, name,
+                                   fmt::join(kMembers, ", ")));
+    const auto option =
+        std::find_if(table.begin(), table.end(), [&](const Option& o) { return o.name == name; });
+    if (value.is_null() || settings.given.contains(option->flag())) continue;
+    try {
+      option->read(text_of(value));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(fmt::format("the view '{}': {}", settings.view_file, error.what()));
+    }
+  }
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,18 @@
+#pragma once
+// A camera with its lens.
+
+#include "scene/scene.h"
+
+namespace gatelight::renderer {
+
+struct View : scene::Camera {
+  bool panorama = false;        ///< all directions: latitude-longitude, -z of the camera in the middle
+  float lens_radius = 0.0f;     ///< metres; 0: a pinhole, all is sharp
+  float focus_distance = 0.0f;  ///< metres along the view; 0: to what the middle of the picture sees
+  int blades = 0;               ///< corners of the aperture; 0: round
+
+  View() = default;
+  View(const scene::Camera& camera) : scene::Camera(camera) {}
+};
+
+}  // namespace gatelight::renderer
