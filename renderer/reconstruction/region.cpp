@@ -17,6 +17,8 @@ namespace {
 constexpr float kLeastDivisor = 0.02f;
 /// Non-local means: differences count in these standard deviations.
 constexpr float kBandwidth = 0.5f;
+/// Few samples do not tell how they vary, nor the error of a fit. So many halve the doubt that their mean is the better one.
+constexpr float kDoubt = 2.0f;
 /// Pixels of one surface: normals and divisors differ by less.
 constexpr float kEdge = 0.45f;
 /// Relative to the cache's answers, differences that say nothing.
@@ -332,8 +334,11 @@ void Region::join() {
   each_pixel([&](std::size_t p) {
     float share = 0.0f;
     // One sample has no second half to tell its error.
-    if (counts_[p] >= 2.0f)
-      share = std::clamp((error[p] - shared[p]) / std::max(distance[p], 1e-20f), 0.0f, 1.0f);
+    if (counts_[p] >= 2.0f) {
+      const float doubt = kDoubt / (kDoubt + counts_[p]);
+      const float best = (error[p] - shared[p]) / std::max(distance[p], 1e-20f);
+      share = std::clamp((best - doubt) / (1.0f - doubt), 0.0f, 1.0f);
+    }
     const float joined = error[p] - 2.0f * share * (error[p] - shared[p]) + share * share * distance[p];
     error_[p] = std::max(joined, 0.0f) * (square[p] + kLeastSquare) / 3.0f;
     if (share > 0.0f) {
