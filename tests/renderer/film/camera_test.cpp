@@ -27,6 +27,12 @@ scene::Scene scene_with_cameras() {
   return s;
 }
 
+CameraOptions named(const std::string& name) {
+  CameraOptions options;
+  options.name = name;
+  return options;
+}
+
 TEST(Camera, CentreLooksForwardAndCornersSpanTheFieldOfView) {
   scene::Camera c;
   c.vertical_fov = 1.0f;
@@ -60,14 +66,14 @@ TEST(Camera, ConeIsOnePixelWide) {
 TEST(Camera, IsChosenByNameThenByIndex) {
   const scene::Scene s = scene_with_cameras();
   EXPECT_EQ(choose_camera(s, {}, 1.0f).name, "front");
-  EXPECT_EQ(choose_camera(s, {.name = "top", .look_at = {}, .fov_degrees = {}}, 1.0f).name, "top");
-  EXPECT_EQ(choose_camera(s, {.name = "1", .look_at = {}, .fov_degrees = {}}, 1.0f).name, "top");
+  EXPECT_EQ(choose_camera(s, named("top"), 1.0f).name, "top");
+  EXPECT_EQ(choose_camera(s, named("1"), 1.0f).name, "top");
 }
 
 TEST(Camera, UnknownNameNamesTheChoices) {
   const scene::Scene s = scene_with_cameras();
   expect_refusal<BadOption>(
-      [&] { choose_camera(s, {.name = "side", .look_at = {}, .fov_degrees = {}}, 1.0f); },
+      [&] { choose_camera(s, named("side"), 1.0f); },
       {"side", "test.glb", "front", "top"});
 }
 

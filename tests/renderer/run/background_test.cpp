@@ -1,0 +1,223 @@
+// Pictures with an alpha, and before other backgrounds; views that change.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/image/image_write.h"
+#include "renderer/render.h"
+#include "tests/support/messages.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using scene::Color;
+using scene::Vec3;
+using testing::SceneBuilder;
+using tests::TemporaryFolder;
+using Kind = BackgroundOptions::Kind;
+
+constexpr int kWidth = 32, kHeight = 24;
+
+/// From left to right: a matte box, a blended sheet, a pane, and a block of glass.
+SceneBuilder row_of_objects() {
+  SceneBuilder builder;
+  builder.box(builder.material(SceneBuilder::lambert(Color(0.6f, 0.4f, 0.2f))), Vec3(-4, -1, -1), Vec3(-2.4f, 1, 1));
+  scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f));
+  sheet.alpha_mode = scene::AlphaMode::blend;
+  sheet.base_alpha = 0.3f;
+  sheet.double_sided = true;
+  builder.quad(builder.material(sheet), Vec3(-2, -1, 0), Vec3(1.6f, 0, 0), Vec3(0, 2, 0));
+  scene::Material pane = SceneBuilder::clear_glass();
+  pane.base_color = Color(0.9f, 0.5f, 0.7f);
+  builder.quad(builder.material(pane), Vec3(0, -1, 0), Vec3(1.6f, 0, 0), Vec3(0, 2, 0));
+  scene::Material glass = SceneBuilder::clear_glass();
+  glass.thickness = 1.0f;
+  builder.box(builder.material(glass), Vec3(2, -1, -1), Vec3(3.6f, 1, 1));
+  return builder;
+}
+
+RenderOptions options_for(Integrator integrator) {
+  RenderOptions options;
+  options.integrator = integrator;
+  options.width = kWidth;
+  options.height = kHeight;
+  options.spp = 16;
+  options.camera.look_at = LookAt{{0, 0, 12}, {0, 0, 0}, {0, 1, 0}};
+  options.environment.constant = Color(0.2f, 0.5f, 0.9f);
+  options.cache.train_steps = 4;
+  options.cache.batch = 512;
+  return options;
+}
+
+Picture rendered(const scene::Scene& scene, const RenderOptions& options) {
+  return Renderer(scene, options).render();
+}
+
+const float* pixel(const Picture& picture, int x, int y) {
+  const Layer& beauty = picture.layers.front();
+  return &beauty.values[static_cast<std::size_t>(y * picture.width + x) * beauty.channels.size()];
+}
+
+TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
+  const SceneBuilder builder = row_of_objects();
+  for (const Integrator integrator : {Integrator::path, Integrator::nrc, Integrator::ao}) {
+    RenderOptions options = options_for(integrator);
+    const Color sky = integrator == Integrator::ao ? Color::Ones() : options.environment.constant;
+    const Picture whole = rendered(builder.scene(), options);
+    options.background.kind = Kind::transparent;
+    const Picture apart = rendered(builder.scene(), options);
+    ASSERT_EQ(apart.layers.front().channels.back(), "A");
+    ASSERT_EQ(apart.layers.size(), 1u) << "the layer that alpha comes from is not asked for";
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const float *a = pixel(apart, x, y), *w = pixel(whole, x, y);
+        // The pane's tint is a colour and alpha one number: its luminance is right.
+        const Color difference(w[0] - a[0], w[1] - a[1], w[2] - a[2]);
+        EXPECT_NEAR(scene::luminance(difference),
+                    (1.0f - a[3]) * scene::luminance(sky), integrator == Integrator::ao ? 1e-4f : 0.02f)
+            << x << "," << y << " of integrator " << static_cast<int>(integrator);
+      }
+    }
+    // The box, the sheet, the block of glass, and nothing.
+    EXPECT_FLOAT_EQ(pixel(apart, 5, 12)[3], 1.0f);
+    EXPECT_NEAR(pixel(apart, 11, 12)[3], 0.3f, 0.07f);
+    EXPECT_FLOAT_EQ(pixel(apart, 27, 12)[3], 1.0f);
+    EXPECT_FLOAT_EQ(pixel(apart, 16, 1)[3], 0.0f);
+    EXPECT_FLOAT_EQ(pixel(apart, 16, 1)[1], 0.0f);
+    if (integrator != Integrator::ao) {
+      EXPECT_GT(pixel(apart, 19, 12)[3], 0.2f);
+      EXPECT_LT(pixel(apart, 19, 12)[3], 0.6f);
+    }
+  }
+}
+
+TEST(Background, BlendedSheetsAreSampledEvenly) {
+  const SceneBuilder builder = row_of_objects();
+  RenderOptions options = options_for(Integrator::path);
+  options.background.kind = Kind::transparent;
+  options.spp = 64;
+  const Picture picture = rendered(builder.scene(), options);
+  for (int x = 10; x < 13; ++x) {
+    // Independent numbers would have a standard deviation of 0.057.
+    for (int y = 10; y < 14; ++y) EXPECT_NEAR(pixel(picture, x, y)[3], 0.3f, 0.035f) << x << "," << y;
+  }
+}
+
+TEST(Background, AColourShinesThroughByAlpha) {
+  const SceneBuilder builder = row_of_objects();
+  RenderOptions options = options_for(Integrator::path);
+  options.background.kind = Kind::transparent;
+  const Picture apart = rendered(builder.scene(), options);
+  options.background = {.kind = Kind::color, .color = {0.1f, 2.0f, 0.3f}, .file = {}};
+  const Picture before = rendered(builder.scene(), options);
+  ASSERT_EQ(before.layers.front().channels.size(), 3u);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const float* a = pixel(apart, x, y);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel(before, x, y)[c], a[c] + (1.0f - a[3]) * options.background.color[c], 1e-5f);
+    }
+  }
+}
+
+/// A picture whose red is its column and green its row.
+void write_grid(const std::filesystem::path& file, int width, int height) {
+  Picture picture{.width = width, .height = height};
+  Layer beauty{.channels = {"R", "G", "B"}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      beauty.values.insert(beauty.values.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f});
+  }
+  picture.layers.push_back(beauty);
+  write_image(picture, file, {.exr_float = true});
+}
+
+TEST(Background, AFileCoversTheViewAndARegionSeesItsPart) {
+  const TemporaryFolder folder;
+  const scene::Scene nothing = SceneBuilder().scene();
+  RenderOptions options = options_for(Integrator::path);
+  options.spp = 1;
+  options.background = {.kind = Kind::file, .color = Color::Zero(), .file = (folder / "grid.exr").string()};
+  write_grid(folder / "grid.exr", kWidth, kHeight);
+  options.region = {5, 3, 20, 17};
+  const Picture region = rendered(nothing, options);
+  EXPECT_EQ(pixel(region, 2, 4)[0], 7.0f);
+  EXPECT_EQ(pixel(region, 2, 4)[1], 7.0f);
+  // Twice as large and wider: its middle is seen, half as large.
+  write_grid(folder / "grid.exr", 2 * kWidth + 20, 2 * kHeight);
+  options.region.reset();
+  const Picture whole = rendered(nothing, options);
+  EXPECT_NEAR(pixel(whole, 10, 8)[0], 10 + 2 * 10 + 0.5f, 0.1f);
+  EXPECT_NEAR(pixel(whole, 10, 8)[1], 2 * 8 + 0.5f, 0.1f);
+  options.background.file = (folder / "missing.exr").string();
+  tests::expect_message(tests::refusal<ImageError>([&] { rendered(nothing, options); }), {"missing.exr"});
+}
+
+TEST(Background, ReconstructionFinishesTheAlphaToo) {
+  const SceneBuilder builder = row_of_objects();
+  RenderOptions options = options_for(Integrator::path);
+  options.width *= 4;
+  options.height *= 4;
+  options.spp = 4;
+  options.sampler = SamplerKind::independent;
+  options.background.kind = Kind::transparent;
+  const auto spread = [&] {
+    const Picture picture = rendered(builder.scene(), options);
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (int y = 42; y < 54; ++y) {
+      for (int x = 40; x < 50; ++x, ++count) {
+        const double a = static_cast<double>(pixel(picture, x, y)[3]);
+        sum += a;
+        squares += a * a;
+      }
+    }
+    EXPECT_NEAR(sum / count, 0.3, 0.08);
+    return std::sqrt(squares / count - sum * sum / count / count);
+  };
+  const double raw = spread();
+  options.reconstruct = true;
+  EXPECT_LT(spread(), 0.5 * raw);
+}
+
+TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {
+  const SceneBuilder builder = row_of_objects();
+  for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+    RenderOptions options = options_for(integrator);
+    options.spp = 2;
+    Renderer renderer(builder.scene(), options);
+    const Picture first = renderer.render();
+    CameraOptions other;
+    other.look_at = LookAt{{6, 5, 9}, {0, 0, 0}, {0, 1, 0}};
+    renderer.set_camera(other);
+    const Picture second = renderer.render();
+    options.camera = other;
+    EXPECT_EQ(second.layers.front().values, rendered(builder.scene(), options).layers.front().values);
+    EXPECT_NE(second.layers.front().values, first.layers.front().values);
+    EXPECT_THROW(renderer.set_camera({.name = "none"}), BadOption);
+    EXPECT_EQ(renderer.render().layers.front().values, second.layers.front().values) << "the view stays";
+  }
+}
+
+TEST(Focus, WithoutADistanceIsWhatTheMiddleSees) {
+  const SceneBuilder builder = row_of_objects();
+  RenderOptions options = options_for(Integrator::path);
+  options.spp = 1;
+  options.camera.look_at = LookAt{{-3.2f, 0, 12}, {-3.2f, 0, 0}, {0, 1, 0}};
+  options.camera.lens.aperture = 0.2f;
+  Renderer renderer(builder.scene(), options);
+  const std::vector<std::string>& warnings = renderer.statistics().warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return text.find("--focus 11 ") != std::string::npos;
+  }));
+  const Picture by_middle = renderer.render();
+  options.camera.lens.focus = "11";
+  EXPECT_EQ(rendered(builder.scene(), options).layers.front().values, by_middle.layers.front().values);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
