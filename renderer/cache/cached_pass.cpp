@@ -149,6 +149,7 @@ void CachedPass::finish_paths(Tile& tile) const {
     // Paths without a record or an answer are black.
     const bool traced = plan_.query_at == QueryAt::none;
     const std::vector<std::int32_t>& at = traced ? tile.paths.first_records : tile.paths.first_queries;
+    for (FirstHit& first : tile.first_hits) first.seen = Color::Zero();
     const float* const values = traced ? tile.paths.targets.data() : answers.data();
     for (std::size_t i = 0; i < tile.radiance.size(); ++i) {
       tile.radiance[i] = at[i] == kNone

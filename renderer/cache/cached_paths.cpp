@@ -106,12 +106,17 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
   if (!hit) {
     if (first) leave_guide(path, *first);
-    add_emission(path, path.sky(walk_, ray.direction), batch);
+    const Emission sky = path.sky(walk_, ray.direction);
+    if (first && path.surfaces == 0) first->seen = sky.radiance;
+    add_emission(path, sky, batch);
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
-  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  if (first && path.surfaces == 0) {
+    *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+    first->seen = m.emission.radiance;
+  }
   if (first) meet_guide(path, m, *first);
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;

@@ -40,6 +40,9 @@ struct GuideSurface {
 struct FirstHit {
   bool hit = false;
   float alpha = 1.0f;  ///< 1 less what of the background is seen
+  /// The part of the sample's radiance that the camera sees itself: emission of the first surface, or the
+  /// environment.
+  Color seen{0.0f, 0.0f, 0.0f};
   Color albedo{0.0f, 0.0f, 0.0f};
   Vec3 normal = Vec3::Zero();
   Vec3 position = Vec3::Zero();

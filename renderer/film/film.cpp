@@ -77,6 +77,7 @@ Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov>
   radiance_.resize(pixels);
   if (has(aovs_, Aov::reconstruction)) {
     for (auto& half : halves_) half.resize(pixels);
+    for (auto& half : seen_) half.resize(pixels);
   }
   if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
 }
@@ -84,7 +85,7 @@ Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov>
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
   const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
   const std::size_t sums = has(aovs, Aov::reconstruction) ? 3 : 1;
-  return sums * sizeof(Radiance) + (first ? sizeof(First) : 0);
+  return sums * sizeof(Radiance) + (sums > 1 ? 2 * sizeof(std::array<double, 3>) : 0) + (first ? sizeof(First) : 0);
 }
 
 PixelSample Film::take(const Pixel& p) {
@@ -118,18 +119,21 @@ void Film::take_pass(std::span<const Pixel> pixels, int ahead, std::vector<Pixel
   }
 }
 
-void Film::add(const PixelSample& sample, const Color& radiance) {
+void Film::add(const PixelSample& sample, const Color& radiance, const Color& seen) {
   const std::size_t pixel = at(sample.pixel);
-  const auto add_to = [&](Radiance& p) {
+  const auto add_to = [&](Radiance& p, const Color& value) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double v = static_cast<double>(radiance[static_cast<Eigen::Index>(i)]);
+      const double v = static_cast<double>(value[static_cast<Eigen::Index>(i)]);
       p.sum[i] += v;
       p.square[i] += v * v;
     }
     ++p.count;
   };
-  if (!halves_[0].empty()) add_to(halves_[sample.half()][pixel]);
-  add_to(radiance_[pixel]);
+  if (!halves_[0].empty()) {
+    add_to(halves_[sample.half()][pixel], radiance - seen);
+    accumulate(seen_[sample.half()][pixel], seen.matrix());
+  }
+  add_to(radiance_[pixel], radiance);
 }
 
 void Film::add(const PixelSample& sample, const FirstHit& first) {
@@ -176,6 +180,11 @@ double Film::mean_of(const Radiance& p, std::size_t channel) {
   return p.count > 0 ? p.sum[channel] / p.count : 0.0;
 }
 
+double Film::seen_mean(std::size_t half, std::size_t pixel, std::size_t channel) const {
+  const std::uint32_t count = halves_[half][pixel].count;
+  return count > 0 ? seen_[half][pixel][channel] / count : 0.0;
+}
+
 bool Film::uneven(std::size_t pixel) const {
   if (halves_[0].empty()) return false;
   const std::uint32_t a = halves_[0][pixel].count, b = halves_[1][pixel].count;
@@ -186,8 +195,10 @@ double Film::mean(std::size_t pixel, std::size_t channel) const {
   const Radiance& all = radiance_[pixel];
   if (!uneven(pixel)) return mean_of(all, channel);
   const std::uint32_t b = all.count / 2;
-  return ((all.count - b) * mean_of(halves_[0][pixel], channel) + b * mean_of(halves_[1][pixel], channel)) /
-         all.count;
+  const auto half = [&](std::size_t h) {
+    return mean_of(halves_[h][pixel], channel) + seen_mean(h, pixel, channel);
+  };
+  return ((all.count - b) * half(0) + b * half(1)) / all.count;
 }
 
 double Film::variance(std::size_t pixel, std::size_t channel) const {
@@ -229,7 +240,7 @@ float Film::faint(const Pixel& p) const {
 FilmState Film::export_state() const {
   FilmState state;
   const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
-  state.radiance.reserve(sums * 6);
+  state.radiance.reserve(sums * 6 + 6 * seen_[0].size());
   state.radiance_counts.reserve(2 * sums);
   state.first.reserve(first_.size() * 32);
   state.first_counts.reserve(first_.size() * 6);
@@ -237,6 +248,9 @@ FilmState Film::export_state() const {
   Exporter radiance{state.radiance, state.radiance_counts};
   for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {
     for (const Radiance& p : *all) each_of_radiance(p, radiance);
+  }
+  for (const auto& half : seen_) {
+    for (const auto& sums_of : half) state.radiance.insert(state.radiance.end(), sums_of.begin(), sums_of.end());
   }
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);
@@ -254,6 +268,11 @@ void Film::import_state(const FilmState& state) {
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
   for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {
     for (Radiance& p : *sums) each_of_radiance(p, radiance);
+  }
+  for (auto& half : seen_) {
+    for (auto& sums_of : half) {
+      for (double& value : sums_of) radiance.sum(value);
+    }
   }
   Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
   for (First& p : first_) each_of_first(p, first);

@@ -57,7 +57,8 @@ class Film {
   void end_passes(int passes) { density_passes_ += static_cast<std::uint32_t>(passes); }
 
   /// Of samples that were taken, in the order of their numbers in each half.
-  void add(const PixelSample& sample, const Color& radiance);
+  /// `seen`: the part of it that the camera sees itself (FirstHit::seen).
+  void add(const PixelSample& sample, const Color& radiance, const Color& seen = Color::Zero());
   void add(const PixelSample& sample, const FirstHit& first);
 
   /// The means so far. A pixel without samples is black. Runs in the caller's arena.
@@ -118,6 +119,7 @@ class Film {
   static double mean_of(const Radiance& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
   static double variance_of_mean(const Radiance& p, std::size_t channel);
+  double seen_mean(std::size_t half, std::size_t pixel, std::size_t channel) const;
   /// The halves of a pixel whose numbers of samples differ.
   bool uneven(std::size_t pixel) const;
   /// Weighed as if the samples had gone to the halves in turn: how many a half has depends on the other half,
@@ -137,7 +139,9 @@ class Film {
   int full_height_;
   std::vector<Aov> aovs_;
   std::vector<Radiance> radiance_;
-  std::array<std::vector<Radiance>, 2> halves_;  ///< samples in turn; empty where nobody asks
+  /// Samples in turn, without what the camera sees itself; empty where nobody asks.
+  std::array<std::vector<Radiance>, 2> halves_;
+  std::array<std::vector<std::array<double, 3>>, 2> seen_;  ///< sums of that, as long as halves_
   std::vector<First> first_;
   std::optional<SampleDensity> density_;
   std::uint32_t density_passes_ = 0;  ///< that followed the density

@@ -148,7 +148,10 @@ void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
       return Layer{.name = std::string(what) + half, .channels = {"R", "G", "B"}, .full_precision = true};
     };
     Layer color = layer_of("half-"), variance = layer_of("variance-");
-    fill(color, pixels(), [&](std::size_t p, std::size_t i) { return mean_of(halves_[h][p], i); });
+    fill(color, pixels(),
+         [&](std::size_t p, std::size_t i) { return mean_of(halves_[h][p], i) + seen_mean(h, p, i); });
+    Layer seen = layer_of("seen-");
+    fill(seen, pixels(), [&](std::size_t p, std::size_t i) { return seen_mean(h, p, i); });
     fill(variance, pixels(), [&](std::size_t p, std::size_t i) {
       const Radiance &half = halves_[h][p], &all = radiance_[p];
       // A single sample does not tell how it varies; all of the pixel's do.
@@ -156,6 +159,7 @@ void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
     });
     layers.push_back(std::move(color));
     layers.push_back(std::move(variance));
+    layers.push_back(std::move(seen));
     if (!of_cache) continue;
     Layer cache = layer_of("cache-");
     fill(cache, pixels(), [&](std::size_t p, std::size_t i) {

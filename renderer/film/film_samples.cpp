@@ -53,6 +53,7 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
                  SampleCounts& counts) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Color radiance = results[i].radiance;
+    Color seen = first_hits.empty() ? Color(Color::Zero()) : first_hits[i].seen;
     if (!first_hits.empty()) film.add(samples[i], first_hits[i]);
     if (!radiance.isFinite().all()) {
       ++counts.nonfinite;
@@ -65,10 +66,11 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
       const float l = scene::luminance(radiance);
       if (l > options.clamp) {
         radiance *= options.clamp / l;
+        seen *= options.clamp / l;
         ++counts.clamped;
       }
     }
-    film.add(samples[i], radiance);
+    film.add(samples[i], radiance, seen);
   }
 }
 

@@ -1,8 +1,10 @@
 #include "renderer/reconstruction/reconstruct.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "neural/simd/isa.h"
 #include "renderer/reconstruction/kernel_tables.h"
@@ -38,6 +40,21 @@ float usual_brightness(const SampledPicture& s) {
   return *middle;
 }
 
+/// Both halves weigh as their numbers of samples.
+void add_seen(const SampledPicture& s, Reconstruction& result) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.color.size(), 65536),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        const float n = std::max(s.counts[i / 3], 2.0f), in_b = std::floor(0.5f * n);
+                        const float a = s.halves[0].seen[i];
+                        const float b = s.counts[i / 3] < 2.0f ? a : s.halves[1].seen[i];
+                        result.color[i] += ((n - in_b) * a + in_b * b) / n;
+                        result.halves[0][i] += a;
+                        result.halves[1][i] += b;
+                      }
+                    });
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOptions& options) {
@@ -70,6 +87,7 @@ Reconstruction reconstruct(const SampledPicture& samples, const ReconstructionOp
       light.lost += of_row.lost;
     }
   }
+  if (!samples.halves[0].seen.empty()) add_seen(samples, result);
   result.lost_light = light.lost > 0.0 ? light.lost / (light.kept + light.lost) : 0.0;
   return result;
 }

@@ -50,6 +50,16 @@ SampledPicture sampled_picture(const Picture& picture) {
     s.halves[0].cache = finite_values(picture, "cache-a", 3);
     s.halves[1].cache = finite_values(picture, "cache-b", 3);
   }
+  if (picture.find("seen-a")) {
+    s.halves[0].seen = finite_values(picture, "seen-a", 3);
+    s.halves[1].seen = finite_values(picture, "seen-b", 3);
+    for (SampledPicture::Half& half : s.halves) {
+      for (std::vector<float>* values : {&half.color, &half.cache}) {
+        for (std::size_t i = 0; i < values->size(); ++i)
+          (*values)[i] = std::max((*values)[i] - half.seen[i], 0.0f);
+      }
+    }
+  }
   for (const char* name : {"half-a", "half-b"}) {
     const std::vector<float>& values = picture.find(name)->values;
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -14,6 +14,9 @@ struct SampledPicture {
     std::vector<float> color;     ///< means, linear
     std::vector<float> variance;  ///< of the means
     std::vector<float> cache;     ///< the picture that a cache gives for these samples; empty without one
+    /// What the camera sees itself of lamps and environment. It has no noise but that of edges, so it is not
+    /// fitted: the other members leave it out. Empty where it is not told apart.
+    std::vector<float> seen;
   };
 
   int width = 0;

@@ -59,6 +59,19 @@ SampledPicture samples_of(const Picture& picture, const RenderOptions& options) 
   return samples;
 }
 
+/// Both halves get the same.
+void improve(SampledPicture& samples, const SeenLight& better) {
+  std::vector<float>&a = samples.halves[0].seen, &b = samples.halves[1].seen;
+  if (a.empty()) return;
+  std::vector<float> seen(a.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = samples.counts[i / 3] < 2.0f ? a[i] : 0.5f * (a[i] + b[i]);
+  const std::vector<float> before = seen;
+  better(seen);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] != before[i]) a[i] = b[i] = seen[i];
+  }
+}
+
 /// A value for each pixel. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
 /// finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
 std::vector<float> finished_alpha(const Film& film, SampledPicture* samples) {
@@ -87,7 +100,8 @@ Reconstruction finished_film(const Film& film, const RenderOptions& options) {
   return reconstruct(samples_of(film.resolve(), options));
 }
 
-FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena) {
+FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
+                                 const SeenLight& better) {
   FinishedPicture result;
   Picture& picture = result.picture;
   const Clock::time_point start = Clock::now();
@@ -100,6 +114,7 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
       return;
     }
     SampledPicture samples = samples_of(picture, options);
+    if (better) improve(samples, better);
     drop_unwanted(picture, options.aovs);
     Reconstruction& finished = result.reconstruction = reconstruct(samples);
     result.lost_light = finished.lost_light;

@@ -3,7 +3,9 @@
 
 #include <tbb/task_arena.h>
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "renderer/film/film.h"
 #include "renderer/reconstruction/reconstruct.h"
@@ -20,9 +22,14 @@ struct FinishedPicture {
   double lost_light = 0.0;  ///< with bright samples, of the samples' light
 };
 
+/// Replaces what the samples found of the light that the camera sees itself (3 floats a pixel) by better values.
+using SeenLight = std::function<void(std::vector<float>& seen)>;
+
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of
-/// the options. The film keeps those of film_aovs(options).
-FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena);
+/// the options. The film keeps those of film_aovs(options). `better` is called in the arena where the picture
+/// is reconstructed.
+FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
+                                 const SeenLight& better = {});
 
 /// The reconstruction of a film that keeps film_aovs(options), with its halves. Runs in the caller's arena.
 Reconstruction finished_film(const Film& film, const RenderOptions& options);

@@ -17,6 +17,7 @@
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
+#include "renderer/transport/seen_light.h"
 #include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
@@ -154,6 +155,13 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   const PassContext context{tiles, options, camera, filter};
   if (training.session) return std::make_unique<CachedPass>(*world, context, *training.session);
   return std::make_unique<ReferencePass>(*world, context);
+}
+
+SeenLight Renderer::Implementation::smoother_edges(const Film& film) const {
+  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f) return {};
+  return [this, spp = film.samples_per_pixel()](std::vector<float>& seen) {
+    smooth_edges(*world, camera, filter, options, region, spp, seen);
+  };
 }
 
 Film Renderer::Implementation::make_film() const {

@@ -16,6 +16,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "renderer/run/checkpoint.h"
+#include "renderer/run/finished_picture.h"
 #include "renderer/transport/pass.h"
 #include "renderer/transport/world.h"
 
@@ -57,6 +58,8 @@ struct Renderer::Implementation {
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
   bool return_to_good(Training& training, Film& film, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
+  /// For finished_picture().
+  SeenLight smoother_edges(const Film& film) const;
   Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Statistics of this run and of the earlier ones.

@@ -171,7 +171,7 @@ class Renderer::Implementation::PictureRun {
     const Clock::time_point start = Clock::now();
     std::optional<double> error;
     if (options_.reconstruct) {
-      checked_ = finished_picture(film_, options_, renderer_.arena);
+      checked_ = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_));
       checked_samples_ = loop.done();
       reconstruct_seconds_ += checked_->reconstruct_seconds;
       error = checked_->estimated_error;
@@ -220,7 +220,7 @@ class Renderer::Implementation::PictureRun {
     if (checked_ && checked_samples_ == samples && !cut_short_) {
       finished = std::move(*checked_);
     } else {
-      finished = finished_picture(film_, options_, renderer_.arena);
+      finished = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_));
       reconstruct_seconds_ += finished.reconstruct_seconds;
     }
     checked_.reset();
