@@ -16,7 +16,8 @@ bool names_all(const RenderSettings& settings) {
 }
 
 std::string replaced(std::string text, const std::string& name) {
-  for (std::size_t at = text.find(kCamera); at != std::string::npos; at = text.find(kCamera, at + name.size()))
+  for (std::size_t at = text.find(kCamera); at != std::string::npos;
+       at = text.find(kCamera, at + name.size()))
     text.replace(at, kCamera.size(), name);
   return text;
 }
@@ -49,7 +50,8 @@ void check_camera_names(const RenderSettings& settings) {
   if (!names_all(settings)) return;
   const auto require = [&](const char* flag, const std::string& file) {
     if (!file.empty() && file != "-" && file.find(kCamera) == std::string::npos)
-      throw UsageError(fmt::format("{}: '{}' is one file for all cameras, expected {{camera}} in its name", flag, file));
+      throw UsageError(
+          fmt::format("{}: '{}' is one file for all cameras, expected {{camera}} in its name", flag, file));
   };
   for (const std::string& output : settings.outputs) require("--output", output);
   require("--stats", settings.stats);

@@ -29,8 +29,9 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display] = image;
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output = group.add(
-      any_words("output", outputs, "FILE", "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
+  Option& output =
+      group.add(any_words("output", outputs, "FILE",
+                          "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
@@ -152,9 +153,10 @@ std::vector<Option> option_table(RenderSettings& settings) {
     view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
     view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
     view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
-    view.add(any_word("view-file", view_file, "FILE",
-                      "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
-                      "aperture, focus, blades; flags beside it win"))
+    view.add(any_word(
+                 "view-file", view_file, "FILE",
+                 "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
+                 "aperture, focus, blades; flags beside it win"))
         .in_recipe = InRecipe::never;
   }
   return table;

@@ -28,8 +28,8 @@ struct RenderSettings {
   std::optional<std::array<float, 3>> target;
   std::optional<std::array<float, 3>> up;
   std::string view_file;  ///< file of --view-file, empty for none
-  std::string config;  ///< file of --config, empty for none
-  std::string stats;   ///< file, "-" for stdout, empty for none
+  std::string config;     ///< file of --config, empty for none
+  std::string stats;      ///< file, "-" for stdout, empty for none
   ProgressMode progress = ProgressMode::automatic;
   bool reproducible = false;
   bool quiet = false;

@@ -10,8 +10,8 @@
 
 namespace gatelight::apps {
 
-using renderer::ImageFormat;
 using renderer::image_format;
+using renderer::ImageFormat;
 
 std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
   std::set<ImageFormat> formats;

@@ -33,7 +33,8 @@ json read_object(const std::string& path) {
   if (!file) throw InputError(fmt::format("cannot read the view '{}': there is no such file", path));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   json view = json::parse(text, nullptr, false);
-  if (!view.is_object()) throw InputError(fmt::format("cannot read the view '{}': it is no JSON object", path));
+  if (!view.is_object())
+    throw InputError(fmt::format("cannot read the view '{}': it is no JSON object", path));
   return view;
 }
 
@@ -45,8 +46,8 @@ void read_view_file(RenderSettings& settings) {
   const std::vector<Option> table = option_table(settings);
   for (const auto& [name, value] : view.items()) {
     if (std::find(std::begin(kMembers), std::end(kMembers), name) == std::end(kMembers))
-      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}", settings.view_file, name,
-                                   fmt::join(kMembers, ", ")));
+      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}",
+                                   settings.view_file, name, fmt::join(kMembers, ", ")));
     const auto option =
         std::find_if(table.begin(), table.end(), [&](const Option& o) { return o.name == name; });
     if (value.is_null() || settings.given.contains(option->flag())) continue;

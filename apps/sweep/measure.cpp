@@ -14,7 +14,8 @@ std::optional<CellErrors> measure_errors(const renderer::NamedPicture& reference
   const renderer::FlipOptions options{.exposure = image.display.exposure, .tonemap = image.display.tonemap};
   errors.flip = renderer::ldr_flip(reference, test, options);
   if (renderer::has_ssim(test.picture)) {
-    errors.ssim = renderer::ssim(reference, test, {.exposure = image.display.exposure, .tonemap = image.display.tonemap});
+    errors.ssim = renderer::ssim(reference, test,
+                                 {.exposure = image.display.exposure, .tonemap = image.display.tonemap});
   }
   if (with_hdr_flip) {
     const std::optional<renderer::FlipResult> result = renderer::hdr_flip(reference, test, options, go_on);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/image/jpeg_write.h"
 #include "renderer/image/image_library.h"
+#include "renderer/image/jpeg_write.h"
 #include "renderer/image/srgb.h"
 
 namespace gatelight::apps {

@@ -104,7 +104,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
                                 const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
-  if (!hit) {
+  if (!hit || path.looks_through(walk_, hit)) {
     if (first) leave_guide(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
     if (first && path.surfaces == 0) first->seen = sky.radiance;

@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/sampling/warp.h"
+
 namespace gatelight::renderer {
 namespace {
-
-/// Uniform on the unit disk: Shirley and Chiu's concentric map (1997).
-scene::Vec2 disk_point(const scene::Vec2& u) {
-  const scene::Vec2 p = 2.0f * u - scene::Vec2::Ones();
-  if (p.x() == 0.0f && p.y() == 0.0f) return p;
-  const bool wide = std::abs(p.x()) > std::abs(p.y());
-  const float r = wide ? p.x() : p.y();
-  const float angle = wide ? 0.25f * scene::kPi * p.y() / p.x()
-                           : 0.5f * scene::kPi - 0.25f * scene::kPi * p.x() / p.y();
-  return r * scene::Vec2(std::cos(angle), std::sin(angle));
-}
 
 /// Uniform on a regular polygon with corners on the unit circle, one of them at the top.
 scene::Vec2 polygon_point(const scene::Vec2& u, int corners) {
@@ -89,12 +80,12 @@ CameraRay Camera::ray(float x, float y) const {
 
 CameraRay Camera::ray(float x, float y, const scene::Vec2& lens) const {
   if (!(lens_radius_ > 0.0f) || !(focus_distance_ > 0.0f)) return ray(x, y);
-  const scene::Vec2 p = lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : disk_point(lens));
+  const scene::Vec2 p =
+      lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : sample_concentric_disk(lens));
   const Vec3 offset = p.x() * unit_right_ + p.y() * unit_up_;
   CameraRay result;
   result.ray.origin = origin_ + offset;
-  result.ray.direction =
-      ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized();
+  result.ray.direction = ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized();
   result.cone = cone_;
   return result;
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Generates primary rays.
 
-#include "renderer/settings/view.h"
 #include "renderer/image/picture.h"
+#include "renderer/settings/view.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 
@@ -39,7 +39,7 @@ class Camera {
   Vec3 unit_right_;
   Vec3 unit_up_;
   RayCone cone_;
-  float width_;   ///< pixels
+  float width_;  ///< pixels
   float height_;
   float lens_radius_;
   float focus_distance_;

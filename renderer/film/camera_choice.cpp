@@ -126,7 +126,8 @@ void project(const scene::Scene& scene, const CameraOptions& options, View& view
 
 scene::Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
   scene::Box box;
-  for (const scene::Vec3& p : scene.mesh_of(instance).positions) box.extend(scene::Vec3(instance.transform * p));
+  for (const scene::Vec3& p : scene.mesh_of(instance).positions)
+    box.extend(scene::Vec3(instance.transform * p));
   return box;
 }
 
@@ -141,8 +142,8 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
     }
     if (box.isEmpty())
-      throw BadOption(
-          fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus, scene.path));
+      throw BadOption(fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus,
+                                  scene.path));
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
     if (!(distance > 0.0f))
       throw BadOption(fmt::format("--focus {}: it is behind the camera '{}'", focus, view.name));

@@ -45,7 +45,9 @@ void each_of_first(First& p, Take&& take) {
                       &p.cache_half, &p.answer, &p.node}) {
     for (auto& value : *array) take.sum(value);
   }
-  for (auto* value : {&p.alpha, &p.alpha_half, &p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value :
+       {&p.alpha, &p.alpha_half, &p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution})
+    take.sum(*value);
   for (auto* value : {&p.count, &p.count_half, &p.asked, &p.hits, &p.guide_hits, &p.guided, &p.guided_half})
     take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
@@ -85,7 +87,8 @@ Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov>
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
   const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
   const std::size_t sums = has(aovs, Aov::reconstruction) ? 3 : 1;
-  return sums * sizeof(Radiance) + (sums > 1 ? 2 * sizeof(std::array<double, 3>) : 0) + (first ? sizeof(First) : 0);
+  return sums * sizeof(Radiance) + (sums > 1 ? 2 * sizeof(std::array<double, 3>) : 0) +
+         (first ? sizeof(First) : 0);
 }
 
 PixelSample Film::take(const Pixel& p) {
@@ -250,7 +253,8 @@ FilmState Film::export_state() const {
     for (const Radiance& p : *all) each_of_radiance(p, radiance);
   }
   for (const auto& half : seen_) {
-    for (const auto& sums_of : half) state.radiance.insert(state.radiance.end(), sums_of.begin(), sums_of.end());
+    for (const auto& sums_of : half)
+      state.radiance.insert(state.radiance.end(), sums_of.begin(), sums_of.end());
   }
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);

@@ -35,8 +35,8 @@ std::string text_of(const View& view) {
   const scene::Camera& camera = view;
   const auto& [name, node, transform, orthographic, vertical_fov, aspect, half_height, half_width] = camera;
   std::string text = fmt::format("{} {}", numbers(transform.matrix()),
-                     orthographic ? fmt::format("orthographic {},{}", half_height, half_width)
-                                  : fmt::format("fov {} aspect {}", vertical_fov, aspect));
+                                 orthographic ? fmt::format("orthographic {},{}", half_height, half_width)
+                                              : fmt::format("fov {} aspect {}", vertical_fov, aspect));
   if (view.panorama) text += " panorama";
   if (view.lens_radius > 0.0f)
     text += fmt::format(" lens {},{},{}", view.lens_radius, view.focus_distance, view.blades);
@@ -51,8 +51,7 @@ std::string deciding_text(const Option& option) {
 
 }  // namespace
 
-NamedTexts deciding_options(const RenderOptions& options, const View& view,
-                            const NamedTexts& machine) {
+NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
   RenderOptions copy = options;
   std::vector<Option> table = option_table(copy);
   put_first(table, kOrder);

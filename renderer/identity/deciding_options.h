@@ -12,7 +12,6 @@ namespace gatelight::renderer {
 /// kernels), which change the last digits. Threads, memory limit, outputs, time limits, checkpoints, the
 /// treatment of samples that are not finite, and spp, which may grow, are left out. Options of the cache are
 /// included for integrators that use one.
-NamedTexts deciding_options(const RenderOptions& options, const View& view,
-                            const NamedTexts& machine);
+NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine);
 
 }  // namespace gatelight::renderer

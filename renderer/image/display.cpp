@@ -15,8 +15,7 @@ std::vector<float> displayed(const Picture& picture, const DisplayOptions& optio
   const bool with_alpha = beauty.has_alpha();
   const std::size_t colors = with_alpha ? channels - 1 : channels, shown = with_alpha ? 4 : 3;
   const std::size_t pixels = beauty.values.size() / channels;
-  const Eigen::Matrix3f balance =
-      white_balance(options.white_balance) * exposure_scale(options.exposure);
+  const Eigen::Matrix3f balance = white_balance(options.white_balance) * exposure_scale(options.exposure);
   const bool balanced = options.white_balance != kDaylightKelvin;
   const bool by_ocio = !options.ocio.config.empty();
   std::vector<float> rgb(3 * pixels), result(with_alpha ? shown * pixels : 0);

@@ -123,8 +123,8 @@ class OpenImageIO final : public ImageLibrary {
     spec["DateTime"] = "";
     spec["oiio:UnassociatedAlpha"] = 1;
     const MemoryFile file;
-    if (!output->open(file.path(), spec) ||
-        !output->write_image(OIIO::TypeDesc::FLOAT, values.data()) || !output->close())
+    if (!output->open(file.path(), spec) || !output->write_image(OIIO::TypeDesc::FLOAT, values.data()) ||
+        !output->close())
       throw std::runtime_error(output->geterror());
     return file.read();
   }

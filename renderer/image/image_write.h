@@ -30,10 +30,10 @@ void check_image_output(const std::filesystem::path& path);
 std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options = {});
 
 /// An EXR holds every layer and has the metadata in its header, with ZIP compression. Its data window is the
-/// picture, its display window the full picture. The same picture gives the same bytes. The other formats hold
-/// the beauty layer: PNG and TIFF as displayed, with straight alpha; JPEG (quality 92) the same over black; HDR
-/// its radiance. The file is either complete or unchanged (AtomicFile). Throws UnknownFormat, OutputError, or
-/// what displayed() throws.
+/// picture, its display window the full picture. The same picture gives the same bytes. The other formats
+/// hold the beauty layer: PNG and TIFF as displayed, with straight alpha; JPEG (quality 92) the same over
+/// black; HDR its radiance. The file is either complete or unchanged (AtomicFile). Throws UnknownFormat,
+/// OutputError, or what displayed() throws.
 void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options = {});
 

@@ -105,7 +105,8 @@ Color display_color(const Color& color, Tonemap tonemap) {
 }
 
 std::uint8_t display_byte(float x, float scale, Tonemap tonemap) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * display_color(Color::Constant(x * scale), tonemap)[0]));
+  return static_cast<std::uint8_t>(
+      std::lround(255.0f * display_color(Color::Constant(x * scale), tonemap)[0]));
 }
 
 float exposure_scale(float stops) {

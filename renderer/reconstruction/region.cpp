@@ -17,7 +17,8 @@ namespace {
 constexpr float kLeastDivisor = 0.02f;
 /// Non-local means: differences count in these standard deviations.
 constexpr float kBandwidth = 0.5f;
-/// Few samples do not tell how they vary, nor the error of a fit. So many halve the doubt that their mean is the better one.
+/// Few samples do not tell how they vary, nor the error of a fit. So many halve the doubt that their mean is
+/// the better one.
 constexpr float kDoubt = 2.0f;
 /// Pixels of one surface: normals and divisors differ by less.
 constexpr float kEdge = 0.45f;

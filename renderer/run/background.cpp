@@ -16,14 +16,17 @@ std::size_t size(int x) {
   return static_cast<std::size_t>(x);
 }
 
-/// Three values a pixel of the full picture: the middle of a file's picture, as much of it as covers the view.
+/// Three values a pixel of the full picture: the middle of a file's picture, as much of it as covers the
+/// view.
 std::vector<float> read_cover(const std::string& file, int width, int height) {
   const Picture source = read_image(file);
   const Layer& layer = source.layers.front();
   const auto channels = color_channels(layer);
   if (!channels)
-    throw ImageError(fmt::format("cannot use '{}' as a background: it has the {}", file, describe_channels(layer)));
-  const double scale = std::min(static_cast<double>(source.width) / width, static_cast<double>(source.height) / height);
+    throw ImageError(
+        fmt::format("cannot use '{}' as a background: it has the {}", file, describe_channels(layer)));
+  const double scale =
+      std::min(static_cast<double>(source.width) / width, static_cast<double>(source.height) / height);
   const int columns = std::clamp(static_cast<int>(std::lround(scale * width)), 1, source.width);
   const int rows = std::clamp(static_cast<int>(std::lround(scale * height)), 1, source.height);
   const int left = (source.width - columns) / 2, top = (source.height - rows) / 2;
@@ -60,7 +63,8 @@ void put_before(Picture& picture, const std::vector<float>& alpha, const Backgro
   std::vector<float> cover;
   if (background.kind == Kind::file) cover = read_cover(background.file, width, height);
   for (std::size_t p = 0; p < alpha.size(); ++p) {
-    const std::size_t x = p % size(picture.width) + size(picture.x0), y = p / size(picture.width) + size(picture.y0);
+    const std::size_t x = p % size(picture.width) + size(picture.x0),
+                      y = p / size(picture.width) + size(picture.y0);
     for (std::size_t c = 0; c < 3; ++c) {
       const float behind = cover.empty() ? background.color[static_cast<Eigen::Index>(c)]
                                          : cover[3 * (y * size(width) + x) + c];

@@ -64,7 +64,8 @@ void improve(SampledPicture& samples, const SeenLight& better) {
   std::vector<float>&a = samples.halves[0].seen, &b = samples.halves[1].seen;
   if (a.empty()) return;
   std::vector<float> seen(a.size());
-  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = samples.counts[i / 3] < 2.0f ? a[i] : 0.5f * (a[i] + b[i]);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i] = samples.counts[i / 3] < 2.0f ? a[i] : 0.5f * (a[i] + b[i]);
   const std::vector<float> before = seen;
   better(seen);
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -74,11 +75,22 @@ void improve(SampledPicture& samples, const SeenLight& better) {
 
 /// A value for each pixel. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
 /// finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
-std::vector<float> finished_alpha(const Film& film, SampledPicture* samples) {
-  if (!samples) return film.layer(Aov::alpha).values;
+std::vector<float> finished_alpha(const Film& film, SampledPicture* samples, const CaughtShadows& shadows) {
+  if (!samples) {
+    std::vector<float> alpha = film.layer(Aov::alpha).values;
+    for (std::size_t h = 0; shadows && h < 2; ++h) {
+      const std::vector<float> caught = shadows(h);
+      for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += 0.5f * caught[p];
+    }
+    return alpha;
+  }
   for (std::size_t h = 0; h < 2; ++h) {
     SampledPicture::Half& half = samples->halves[h];
-    const std::vector<float> alpha = film.alpha_of_half(h);
+    std::vector<float> alpha = film.alpha_of_half(h);
+    if (shadows) {
+      const std::vector<float> caught = shadows(h);
+      for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += caught[p];
+    }
     for (std::size_t i = 0; i < half.color.size(); ++i) {
       const float a = std::clamp(alpha[i / 3], 0.0f, 1.0f);
       half.color[i] = a;
@@ -101,7 +113,7 @@ Reconstruction finished_film(const Film& film, const RenderOptions& options) {
 }
 
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
-                                 const SeenLight& better) {
+                                 const SeenLight& better, const CaughtShadows& shadows) {
   FinishedPicture result;
   Picture& picture = result.picture;
   const Clock::time_point start = Clock::now();
@@ -110,7 +122,8 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     if (!options.reconstruct) {
       result.estimated_error = error_of(film, picture);
       drop_unwanted(picture, options.aovs);
-      if (options.background.apart()) put_before(picture, finished_alpha(film, nullptr), options.background);
+      if (options.background.apart())
+        put_before(picture, finished_alpha(film, nullptr, shadows), options.background);
       return;
     }
     SampledPicture samples = samples_of(picture, options);
@@ -123,7 +136,8 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     for (Layer& layer : picture.layers) {
       if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
     }
-    if (options.background.apart()) put_before(picture, finished_alpha(film, &samples), options.background);
+    if (options.background.apart())
+      put_before(picture, finished_alpha(film, &samples, shadows), options.background);
   });
   if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
   return result;

@@ -3,6 +3,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -22,14 +23,18 @@ struct FinishedPicture {
   double lost_light = 0.0;  ///< with bright samples, of the samples' light
 };
 
-/// Replaces what the samples found of the light that the camera sees itself (3 floats a pixel) by better values.
+/// Replaces what the samples found of the light that the camera sees itself (3 floats a pixel) by better
+/// values.
 using SeenLight = std::function<void(std::vector<float>& seen)>;
+
+/// A half's estimate of the alpha of caught shadows (transport/shadow_catcher.h), for each pixel.
+using CaughtShadows = std::function<std::vector<float>(std::size_t half)>;
 
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of
 /// the options. The film keeps those of film_aovs(options). `better` is called in the arena where the picture
 /// is reconstructed.
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
-                                 const SeenLight& better = {});
+                                 const SeenLight& better = {}, const CaughtShadows& shadows = {});
 
 /// The reconstruction of a film that keeps film_aovs(options), with its halves. Runs in the caller's arena.
 Reconstruction finished_film(const Film& film, const RenderOptions& options);

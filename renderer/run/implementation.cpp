@@ -1,7 +1,9 @@
 #include "renderer/run/implementation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
@@ -18,6 +20,7 @@
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/seen_light.h"
+#include "renderer/transport/shadow_catcher.h"
 #include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
@@ -65,6 +68,36 @@ std::string sky_warning(const scene::Scene& scene, const RenderOptions& options)
   return "";
 }
 
+/// Of the objects, each once, in order; at most some.
+std::vector<std::string> names_of(const scene::Scene& scene) {
+  constexpr std::size_t kMostNames = 20;
+  std::vector<std::string> names;
+  for (const scene::Instance& instance : scene.instances) {
+    if (std::find(names.begin(), names.end(), instance.name) != names.end()) continue;
+    names.push_back(names.size() < kMostNames ? instance.name : "...");
+    if (names.size() > kMostNames) break;
+  }
+  return names;
+}
+
+/// World::catchers.
+std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const BackgroundOptions& background) {
+  const std::string& node = background.shadow_catcher;
+  if (node.empty()) return {};
+  if (!background.apart())
+    throw BadOption(
+        fmt::format("--shadow-catcher {}: the picture has no alpha, expected --background transparent, "
+                    "r,g,b or FILE",
+                    node));
+  std::vector<std::uint8_t> catchers;
+  for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
+  if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
+    throw BadOption(fmt::format("--shadow-catcher {}: no object of {} has this name; expected one of '{}'",
+                                node, scene.path, fmt::join(names_of(scene), "', '")));
+  }
+  return catchers;
+}
+
 /// Tells how to see the same again, where the file has no camera.
 std::string made_view(const scene::Scene& scene, const CameraOptions& options, const scene::Camera& view) {
   if (!scene.cameras.empty() || options.look_at) return "";
@@ -103,6 +136,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
     world.emplace(scene, options.environment, options.light_selection,
                   AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
     world->background_apart = options.background.apart();
+    world->catchers = find_catchers(scene, options.background);
   });
   look_through(options.camera);
   statistics.build_seconds = seconds_since(start);
@@ -128,13 +162,14 @@ void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
     view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);
     camera = Camera(view, options.width, options.height);
-    focus = fmt::format("the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
-                        view.focus_distance, view.focus_distance);
+    focus = fmt::format(
+        "the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
+        view.focus_distance, view.focus_distance);
   }
   statistics.warnings.clear();
   for (std::string warning :
-       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
-        view_warning(*world, camera, options.width, options.height)}) {
+       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus),
+        world->environment.warning(), view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
 }
@@ -157,8 +192,18 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   return std::make_unique<ReferencePass>(*world, context);
 }
 
+CaughtShadows Renderer::Implementation::caught_shadows(const Film& film) const {
+  constexpr int kFewest = 16, kMost = 256;  // points of a pixel in each half
+  if (world->catchers.empty()) return {};
+  const int samples = std::clamp(static_cast<int>(film.samples_per_pixel()) / 2, kFewest, kMost);
+  return [this, samples](std::size_t half) {
+    return catch_shadows(*world, camera, filter, options, region, samples, static_cast<std::uint32_t>(half));
+  };
+}
+
 SeenLight Renderer::Implementation::smoother_edges(const Film& film) const {
-  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f) return {};
+  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f)
+    return {};
   return [this, spp = film.samples_per_pixel()](std::vector<float>& seen) {
     smooth_edges(*world, camera, filter, options, region, spp, seen);
   };

@@ -60,6 +60,7 @@ struct Renderer::Implementation {
                       const Callbacks& callbacks);
   /// For finished_picture().
   SeenLight smoother_edges(const Film& film) const;
+  CaughtShadows caught_shadows(const Film& film) const;
   Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Statistics of this run and of the earlier ones.

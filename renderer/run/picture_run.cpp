@@ -171,7 +171,8 @@ class Renderer::Implementation::PictureRun {
     const Clock::time_point start = Clock::now();
     std::optional<double> error;
     if (options_.reconstruct) {
-      checked_ = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_));
+      checked_ = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_),
+                                  renderer_.caught_shadows(film_));
       checked_samples_ = loop.done();
       reconstruct_seconds_ += checked_->reconstruct_seconds;
       error = checked_->estimated_error;
@@ -220,7 +221,8 @@ class Renderer::Implementation::PictureRun {
     if (checked_ && checked_samples_ == samples && !cut_short_) {
       finished = std::move(*checked_);
     } else {
-      finished = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_));
+      finished = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_),
+                                  renderer_.caught_shadows(film_));
       reconstruct_seconds_ += finished.reconstruct_seconds;
     }
     checked_.reset();

@@ -99,7 +99,8 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    const FinishedPicture finished = finished_picture(film, options, arena, smoother_edges(film));
+    const FinishedPicture finished =
+        finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     statistics.lost_light = finished.lost_light;
@@ -129,7 +130,8 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    const FinishedPicture finished = finished_picture(film, options, arena, smoother_edges(film));
+    const FinishedPicture finished =
+        finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     statistics.lost_light = finished.lost_light;

@@ -123,8 +123,8 @@ class Sampler {
   SamplerKind kind_ = SamplerKind::sobol;
 };
 
-/// The seed of a camera ray, for alpha_number(): over the samples of a pixel the numbers of each surface are as
-/// even as Sobol points.
+/// The seed of a camera ray, for alpha_number(): over the samples of a pixel the numbers of each surface are
+/// as even as Sobol points.
 inline std::uint32_t alpha_seed(const Sampler& sampler) {
   return (sampler.key() & 0xffff0000u) | sampler.index() >> 16;
 }
@@ -132,7 +132,8 @@ inline std::uint32_t alpha_seed(const Sampler& sampler) {
 /// Uniform in [0, 1), for the decision whether a ray with this seed meets a blended surface or passes it.
 /// Independent for different surfaces. Every seed is as good as any other.
 inline float alpha_number(std::uint32_t seed, std::uint32_t surface) {
-  const auto key = static_cast<std::uint32_t>(sampling::mix_bits((std::uint64_t{surface} << 32) | seed >> 16));
+  const auto key =
+      static_cast<std::uint32_t>(sampling::mix_bits((std::uint64_t{surface} << 32) | seed >> 16));
   return Sampler::from_parts(SamplerKind::sobol, key, seed << 16).get_1d(0);
 }
 

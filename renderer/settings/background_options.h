@@ -19,6 +19,8 @@ struct BackgroundOptions {
   Kind kind = Kind::scene;
   scene::Color color{0.0f, 0.0f, 0.0f};
   std::string file;
+  /// A node of the scene, whose objects the camera does not see but for the shadows on them; empty: none.
+  std::string shadow_catcher;
 
   /// Whether the environment is left out of the view.
   bool apart() const { return kind != Kind::scene; }

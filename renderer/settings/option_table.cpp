@@ -86,7 +86,8 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
+      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
+      "error of "
       "the "
       "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-radiance, "
       "cache-answer, cache-error, "
@@ -121,15 +122,17 @@ OptionValue environment_value(const EnvironmentOptions& environment) {
 
 void read_background(BackgroundOptions& background, const std::string& text) {
   using Kind = BackgroundOptions::Kind;
-  background = {};
+  background = {.shadow_catcher = background.shadow_catcher};
   if (text == "scene") return;
   if (text == "transparent") {
     background.kind = Kind::transparent;
   } else if (looks_like_triple(text)) {
     const std::array<float, 3> rgb = parse_triple("--background", text, kNotNegative);
-    background = {.kind = Kind::color, .color = {rgb[0], rgb[1], rgb[2]}, .file = {}};
+    background.kind = Kind::color;
+    background.color = {rgb[0], rgb[1], rgb[2]};
   } else {
-    background = {.kind = Kind::file, .color = scene::Color::Zero(), .file = text};
+    background.kind = Kind::file;
+    background.file = text;
   }
 }
 
@@ -157,13 +160,15 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
   };
   add({.name = "aperture",
        .unit = "f/N|METRES",
-       .help = "Opening of the lens, as an f-stop or its diameter: what is not in focus is blurred; 0: all is "
-               "sharp",
+       .help =
+           "Opening of the lens, as an f-stop or its diameter: what is not in focus is blurred; 0: all is "
+           "sharp",
        .value = aperture_value,
        .read = [&lens](const std::string& text) { read_aperture(lens, text); }});
-  add(any_word("focus", focus, "METRES|NODE",
-               "With --aperture: distance along the view, or an object (default: what the middle of the picture "
-               "sees, told)"))
+  add(any_word(
+          "focus", focus, "METRES|NODE",
+          "With --aperture: distance along the view, or an object (default: what the middle of the picture "
+          "sees, told)"))
       .value = [&focus] { return focus.empty() ? OptionValue() : focus; };
   add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"));
 }
@@ -197,14 +202,21 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
                "latitude-longitude EXR or HDR",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); }});
-  [[maybe_unused]] auto& [kind, color, background_file] = background;  // one flag sets all
+  // One flag sets the first three.
+  [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
   view.add({.name = "background",
             .unit = "scene|transparent|r,g,b|FILE",
-            .help = "Behind the scene the camera sees its environment, nothing (the picture has an alpha), one "
-                    "radiance or a picture; so it does through holes and panes, while mirrors and solid glass "
-                    "show the environment",
+            .help =
+                "Behind the scene the camera sees its environment, nothing (the picture has an alpha), one "
+                "radiance or a picture; so it does through holes and panes, while mirrors and solid glass "
+                "show the environment",
             .value = [&background] { return background_value(background); },
             .read = [&background](const std::string& text) { read_background(background, text); }});
+  view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
+                    "With --background: an object of the file that is not seen, but the shadows on it are"))
+      .value = [&background] {
+    return background.shadow_catcher.empty() ? OptionValue() : background.shadow_catcher;
+  };
   add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
              "Turns the environment about +y, counter-clockwise from above"));
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));

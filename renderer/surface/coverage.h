@@ -41,8 +41,8 @@ class Coverage {
   bool filters_shadows(std::uint32_t instance) const { return flags_[instance] != 0; }
 
   /// False where a ray with this seed passes through the surface. A blended surface decides by
-  /// alpha_number() of the seed, the instance and the primitive. So surfaces are independent of each other and of the order in
-  /// which they are hit.
+  /// alpha_number() of the seed, the instance and the primitive. So surfaces are independent of each other
+  /// and of the order in which they are hit.
   bool is_there(const Hit& hit, std::uint32_t seed) const;
 
   /// Whether rays between rough surfaces and lights pass glass with an inside unbent; whether this instance

@@ -22,7 +22,7 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     results[i].radiance = Color::Ones();
     if (!first_hits.empty()) first_hits[i] = {};
     const Hit& hit = hits[i];
-    if (!hit) {
+    if (!hit || world_.catches(hit.instance)) {
       if (!first_hits.empty()) first_hits[i].alpha = 0.0f;
       if (world_.background_apart) results[i].radiance = Color::Zero();
       continue;

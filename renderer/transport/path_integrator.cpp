@@ -19,7 +19,7 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
   const auto add = [&](const Emission& emission) {
     if (emission.any()) radiance += path.carried() * emission.radiance * emission.weight;
   };
-  if (!hit) {
+  if (!hit || path.looks_through(walk_, hit)) {
     if (first) leave_guide(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
     if (first && path.surfaces == 0) first->seen = sky.radiance;

@@ -17,6 +17,8 @@ constexpr double kLeastShare = 0.1;
 /// Samples of the filter at an edge: at most, and at least so many times the picture's.
 constexpr int kMostSamples = 32;
 constexpr double kTimesMore = 2.0;
+/// Rays for each pixel of the picture, where there are many edges.
+constexpr std::size_t kMostRays = 3;
 
 /// Whether light differs much in the 3x3 pixels around each.
 std::vector<Pixel> pixels_at_edges(const PixelRect& rect, const std::vector<float>& seen) {
@@ -59,7 +61,7 @@ void smooth_edges(const World& world, const Camera& camera, const FilterSampler&
   const std::vector<Pixel> pixels = pixels_at_edges(rect, seen);
   if (pixels.empty()) return;
   const std::size_t all = seen.size() / 3;
-  const int count = static_cast<int>(std::min<std::size_t>(kMostSamples, all / pixels.size()));
+  const int count = static_cast<int>(std::min<std::size_t>(kMostSamples, kMostRays * all / pixels.size()));
   if (count < kTimesMore * spp) return;
   RenderOptions more = options;
   more.seed = hash(options.seed ^ 0x65646765u);
@@ -83,9 +85,11 @@ void smooth_edges(const World& world, const Camera& camera, const FilterSampler&
         const std::size_t ray = (i - begin) * static_cast<std::size_t>(count) + static_cast<std::size_t>(s);
         sum += seen_by(world, samples[ray], rays[ray], hits[ray]).cast<double>();
       }
-      const std::size_t p = static_cast<std::size_t>(pixels[i].y - rect.y0) * static_cast<std::size_t>(rect.width()) +
-                            static_cast<std::size_t>(pixels[i].x - rect.x0);
-      for (int c = 0; c < 3; ++c) seen[3 * p + static_cast<std::size_t>(c)] = static_cast<float>(sum[c] / count);
+      const std::size_t p =
+          static_cast<std::size_t>(pixels[i].y - rect.y0) * static_cast<std::size_t>(rect.width()) +
+          static_cast<std::size_t>(pixels[i].x - rect.x0);
+      for (int c = 0; c < 3; ++c)
+        seen[3 * p + static_cast<std::size_t>(c)] = static_cast<float>(sum[c] / count);
     }
   });
 }

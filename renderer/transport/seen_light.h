@@ -11,10 +11,10 @@
 
 namespace gatelight::renderer {
 
-/// FirstHit::seen of pixels at the edges of bright light, from more points of the pixel filter than the picture
-/// has samples. `seen`: what the samples found, 3 floats for each pixel of `rect`, of which `spp` each; it is
-/// replaced where it differs much from the pixels around. One ray a pixel of the picture at most, and no
-/// shading. Runs in the caller's arena; the same bits for any number of threads.
+/// FirstHit::seen of pixels at the edges of bright light, from more points of the pixel filter than the
+/// picture has samples. `seen`: what the samples found, 3 floats for each pixel of `rect`, of which `spp`
+/// each; it is replaced where it differs much from the pixels around. Three rays a pixel of the picture at
+/// most, and no shading. Runs in the caller's arena; the same bits for any number of threads.
 void smooth_edges(const World& world, const Camera& camera, const FilterSampler& filter,
                   const RenderOptions& options, const PixelRect& rect, double spp, std::vector<float>& seen);
 

@@ -129,8 +129,13 @@ struct Walker {
   /// The same with the losses.
   Color carried() const { return throughput * scale(); }
 
-  /// The share of the background in the sample, where the ray leaves the scene: it came here straight from the
-  /// camera.
+  /// Whether the hit is as good as none: the camera looks through a shadow catcher.
+  bool looks_through(const Walk& walk, const Hit& hit) const {
+    return surfaces == 0 && walk.world.catches(hit.instance);
+  }
+
+  /// The share of the background in the sample, where the ray leaves the scene: it came here straight from
+  /// the camera.
   float background() const { return depth == 0 ? scene::luminance(carried()) : 0.0f; }
 
   /// The ray leaves the scene.

@@ -1,6 +1,9 @@
 #pragma once
 // A scene prepared for rendering. It does not change while a picture is made.
 
+#include <cstdint>
+#include <vector>
+
 #include "renderer/light/environment.h"
 #include "renderer/light/lights.h"
 #include "renderer/shading/light_arrays.h"
@@ -44,6 +47,9 @@ struct World {
   LightArrays light_arrays;
   const ShadingKernels& kernels;
   bool background_apart = false;  ///< the environment lights, and the camera does not see it
+  /// 1 for instances that catch shadows and are not seen themselves; empty without any.
+  std::vector<std::uint8_t> catchers;
+  bool catches(std::uint32_t instance) const { return !catchers.empty() && catchers[instance] != 0; }
 };
 
 }  // namespace gatelight::renderer

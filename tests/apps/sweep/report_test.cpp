@@ -149,7 +149,8 @@ TEST(ReportPicture, KeepsSizeAndColourOfWhatThePngShows) {
   const Decoded small = decode(embed_picture(flat_picture(64, 40, {0.5f, 0.1f, 0.02f}), {}).uri);
   EXPECT_EQ(small.width, 64);
   EXPECT_EQ(small.height, 40);
-  const renderer::ImageWriteOptions display{.display = {.exposure = 1.0f, .tonemap = renderer::Tonemap::filmic}};
+  const renderer::ImageWriteOptions display{
+      .display = {.exposure = 1.0f, .tonemap = renderer::Tonemap::filmic}};
   const Decoded shown = decode(embed_picture(flat_picture(16, 16, {0.5f, 0.1f, 0.02f}), display).uri);
   for (std::size_t c = 0; c < 3; ++c) {
     const float value = std::array{0.5f, 0.1f, 0.02f}[c];

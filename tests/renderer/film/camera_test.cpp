@@ -72,9 +72,8 @@ TEST(Camera, IsChosenByNameThenByIndex) {
 
 TEST(Camera, UnknownNameNamesTheChoices) {
   const scene::Scene s = scene_with_cameras();
-  expect_refusal<BadOption>(
-      [&] { choose_camera(s, named("side"), 1.0f); },
-      {"side", "test.glb", "front", "top"});
+  expect_refusal<BadOption>([&] { choose_camera(s, named("side"), 1.0f); },
+                            {"side", "test.glb", "front", "top"});
 }
 
 TEST(Camera, LookAtPutsTheTargetInTheCentreAndUpAbove) {

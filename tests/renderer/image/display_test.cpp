@@ -88,7 +88,8 @@ TEST(Display, HdrKeepsTheRadiance) {
   for (std::size_t i = 0; i < read.layers[0].values.size(); ++i) {
     const std::size_t pixel = i - i % 3;
     // Eight bits of the brightest channel.
-    const float most = *std::max_element(&picture.layers[0].values[pixel], &picture.layers[0].values[pixel] + 3);
+    const float most =
+        *std::max_element(&picture.layers[0].values[pixel], &picture.layers[0].values[pixel] + 3);
     EXPECT_NEAR(read.layers[0].values[i], picture.layers[0].values[i], most / 100.0f);
   }
 }
@@ -136,11 +137,13 @@ TEST(WhiteBalance, MakesItsLightWhiteAndKeepsDaylight) {
   };
   Eigen::Matrix3d to_xyz;
   to_xyz << 0.4123908, 0.3575843, 0.1804808, 0.2126390, 0.7151687, 0.0721923, 0.0193308, 0.1191948, 0.9505322;
-  for (const Light& light : {Light{2856.0f, 0.44758, 0.40745}, {5003.0f, 0.34567, 0.35850}, {7504.0f, 0.29902, 0.31485}}) {
+  for (const Light& light :
+       {Light{2856.0f, 0.44758, 0.40745}, {5003.0f, 0.34567, 0.35850}, {7504.0f, 0.29902, 0.31485}}) {
     const Eigen::Vector3d xyz(light.x / light.y, 1.0, (1.0 - light.x - light.y) / light.y);
     const Eigen::Vector3f rgb = (to_xyz.inverse() * xyz).cast<float>();
     const Eigen::Vector3f balanced = white_balance(light.kelvin) * rgb;
-    EXPECT_TRUE(balanced.isApprox(Eigen::Vector3f::Ones(), 0.015f)) << light.kelvin << ": " << balanced.transpose();
+    EXPECT_TRUE(balanced.isApprox(Eigen::Vector3f::Ones(), 0.015f))
+        << light.kelvin << ": " << balanced.transpose();
     EXPECT_FALSE(rgb.isApprox(Eigen::Vector3f::Ones(), 0.05f));
   }
   EXPECT_LT(white_balance(2000.0f)(0, 0), white_balance(6000.0f)(0, 0)) << "warm light loses red";
@@ -184,9 +187,16 @@ TEST(Ocio, WhatAConfigurationHasNotIsNamedWithWhatItHas) {
   const TemporaryFolder folder;
   const std::string config = folder.write("config.ocio", kConfig).string();
   const auto check = [](const OcioView& view) { check_display({.ocio = view}); };
-  expect_refusal<BadOption>([&] { check({config, "cinema", ""}); }, {"--ocio-display 'cinema'", "screen", "wall"});
-  expect_refusal<BadOption>([&] { check({config, "screen", "film"}); },
-                            {"--ocio-view 'film'", "square root", "as it is"});
+  expect_refusal<BadOption>(
+      [&] {
+        check({config, "cinema", ""});
+      },
+      {"--ocio-display 'cinema'", "screen", "wall"});
+  expect_refusal<BadOption>(
+      [&] {
+        check({config, "screen", "film"});
+      },
+      {"--ocio-view 'film'", "square root", "as it is"});
   expect_refusal<BadOption>([&] { check({(folder / "no.ocio").string(), "", ""}); }, {"--ocio", "no.ocio"});
   const std::string broken = folder.write("broken.ocio", "displays: [").string();
   expect_refusal<BadOption>([&] { check({broken, "", ""}); }, {"--ocio", "broken.ocio"});

@@ -25,7 +25,8 @@ constexpr int kWidth = 32, kHeight = 24;
 /// From left to right: a matte box, a blended sheet, a pane, and a block of glass.
 SceneBuilder row_of_objects() {
   SceneBuilder builder;
-  builder.box(builder.material(SceneBuilder::lambert(Color(0.6f, 0.4f, 0.2f))), Vec3(-4, -1, -1), Vec3(-2.4f, 1, 1));
+  builder.box(builder.material(SceneBuilder::lambert(Color(0.6f, 0.4f, 0.2f))), Vec3(-4, -1, -1),
+              Vec3(-2.4f, 1, 1));
   scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f));
   sheet.alpha_mode = scene::AlphaMode::blend;
   sheet.base_alpha = 0.3f;
@@ -77,8 +78,8 @@ TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
         const float *a = pixel(apart, x, y), *w = pixel(whole, x, y);
         // The pane's tint is a colour and alpha one number: its luminance is right.
         const Color difference(w[0] - a[0], w[1] - a[1], w[2] - a[2]);
-        EXPECT_NEAR(scene::luminance(difference),
-                    (1.0f - a[3]) * scene::luminance(sky), integrator == Integrator::ao ? 1e-4f : 0.02f)
+        EXPECT_NEAR(scene::luminance(difference), (1.0f - a[3]) * scene::luminance(sky),
+                    integrator == Integrator::ao ? 1e-4f : 0.02f)
             << x << "," << y << " of integrator " << static_cast<int>(integrator);
       }
     }
@@ -182,6 +183,109 @@ TEST(Background, ReconstructionFinishesTheAlphaToo) {
   const double raw = spread();
   options.reconstruct = true;
   EXPECT_LT(spread(), 0.5 * raw);
+}
+
+/// A floor at y = 0, seen from above, and something else.
+scene::Scene floor_with(SceneBuilder builder) {
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-50, 0, 50),
+               Vec3(100, 0, 0), Vec3(0, 0, -100));
+  scene::Scene scene = builder.scene();
+  scene.instances.back().name = "floor";
+  return scene;
+}
+
+RenderOptions catching(Integrator integrator) {
+  RenderOptions options = options_for(integrator);
+  options.camera.look_at = LookAt{{0, 10, 0}, {0, 0, 0}, {0, 0, -1}};
+  options.camera.fov_degrees = 45.0f;
+  options.environment.constant = Color::Zero();
+  options.background = {
+      .kind = Kind::transparent, .color = Color::Zero(), .file = {}, .shadow_catcher = "floor"};
+  return options;
+}
+
+TEST(ShadowCatcher, IsNotSeenButForTheShadowOfASun) {
+  SceneBuilder builder;
+  // Under a low sun from +x the plate's shadow lies beside it.
+  builder.box(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(1, 1.9f, -1),
+              Vec3(3, 2, 1));
+  scene::Scene scene = floor_with(builder);
+  scene::PunctualLight sun;
+  sun.type = scene::LightType::directional;
+  sun.direction = Vec3(-1, -1, 0).normalized();
+  scene.lights.push_back(sun);
+  for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+    for (const bool reconstruct : {false, true}) {
+      RenderOptions options = catching(integrator);
+      options.reconstruct = reconstruct;
+      const Picture picture = rendered(scene, options);
+      // 12 pixels are tan(22.5 degrees) * 10 m: the shadow is from x = -1 to 1 m, the plate beside it.
+      const float shadow = pixel(picture, 15, 12)[3], open = pixel(picture, 8, 12)[3];
+      EXPECT_NEAR(shadow, 1.0f, reconstruct ? 0.05f : 1e-6f);
+      EXPECT_NEAR(open, 0.0f, reconstruct ? 0.05f : 1e-6f);
+      for (const int x : {15, 8}) EXPECT_NEAR(pixel(picture, x, 12)[0], 0.0f, reconstruct ? 0.02f : 0.0f);
+      EXPECT_NEAR(pixel(picture, 23, 12)[3], 1.0f, 0.05f) << "the plate";
+      EXPECT_GT(pixel(picture, 23, 12)[0], 0.1f);
+    }
+  }
+}
+
+TEST(ShadowCatcher, TellsWhatAWallHidesOfTheSky) {
+  SceneBuilder builder;
+  const float edge = -1.5f;
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(edge, 0, 50),
+               Vec3(0, 0, -100), Vec3(0, 3, 0));
+  const scene::Scene scene = floor_with(builder);
+  RenderOptions options = catching(Integrator::path);
+  options.environment.constant = Color(0.3f, 0.6f, 0.9f);
+  options.spp = 256;
+  const Picture picture = rendered(scene, options);
+  for (const int x : {16, 20, 26}) {
+    double mean = 0.0;
+    for (int y = 4; y < 20; ++y) mean += static_cast<double>(pixel(picture, x, y)[3]) / 16.0;
+    // An endless wall of height h at the distance d hides (1 - cos(atan(h / d))) / 2 of the irradiance.
+    const double d = (x + 0.5 - 16.0) / 12.0 * std::tan(M_PI / 8.0) * 10.0 - static_cast<double>(edge);
+    EXPECT_NEAR(mean, 0.5 * (1.0 - d / std::hypot(d, 3.0)), 0.012) << x;
+  }
+}
+
+TEST(ShadowCatcher, NeedsAnAlphaAndAnObjectThatIsThere) {
+  const scene::Scene scene = floor_with(SceneBuilder());
+  RenderOptions options = catching(Integrator::path);
+  options.background.shadow_catcher = "table";
+  tests::expect_refusal<BadOption>([&] { rendered(scene, options); }, {"--shadow-catcher table", "'floor'"});
+  options.background.shadow_catcher = "floor";
+  options.background.kind = Kind::scene;
+  tests::expect_refusal<BadOption>([&] { rendered(scene, options); }, {"--shadow-catcher", "--background"});
+}
+
+/// The edge of a lamp over the picture's rows: how much pixels differ from those of the same column.
+double raggedness(const scene::Scene& scene, const RenderOptions& options) {
+  const Picture picture = rendered(scene, options);
+  double sum = 0.0;
+  for (int x = 0; x < picture.width; ++x) {
+    double mean = 0.0, squares = 0.0;
+    for (int y = 4; y < picture.height - 4; ++y) {
+      const double v = std::min(1.0, static_cast<double>(pixel(picture, x, y)[0]));
+      mean += v / (picture.height - 8);
+      squares += v * v / (picture.height - 8);
+    }
+    sum += std::sqrt(std::max(0.0, squares - mean * mean));
+  }
+  return sum;
+}
+
+TEST(SeenLight, EdgesOfBrightLampsAreSmoothInFinishedPictures) {
+  SceneBuilder builder;
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(100.0f))),
+               Vec3(0.13f, -9, 0), Vec3(5, 0, 0), Vec3(0, 18, 0));
+  RenderOptions options = options_for(Integrator::path);
+  options.environment.constant = Color::Zero();
+  options.spp = 4;
+  const double raw = raggedness(builder.scene(), options);
+  options.reconstruct = true;
+  EXPECT_LT(raggedness(builder.scene(), options), 0.5 * raw);
+  EXPECT_GT(raw, 0.1);
 }
 
 TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {
