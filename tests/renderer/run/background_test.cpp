@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "tests/support/messages.h"
@@ -64,7 +65,7 @@ const float* pixel(const Picture& picture, int x, int y) {
 }
 
 TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   for (const Integrator integrator : {Integrator::path, Integrator::nrc, Integrator::ao}) {
     RenderOptions options = options_for(integrator);
     const Color sky = integrator == Integrator::ao ? Color::Ones() : options.environment.constant;
@@ -97,7 +98,7 @@ TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
 }
 
 TEST(Background, BlendedSheetsAreSampledEvenly) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   RenderOptions options = options_for(Integrator::path);
   options.background.kind = Kind::transparent;
   options.spp = 64;
@@ -109,7 +110,7 @@ TEST(Background, BlendedSheetsAreSampledEvenly) {
 }
 
 TEST(Background, AColourShinesThroughByAlpha) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   RenderOptions options = options_for(Integrator::path);
   options.background.kind = Kind::transparent;
   const Picture apart = rendered(builder.scene(), options);
@@ -159,7 +160,7 @@ TEST(Background, AFileCoversTheViewAndARegionSeesItsPart) {
 }
 
 TEST(Background, ReconstructionFinishesTheAlphaToo) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   RenderOptions options = options_for(Integrator::path);
   options.width *= 4;
   options.height *= 4;
@@ -289,7 +290,7 @@ TEST(SeenLight, EdgesOfBrightLampsAreSmoothInFinishedPictures) {
 }
 
 TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
     RenderOptions options = options_for(integrator);
     options.spp = 2;
@@ -308,7 +309,7 @@ TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {
 }
 
 TEST(Focus, WithoutADistanceIsWhatTheMiddleSees) {
-  const SceneBuilder builder = row_of_objects();
+  SceneBuilder builder = row_of_objects();
   RenderOptions options = options_for(Integrator::path);
   options.spp = 1;
   options.camera.look_at = LookAt{{-3.2f, 0, 12}, {-3.2f, 0, 0}, {0, 1, 0}};
