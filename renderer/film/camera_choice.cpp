@@ -8,6 +8,7 @@
 
 #include "renderer/film/framing.h"
 #include "renderer/machine/errors.h"
+#include "scene/nearest_word.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -51,6 +52,15 @@ std::string names_of(const scene::Scene& scene) {
   return text;
 }
 
+std::string meant(const scene::Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const scene::Camera& camera : scene.cameras) {
+    names.push_back(camera.name);
+    names.push_back(camera.node);
+  }
+  return scene::did_you_mean(name, names);
+}
+
 /// A name of a camera wins over that of a node, both win over an index.
 const scene::Camera& find_named(const scene::Scene& scene, const std::string& name) {
   const std::vector<scene::Camera>& cameras = scene.cameras;
@@ -66,7 +76,8 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::string& na
   std::size_t index = cameras.size();
   const char* const end = name.data() + name.size();
   if (std::from_chars(name.data(), end, index).ptr != end || index >= cameras.size())
-    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}", name, scene.path, names_of(scene)));
+    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
+                                meant(scene, name)));
   return cameras[index];
 }
 
@@ -126,7 +137,8 @@ void project(const scene::Scene& scene, const CameraOptions& options, View& view
 
 scene::Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
   scene::Box box;
-  for (const scene::Vec3& p : scene.mesh_of(instance).positions) box.extend(scene::Vec3(instance.transform * p));
+  for (const scene::Vec3& p : scene.mesh_of(instance).positions)
+    box.extend(scene::Vec3(instance.transform * p));
   return box;
 }
 
@@ -141,8 +153,8 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
     }
     if (box.isEmpty())
-      throw BadOption(
-          fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus, scene.path));
+      throw BadOption(fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus,
+                                  scene.path));
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
     if (!(distance > 0.0f))
       throw BadOption(fmt::format("--focus {}: it is behind the camera '{}'", focus, view.name));

@@ -1,0 +1,56 @@
+#include "scene/nearest_word.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <numeric>
+
+namespace gatelight::scene {
+namespace {
+
+/// Longer words come from damaged files rather than from a hand.
+constexpr std::size_t kLongest = 64;
+
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// Letters to insert, delete or replace (Levenshtein), row by row.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (same_letter(a[i], b[j]) ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearest_word(std::string_view text, const std::vector<std::string>& words) {
+  if (text.size() > kLongest) return "";
+  // Where every letter differs nothing is near, as for a wrong number.
+  std::size_t limit = std::min(std::max<std::size_t>(1, text.size() / 3) + 1, text.size());
+  std::string nearest;
+  for (const std::string& word : words) {
+    if (word.empty() || word.size() > kLongest) continue;
+    const std::size_t distance = edit_distance(text, word);
+    if (distance >= limit) continue;
+    limit = distance;
+    nearest = word;
+  }
+  return nearest;
+}
+
+std::string did_you_mean(std::string_view text, const std::vector<std::string>& words) {
+  const std::string word = nearest_word(text, words);
+  return word.empty() ? "" : "; did you mean '" + word + "'?";
+}
+
+}  // namespace gatelight::scene
