@@ -127,13 +127,14 @@ void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
     view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);
     camera = Camera(view, options.width, options.height);
-    focus = fmt::format("the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
-                        view.focus_distance, view.focus_distance);
+    focus = fmt::format(
+        "the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
+        view.focus_distance, view.focus_distance);
   }
   statistics.warnings.clear();
   for (std::string warning :
-       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
-        view_warning(*world, camera, options.width, options.height)}) {
+       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus),
+        world->environment.warning(), view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
 }
@@ -182,6 +183,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
     if (pass) pass->add_to(sum.cache);
   }
   add_earlier(sum, earlier);
+  sum.resumed_seconds = earlier.render_seconds;
   return sum;
 }
 
