@@ -9,7 +9,10 @@ const std::vector<std::string> kWords = {"aperture", "spp", "size", "seed", "sob
 
 TEST(NearestWord, AThirdOfTheLettersMayDiffer) {
   EXPECT_EQ(nearest_word("aperure", kWords), "aperture");
-  EXPECT_EQ(nearest_word("apretur", kWords), "");  // three of seven
+  EXPECT_EQ(nearest_word("apretures", kWords), "aperture") << "a swap counts once";
+  EXPECT_EQ(nearest_word("apxxture", kWords), "aperture");
+  EXPECT_EQ(nearest_word("apxxxure", kWords), "") << "three of eight";
+  EXPECT_EQ(nearest_word("fornt", {"front"}), "front");
   EXPECT_EQ(nearest_word("sppp", kWords), "spp");
   EXPECT_EQ(nearest_word("SOBOL", kWords), "sobol");
   EXPECT_EQ(nearest_word("frob", kWords), "");
