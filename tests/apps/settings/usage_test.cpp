@@ -268,8 +268,8 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
 
 TEST_F(Usage, AnOutputIsRequiredAndItsExtensionKnown) {
   EXPECT_EQ(run_gatelight({"render", scene()}).exit_code, 1);
-  const Output output = run_gatelight({"render", scene(), "-o", path("a.jpg")});
-  expect_failure(output, 1, {"a.jpg", ".exr", ".png"});
+  const Output output = run_gatelight({"render", scene(), "-o", path("a.gif")});
+  expect_failure(output, 1, {"a.gif", ".exr", ".png"});
   EXPECT_EQ(refused({"-o", path("a.png")}).exit_code, 1);
 }
 
