@@ -1,8 +1,10 @@
 #include "apps/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,8 +14,10 @@
 #include "apps/settings/help_format.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/version.h"
+#include "scene/nearest_word.h"
 
 namespace gatelight::apps {
 namespace {
@@ -21,8 +25,8 @@ namespace {
 constexpr const char* kProgramFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
 over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
-129, 130 and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which
-file, and what to do.
+8 nothing in a sweep is within the limits of --advise; 129, 130 and 143 stopped by a signal after writing the picture so
+far. The last line on stderr says what failed, on which file, and what to do.
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256
@@ -31,7 +35,7 @@ Examples:
   gatelight sweep room.glb -o room-sweep
   gatelight render --help)";
 
-const CLI::App* called_subcommand(const CLI::App& root) {
+CLI::App* called_subcommand(const CLI::App& root) {
   const std::vector<CLI::App*> called = root.get_subcommands();
   return called.empty() ? nullptr : called.front();
 }
@@ -42,21 +46,66 @@ std::string cut(const std::string& text) {
   return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
 }
 
+/// Long names, without their dashes, of the flags of the called subcommand and of all.
+std::vector<std::string> flag_names(const CLI::App& root) {
+  std::vector<std::string> names;
+  const CLI::App* const called = called_subcommand(root);
+  for (const CLI::App* app : {&root, called}) {
+    if (app == nullptr) continue;
+    for (const CLI::Option* option : app->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// "unknown flag '--aperure'; did you mean '--aperture'?"; empty where no unknown word is a flag.
+std::string describe_unknown_flag(const CLI::App& root) {
+  for (const std::string& word : root.remaining(true)) {
+    if (!word.starts_with('-')) continue;
+    const std::string name = word.substr(0, word.find('='));
+    // The dashes are no letters that could be right or wrong.
+    const std::string meant =
+        name.starts_with("--") ? scene::nearest_word(name.substr(2), flag_names(root)) : "";
+    return fmt::format("unknown flag '{}'{}", cut(word),
+                       meant.empty() ? "" : fmt::format("; did you mean '--{}'?", meant));
+  }
+  return "";
+}
+
+std::string describe_subcommand(const CLI::App& root) {
+  const std::vector<std::string> rest = root.remaining();
+  std::vector<std::string> names;
+  for (const CLI::App* app : root.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(app->get_name());
+  const std::string got =
+      rest.empty() ? "a subcommand is missing" : fmt::format("'{}' is no subcommand", cut(rest.front()));
+  return fmt::format("{}, expected {} or {}{}", got, fmt::join(names.begin(), names.end() - 1, ", "),
+                     names.back(), rest.empty() ? "" : scene::did_you_mean(rest.front(), names));
+}
+
 /// What was wrong; our own words replace those of the library where they are too vague.
 std::string describe(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && called == nullptr) {
-    const std::vector<std::string> rest = root.remaining();
-    const std::string got =
-        rest.empty() ? "a subcommand is missing" : "'" + rest.front() + "' is no subcommand";
-    return got + ", expected render, compare, info, merge, reconstruct or sweep";
-  }
+  const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (required && called == nullptr) return describe_subcommand(root);
   std::string text = error.what();
+  if (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    // A misspelt flag is often one that is missing then.
+    const std::string unknown = describe_unknown_flag(root);
+    if (!unknown.empty()) text = required ? fmt::format("{}; {}", text, unknown) : unknown;
+  }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
     const std::string file = config.name.empty() ? "--config" : fmt::format("'{}'", config.name);
     constexpr std::string_view kExtras = "INI was not able to parse ";
-    if (text.starts_with(kExtras)) text = fmt::format("unknown '{}'", cut(text.substr(kExtras.size())));
-    return fmt::format("{}: {}, expected flags of '{}' and their values", file, text, called->get_name());
+    std::string meant;
+    if (text.starts_with(kExtras)) {
+      const std::string key = text.substr(kExtras.size());
+      meant = scene::did_you_mean(key.substr(key.rfind('.') + 1), flag_names(root));
+      text = fmt::format("unknown '{}'", cut(key));
+    }
+    return fmt::format("{}: {}, expected flags of '{}' and their values{}", file, text, called->get_name(),
+                       meant);
   }
   constexpr std::string_view kAtMost = ": At Most 1 required but received ";
   if (const std::size_t at = text.find(kAtMost); at != std::string::npos) {
@@ -67,10 +116,19 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
 }
 
 /// CLI11 throws for --help and --version too.
-int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
-  const CLI::App* called = called_subcommand(root);
-  if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
-    write_text("-", called == nullptr ? root.help() : called->help(root.get_name()));
+int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config,
+                   const std::vector<Subcommand>& subcommands) {
+  CLI::App* called = called_subcommand(root);
+  const bool all = dynamic_cast<const CLI::CallForAllHelp*>(&error) != nullptr;
+  if (all && called != nullptr) {
+    write_text("-", called->help(root.get_name()));
+    return kDone;
+  }
+  if (all || dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
+    const auto found = std::find_if(subcommands.begin(), subcommands.end(),
+                                    [&](const Subcommand& subcommand) { return subcommand.app == called; });
+    write_text("-",
+               found == subcommands.end() ? root.help() : help_text(*called, root.get_name(), found->common));
     return kDone;
   }
   if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
@@ -88,7 +146,8 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const Con
 
 /// An empty file name would count as no file; often it is an unset shell variable.
 void refuse_empty_words(const CLI::App& root) {
-  for (const CLI::App* app : {&root, called_subcommand(root)}) {
+  const CLI::App* const called = called_subcommand(root);
+  for (const CLI::App* app : {&root, called}) {
     for (const CLI::Option* option : app->get_options()) {
       for (const std::string& word : option->results()) {
         if (!word.empty()) continue;
@@ -112,6 +171,7 @@ int parse(int argc, const char* const* argv, bool runs) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
   root.set_version_flag("--version", version());
+  root.set_help_all_flag("--help-all", "Print the help with all flags");
   root.require_subcommand(1);
   // --config belongs to the root but may follow the subcommand's name.
   root.fallthrough();
@@ -132,14 +192,25 @@ int parse(int argc, const char* const* argv, bool runs) {
       if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
     }
   } catch (const CLI::ParseError& error) {
-    return finish_parsing(root, error, *config);
+    return finish_parsing(root, error, *config, subcommands);
   } catch (...) {
     return fail(*config);
   }
   return kUsage;
 }
 
+/// Whether the command line has --progress json: errors found while it is read are events too.
+bool wants_json(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const bool apart = word == "--progress" && i + 1 < argc && std::string_view(argv[i + 1]) == "json";
+    if (apart || word == "--progress=json") return true;
+  }
+  return false;
+}
+
 int parse_or_fail(int argc, const char* const* argv, bool runs) {
+  set_json_messages(wants_json(argc, argv));
   try {
     return parse(argc, argv, runs);
   } catch (...) {

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/reports/cache_report_text.h"
+#include "apps/reports/picture_report.h"
 #include "apps/reports/scene_report.h"
+#include "apps/settings/common_flags.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -16,6 +18,8 @@
 #include "apps/terminal/version.h"
 #include "neural/base/errors.h"
 #include "neural/vulkan/devices.h"
+#include "renderer/image/image_format.h"
+#include "renderer/image/image_read.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
@@ -32,15 +36,20 @@ constexpr const char* kInfoFooter =
     R"(With --integrator nao or nrc it also describes the cache that the scene would get for the view of these flags: memory,
 feature vectors, resolutions and sides of the instances, and inputs of the network. Nothing is trained.
 
+Of an EXR that gatelight wrote it tells size, layers and the recipe in its header: how the picture was made.
+
 Examples:
   gatelight info
   gatelight info room.glb
   gatelight info room.glb --integrator nrc --node-spacing 0.05
-  gatelight info room.glb --json - | jq .requirements)";
+  gatelight info room.glb --json - | jq .requirements
+  gatelight info room.exr
+  gatelight info room.exr --command)";
 
 struct InfoSettings {
-  RenderSettings render;
+  RenderSettings render;  ///< its scene may be a picture
   std::string json;
+  bool command = false;
 };
 
 struct DeviceReport {
@@ -118,7 +127,39 @@ Told tell_scene(const RenderSettings& settings) {
   return told;
 }
 
+bool is_picture(const std::string& file) {
+  return renderer::image_format(file) != renderer::ImageFormat::unknown;
+}
+
+Told tell_picture(const std::string& file, bool command) {
+  renderer::Picture picture;
+  // Other formats carry no recipe.
+  if (renderer::image_format(file) == renderer::ImageFormat::exr) picture = renderer::read_image(file);
+  require_recipe(file, picture);
+  if (!command) return {picture_report_text(file, picture), picture_report_json(file, picture)};
+  const std::string line = picture_command(file, picture);
+  return {line, picture_report_json(file, picture)};
+}
+
+Told describe(const InfoSettings& settings) {
+  const std::string& file = settings.render.scene;
+  if (file.empty()) return {program_text(), program_json()};
+  return is_picture(file) ? tell_picture(file, settings.command) : tell_scene(settings.render);
+}
+
+void check_picture_flags(const InfoSettings& settings) {
+  const std::string& file = settings.render.scene;
+  if (settings.command && !is_picture(file))
+    throw UsageError("--command: it is the command line of a picture, expected PICTURE.exr with it");
+  if (is_picture(file) && !settings.render.given.empty()) {
+    throw UsageError(
+        fmt::format("{}: it is for scenes, and '{}' is a picture, expected only --command or --json",
+                    *settings.render.given.begin(), file));
+  }
+}
+
 int run_info(InfoSettings settings) {
+  check_picture_flags(settings);
   if (settings.render.scene.empty() && !settings.render.given.empty()) {
     throw UsageError(fmt::format("{}: there is no scene to tell about, expected SCENE with it",
                                  *settings.render.given.begin()));
@@ -126,8 +167,7 @@ int run_info(InfoSettings settings) {
   complete_settings(settings.render);
   read_files(settings.render).write("--json", settings.json);
   if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
-  const Told told =
-      settings.render.scene.empty() ? Told{program_text(), program_json()} : tell_scene(settings.render);
+  const Told told = describe(settings);
   if (!settings.json.empty()) {
     write_text(settings.json, json_text(told.json) + "\n");
   }
@@ -139,25 +179,32 @@ int run_info(InfoSettings settings) {
 }  // namespace
 
 Subcommand add_info_command(CLI::App& root) {
-  CLI::App* app = add_subcommand(root, "info", "Describe a scene, or this program", kInfoFooter);
+  CLI::App* app =
+      add_subcommand(root, "info", "Describe a scene, a rendered picture, or this program", kInfoFooter);
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;
-  renderer::Option scene =
-      positional("SCENE", settings->render.scene,
-                 "Scene, .gltf or .glb; without it: version, ISA, threads, Embree, Vulkan devices");
+  renderer::Option scene = positional(
+      "SCENE", settings->render.scene,
+      "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, Vulkan "
+      "devices");
   scene.required = false;
   renderer::Option json =
       renderer::any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");
   json.group = "Output";
-  add_flags(*app, {scene, json});
+  renderer::Option command = renderer::toggle(
+      "command", settings->command, "Print only the command line that made PICTURE.exr, for a shell");
+  command.group = "Output";
+  add_flags(*app, {scene, json, command});
   add_flags(*app, cache_report_table(settings->render));
-  return {app, [app, settings] {
+  return {app,
+          [app, settings] {
             finish_flags(*app, settings->render);
             // They belong to the call, not to the scene.
-            for (const char* name : {"SCENE", "--json"}) settings->render.given.erase(name);
+            for (const char* name : {"SCENE", "--json", "--command"}) settings->render.given.erase(name);
             return run_info(*settings);
-          }};
+          },
+          common_flags()};
 }
 
 }  // namespace gatelight::apps

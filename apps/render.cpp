@@ -8,6 +8,7 @@
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/camera_names.h"
+#include "apps/settings/common_flags.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -33,12 +34,12 @@ constexpr const char* kRenderFooter =
     R"(SIGINT, SIGTERM and SIGHUP finish the current pass and write the picture so far (exit code 130, 143 or 129); a second
 one ends the program at once. SIGUSR1 writes a snapshot of all outputs.
 Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
+Intensities of KHR_lights_punctual are taken as radiometric numbers: W/sr (point, spot) and W/m2 (directional).
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
   gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
   gatelight render car.gltf -o car.exr --eye 4,1.5,4 --target 0,0.5,0 --fov 30 --aov albedo,normal,depth
-  gatelight render room.glb -o room.exr -o room.png --integrator nrc --train-steps 1024
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
@@ -167,10 +168,10 @@ class RenderRun {
     report_.write_seconds = seconds_since(start);
     report_.total_seconds = seconds_since(start_);
     if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));
-    const bool told = progress_.done(settings_.outputs, report_.total_seconds);
+    const bool told = progress_.done(summary_json(settings_, report_));
     if (!told && !settings_.quiet) tell(summary(settings_, report_));
     if (report_.signal != 0) {
-      print_notice(stop_notice(settings_, report_));
+      print_notice(stop_notice(settings_, report_), kSignalBase + report_.signal);
     }
   }
 
@@ -188,7 +189,8 @@ class RenderRun {
   int stop_without_picture() {
     progress_.clear();
     print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
-                             stop_signal(), settings_.scene));
+                             stop_signal(), settings_.scene),
+                 kSignalBase + stop_signal());
     return kSignalBase + stop_signal();
   }
 
@@ -206,6 +208,7 @@ class RenderRun {
 };
 
 int run_render(RenderSettings settings, const std::vector<std::string>& command) {
+  set_json_messages(settings.progress == ProgressMode::json);
   if (settings.preset && settings.render.integrator == renderer::Integrator::nrc &&
       !settings.given.contains("--exposure")) {
     settings.exposure.reset();
@@ -232,10 +235,12 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
   CLI::App* app = add_subcommand(root, "render", "Render a scene to EXR and PNG", kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
   add_flags(*app, option_table(*settings));
-  return {app, [app, settings, command] {
+  return {app,
+          [app, settings, command] {
             finish_flags(*app, *settings);
             return run_render(*settings, command);
-          }};
+          },
+          common_flags()};
 }
 
 }  // namespace gatelight::apps

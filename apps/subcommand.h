@@ -2,6 +2,7 @@
 // A subcommand: its flags and its function. Each has a file of its own.
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ class App;
 namespace gatelight::apps {
 
 struct Subcommand {
-  CLI::App* app = nullptr;   ///< owned by the root
-  std::function<int()> run;  ///< called after parsing; returns the exit code, or throws
+  CLI::App* app = nullptr;         ///< owned by the root
+  std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
+  std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
 };
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command);

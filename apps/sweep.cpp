@@ -11,6 +11,7 @@
 #include "apps/sweep/request.h"
 #include "apps/sweep/sweep_run.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
 
 namespace gatelight::apps {
 namespace {
@@ -198,6 +199,7 @@ Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& com
   const auto call = std::make_shared<SweepCall>();
   add_flags(*app, option_table(*call));
   return {app, [call, command, app] {
+            set_json_messages(call->settings.progress == ProgressMode::json);
             check(*call, *app);
             call->settings.request = make_request(call->words);
             return run_sweep(call->settings, command);

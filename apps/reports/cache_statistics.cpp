@@ -22,6 +22,16 @@ ordered_json histogram_json(const CacheStatistics& s) {
   return json;
 }
 
+std::string training_text(const CacheStatistics& s) {
+  std::string steps = format_integer(static_cast<std::uint64_t>(s.steps));
+  if (s.steps != s.steps_wanted) steps += fmt::format(" of {}", s.steps_wanted);
+  steps += s.steps_chosen ? " steps (chosen)" : " steps";
+  if (s.steps == 0) return steps;
+  return fmt::format("{}, {} records of {} paths, loss {:.3g}", steps,
+                     format_count(static_cast<double>(s.records)),
+                     format_count(static_cast<double>(s.training_paths)), s.loss);
+}
+
 }  // namespace
 
 ordered_json training_json(const CacheStatistics& s) {
@@ -65,13 +75,11 @@ ordered_json cache_seconds_json(const CacheStatistics& s) {
           {"train_step", s.train_step_seconds}};
 }
 
-std::string cache_summary(const CacheStatistics& s) {
-  std::string steps = format_integer(static_cast<std::uint64_t>(s.steps));
-  if (s.steps != s.steps_wanted) steps += fmt::format(" of {}", s.steps_wanted);
-  steps += s.steps_chosen ? " steps (chosen)" : " steps";
-  std::string text = fmt::format("training  {}, {} records of {} paths, loss {:.3g}\n", steps,
-                                 format_count(static_cast<double>(s.records)),
-                                 format_count(static_cast<double>(s.training_paths)), s.loss);
+std::string cache_summary(const CacheStatistics& s, const std::string& cache_in) {
+  const bool loaded_only = !cache_in.empty() && s.steps == 0 && s.steps_wanted == 0;
+  std::string text;
+  if (!cache_in.empty()) text += fmt::format("loaded    the cache '{}'\n", cache_in);
+  if (!loaded_only) text += fmt::format("training  {}\n", training_text(s));
   text += fmt::format(
       "          scout {:.2f}, setup {:.2f}, train {:.2f} (trace {:.2f}, query {:.2f}, step {:.2f}) "
       "seconds\n",

@@ -16,8 +16,8 @@ nlohmann::ordered_json cache_memory_json(const renderer::CacheStatistics& statis
 /// Seconds of scouting, setting up and training.
 nlohmann::ordered_json cache_seconds_json(const renderer::CacheStatistics& statistics);
 
-/// A few lines, each with its line break.
-std::string cache_summary(const renderer::CacheStatistics& statistics);
+/// A few lines, each with its line break. cache_in: the file that the cache was loaded from; empty for none.
+std::string cache_summary(const renderer::CacheStatistics& statistics, const std::string& cache_in);
 
 /// "1: 20, 4: 3": instances by resolution.
 std::string histogram_text(const renderer::CacheStatistics& statistics);

@@ -1,6 +1,7 @@
 #pragma once
 // The report of a run as text and as JSON.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report);
 
 /// A few lines, each with its line break.
 std::string summary(const RenderSettings& settings, const RunReport& report);
+
+/// The numbers of the summary, for the last event of --progress json.
+nlohmann::ordered_json summary_json(const RenderSettings& settings, const RunReport& report);
+
+/// "spp", "max-error", "time-limit", "signal" or "device".
+std::string word_of(renderer::EndedBy end);
 
 /// The notice after a signal: the progress, also of training where that was cut short, and what was written.
 std::string stop_notice(const RenderSettings& settings, const RunReport& report);

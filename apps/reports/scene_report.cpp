@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -69,13 +70,19 @@ class Rows {
   std::string text_;
 };
 
+/// The file's numbers as they are (KHR_lights_punctual has candela and lux).
+const char* unit_of(const scene::PunctualLight& light) {
+  return light.type == scene::LightType::directional ? "W/m2" : "W/sr";
+}
+
 std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneRequirements& requirements) {
   std::vector<std::string> lines;
   for (const scene::PunctualLight& light : scene.lights) {
-    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g}",
+    lines.push_back(fmt::format("{} '{}', intensity {:.4g} {:.4g} {:.4g} {}",
                                 renderer::name_of(kLightTypes, light.type), light.name, light.intensity.x(),
-                                light.intensity.y(), light.intensity.z()));
+                                light.intensity.y(), light.intensity.z(), unit_of(light)));
   }
+  if (!scene.lights.empty()) lines.emplace_back("(the file's numbers, not converted from candela and lux)");
   if (requirements.emissive_triangles > 0) {
     lines.push_back(fmt::format("{} emissive triangles of {} materials",
                                 format_integer(requirements.emissive_triangles),
@@ -91,9 +98,57 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
     const std::string lens = camera.orthographic
                                  ? fmt::format("{:.4g} m high", 2.0f * camera.half_height)
                                  : fmt::format("{:.4g} degrees", camera.vertical_fov * 180.0f / scene::kPi);
-    lines.push_back(fmt::format("{} '{}', {}, {}", i, camera.name, name_of_type(camera), lens));
+    const std::string node =
+        camera.node.empty() || camera.node == camera.name ? "" : fmt::format(", node '{}'", camera.node);
+    lines.push_back(fmt::format("{} '{}'{}, {}, {}", i, camera.name, node, name_of_type(camera), lens));
   }
   return lines;
+}
+
+ordered_json triple(const scene::Vec3& v) {
+  return {shortest(v.x()), shortest(v.y()), shortest(v.z())};
+}
+
+double degrees(double radians) {
+  return radians * 180.0 / static_cast<double>(scene::kPi);
+}
+
+/// Places are in the file's coordinates.
+ordered_json light_json(const scene::PunctualLight& light, const scene::Vec3& origin) {
+  using scene::LightType;
+  ordered_json json = {{"name", light.name},
+                       {"type", renderer::name_of(kLightTypes, light.type)},
+                       {"intensity", triple(light.intensity.matrix())},
+                       {"unit", unit_of(light)}};
+  if (light.type != LightType::directional) json["position"] = triple(light.position + origin);
+  if (light.type != LightType::point) json["direction"] = triple(light.direction);
+  if (light.type != LightType::directional)
+    json["range"] = std::isfinite(light.range) ? ordered_json(shortest(light.range)) : ordered_json();
+  if (light.type == LightType::spot) {
+    json["inner_cone_degrees"] = degrees(std::acos(static_cast<double>(light.cos_inner)));
+    json["outer_cone_degrees"] = degrees(std::acos(static_cast<double>(light.cos_outer)));
+  }
+  return json;
+}
+
+ordered_json camera_json(const scene::Camera& camera, const scene::Vec3& origin) {
+  ordered_json json = {{"name", camera.name}, {"node", camera.node}, {"type", name_of_type(camera)}};
+  if (camera.orthographic) {
+    json["height"] = 2.0 * shortest(camera.half_height);
+    if (camera.half_width > 0.0f) json["width"] = 2.0 * shortest(camera.half_width);
+  } else {
+    json["vertical_fov_degrees"] = degrees(shortest(camera.vertical_fov));
+  }
+  if (camera.aspect > 0.0f) json["aspect"] = shortest(camera.aspect);
+  scene::Affine placed = camera.transform;
+  placed.translation() += origin;
+  json["transform"] = ordered_json::array();
+  for (Eigen::Index column = 0; column < 4; ++column) {
+    for (Eigen::Index row = 0; row < 3; ++row)
+      json["transform"].push_back(shortest(placed.matrix()(row, column)));
+    json["transform"].push_back(column == 3 ? 1.0 : 0.0);
+  }
+  return json;
 }
 
 /// The bounds in the file's coordinates.
@@ -168,15 +223,14 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   json["images"] = scene.images.size();
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
-    json["lights"].push_back({{"name", light.name}, {"type", renderer::name_of(kLightTypes, light.type)}});
+    json["lights"].push_back(light_json(light, scene.origin));
   }
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {
-    json["cameras"].push_back({{"name", camera.name}, {"type", name_of_type(camera)}});
+    json["cameras"].push_back(camera_json(camera, scene.origin));
   }
   json["variants"] = scene.variants;
   if (!scene.bounds.isEmpty()) {
-    const auto triple = [](const scene::Vec3& v) { return ordered_json{v.x(), v.y(), v.z()}; };
     const scene::Box bounds = file_bounds(scene);
     json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
   }

@@ -14,12 +14,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr renderer::Choice<renderer::EndedBy> kEnds[] = {{"spp", renderer::EndedBy::spp},
-                                                         {"max-error", renderer::EndedBy::max_error},
-                                                         {"time-limit", renderer::EndedBy::time_limit},
-                                                         {"signal", renderer::EndedBy::caller},
-                                                         {"device", renderer::EndedBy::device}};
-
 /// Increases when a key changes its meaning or disappears.
 constexpr int kSchema = 1;
 
@@ -37,6 +31,7 @@ ordered_json seconds(const RunReport& report, bool with_cache, bool reconstructs
   ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
   if (with_cache) json.update(cache_seconds_json(cache));
   json["render"] = s.render_seconds;
+  if (s.resumed_seconds > 0.0) json["render_resumed"] = s.resumed_seconds;
   if (with_cache) {
     json["render_trace"] = cache.render_trace_seconds;
     json["render_query"] = cache.render_query_seconds;
@@ -75,7 +70,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["spp"] = s.spp;
   json["samples"] = s.samples;
   json["interrupted"] = s.interrupted;
-  json["ended_by"] = name_of(kEnds, s.ended_by);
+  json["ended_by"] = word_of(s.ended_by);
   if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
   if (settings.render.reconstruct) json["lost_light"] = s.lost_light;
   json["exposure"] = report.exposure;

@@ -1,12 +1,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/run_report.h"
 #include "apps/terminal/text.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
+
+constexpr renderer::Choice<renderer::EndedBy> kEnds[] = {{"spp", renderer::EndedBy::spp},
+                                                         {"max-error", renderer::EndedBy::max_error},
+                                                         {"time-limit", renderer::EndedBy::time_limit},
+                                                         {"signal", renderer::EndedBy::caller},
+                                                         {"device", renderer::EndedBy::device}};
 
 double per_second(double count, double seconds) {
   return seconds > 0.0 ? count / seconds : 0.0;
@@ -18,18 +27,62 @@ bool training_cut_short(const renderer::CacheOptions& options, const renderer::C
   return s.steps < s.steps_wanted && !out_of_time;
 }
 
+std::uint64_t count_rays(const renderer::RayCounts& rays) {
+  return rays.camera + rays.bounce + rays.shadow;
+}
+
+/// Seconds in which the picture's samples were traced: paths of training may be such samples.
+double sample_seconds(const renderer::RenderOptions& options, const renderer::RenderStatistics& s) {
+  const bool taught =
+      renderer::uses_cache(options.integrator) && options.cache.source == renderer::TrainingSource::picture;
+  return s.render_seconds + (taught ? s.cache.train_trace_seconds : 0.0);
+}
+
+/// Seconds in which all rays were traced, those of scouting and training too.
+double ray_seconds(const renderer::RenderStatistics& s) {
+  return s.render_seconds + s.cache.scout_seconds + s.cache.train_trace_seconds;
+}
+
+/// Of the picture as a whole: samples, rays and this time add up over the runs that --resume joins.
+std::string render_seconds_text(const renderer::RenderStatistics& s) {
+  if (s.resumed_seconds <= 0.0) return fmt::format("render {:.2f}", s.render_seconds);
+  return fmt::format("render {:.2f} ({:.2f} of them before --resume)", s.render_seconds, s.resumed_seconds);
+}
+
 }  // namespace
+
+std::string word_of(renderer::EndedBy end) {
+  return renderer::name_of(kEnds, end);
+}
+
+nlohmann::ordered_json summary_json(const RenderSettings& settings, const RunReport& report) {
+  const renderer::RenderStatistics& s = report.statistics;
+  nlohmann::ordered_json json = {
+      {"outputs", settings.outputs},
+      {"seconds", report.total_seconds},
+      {"spp", s.spp},
+      {"samples", s.samples},
+      {"samples_per_second", per_second(static_cast<double>(s.samples), sample_seconds(settings.render, s))},
+      {"rays", count_rays(s.rays)},
+      {"render_seconds", s.render_seconds},
+      {"ended_by", word_of(s.ended_by)},
+      {"exposure", report.exposure},
+      {"peak_memory_bytes", peak_resident_bytes()}};
+  if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
+  if (renderer::uses_cache(settings.render.integrator)) json["train_steps"] = s.cache.steps;
+  return json;
+}
 
 std::string summary(const RenderSettings& settings, const RunReport& report) {
   using renderer::EndedBy;
   const renderer::RenderStatistics& s = report.statistics;
   const double samples = static_cast<double>(s.samples);
-  const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
+  const double rays = static_cast<double>(count_rays(s.rays));
   std::string text = fmt::format("written   {}\n", fmt::join(settings.outputs, ", "));
   const std::string reconstruct =
       settings.render.reconstruct ? fmt::format(", reconstruct {:.2f}", s.reconstruct_seconds) : "";
-  text += fmt::format("seconds   load {:.2f}, build {:.2f}, render {:.2f}{}, write {:.2f}, total {:.2f}\n",
-                      report.load_seconds, s.build_seconds, s.render_seconds, reconstruct,
+  text += fmt::format("seconds   load {:.2f}, build {:.2f}, {}{}, write {:.2f}, total {:.2f}\n",
+                      report.load_seconds, s.build_seconds, render_seconds_text(s), reconstruct,
                       report.write_seconds, report.total_seconds);
   std::string error;
   if (s.estimated_error) {
@@ -43,11 +96,12 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   constexpr double kToldLoss = 0.001;
   if (s.lost_light >= kToldLoss)
     error += fmt::format("; lost with fireflies {} of the light", format_percent(s.lost_light));
-  text += fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}{}\n",
-                      format_integer(s.samples), s.spp, per_second(samples, s.render_seconds) * 1e-6,
-                      s.threads, s.threads == 1 ? "" : "s", error);
+  text +=
+      fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}{}\n", format_integer(s.samples),
+                  s.spp, per_second(samples, sample_seconds(settings.render, s)) * 1e-6, s.threads,
+                  s.threads == 1 ? "" : "s", error);
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
-                      per_second(rays, s.render_seconds) * 1e-6);
+                      per_second(rays, ray_seconds(s)) * 1e-6);
   if (!settings.exposure) {
     text += fmt::format("exposure  {:.1f} EV by the picture's light; --exposure {:.1f} keeps it\n",
                         report.exposure, report.exposure);
@@ -55,7 +109,8 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",
                       format_bytes(peak_resident_bytes()), format_bytes(s.geometry_bytes),
                       format_bytes(s.bvh_bytes), format_bytes(s.texture_bytes));
-  if (renderer::uses_cache(settings.render.integrator)) text += cache_summary(s.cache);
+  if (renderer::uses_cache(settings.render.integrator))
+    text += cache_summary(s.cache, settings.render.cache.cache_in);
   return text;
 }
 

@@ -8,8 +8,10 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
 
 namespace gatelight::apps {
 namespace {
@@ -37,7 +39,7 @@ class SubcommandConfig final : public CLI::ConfigTOML {
       if (item.inputs.size() > 1 && item.name != "output" && item.name != "vary" && item.name != "for" &&
           item.name != "SCENE")
         item.inputs = {CLI::detail::join(item.inputs, ",")};
-      if (!called.empty()) note(*called.front(), item.name);
+      if (!called.empty()) note(*called.front(), item);
       kept.push_back(std::move(item));
     }
     return kept;
@@ -62,11 +64,13 @@ class SubcommandConfig final : public CLI::ConfigTOML {
     return !root_.get_subcommands([&](const CLI::App* app) { return app->get_name() == name; }).empty();
   }
 
-  void note(const CLI::App& app, const std::string& key) const {
+  void note(const CLI::App& app, const CLI::ConfigItem& item) const {
+    const std::string& key = item.name;
     for (const std::string& name : {"--" + key, "-" + key, key}) {
       const CLI::Option* option = app.get_option_no_throw(name);
       if (option == nullptr) continue;
       if (!option->empty()) return;
+      if (key == "progress" && item.inputs == std::vector<std::string>{"json"}) set_json_messages(true);
       for (const std::string& word : option->get_lnames()) config_->flags.insert("--" + word);
       for (const std::string& letter : option->get_snames()) config_->flags.insert("-" + letter);
       return;

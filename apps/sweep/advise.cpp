@@ -1,6 +1,7 @@
 #include "apps/sweep/advise.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -124,9 +125,10 @@ Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& 
   return {*std::min_element(chosen.begin(), chosen.end(), better), false};
 }
 
-std::string advice_text(const ordered_json& results, const AdviceLimits& limits) {
+AdviceReport give_advice(const ordered_json& results, const AdviceLimits& limits) {
   const std::vector<Configuration> all = configurations(results);
-  if (all.empty()) return "no advice: no cell of this sweep is done\n";
+  if (all.empty()) return {"", "no cell of this sweep is done"};
+  std::vector<std::string> unmet;
   std::string text = fmt::format("{}, without loading the scene and building\n", limits_text(limits));
   std::vector<Configuration> rest = all;
   while (!rest.empty()) {
@@ -137,11 +139,13 @@ std::string advice_text(const ordered_json& results, const AdviceLimits& limits)
     }
     std::erase_if(rest, [&](const Configuration& c) { return comparable(c, first); });
     const Advice advice = choose(group, limits);
+    if (!advice.met) unmet.push_back(fmt::format("{} ({})", first.scene, reference_text(group, all)));
     text += fmt::format("{} ({}): {}{}\n  {}\n", first.scene, reference_text(group, all),
                         advice.met ? "" : fmt::format("none of {} met it; the nearest is ", group.size()),
                         describe(advice.best), advice.best.command);
   }
-  return text;
+  if (unmet.empty()) return {text, ""};
+  return {text, fmt::format("no configuration of {} has a {}", fmt::join(unmet, ", "), limits_text(limits))};
 }
 
 }  // namespace gatelight::apps

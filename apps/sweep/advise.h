@@ -44,8 +44,12 @@ struct Advice {
 /// smallest error among those that are fast enough, or else the fastest.
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits);
 
-/// The advice for each reference, with its command. Throws nlohmann::json::exception where `results` is no
-/// result of a sweep.
-std::string advice_text(const nlohmann::ordered_json& results, const AdviceLimits& limits);
+struct AdviceReport {
+  std::string text;   ///< the advice for each reference, with its command; a line break at its end
+  std::string unmet;  ///< why some reference has no advice, in a line; else empty
+};
+
+/// Throws nlohmann::json::exception where `results` is no result of a sweep.
+AdviceReport give_advice(const nlohmann::ordered_json& results, const AdviceLimits& limits);
 
 }  // namespace gatelight::apps

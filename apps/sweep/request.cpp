@@ -12,6 +12,7 @@
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
+#include "scene/nearest_word.h"
 
 namespace gatelight::apps {
 namespace {
@@ -68,8 +69,11 @@ void check_vary(const std::string& flag) {
   const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                 [&](const AxisFlag& f) { return flag == f.varies; });
   if (!axis && flag != "--preset" && !is_base_flag(flag)) {
+    std::vector<std::string> names = base_flag_names();
+    for (std::string& name : names) name.erase(0, 2);
     throw UsageError(fmt::format(
-        "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help", flag));
+        "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help-all{}", flag,
+        scene::did_you_mean(flag.substr(2), names)));
   }
 }
 

@@ -87,7 +87,8 @@ class SweepRun {
       // The results of an earlier call are more complete, and stay.
       progress_.clear();
       print_notice(
-          fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()));
+          fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()),
+          kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
     }
     tell_versions();
@@ -112,7 +113,8 @@ class SweepRun {
     if (!finished) {
       progress_.clear();
       print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
-                               stop_signal(), cells - failed, plan_.cell_count(), settings_.folder));
+                               stop_signal(), cells - failed, plan_.cell_count(), settings_.folder),
+                   kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
     }
     progress_.done(settings_.folder, cells, failed);
@@ -256,14 +258,24 @@ class SweepRun {
   std::size_t open_index_ = 0;
 };
 
-std::string advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
+AdviceReport advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
   const ordered_json results = read_results(folder);
   try {
-    return advice_text(results, limits);
+    return give_advice(results, limits);
   } catch (const ordered_json::exception& error) {
     throw InputError(
         fmt::format("cannot read '{}': it is no result of a sweep: {}", results_file(folder), error.what()));
   }
+}
+
+/// Prints the advice. Answers the exit code.
+int tell_advice(const AdviceReport& advice) {
+  write_text("-", advice.text);
+  if (advice.unmet.empty()) return kDone;
+  print_failure({kNoAdvice, "--advise: " + advice.unmet,
+                 advice.text.empty() ? "look into its failures"
+                                     : "the nearest is on stdout; raise the limit or measure more"});
+  return kNoAdvice;
 }
 
 }  // namespace
@@ -275,8 +287,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
   }
   set_log_level(settings.quiet, settings.verbose);
   if (settings.request.scenes.empty()) {
-    write_text("-", advice_of_folder(settings.folder, settings.limits));
-    return kDone;
+    return tell_advice(advice_of_folder(settings.folder, settings.limits));
   }
   const SweepPlan plan = make_plan(settings.request);
   check_inputs(settings, plan);
@@ -288,7 +299,11 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
   install_signal_handlers();
   SweepRun run(settings, plan, command);
   const int code = run.run();
-  if (settings.advise && code < kSignalBase) write_text("-", advice_text(run.results(), settings.limits));
+  if (!settings.advise || code >= kSignalBase) return code;
+  const AdviceReport advice = give_advice(run.results(), settings.limits);
+  if (code == kDone) return tell_advice(advice);
+  // What failed was said already, in the last line.
+  write_text("-", advice.text);
   return code;
 }
 

@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
+#include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "neural/base/errors.h"
 #include "renderer/image/image_write.h"
@@ -30,7 +32,7 @@ Failure describe_current_exception() {
     return {kUsage, error.what(), "see --help"};
   } catch (const neural::BadConfiguration& error) {
     return {kUsage, fmt::format("the cache cannot be as asked: {}", error.what()),
-            "see 'Cache' in gatelight render --help"};
+            "see gatelight render --help cache"};
   } catch (const renderer::UnknownFormat& error) {
     return {kUsage, error.what(), "choose another file name"};
   } catch (const renderer::OutputError& error) {
@@ -89,13 +91,22 @@ void end_program() {
 }
 
 void print_failure(const Failure& failure) {
-  std::string line = one_line(failure.message);
-  if (!failure.advice.empty()) line += "; " + failure.advice;
-  tell(fmt::format("gatelight: error: {}\n", line));
+  const std::string message = one_line(failure.message);
+  if (json_messages()) {
+    print_json_line(
+        {{"event", "error"}, {"message", message}, {"advice", failure.advice}, {"code", failure.code}});
+    return;
+  }
+  const char* const link = failure.advice.empty() ? "" : message.ends_with('?') ? " " : "; ";
+  tell(fmt::format("gatelight: error: {}{}{}\n", message, link, failure.advice));
 }
 
-void print_notice(const std::string& text) {
-  tell(fmt::format("gatelight: {}\n", text));
+void print_notice(const std::string& text, int code) {
+  if (json_messages()) {
+    print_json_line({{"event", "notice"}, {"message", one_line(text)}, {"code", code}});
+  } else {
+    tell(fmt::format("gatelight: {}\n", text));
+  }
 }
 
 }  // namespace gatelight::apps

@@ -18,6 +18,7 @@ enum ExitCode : int {
   kUnavailable = 5,
   kNumerical = 6,
   kPartly = 7,        ///< some cells of a sweep failed, the others are there
+  kNoAdvice = 8,      ///< nothing in a sweep meets the limits of --advise
   kSignalBase = 128,  ///< plus the signal's number
 };
 
@@ -49,7 +50,7 @@ std::string one_line(std::string text);
 /// Prints the last line of stderr.
 void print_failure(const Failure& failure);
 
-/// Prints the last line of stderr after a signal, which is no failure.
-void print_notice(const std::string& text);
+/// Prints the last line of stderr after a signal, which is no failure. The code is the program's.
+void print_notice(const std::string& text, int code);
 
 }  // namespace gatelight::apps

@@ -26,7 +26,9 @@ constexpr renderer::Choice<renderer::Phase> kPhases[] = {{"scout", renderer::Pha
 /// What the bar shows of a phase beside its fraction.
 std::string measures(const renderer::Progress& progress, double samples_per_second) {
   if (progress.phase == renderer::Phase::train) {
-    return fmt::format("  {}/{} steps  loss {:.3g}", progress.steps_done, progress.steps, progress.loss);
+    // Before the first step there is no loss.
+    const std::string loss = progress.steps_done > 0 ? fmt::format("  loss {:.3g}", progress.loss) : "";
+    return fmt::format("  {}/{} steps{}", progress.steps_done, progress.steps, loss);
   }
   if (progress.phase == renderer::Phase::render) {
     const std::string goal = progress.spp < renderer::kOpenSpp ? fmt::format("/{}", progress.spp) : "";
@@ -117,7 +119,7 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
   if (progress.phase == renderer::Phase::train) {
     line["steps_done"] = progress.steps_done;
     line["steps"] = progress.steps;
-    line["loss"] = progress.loss;
+    if (progress.steps_done > 0) line["loss"] = progress.loss;
   } else if (progress.phase == renderer::Phase::render) {
     line["spp_done"] = progress.spp_done;
     line["spp"] = progress.spp;
@@ -142,11 +144,13 @@ void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates&
   show_line(width >= 8 ? bar + numbers : numbers);
 }
 
-bool ProgressReporter::done(const std::vector<std::string>& outputs, double seconds) {
+bool ProgressReporter::done(const nlohmann::ordered_json& summary) {
   const std::lock_guard lock(mutex_);
   clear_line();
   if (mode_ != ProgressMode::json) return false;
-  print_json_line({{"event", "done"}, {"outputs", outputs}, {"seconds", seconds}});
+  nlohmann::ordered_json line = {{"event", "done"}};
+  line.update(summary);
+  print_json_line(line);
   return true;
 }
 

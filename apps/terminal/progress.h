@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
@@ -55,7 +55,7 @@ class ProgressReporter : public ProgressLine {
   void phase(const std::string& name);
   void update(const renderer::Progress& progress);
   /// Reports that the files are written, as JSON. Returns false in other modes, where the caller prints text.
-  bool done(const std::vector<std::string>& outputs, double seconds);
+  bool done(const nlohmann::ordered_json& summary);
 
  private:
   struct Rates {

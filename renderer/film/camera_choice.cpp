@@ -8,6 +8,7 @@
 
 #include "renderer/film/framing.h"
 #include "renderer/machine/errors.h"
+#include "scene/nearest_word.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -51,6 +52,15 @@ std::string names_of(const scene::Scene& scene) {
   return text;
 }
 
+std::string meant(const scene::Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const scene::Camera& camera : scene.cameras) {
+    names.push_back(camera.name);
+    names.push_back(camera.node);
+  }
+  return scene::did_you_mean(name, names);
+}
+
 /// A name of a camera wins over that of a node, both win over an index.
 const scene::Camera& find_named(const scene::Scene& scene, const std::string& name) {
   const std::vector<scene::Camera>& cameras = scene.cameras;
@@ -66,7 +76,8 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::string& na
   std::size_t index = cameras.size();
   const char* const end = name.data() + name.size();
   if (std::from_chars(name.data(), end, index).ptr != end || index >= cameras.size())
-    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}", name, scene.path, names_of(scene)));
+    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
+                                meant(scene, name)));
   return cameras[index];
 }
 

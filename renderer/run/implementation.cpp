@@ -235,6 +235,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
     if (pass) pass->add_to(sum.cache);
   }
   add_earlier(sum, earlier);
+  sum.resumed_seconds = earlier.render_seconds;
   return sum;
 }
 

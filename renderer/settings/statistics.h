@@ -81,6 +81,7 @@ enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device }
 struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
+  double resumed_seconds = 0.0;  ///< those of render_seconds that a checkpoint brought
   double reconstruct_seconds = 0.0;
   int width = 0;
   int height = 0;

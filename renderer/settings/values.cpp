@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "renderer/machine/errors.h"
+#include "scene/nearest_word.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -148,7 +149,9 @@ std::string join_names(std::span<const std::string_view> names) {
 }
 
 void refuse_choice(const std::string& flag, const std::string& text, const std::string& names) {
-  refuse(flag, text, "one of " + names);
+  std::vector<std::string> words;
+  for (const std::string_view word : split(names, '|')) words.emplace_back(word);
+  refuse(flag, text, "one of " + names + scene::did_you_mean(text, words));
 }
 
 }  // namespace gatelight::renderer

@@ -18,6 +18,7 @@
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/triangles.h"
+#include "scene/nearest_word.h"
 #include "scene/parallel.h"
 
 namespace gatelight::scene {
@@ -87,9 +88,10 @@ class Loader {
     if (found == scene_.variants.end()) {
       document_.fail(
           "KHR_materials_variants",
-          fmt::format("variant '{}' is not there, expected {}", options_.variant,
+          fmt::format("variant '{}' is not there, expected {}{}", options_.variant,
                       scene_.variants.empty() ? "none: the file has no variants"
-                                              : fmt::format("one of: {}", fmt::join(scene_.variants, ", "))));
+                                              : fmt::format("one of: {}", fmt::join(scene_.variants, ", ")),
+                      did_you_mean(options_.variant, scene_.variants)));
     }
     variant_ = static_cast<int>(found - scene_.variants.begin());
   }

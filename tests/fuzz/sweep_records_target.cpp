@@ -39,7 +39,7 @@ void read_record(Bytes bytes) {
   if (!record) return;
   const nlohmann::ordered_json results = apps::make_results({"gatelight"}, {{{{"name", "a"}}, {*record}}});
   apps::results_csv(results);
-  apps::advice_text(results, {.max_error = 0.5, .max_seconds = {}});
+  apps::give_advice(results, {.max_error = 0.5, .max_seconds = {}});
   apps::make_report(results, folder);
 }
 
@@ -47,7 +47,7 @@ void read_results(Bytes bytes) {
   static const InputFile file("results.json");
   file.write(bytes);
   try {
-    apps::advice_text(apps::read_results(file.path().parent_path().string()),
+    apps::give_advice(apps::read_results(file.path().parent_path().string()),
                       {.max_error = 0.5, .max_seconds = 9.0});
   } catch (const apps::InputError& error) {
     check_line(apps::one_line(error.what()));

@@ -107,13 +107,24 @@ TEST(CacheStatistics, AreAbsentWithoutACache) {
 
 TEST(CacheStatistics, AreSummedUpForPeople) {
   renderer::CacheStatistics s = some_statistics();
-  EXPECT_THAT(cache_summary(s),
+  EXPECT_THAT(cache_summary(s, ""),
               AllOf(HasSubstr("128 steps (chosen)"), HasSubstr("2.10 M records"), HasSubstr("loss 0.25"),
                     HasSubstr("scout 0.50, setup 0.75, train 8.00"), HasSubstr("query 1.50"),
                     HasSubstr("12 345 nodes"), HasSubstr("10 of 40 sides"), HasSubstr("1.00 MiB")));
   s.steps = 100;
   s.steps_chosen = false;
-  EXPECT_THAT(cache_summary(s), AllOf(HasSubstr("100 of 128 steps,"), Not(HasSubstr("chosen"))));
+  EXPECT_THAT(cache_summary(s, ""), AllOf(HasSubstr("100 of 128 steps,"), Not(HasSubstr("chosen"))));
+}
+
+TEST(CacheStatistics, ALoadedCacheIsCalledLoaded) {
+  renderer::CacheStatistics s = some_statistics();
+  EXPECT_THAT(cache_summary(s, "room.safetensors"),
+              AllOf(HasSubstr("loaded    the cache 'room.safetensors'\n"), HasSubstr("training  128 steps")));
+  s.steps = s.steps_wanted = 0;
+  s.steps_chosen = false;
+  EXPECT_THAT(cache_summary(s, "room.safetensors"),
+              AllOf(HasSubstr("loaded"), Not(HasSubstr("training")), Not(HasSubstr("loss"))));
+  EXPECT_THAT(cache_summary(s, ""), AllOf(HasSubstr("training  0 steps\n"), Not(HasSubstr("loss"))));
 }
 
 renderer::CacheReport some_report() {

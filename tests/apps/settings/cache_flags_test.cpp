@@ -314,13 +314,13 @@ TEST(CacheFlags, AreRefusedWithoutACache) {
 TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
   const std::vector<Aov> path = read({"--aov", "all"}).render.aovs;
   const std::vector<Aov> cache = read({"--aov", "all", "--integrator", "nrc"}).render.aovs;
-  EXPECT_EQ(path.size(), 11u);
-  EXPECT_EQ(cache.size(), 17u);
+  EXPECT_EQ(path.size(), 12u);
+  EXPECT_EQ(cache.size(), 18u);
   const std::vector<Aov> occlusion = read({"--aov", "all", "--integrator", "nao"}).render.aovs;
-  EXPECT_EQ(occlusion.size(), 15u);
+  EXPECT_EQ(occlusion.size(), 16u);
   EXPECT_THAT(occlusion, Not(Contains(Aov::cache_error)));
   const std::vector<Aov> hash = read(with_cache({"--aov", "all", "--encoding", "hashgrid"})).render.aovs;
-  EXPECT_EQ(hash.size(), 14u);
+  EXPECT_EQ(hash.size(), 15u);
   EXPECT_EQ(hash.back(), Aov::cache_error);
   EXPECT_THAT(read({"--aov", "resolution,albedo", "--integrator", "nao"}).render.aovs,
               ElementsAre(Aov::albedo, Aov::resolution));

@@ -1,8 +1,12 @@
 // The command line as a user meets it: help, refusals, exit codes and the last line on stderr.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "apps/settings/common_flags.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -12,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Usage : public ::testing::Test {
@@ -33,6 +38,36 @@ class Usage : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(Usage, HelpFitsOnTwoScreens) {
+  const Output help = run_gatelight({"render", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  std::istringstream text(help.out);
+  int lines = 0;
+  for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
+  EXPECT_LE(lines, 100);
+  for (const char* word : {"--output", "--spp", "--preset", "--camera", "--help-all", "W/sr", "Examples:"})
+    EXPECT_THAT(help.out, HasSubstr(word));
+  for (const char* word : {"--hash-levels", "--region", "--isa"}) EXPECT_THAT(help.out, Not(HasSubstr(word)));
+  EXPECT_EQ(run_gatelight_inside({"render", scene(), "--help"}).out, help.out) << "a scene is no topic";
+}
+
+TEST_F(Usage, EachFlagOfTheShortHelpExists) {
+  const std::string all =
+      run_gatelight_inside({"render", "--help-all"}).out + run_gatelight_inside({"info", "--help-all"}).out;
+  for (const std::string& name : apps::common_flags()) EXPECT_THAT(all, HasSubstr("--" + name)) << name;
+}
+
+TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
+  const Output cache = run_gatelight_inside({"render", "--help", "cache"});
+  EXPECT_EQ(cache.exit_code, 0);
+  for (const char* word : {"--train-steps", "--hash-levels", "--query-at", "--self-training-full"})
+    EXPECT_THAT(cache.out, HasSubstr(word));
+  for (const char* word : {"--spp", "--camera", "--isa", "Examples:"})
+    EXPECT_THAT(cache.out, Not(HasSubstr(word)));
+  EXPECT_THAT(run_gatelight_inside({"render", "--help", "view"}).out,
+              AllOf(HasSubstr("--projection"), Not(HasSubstr("--train-steps"))));
+}
+
 TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   const Output root = run_gatelight({"--help"});
   EXPECT_EQ(root.exit_code, 0);
@@ -41,7 +76,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
        {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
     EXPECT_THAT(root.out, HasSubstr(word));
   }
-  const Output render = run_gatelight({"render", "--help"});
+  const Output render = run_gatelight({"render", "--help-all"});
   EXPECT_EQ(render.exit_code, 0);
   EXPECT_THAT(render.out, StartsWith("Render a scene"));
   for (const char* word : {"Usage: gatelight render",
@@ -90,7 +125,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
   }
   EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
   EXPECT_THAT(
-      run_gatelight({"info", "--help"}).out,
+      run_gatelight({"info", "--help-all"}).out,
       AllOf(HasSubstr("Examples:"), HasSubstr("--integrator path|ao|nao|nrc"), HasSubstr("--stack LIST"),
             HasSubstr("--environment auto|none|r,g,b|FILE"), HasSubstr("[warn]")));
   EXPECT_THAT(run_gatelight_inside({"merge", "--help"}).out, HasSubstr("Example:"));
@@ -118,6 +153,38 @@ TEST_F(Usage, UnknownFlagsAreRefusedByName) {
   for (const char* flag : {"--frob", "--check", "--ssp=4", "-z"}) {
     const Output output = refused({flag});
     expect_failure(output, 1, {flag});
+  }
+}
+
+struct Misspelt {
+  std::vector<std::string> arguments;
+  const char* meant;  ///< empty: nothing is near
+};
+
+TEST_F(Usage, TheNearestWordIsOffered) {
+  const std::string config = folder.write("c.toml", "expsure = 1\n");
+  const std::vector<Misspelt> cases = {
+      {{"render", scene(), "-o", "a.png", "--aperure", "3"}, "--aperture"},
+      {{"render", scene(), "-o", "a.png", "--aperure=3"}, "--aperture"},
+      {{"render", scene(), "--outptu", "a.png"}, "--output"},
+      {{"render", scene(), "-o", "a.png", "--frob"}, ""},
+      {{"render", scene(), "-o", "a.png", "--config", config}, "exposure"},
+      {{"render", scene(), "-o", "a.png", "--sampler", "sobl"}, "sobol"},
+      {{"render", scene(), "-o", "a.png", "--sampler", "halton"}, ""},
+      {{"render", scene(), "-o", "a.png", "--aov", "depth,nromal"}, "normal"},
+      {{"render", scene(), "-o", path("a.png"), "--camera", "fornt"}, "front"},
+      {{"rendr", scene()}, "render"},
+      {{"frobnicate"}, ""},
+  };
+  for (const auto& [arguments, meant] : cases) {
+    const Output output = run_gatelight_inside(arguments);
+    const bool near = meant[0] != '\0';
+    if (near) {
+      expect_failure(output, 1, {fmt::format("did you mean '{}'?", meant)});
+    } else {
+      expect_failure(output, 1, {});
+      EXPECT_THAT(output.err, Not(HasSubstr("did you mean")));
+    }
   }
 }
 
@@ -201,8 +268,8 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
 
 TEST_F(Usage, AnOutputIsRequiredAndItsExtensionKnown) {
   EXPECT_EQ(run_gatelight({"render", scene()}).exit_code, 1);
-  const Output output = run_gatelight({"render", scene(), "-o", path("a.jpg")});
-  expect_failure(output, 1, {"a.jpg", ".exr", ".png"});
+  const Output output = run_gatelight({"render", scene(), "-o", path("a.gif")});
+  expect_failure(output, 1, {"a.gif", ".exr", ".png"});
   EXPECT_EQ(refused({"-o", path("a.png")}).exit_code, 1);
 }
 

@@ -518,6 +518,7 @@ TEST_F(SweepCommand, BadWordsAreCode1BeforeAnythingIsDone) {
   expect_refused({"--max-error", "0.1"}, {"--advise"});
   expect_refused({"--advise"}, {"--max-error"});
   expect_refused({"--vary", "frob=1"}, {"--vary", "frob"});
+  expect_refused({"--vary", "sampelr=sobol"}, {"--vary", "did you mean 'sampler'?"});
   expect_refused({"--reference", path("r.exr"), "--integrators", "nrc,nao"}, {"--reference-spp"});
   expect_failure(run_gatelight_inside({"sweep", "-o", path("out")}), 1, {"SCENE"});
   EXPECT_EQ(run_gatelight_inside(words("out", {}, path("none.glb"))).exit_code, 2);
@@ -593,8 +594,15 @@ TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
   EXPECT_THAT(one.out, AllOf(HasSubstr("cornell-box (path): "), HasSubstr("\n  gatelight render "),
                              HasSubstr("-o out.exr\n")));
   const Output none = run_gatelight_inside(words("out", {"--advise", "--max-error", "0"}));
-  EXPECT_EQ(none.exit_code, 0) << none.err;
   EXPECT_THAT(none.out, HasSubstr("none of 4 met it; the nearest is"));
+  expect_failure(none, 8, {"--advise", "cornell-box (path)", "0"});
+  const Output again = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "0"});
+  EXPECT_EQ(again.exit_code, 8);
+  EXPECT_EQ(again.out, none.out);
+  folder.write("empty/results.json", R"({"schema": 2, "cells": []})");
+  const Output empty = run_gatelight_inside({"sweep", "-o", path("empty"), "--advise", "--max-time", "1"});
+  expect_failure(empty, 8, {"--advise", "cell"});
+  EXPECT_EQ(empty.out, "");
   EXPECT_EQ(run_gatelight_inside({"sweep", "-o", path("nothing"), "--advise", "--max-time", "1"}).exit_code,
             2);
   // Without a scene nothing else has an effect.

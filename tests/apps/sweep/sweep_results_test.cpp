@@ -447,17 +447,26 @@ TEST(SweepAdvice, IsTextWithACommandForEachSceneAndKind) {
   bare["reference"] = "cache";
   bare["reference_id"] = "held";
   results["cells"].push_back(bare);
-  const std::string text = advice_text(results, {.max_error = 0.26, .max_seconds = {}});
+  const std::string text = give_advice(results, {.max_error = 0.26, .max_seconds = {}}).text;
   EXPECT_THAT(
       text,
       AllOf(HasSubstr("room (path): hash, 8 steps, 4 spp: FLIP 0.2500, 2.5 s\n  gatelight render hash81"),
             HasSubstr("hall (path): none of 1 met it; the nearest is gate, 8 steps"),
             HasSubstr("room (cache): bare")));
-  EXPECT_THAT(advice_text(results, {.max_error = 0.41, .max_seconds = {}}),
+  EXPECT_THAT(give_advice(results, {.max_error = 0.41, .max_seconds = {}}).text,
               AllOf(HasSubstr("FLIP of at most 0.41 with every seed"),
                     HasSubstr("FLIP 0.3000 (0.2000 to 0.4000 over 2 seeds), 2 s")));
-  EXPECT_THAT(advice_text({{"cells", ordered_json::array()}}, {.max_error = 0.31, .max_seconds = {}}),
+  EXPECT_THAT(give_advice({{"cells", ordered_json::array()}}, {.max_error = 0.31, .max_seconds = {}}).unmet,
               HasSubstr("no cell"));
+}
+
+TEST(SweepAdvice, SaysWhatHasNone) {
+  ordered_json results = trade();
+  results["cells"].push_back(cell("gate", 8, 0.5, 1.0, 1, "hall"));
+  const std::string unmet = give_advice(results, {.max_error = 0.26, .max_seconds = 9.5}).unmet;
+  tests::expect_message(unmet, {"hall (path)", "0.26", "9.5"});
+  EXPECT_THAT(unmet, Not(HasSubstr("room")));
+  EXPECT_EQ(give_advice(results, {.max_error = 0.5, .max_seconds = {}}).unmet, "");
 }
 
 TEST(SweepAdvice, ErrorsAgainstDifferentReferencesAreNotCompared) {
@@ -472,12 +481,12 @@ TEST(SweepAdvice, ErrorsAgainstDifferentReferencesAreNotCompared) {
       results["cells"].push_back(one);
     }
   }
-  EXPECT_THAT(advice_text(results, {.max_error = 0.05, .max_seconds = {}}),
+  EXPECT_THAT(give_advice(results, {.max_error = 0.05, .max_seconds = {}}).text,
               AllOf(HasSubstr("room (path, max-depth 2): gate max-depth 2"),
                     HasSubstr("room (path, max-depth 8): gate max-depth 8"), Not(HasSubstr("integrator"))));
   // Where no axis tells them apart.
   for (ordered_json& one : results["cells"]) one["axes"] = ordered_json::object();
-  EXPECT_THAT(advice_text(results, {.max_error = 0.05, .max_seconds = {}}),
+  EXPECT_THAT(give_advice(results, {.max_error = 0.05, .max_seconds = {}}).text,
               AllOf(HasSubstr("room (path, reference 2): "), HasSubstr("room (path, reference 8): ")));
   // Nor are they pooled as seeds of one configuration.
   for (ordered_json& one : results["cells"]) one["series"] = "the same";

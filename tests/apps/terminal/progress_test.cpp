@@ -15,6 +15,7 @@ using renderer::Phase;
 using renderer::Progress;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// What the reporter says of a picture of 1000 pixels.
 std::string report(ProgressMode mode, const std::vector<Progress>& updates) {
@@ -77,6 +78,12 @@ TEST(Progress, WhereTimeOrAnErrorEndsThePictureTheyAreTold) {
   EXPECT_THAT(report(ProgressMode::bar, {to_error}), HasSubstr("2/8 spp  error 3.1 %  "));
   EXPECT_EQ(report_json({to_error})[0]["estimated_error"], 0.031);
   EXPECT_FALSE(report_json({timed})[0].contains("estimated_error"));
+}
+
+TEST(Progress, WhereNothingIsTrainedThereIsNoLoss) {
+  const Progress none = {.phase = Phase::train, .fraction = 1.0};
+  EXPECT_THAT(report(ProgressMode::bar, {none}), AllOf(HasSubstr("0/0 steps"), Not(HasSubstr("loss"))));
+  EXPECT_FALSE(report_json({none})[0].contains("loss"));
 }
 
 TEST(Progress, LinesAreRareWithinAPhase) {

@@ -54,6 +54,31 @@ TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
   }
 }
 
+TEST_F(Signals, WhatIsResumedAddsUp) {
+  std::vector<std::string> arguments = endless();
+  arguments.insert(arguments.end(), {"--checkpoint", path("k"), "--resume"});
+  Process process(arguments);
+  ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
+  process.send(SIGINT);
+  ASSERT_EQ(process.finish().exit_code, 130);
+  const nlohmann::json first = nlohmann::json::parse(read_file(path("s.json")));
+  EXPECT_FALSE(first["seconds"].contains("render_resumed"));
+  const int spp = first["spp"].get<int>() + 4;
+  std::replace(arguments.begin(), arguments.end(), std::string("16777216"), std::to_string(spp));
+  std::replace(arguments.begin(), arguments.end(), std::string("json"), std::string("none"));
+  const Output resumed = run_gatelight(arguments);
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const nlohmann::json both = nlohmann::json::parse(read_file(path("s.json")));
+  EXPECT_EQ(both["spp"], spp);
+  EXPECT_EQ(both["samples"], 64 * 64 * spp);
+  EXPECT_EQ(both["rays"]["camera"], both["samples"]) << "those of the first run too";
+  // The checkpoint has the seconds of its last whole pass.
+  EXPECT_NEAR(both["seconds"]["render_resumed"].get<double>(), first["seconds"]["render"].get<double>(),
+              0.05);
+  EXPECT_GT(both["seconds"]["render"], both["seconds"]["render_resumed"]);
+  EXPECT_NE(resumed.err.find("of them before --resume"), std::string::npos) << resumed.err;
+}
+
 TEST_F(Signals, AHangupThatIsIgnoredStaysIgnored) {
   Process process(endless(), [] { ::signal(SIGHUP, SIG_IGN); });
   ASSERT_TRUE(process.wait_for_error_text("\"progress\""));

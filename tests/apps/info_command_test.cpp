@@ -1,0 +1,164 @@
+// What `gatelight info` tells of scenes and of rendered pictures.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image_write.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
+
+namespace gatelight::tests {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class InfoCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  /// A light of each type and a camera of each type, three metres along x.
+  std::string lit_scene() const {
+    json file = json::parse(tiny_scene());
+    const auto light = [&](const char* name, const char* type, json more) {
+      json one = {{"name", name}, {"type", type}, {"color", {1.0, 0.5, 0.25}}, {"intensity", 8.0}};
+      one.update(more);
+      file["extensions"]["KHR_lights_punctual"]["lights"].push_back(one);
+      const std::size_t index = file["extensions"]["KHR_lights_punctual"]["lights"].size() - 1;
+      file["nodes"].push_back(
+          {{"translation", {3, 0, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}});
+      file["scenes"][0]["nodes"].push_back(file["nodes"].size() - 1);
+    };
+    light("lamp", "point", {{"range", 12.5}});
+    light("torch", "spot", {{"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
+    light("sun", "directional", json::object());
+    file["extensionsUsed"] = {"KHR_lights_punctual"};
+    file["cameras"].push_back(
+        {{"name", "plan"},
+         {"type", "orthographic"},
+         {"orthographic", {{"xmag", 2.0}, {"ymag", 1.5}, {"znear", 0.1}, {"zfar", 9.0}}}});
+    file["nodes"].push_back({{"name", "above"}, {"camera", 1}, {"translation", {3, 4, 5}}});
+    file["scenes"][0]["nodes"].push_back(file["nodes"].size() - 1);
+    return folder.write("lit.gltf", file.dump());
+  }
+
+  /// A render of the tiny scene into a file whose name needs quotes.
+  std::string rendered(const std::vector<std::string>& more = {}) const {
+    const std::string scene = folder.write("it's a scene.gltf", tiny_scene());
+    std::vector<std::string> call = {"render", scene,   "-o",     path("a b.exr"), "--size",
+                                     "8x4",    "--spp", "2",      "--environment", "1,1,1",
+                                     "--aov",  "depth", "--quiet"};
+    call.insert(call.end(), more.begin(), more.end());
+    EXPECT_EQ(run_gatelight(call).exit_code, 0);
+    return path("a b.exr");
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(InfoCommand, JsonHasLightsWithTheirUnitsAndPlaces) {
+  const json info = json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out);
+  const json& lights = info["lights"];
+  ASSERT_EQ(lights.size(), 3u);
+  EXPECT_EQ(lights[0]["name"], "lamp");
+  EXPECT_EQ(lights[0]["intensity"], json({8.0, 4.0, 2.0}));
+  EXPECT_EQ(lights[0]["unit"], "W/sr");
+  EXPECT_EQ(lights[0]["position"], json({3.0, 0.0, 1.0}));
+  EXPECT_EQ(lights[0]["range"], 12.5);
+  EXPECT_FALSE(lights[0].contains("direction"));
+  EXPECT_EQ(lights[1]["direction"], json({0.0, 0.0, -1.0}));
+  EXPECT_TRUE(lights[1]["range"].is_null());
+  EXPECT_NEAR(lights[1]["inner_cone_degrees"].get<double>(), 14.3239, 1e-3);
+  EXPECT_NEAR(lights[1]["outer_cone_degrees"].get<double>(), 28.6479, 1e-3);
+  EXPECT_EQ(lights[2]["unit"], "W/m2");
+  EXPECT_FALSE(lights[2].contains("position"));
+  EXPECT_FALSE(lights[2].contains("range"));
+}
+
+TEST_F(InfoCommand, JsonHasCamerasWithTheirTransforms) {
+  const json info = json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out);
+  const json& cameras = info["cameras"];
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_NEAR(cameras[0]["vertical_fov_degrees"].get<double>(), 51.5662, 1e-3);
+  EXPECT_EQ(cameras[0]["node"], "front");
+  EXPECT_EQ(cameras[1]["name"], "plan");
+  EXPECT_EQ(cameras[1]["node"], "above");
+  EXPECT_EQ(cameras[1]["type"], "orthographic");
+  EXPECT_EQ(cameras[1]["height"], 3.0);
+  EXPECT_EQ(cameras[1]["width"], 4.0);
+  EXPECT_EQ(cameras[1]["transform"],
+            json({1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 3.0, 4.0, 5.0, 1.0}))
+      << "column after column";
+}
+
+TEST_F(InfoCommand, TextSaysWhatTheNumbersOfLightsAre) {
+  const Output text = run_gatelight_inside({"info", lit_scene()});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("point 'lamp', intensity 8 4 2 W/sr\n"),
+                              HasSubstr("directional 'sun', intensity 8 4 2 W/m2\n"), HasSubstr("candela"),
+                              HasSubstr("'plan', node 'above', orthographic, 3 m high")));
+  EXPECT_THAT(run_gatelight_inside({"info", folder.write("dark.gltf", tiny_scene())}).out,
+              Not(HasSubstr("candela")));
+}
+
+TEST_F(InfoCommand, APictureTellsItsRecipe) {
+  const std::string picture = rendered({"--region", "2,1,6,3"});
+  const Output text = run_gatelight_inside({"info", picture});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\nsize +4 x 2 at 2, 1 of 8 x 4\n"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\nlayers +beauty [(]R,G,B[)]\n +depth [(]Z[)]\n"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\nspp +2\n"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--environment +1,1,1\n"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--aov +depth\n"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--size +8x4\n"));
+  EXPECT_THAT(text.out, Not(HasSubstr("--variant"))) << "it has no value";
+  const json told = json::parse(run_gatelight_inside({"info", picture, "--json", "-"}).out);
+  EXPECT_EQ(told["width"], 4);
+  EXPECT_EQ(told["full_width"], 8);
+  EXPECT_EQ(told["layers"][1]["name"], "depth");
+  EXPECT_EQ(told["recipe"]["spp"], 2);
+  EXPECT_EQ(told["recipe"]["options"]["size"], json({8, 4}));
+  EXPECT_EQ(told["recipe"]["scene"], path("it's a scene.gltf"));
+}
+
+TEST_F(InfoCommand, TheCommandOfAPictureMakesItAgain) {
+  const std::string picture = rendered();
+  const Output told = run_gatelight_inside({"info", picture, "--command"});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_EQ(std::count(told.out.begin(), told.out.end(), '\n'), 1);
+  EXPECT_THAT(told.out, HasSubstr(R"(it'\''s a scene.gltf')"));
+  const std::string before = read_file(picture);
+  std::filesystem::remove(picture);
+  ASSERT_EQ(std::system(told.out.c_str()), 0) << told.out;
+  EXPECT_EQ(read_file(picture).size(), before.size());
+}
+
+TEST_F(InfoCommand, APictureWithoutARecipeIsRefused) {
+  renderer::Picture plain{
+      .width = 1, .height = 1, .layers = {{.name = "", .channels = {"R", "G", "B"}, .values = {1, 1, 1}}}};
+  renderer::write_image(plain, path("plain.exr"), {});
+  expect_failure(run_gatelight_inside({"info", path("plain.exr")}), 2, {path("plain.exr"), "recipe"});
+  expect_failure(run_gatelight_inside({"info", path("plain.png")}), 2, {path("plain.png"), "recipe"});
+  expect_failure(run_gatelight_inside({"info", path("none.exr")}), 2, {path("none.exr")});
+  const std::string silent = rendered({"--reproducible"});
+  expect_failure(run_gatelight_inside({"info", silent, "--command"}), 2, {silent, "--reproducible"});
+  EXPECT_EQ(run_gatelight_inside({"info", silent}).exit_code, 0);
+}
+
+TEST_F(InfoCommand, FlagsOfPicturesAndScenesAreToldApart) {
+  const std::string scene = folder.write("scene.gltf", tiny_scene());
+  expect_failure(run_gatelight_inside({"info", scene, "--command"}), 1, {"--command", "PICTURE.exr"});
+  expect_failure(run_gatelight_inside({"info", "--command"}), 1, {"--command", "PICTURE.exr"});
+  expect_failure(run_gatelight_inside({"info", path("a.exr"), "--camera", "front"}), 1,
+                 {"--camera", path("a.exr")});
+}
+
+}  // namespace
+}  // namespace gatelight::tests

@@ -1,0 +1,148 @@
+// With --progress json every line on stderr is an event, whatever happens.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_scene.h"
+
+namespace gatelight::tests {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::Not;
+
+class JsonMessages : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  /// Throws where a line is no JSON.
+  static std::vector<json> events(const Output& output) {
+    std::vector<json> all;
+    for (const std::string& line : output.error_lines()) all.push_back(json::parse(line));
+    return all;
+  }
+  static std::vector<std::string> kinds(const std::vector<json>& events) {
+    std::vector<std::string> kinds;
+    for (const json& event : events) kinds.push_back(event.at("event"));
+    return kinds;
+  }
+
+  std::vector<std::string> words(const std::vector<std::string>& more) const {
+    std::vector<std::string> all = {"render", scene, "-o", path("a.png"), "--size", "8x8", "--spp", "1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  /// The only event of a call that fails early.
+  void expect_error(const std::vector<std::string>& call, int code, const NameList& names,
+                    Place place = Place::current()) const {
+    const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "call");
+    const Output output = run_gatelight_inside(call);
+    EXPECT_EQ(output.exit_code, code);
+    const std::vector<json> told = events(output);
+    ASSERT_EQ(told.size(), 1u) << output.err;
+    EXPECT_EQ(told[0]["event"], "error");
+    EXPECT_EQ(told[0]["code"], code);
+    EXPECT_NE(told[0]["advice"], "");
+    expect_message(told[0]["message"], names, place);
+  }
+
+  TemporaryFolder folder;
+  std::string scene = folder.write("scene.gltf", tiny_scene());
+};
+
+TEST_F(JsonMessages, ARunIsToldWithItsSummary) {
+  const Output output = run_gatelight(words({"--progress", "json", "--verbose", "--environment", "1,1,1"}));
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const std::vector<json> told = events(output);
+  EXPECT_THAT(kinds(told), Contains("detail"));
+  const json& done = told.back();
+  EXPECT_EQ(done["event"], "done");
+  EXPECT_EQ(done["outputs"], json({path("a.png")}));
+  EXPECT_EQ(done["spp"], 1);
+  EXPECT_EQ(done["samples"], 64);
+  EXPECT_EQ(done["ended_by"], "spp");
+  for (const char* key : {"seconds", "render_seconds", "samples_per_second", "rays", "peak_memory_bytes"})
+    EXPECT_GT(done[key], 0) << key;
+}
+
+TEST_F(JsonMessages, WarningsAreEvents) {
+  const std::vector<json> told =
+      events(run_gatelight(words({"--progress=json", "--environment", "none", "--exposure", "0"})));
+  const auto warning =
+      std::find_if(told.begin(), told.end(), [](const json& e) { return e["event"] == "warning"; });
+  ASSERT_NE(warning, told.end());
+  expect_message((*warning)["message"], {scene, "light", "black"});
+  EXPECT_EQ(run_gatelight(words({"--progress=json", "--environment", "none", "--quiet"})).err, "");
+}
+
+TEST_F(JsonMessages, ErrorsAreEventsWhereverTheyAreFound) {
+  const std::vector<std::string> loud = {"--progress", "json"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), loud.begin(), loud.end());
+    return words(more);
+  };
+  expect_error(with({"--frob"}), 1, {"--frob"});
+  expect_error(with({"--clamp", "-1"}), 1, {"--clamp", "-1"});
+  expect_error(with({"--resume"}), 1, {"--resume", "--checkpoint"});
+  expect_error(with({"--quiet", "--environment", path("none.exr")}), 2, {path("none.exr")});
+  expect_error({"render", path("none.gltf"), "-o", path("a.png"), "--progress", "json"}, 2,
+               {path("none.gltf")});
+  expect_error({"render", scene, "--progress", "json"}, 1, {"--output"});
+  expect_error({"sweep", scene, "--progress", "json"}, 1, {"--output"});
+  expect_error({"sweep", "-o", path("out"), "--progress", "json"}, 1, {"SCENE"});
+  expect_error({"sweep", "-o", path("out"), "--advise", "--max-time", "1", "--progress", "json"}, 2,
+               {"results.json"});
+  const std::string config = folder.write("c.toml", "progress = \"json\"\nsppp = 4\n");
+  expect_error(words({"--config", config}), 1, {config, "sppp"});
+  const std::string value = folder.write("v.toml", "progress = \"json\"\nclamp = -1\n");
+  expect_error(words({"--config", value}), 1, {value, "--clamp"});
+}
+
+TEST_F(JsonMessages, AreAskedForByEachCallAnew) {
+  expect_error(words({"--progress", "json", "--clamp", "-1"}), 1, {"--clamp"});
+  expect_failure(run_gatelight_inside(words({"--clamp", "-1"})), 1, {"--clamp"});
+}
+
+TEST_F(JsonMessages, ASignalIsANotice) {
+  std::vector<std::string> endless = words({"--environment", "1,1,1", "--progress", "json"});
+  std::replace(endless.begin(), endless.end(), std::string("1"), std::string("16777216"));
+  Process run(endless);
+  ASSERT_TRUE(run.wait_for_error_text("\"progress\""));
+  run.send(SIGINT);
+  const Output output = run.finish();
+  EXPECT_EQ(output.exit_code, 130);
+  const std::vector<json> told = events(output);
+  EXPECT_EQ(told.back()["event"], "notice");
+  EXPECT_EQ(told.back()["code"], 130);
+  expect_names(told.back()["message"], {"signal 2", path("a.png")});
+  EXPECT_THAT(kinds(told), Not(Contains("error")));
+}
+
+TEST_F(JsonMessages, ASweepTellsItsWarningsSoToo) {
+  const Output output = run_gatelight({"sweep", scene, path("broken.gltf"), "-o", path("out"), "--size",
+                                       "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
+                                       "--environment", "1,1,1", "--progress", "json"});
+  EXPECT_EQ(output.exit_code, 2) << "a scene that is not there is found before the first cell";
+  EXPECT_EQ(kinds(events(output)), std::vector<std::string>{"error"});
+  folder.write("broken.gltf", "no scene");
+  const Output partly = run_gatelight({"sweep", scene, path("broken.gltf"), "-o", path("out"), "--size",
+                                       "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
+                                       "--environment", "1,1,1", "--progress", "json"});
+  EXPECT_EQ(partly.exit_code, 7) << partly.err;
+  const std::vector<json> told = events(partly);
+  EXPECT_THAT(kinds(told), Contains("warning"));
+  EXPECT_EQ(told.back()["event"], "error");
+  EXPECT_EQ(told.back()["code"], 7);
+}
+
+}  // namespace
+}  // namespace gatelight::tests
