@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "apps/settings/light_words.h"
 #include "renderer/settings/option_table.h"
 
 namespace gatelight::apps {
@@ -29,8 +30,9 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display] = image;
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output = group.add(
-      any_words("output", outputs, "FILE", "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
+  Option& output =
+      group.add(any_words("output", outputs, "FILE",
+                          "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
@@ -82,7 +84,7 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, back_faces, bake_transforms] =
+  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, bake_transforms] =
       load;  // all are baked
   group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
   group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
@@ -92,6 +94,13 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
       "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
+  group.add(
+      {.name = "lights",
+       .unit = "NAME=off|X|r,g,b;...",
+       .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' ends a "
+               "name that only begins so, and the last that fits a light counts: \"*=off;lamp=2\"",
+       .value = [&lights]() -> OptionValue { return lights.empty() ? OptionValue() : text_of(lights); },
+       .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); }});
   group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
   group.add(external_option(allow_external));
 }
@@ -152,9 +161,10 @@ std::vector<Option> option_table(RenderSettings& settings) {
     view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
     view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
     view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
-    view.add(any_word("view-file", view_file, "FILE",
-                      "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
-                      "aperture, focus, blades; flags beside it win"))
+    view.add(any_word(
+                 "view-file", view_file, "FILE",
+                 "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
+                 "aperture, focus, blades; flags beside it win"))
         .in_recipe = InRecipe::never;
   }
   return table;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "apps/settings/light_words.h"
 #include "neural/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/film/camera_choice.h"
@@ -34,7 +35,10 @@ std::string scene_options(const RenderSettings& settings) {
     text += fmt::format(" projection {}", renderer::word(camera.projection));
   if (camera.view_height) text += fmt::format(" height {}", *camera.view_height);
   if (const renderer::LensOptions& lens = camera.lens; lens.aperture > 0.0f || lens.f_stop > 0.0f)
-    text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus, lens.blades);
+    text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus,
+                        lens.blades);
+  if (environment.sky) text += fmt::format(" sky {}", renderer::text_of(*environment.sky));
+  if (!settings.load.lights.empty()) text += fmt::format(" lights {}", text_of(settings.load.lights));
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),
@@ -58,8 +62,8 @@ std::string deciding_text(const RenderSettings& settings, const renderer::View& 
   }
   // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
-                            settings.image.display.exposure, renderer::word(settings.image.display.tonemap), o.threads,
-                            o.memory_limit_bytes, renderer::word(o.nan_policy));
+                            settings.image.display.exposure, renderer::word(settings.image.display.tonemap),
+                            o.threads, o.memory_limit_bytes, renderer::word(o.nan_policy));
 }
 
 std::string deciding_text(const RenderSettings& settings) {

@@ -48,7 +48,8 @@ bool shows_light(Integrator integrator) {
 
 /// The options with what an automatic environment stands for in this scene.
 RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
-  options.environment.automatic &= shows_light(options.integrator) && needs_light(scene);
+  options.environment.automatic &=
+      !options.environment.sky && shows_light(options.integrator) && needs_light(scene);
   return options;
 }
 
@@ -127,13 +128,14 @@ void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
     view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);
     camera = Camera(view, options.width, options.height);
-    focus = fmt::format("the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
-                        view.focus_distance, view.focus_distance);
+    focus = fmt::format(
+        "the lens is focused at {:.4g} m, what the middle of the picture sees; --focus {:.4g} keeps it",
+        view.focus_distance, view.focus_distance);
   }
   statistics.warnings.clear();
   for (std::string warning :
-       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
-        view_warning(*world, camera, options.width, options.height)}) {
+       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus),
+        world->environment.warning(), view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
 }

@@ -86,7 +86,8 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard error of "
+      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
+      "error of "
       "the "
       "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-radiance, "
       "cache-answer, cache-error, "
@@ -157,13 +158,15 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
   };
   add({.name = "aperture",
        .unit = "f/N|METRES",
-       .help = "Opening of the lens, as an f-stop or its diameter: what is not in focus is blurred; 0: all is "
-               "sharp",
+       .help =
+           "Opening of the lens, as an f-stop or its diameter: what is not in focus is blurred; 0: all is "
+           "sharp",
        .value = aperture_value,
        .read = [&lens](const std::string& text) { read_aperture(lens, text); }});
-  add(any_word("focus", focus, "METRES|NODE",
-               "With --aperture: distance along the view, or an object (default: what the middle of the picture "
-               "sees, told)"))
+  add(any_word(
+          "focus", focus, "METRES|NODE",
+          "With --aperture: distance along the view, or an object (default: what the middle of the picture "
+          "sees, told)"))
       .value = [&focus] { return focus.empty() ? OptionValue() : focus; };
   add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"));
 }
@@ -190,19 +193,36 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true}, "METRES",
                 "What an orthographic picture shows from bottom to top"));
   add_lens_options(view, lens);
-  auto& [automatic, file, constant, rotation_degrees, scale] = environment;  // one flag sets the first three
+  auto& [automatic, file, constant, sky, rotation_degrees, scale] =
+      environment;  // one flag sets the first three
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
        .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
                "latitude-longitude EXR or HDR",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); }});
+  add({.name = "sky",
+       .unit = "none|clear|PART=VALUE,...",
+       .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
+               "(degrees; north "
+               "is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in degrees; 0: a directional "
+               "light), "
+               "intensity=1; or date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2 instead of "
+               "the sun; "
+               "a white surface in full daylight has a radiance of 1",
+       .value = [&sky]() -> OptionValue { return sky ? text_of(*sky) : "none"; },
+       .read =
+           [&sky](const std::string& text) {
+             sky.reset();
+             if (text != "none") sky = read_sky("--sky", text);
+           }});
   [[maybe_unused]] auto& [kind, color, background_file] = background;  // one flag sets all
   view.add({.name = "background",
             .unit = "scene|transparent|r,g,b|FILE",
-            .help = "Behind the scene the camera sees its environment, nothing (the picture has an alpha), one "
-                    "radiance or a picture; so it does through holes and panes, while mirrors and solid glass "
-                    "show the environment",
+            .help =
+                "Behind the scene the camera sees its environment, nothing (the picture has an alpha), one "
+                "radiance or a picture; so it does through holes and panes, while mirrors and solid glass "
+                "show the environment",
             .value = [&background] { return background_value(background); },
             .read = [&background](const std::string& text) { read_background(background, text); }});
   add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
