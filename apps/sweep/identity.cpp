@@ -38,7 +38,7 @@ std::string scene_options(const RenderSettings& settings) {
     text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus,
                         lens.blades);
   if (environment.sky) text += fmt::format(" sky {}", renderer::text_of(*environment.sky));
-  if (!settings.load.lights.empty()) text += fmt::format(" lights {}", text_of(settings.load.lights));
+  if (!settings.load.lights.empty()) text += fmt::format(" lights {}", apps::text_of(settings.load.lights));
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),
