@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "scene/light_adjustments.h"
 #include "scene/scene.h"
 #include "scene/scene_error.h"
 
@@ -24,7 +26,8 @@ struct LoadOptions {
       true;                     ///< an unreadable texture is an error; else white replaces it, with a warning
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
   BackFaces back_faces = BackFaces::show;
-  bool bake_transforms = true;  ///< see scene/bake.h; if false, every instance stays an instance
+  std::vector<LightAdjustment> lights;  ///< applied to the loaded scene, in this order
+  bool bake_transforms = true;          ///< see scene/bake.h; if false, every instance stays an instance
 };
 
 /// A scene farther from the file's origin than this many times its radius is moved to its centre, in double

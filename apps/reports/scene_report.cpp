@@ -88,6 +88,11 @@ std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneR
                                 format_integer(requirements.emissive_triangles),
                                 requirements.emissive_materials));
   }
+  for (const scene::Material& material : scene.materials) {
+    if (!material.emits()) continue;
+    lines.push_back(fmt::format("material '{}', emission {:.4g} {:.4g} {:.4g}", material.name,
+                                material.emission.x(), material.emission.y(), material.emission.z()));
+  }
   return lines;
 }
 
@@ -221,9 +226,15 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   json["materials"] = scene.materials.size();
   json["textures"] = scene.textures.size();
   json["images"] = scene.images.size();
+  const auto rgb = [](const scene::Color& c) { return ordered_json{c.x(), c.y(), c.z()}; };
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
     json["lights"].push_back(light_json(light, scene.origin));
+  }
+  json["emissive_materials"] = ordered_json::array();
+  for (const scene::Material& material : scene.materials) {
+    if (material.emits())
+      json["emissive_materials"].push_back({{"name", material.name}, {"emission", rgb(material.emission)}});
   }
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {

@@ -219,6 +219,8 @@ void complete_settings(RenderSettings& settings) {
   settings.image.display.exposure = settings.exposure.value_or(0.0f);
   read_view_file(settings);
   complete_view(settings);
+  if (settings.render.environment.sky && settings.given.contains("--environment"))
+    throw UsageError("--sky and --environment exclude each other, expected one of them");
   check_picture(settings.render);
   refuse_without_effect(settings);
   adapt_cache(settings);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "apps/settings/light_words.h"
 #include "renderer/settings/option_table.h"
 
 namespace gatelight::apps {
@@ -83,7 +84,7 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, back_faces, bake_transforms] =
+  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, bake_transforms] =
       load;  // all are baked
   group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
   group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
@@ -93,6 +94,13 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
       "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
+  group.add(
+      {.name = "lights",
+       .unit = "NAME=off|X|r,g,b;...",
+       .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' ends a "
+               "name that only begins so, and the last that fits a light counts: \"*=off;lamp=2\"",
+       .value = [&lights]() -> OptionValue { return lights.empty() ? OptionValue() : text_of(lights); },
+       .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); }});
   group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
   group.add(external_option(allow_external));
 }

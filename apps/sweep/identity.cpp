@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "apps/settings/light_words.h"
 #include "neural/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/film/camera_choice.h"
@@ -36,6 +37,8 @@ std::string scene_options(const RenderSettings& settings) {
   if (const renderer::LensOptions& lens = camera.lens; lens.aperture > 0.0f || lens.f_stop > 0.0f)
     text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus,
                         lens.blades);
+  if (environment.sky) text += fmt::format(" sky {}", renderer::text_of(*environment.sky));
+  if (!settings.load.lights.empty()) text += fmt::format(" lights {}", apps::text_of(settings.load.lights));
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),

@@ -45,7 +45,7 @@ constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
                                 {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
                                 {"--seed", "--seeds N"}};
 /// These decide which scene is loaded.
-constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing"};
+constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing", "--lights"};
 
 template <std::size_t N>
 bool contains(const char* const (&list)[N], const std::string& word) {

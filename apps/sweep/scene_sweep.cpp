@@ -53,8 +53,9 @@ void SceneSweep::load() {
 
 const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSettings& settings) {
   const renderer::EnvironmentOptions& e = settings.render.environment;
-  const std::string key = fmt::format("{} {},{},{} {} {}", e.file, e.constant.x(), e.constant.y(),
-                                      e.constant.z(), e.rotation_degrees, e.scale);
+  const std::string key =
+      fmt::format("{} {},{},{} {} {} {}", e.file, e.constant.x(), e.constant.y(), e.constant.z(),
+                  e.rotation_degrees, e.scale, e.sky ? renderer::text_of(*e.sky) : "");
   const auto found = fingerprints_.find(key);
   if (found != fingerprints_.end()) return found->second;
   return fingerprints_.emplace(key, renderer::compute_scene_fingerprint(scene_, e)).first->second;

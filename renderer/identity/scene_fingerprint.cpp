@@ -120,12 +120,13 @@ Digest digest_file(const std::string& path) {
 }
 
 Digest digest_environment(const EnvironmentOptions& environment) {
-  const auto& [automatic, file, constant, rotation_degrees, scale] = environment;
+  const auto& [automatic, file, constant, sky, rotation_degrees, scale] = environment;
   DigestRecord record;
   record.add(automatic);
   record.add(!file.empty());
   if (!file.empty()) record.add(digest_file(file));
-  if (automatic || !file.empty()) {
+  if (sky) record.add_text(text_of(*sky));
+  if (automatic || !file.empty() || sky) {
     record.add(rotation_degrees);
   } else {
     add_numbers(record, constant);

@@ -11,6 +11,7 @@
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/image_read.h"
+#include "renderer/light/clear_sky.h"
 #include "renderer/light/soft_sky.h"
 #include "renderer/sampling/warp.h"
 
@@ -110,10 +111,29 @@ Environment::Environment(const EnvironmentOptions& options) {
   if (!std::isfinite(options.rotation_degrees)) {
     throw std::runtime_error("the environment's rotation is not a finite number of degrees");
   }
-  const double angle = static_cast<double>(options.rotation_degrees) * M_PI / 180.0;
+  if (options.sky && (options.automatic || !options.file.empty() || (options.constant != 0.0f).any()))
+    throw std::runtime_error("--sky and --environment exclude each other, expected one of them");
+  double degrees = static_cast<double>(options.rotation_degrees);
+  std::optional<ClearSky> sky;
+  if (options.sky) {
+    sky = make_clear_sky(*options.sky, options.scale);
+    degrees -= sky->sun_azimuth_degrees;  // the sun of its picture is at the centre
+  }
+  const double angle = degrees * M_PI / 180.0;
   cos_ = static_cast<float>(std::cos(angle));
   sin_ = static_cast<float>(std::sin(angle));
-  if (options.automatic) {
+  if (sky) {
+    picture_ = std::move(sky->picture);
+    mean_ = picture_->mean();
+    if (!(sky->sun_irradiance > 0.0f).any()) {
+      // It is night.
+    } else if (sky->sun_radius > 0.0f) {
+      disc_.emplace(sky->to_sun, sky->sun_radius, sky->sun_irradiance);
+      mean_ += disc_->mean();
+    } else {
+      distant_sun_ = {to_world(sky->to_sun), sky->sun_irradiance};
+    }
+  } else if (options.automatic) {
     picture_ = make_soft_sky(options.scale);
     mean_ = picture_->mean();
   } else if (options.file.empty()) {
@@ -125,20 +145,42 @@ Environment::Environment(const EnvironmentOptions& options) {
 }
 
 Color Environment::radiance(const Vec3& direction, float cone_angle) const {
-  return picture_ ? picture_->radiance(to_picture(direction), cone_angle) : mean_;
+  if (!picture_) return mean_;
+  const Vec3 d = to_picture(direction);
+  const Color radiance = picture_->radiance(d, cone_angle);
+  return disc_ ? Color(radiance + disc_->radiance(d)) : radiance;
 }
 
-EnvironmentSample Environment::sample(const Vec2& u) const {
+EnvironmentSample Environment::sample(const Vec2& u, const Vec3& n) const {
   if (black()) return {};
   if (!picture_) return {sample_uniform_sphere(u), mean_, pdf_uniform_sphere()};
-  EnvironmentSample sample = picture_->sample(u);
+  EnvironmentSample sample;
+  if (disc_) {
+    const float share = disc_share(to_picture(n));
+    if (u.x() < share) {
+      const Vec3 d = disc_->sample({u.x() / share, u.y()});
+      sample = {d, picture_->radiance(d),
+                1.0f / disc_->solid_angle() * share + picture_->pdf(d) * (1.0f - share)};
+    } else {
+      const float rest = std::min((u.x() - share) / (1.0f - share), 0x1.fffffep-1f);
+      sample = picture_->sample({rest, u.y()});
+      sample.pdf = sample.pdf * (1.0f - share) + disc_->pdf(sample.wi) * share;
+    }
+    sample.radiance += disc_->radiance(sample.wi);
+  } else {
+    sample = picture_->sample(u);
+  }
   sample.wi = to_world(sample.wi);
   return sample;
 }
 
-float Environment::pdf(const Vec3& direction) const {
+float Environment::pdf(const Vec3& direction, const Vec3& n) const {
   if (black()) return 0.0f;
-  return picture_ ? picture_->pdf(to_picture(direction)) : pdf_uniform_sphere();
+  if (!picture_) return pdf_uniform_sphere();
+  const Vec3 d = to_picture(direction);
+  const float share = disc_share(to_picture(n));
+  const float pdf = picture_->pdf(d) * (1.0f - share);
+  return share > 0.0f ? pdf + disc_->pdf(d) * share : pdf;
 }
 
 }  // namespace gatelight::renderer

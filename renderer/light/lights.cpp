@@ -85,6 +85,12 @@ Lights::Lights(const scene::Scene& scene, const Textures& textures, const Enviro
   for (const PunctualLight& light : scene.lights) {
     if (shines(light)) (light.type == LightType::directional ? distant_ : placed_).push_back(light);
   }
+  if (const std::optional<DistantSun>& sun = environment.distant_sun()) {
+    distant_.push_back({.name = "sun",
+                        .type = LightType::directional,
+                        .intensity = sun->irradiance,
+                        .direction = -sun->direction});
+  }
   std::vector<LightBounds> bounds;
   bounds.reserve(triangles_.size() + placed_.size());
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -218,7 +224,7 @@ LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& 
     sample.pdf = choice * pdf_cosine_hemisphere(local.z());
     return sample;
   }
-  const EnvironmentSample sky = environment_.sample(u);
+  const EnvironmentSample sky = environment_.sample(u, n);
   sample.wi = sky.wi;
   sample.radiance = sky.radiance;
   sample.pdf = choice * sky.pdf;
@@ -250,7 +256,7 @@ float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) cons
   const int others = (local_.reaches(p, n, root) ? 1 : 0) + count_distant(n);
   if (!samples_sky(others)) return 0.0f;
   const float density =
-      environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi);
+      environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi, n);
   return density / static_cast<float>(1 + others);
 }
 

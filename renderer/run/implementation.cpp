@@ -52,7 +52,8 @@ bool shows_light(Integrator integrator) {
 
 /// The options with what an automatic environment stands for in this scene.
 RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
-  options.environment.automatic &= shows_light(options.integrator) && needs_light(scene);
+  options.environment.automatic &=
+      !options.environment.sky && shows_light(options.integrator) && needs_light(scene);
   return options;
 }
 

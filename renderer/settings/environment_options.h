@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "renderer/settings/sky_options.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {
@@ -11,10 +13,11 @@ struct EnvironmentOptions {
   bool automatic = false;
   std::string file;                         ///< EXR or HDR picture, latitude-longitude; empty: constant
   scene::Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
+  std::optional<SkyOptions> sky;            ///< a clear sky with a sun; file and constant are then not set
   float rotation_degrees = 0.0f;            ///< about +y, counter-clockwise seen from above
   float scale = 1.0f;
 
-  bool none() const { return !automatic && file.empty() && (constant == 0.0f).all(); }
+  bool none() const { return !automatic && !sky && file.empty() && (constant == 0.0f).all(); }
 };
 
 }  // namespace gatelight::renderer

@@ -195,13 +195,29 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true}, "METRES",
                 "What an orthographic picture shows from bottom to top"));
   add_lens_options(view, lens);
-  auto& [automatic, file, constant, rotation_degrees, scale] = environment;  // one flag sets the first three
+  auto& [automatic, file, constant, sky, rotation_degrees, scale] =
+      environment;  // one flag sets the first three
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
        .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
                "latitude-longitude EXR or HDR",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); }});
+  add({.name = "sky",
+       .unit = "none|clear|PART=VALUE,...",
+       .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
+               "(degrees; north "
+               "is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in degrees; 0: a directional "
+               "light), "
+               "intensity=1; or date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2 instead of "
+               "the sun; "
+               "a white surface in full daylight has a radiance of 1",
+       .value = [&sky]() -> OptionValue { return sky ? text_of(*sky) : "none"; },
+       .read =
+           [&sky](const std::string& text) {
+             sky.reset();
+             if (text != "none") sky = read_sky("--sky", text);
+           }});
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
   view.add({.name = "background",

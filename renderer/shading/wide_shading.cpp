@@ -109,7 +109,7 @@ void WideShading::complete_light(ShadingBlock& block, int lane) const {
           lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
       break;
     case LaneLight::environment: {
-      const EnvironmentSample sky = lights_.environment().sample(point);
+      const EnvironmentSample sky = lights_.environment().sample(point, light_normal(block, lane));
       put(block.light_direction, lane, sky.wi);
       put(block.light_radiance, lane, sky.radiance);
       block.light_pdf[lane] *= sky.pdf;

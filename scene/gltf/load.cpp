@@ -68,6 +68,7 @@ class Loader {
     if (options_.bake_transforms) bake_transforms(scene_);
     scene_.bounds = compute_bounds(scene_);
     check_bounds();
+    adjust_lights(scene_, options_.lights);
     scene_.warnings = warnings_.take();
     return std::move(scene_);
   }

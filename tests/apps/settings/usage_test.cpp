@@ -226,6 +226,12 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
       {{"--isa", "sse9"}, {"--isa", "sse9", "auto|scalar|avx2|avx512"}},
       {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
       {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
+      {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
+      {{"--sky", "clear", "--environment", "auto"}, {"--sky", "--environment"}},
+      {{"--lights", "lamp"}, {"--lights", "lamp", "NAME=off"}},
+      {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
+      {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
+      {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
       {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
       {{"--eye", "1,2,3"}, {"--target", "--eye"}},
       {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
@@ -287,6 +293,7 @@ TEST_F(Usage, UnusableInputsAreCode2AndNamed) {
     const Output output = refused({"--environment", path(name)});
     expect_failure(output, 2, {path(name)});
   }
+  expect_failure(refused({"--lights", "lamp=off"}), 2, {"scene.gltf", "lamp", "none"});
   const Output cache = refused({"--integrator", "nrc", "--cache-in", path("missing.safetensors")});
   expect_failure(cache, 2, {path("missing.safetensors")});
 }

@@ -94,6 +94,7 @@ TEST(SceneFingerprint, EachChangeShowsInItsPartAlone) {
       {"lights", [](S s, E) { s.lights.clear(); }},
       {"environment", [](S, E e) { e.constant.x() = 0.5f; }},
       {"environment", [](S, E e) { e.scale = 2.0f; }},
+      {"environment", [](S, E e) { e.sky.emplace(); }},
       {"", [](S, E e) { e.rotation_degrees = 90.0f; }},  // of a constant
       {"", [](S s, E) { s.cameras[0].vertical_fov = 0.1f; }},
       {"", [](S s, E) { s.path = s.meshes[0].name = s.materials[0].name = s.lights[0].name = "other"; }},
@@ -107,6 +108,31 @@ TEST(SceneFingerprint, EachChangeShowsInItsPartAlone) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(changed(cases[i].second), cases[i].first) << "case " << i;
   }
+}
+
+TEST(SceneFingerprint, ASkyIsEachOfItsPartsAndItsTurn) {
+  const scene::Scene s = varied_scene();
+  EnvironmentOptions options;
+  options.sky.emplace();
+  const SceneFingerprint before = compute_scene_fingerprint(s, options);
+  const auto differs = [&](const std::function<void(EnvironmentOptions&)>& change) {
+    EnvironmentOptions other = options;
+    change(other);
+    return differing_parts(compute_scene_fingerprint(s, other), before);
+  };
+  using E = EnvironmentOptions&;
+  const std::vector<std::function<void(EnvironmentOptions&)>> changes = {
+      [](E e) { e.sky->turbidity = 2.0f; },
+      [](E e) { e.sky->sun_azimuth_degrees += 1e-4f; },
+      [](E e) { e.sky->sun_elevation_degrees = 3; },
+      [](E e) { e.sky->time = SunTime(); },
+      [](E e) { e.sky->ground = 0.3f; },
+      [](E e) { e.sky->sun_size_degrees = 0.0f; },
+      [](E e) { e.sky->intensity = 2.0f; },
+      [](E e) { e.rotation_degrees = 1.0f; },
+      [](E e) { e.scale = 2.0f; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(differs(changes[i]), "environment") << i;
+  EXPECT_EQ(differs([](E) {}), "");
 }
 
 TEST(SceneFingerprint, AnEnvironmentIsItsFilesContentAndItsTurn) {

@@ -18,6 +18,7 @@ RenderOptions said() {
   options.camera.name = "front";
   options.camera.fov_degrees = 30.1f;
   options.environment.constant = {0.1f, 2.0f, 3.0f};
+  options.environment.sky = SkyOptions{.turbidity = 2.1f, .time = SunTime{.second_of_day = 4007}};
   options.aovs = {Aov::depth, Aov::primitive_id};
   options.checkpoint.file = "c";
   options.cache.cache_in = "in";

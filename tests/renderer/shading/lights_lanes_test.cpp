@@ -163,6 +163,13 @@ TEST(LightLanes, SkiesAreSampledAsByTheScalarCode) {
   scene::Scene scene = lamps(3, random);
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(0.2f, -1, 0.3f)));
   expect_agreement(compare(LitScene(std::move(scene), LightSelection::tree, picture), 14));
+  for (const float size : {0.0f, 0.53f, 10.0f}) {
+    SCOPED_TRACE(size);
+    EnvironmentOptions clear;
+    clear.sky = SkyOptions{.sun_size_degrees = size};
+    expect_agreement(compare(LitScene({}, LightSelection::tree, clear), 19));
+    expect_agreement(compare(LitScene(lamps(3, random), LightSelection::tree, clear), 20));
+  }
 }
 
 TEST(LightLanes, WithoutLightThereIsNoSample) {

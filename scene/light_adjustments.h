@@ -1,0 +1,27 @@
+#pragma once
+// Lights of a loaded file switched off, made brighter or darker, or coloured.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace gatelight::scene {
+
+/// What the lights of a name are multiplied by.
+struct LightAdjustment {
+  /// Of a punctual light or an emissive material. A '*' at its end stands for any further letters.
+  std::string name;
+  Color factor{1.0f, 1.0f, 1.0f};  ///< linear; not negative; zero switches off
+
+  bool operator==(const LightAdjustment& other) const {
+    return name == other.name && (factor == other.factor).all();
+  }
+};
+
+/// Multiplies the intensity of punctual lights and the emission of materials. Where several adjustments name
+/// a light, the last one counts: {"*", 0}, {"lamp", 1} leaves the lamp alone. Throws SceneError for a name
+/// that no light and no emissive material has, and where a product is not finite.
+void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments);
+
+}  // namespace gatelight::scene
