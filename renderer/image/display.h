@@ -1,20 +1,13 @@
 #pragma once
 // A picture as a screen shows it.
 
-#include <string>
 #include <vector>
 
+#include "renderer/image/ocio_view.h"
 #include "renderer/image/picture.h"
 #include "renderer/image/tonemap.h"
 
 namespace gatelight::renderer {
-
-/// A display and view of an OpenColorIO configuration.
-struct OcioView {
-  std::string config;   ///< file; empty: Gatelight's own curves
-  std::string display;  ///< empty: the configuration's default
-  std::string view;     ///< empty: the display's default
-};
 
 struct DisplayOptions {
   float exposure = 0.0f;  ///< in stops

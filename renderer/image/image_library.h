@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "renderer/image/display.h"
 #include "renderer/image/image_format.h"
+#include "renderer/image/ocio_view.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
