@@ -250,6 +250,17 @@ TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
   EXPECT_EQ(texts.size(), 64u);
 }
 
+TEST(SweepPlan, SkiesAndAdjustedLightsDecideACell) {
+  std::set<std::string> texts;
+  for (const PlannedSeries& s : plan_of({}, {"sky=none;sun=90,20;sun=90,40"}).scenes[0].series)
+    texts.insert(deciding_text(s.settings));
+  EXPECT_EQ(texts.size(), 3u);
+  for (const char* lights : {"lamp=2", "lamp=off", "lamp=off;sun=1,2,3"})
+    texts.insert(deciding_text(plan_of({{"--lights", lights}}, {}).scenes[0].series[0].settings));
+  EXPECT_EQ(texts.size(), 6u);
+  EXPECT_THROW(plan_of({}, {"lights=lamp=2;lamp=3"}), UsageError) << "a scene is loaded once";
+}
+
 TEST(SweepPlan, ScenesOfOneNameAreToldApart) {
   SweepWords words;
   words.scenes = {"a/room.glb", "b/room.glb", "hall.glb"};
