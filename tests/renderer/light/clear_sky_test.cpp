@@ -184,7 +184,9 @@ TEST(ClearSky, ADensityIsThatOfItsSamplesAndIntegratesToOne) {
       const EnvironmentSample s = environment.sample(Vec2(u, random.uniform_float()), n);
       const float pdf = environment.pdf(s.wi, n);
       if (!(std::abs(pdf / s.pdf - 1.0f) < 1e-3f)) ++others;
-      if (s.radiance.maxCoeff() > 0.0f) EXPECT_TRUE(environment.radiance(s.wi).isApprox(s.radiance, 0.05f));
+      if (s.radiance.maxCoeff() > 0.0f) {
+        EXPECT_TRUE(environment.radiance(s.wi).isApprox(s.radiance, 0.05f));
+      }
     }
     EXPECT_LT(others, 10);
     double sum = 0.0;
