@@ -333,14 +333,15 @@ void Region::join() {
   for (Plane* plane : {&error, &distance, &shared}) box_filter(*plane, width_, height_, kErrorSmoothing / 2);
   error_.resize(pixels());
   each_pixel([&](std::size_t p) {
-    float share = 0.0f;
+    float share = 0.0f, best = 0.0f;
     // One sample has no second half to tell its error.
     if (counts_[p] >= 2.0f) {
       const float doubt = kDoubt / (kDoubt + counts_[p]);
-      const float best = (error[p] - shared[p]) / std::max(distance[p], 1e-20f);
-      share = std::clamp((best - doubt) / (1.0f - doubt), 0.0f, 1.0f);
+      best = std::clamp((error[p] - shared[p]) / std::max(distance[p], 1e-20f), 0.0f, 1.0f);
+      share = std::max((best - doubt) / (1.0f - doubt), 0.0f);
     }
-    const float joined = error[p] - 2.0f * share * (error[p] - shared[p]) + share * share * distance[p];
+    // What is not believed of the fit's error does not count in its estimate either.
+    const float joined = error[p] - 2.0f * best * (error[p] - shared[p]) + best * best * distance[p];
     error_[p] = std::max(joined, 0.0f) * (square[p] + kLeastSquare) / 3.0f;
     if (share > 0.0f) {
       // A bright sample differs much from the fit, but not much for its own variance: it stays out.

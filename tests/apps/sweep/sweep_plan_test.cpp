@@ -252,8 +252,8 @@ TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
 
 TEST(SweepPlan, SkiesAndAdjustedLightsDecideACell) {
   std::set<std::string> texts;
-  for (const PlannedSeries& s : plan_of({}, {"sky=none;sun=90,20;sun=90,40"}).scenes[0].series)
-    texts.insert(deciding_text(s.settings));
+  const SweepPlan plan = plan_of({}, {"sky=none;sun=90,20;sun=90,40"});
+  for (const PlannedSeries& s : plan.scenes[0].series) texts.insert(deciding_text(s.settings));
   EXPECT_EQ(texts.size(), 3u);
   for (const char* lights : {"lamp=2", "lamp=off", "lamp=off;sun=1,2,3"})
     texts.insert(deciding_text(plan_of({{"--lights", lights}}, {}).scenes[0].series[0].settings));
