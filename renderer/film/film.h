@@ -126,10 +126,7 @@ class Film {
   /// and what depends on samples must not decide how much they count.
   double mean(std::size_t pixel, std::size_t channel) const;
   double variance(std::size_t pixel, std::size_t channel) const;
-  std::size_t at(const Pixel& p) const {
-    return static_cast<std::size_t>(p.y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
-           static_cast<std::size_t>(p.x - rect_.x0);
-  }
+  std::size_t at(const Pixel& p) const { return rect_.index(p.x, p.y); }
   /// The layers of Aov::reconstruction that are no output variables of their own.
   void add_guides(std::vector<Layer>& layers) const;
   void add_halves(std::vector<Layer>& layers, bool of_cache) const;

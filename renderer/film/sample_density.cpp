@@ -26,8 +26,7 @@ SampleDensity SampleDensity::restore(const PixelRect& rect, std::array<std::vect
 }
 
 std::uint32_t SampleDensity::count(const Pixel& p, std::size_t half, std::uint64_t pass) const {
-  const std::size_t at = static_cast<std::size_t>(p.y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
-                         static_cast<std::size_t>(p.x - rect_.x0);
+  const std::size_t at = rect_.index(p.x, p.y);
   const std::uint32_t h = hash(hash(static_cast<std::uint32_t>(p.x)) + static_cast<std::uint32_t>(p.y));
   // The halves take turns.
   const double begin = static_cast<double>(h) * 0x1p-32 + 0.5 * static_cast<double>(half);

@@ -68,6 +68,14 @@ std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
   }
 }
 
+void require_known_format(const std::filesystem::path& path) {
+  if (image_format(path) == ImageFormat::unknown) {
+    throw UnknownFormat(
+        fmt::format("cannot write '{}': its extension is '{}', supported are .exr, .png, .jpg, .tif and .hdr",
+                    path.string(), path.extension().string()));
+  }
+}
+
 }  // namespace
 
 ImageFormat image_format(const std::filesystem::path& path) {
@@ -93,17 +101,13 @@ std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOpt
 }
 
 void check_image_output(const std::filesystem::path& path) {
-  if (image_format(path) == ImageFormat::unknown) {
-    throw UnknownFormat(
-        fmt::format("cannot write '{}': its extension is '{}', supported are .exr, .png, .jpg, .tif and .hdr",
-                    path.string(), path.extension().string()));
-  }
+  require_known_format(path);
   check_writable(path);
 }
 
 void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options) {
-  check_image_output(path);
+  require_known_format(path);
   AtomicFile file(path);
   try {
     const ImageFormat format = image_format(path);

@@ -36,8 +36,7 @@ std::vector<Pixel> pixels_at_edges(const PixelRect& rect, const std::vector<floa
       float low = scene::kInfinity, high = 0.0f;
       for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-          const float b = brightness[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                                     static_cast<std::size_t>(u)];
+          const float b = brightness[rect.index(u + rect.x0, v + rect.y0)];
           low = std::min(low, b);
           high = std::max(high, b);
         }
@@ -85,9 +84,7 @@ void smooth_edges(const World& world, const Camera& camera, const FilterSampler&
         const std::size_t ray = (i - begin) * static_cast<std::size_t>(count) + static_cast<std::size_t>(s);
         sum += seen_by(world, samples[ray], rays[ray], hits[ray]).cast<double>();
       }
-      const std::size_t p =
-          static_cast<std::size_t>(pixels[i].y - rect.y0) * static_cast<std::size_t>(rect.width()) +
-          static_cast<std::size_t>(pixels[i].x - rect.x0);
+      const std::size_t p = rect.index(pixels[i].x, pixels[i].y);
       for (int c = 0; c < 3; ++c)
         seen[3 * p + static_cast<std::size_t>(c)] = static_cast<float>(sum[c] / count);
     }

@@ -86,8 +86,7 @@ class Catcher {
 std::vector<float> catch_shadows(const World& world, const Camera& camera, const FilterSampler& filter,
                                  const RenderOptions& options, const PixelRect& rect, int samples,
                                  std::uint32_t salt) {
-  const auto width = static_cast<std::size_t>(rect.width());
-  std::vector<float> alpha(width * static_cast<std::size_t>(rect.height()), 0.0f);
+  std::vector<float> alpha(rect.index(rect.x0, rect.y1), 0.0f);
   const TileGrid tiles(rect);
   RenderOptions own = options;
   own.seed = hash(options.seed ^ hash(salt ^ 0x73686164u));
@@ -112,10 +111,8 @@ std::vector<float> catch_shadows(const World& world, const Camera& camera, const
     }
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (!(sums[i].unshadowed > 0.0)) continue;
-      const std::size_t p = static_cast<std::size_t>(pixels[i].y - rect.y0) * width +
-                            static_cast<std::size_t>(pixels[i].x - rect.x0);
       const double shadow = std::clamp(1.0 - sums[i].lit / sums[i].unshadowed, 0.0, 1.0);
-      alpha[p] = static_cast<float>(shadow * sums[i].caught / samples);
+      alpha[rect.index(pixels[i].x, pixels[i].y)] = static_cast<float>(shadow * sums[i].caught / samples);
     }
   });
   return alpha;
