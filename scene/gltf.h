@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/light_adjustments.h"
+#include "scene/light_profiles.h"
 #include "scene/scene.h"
 #include "scene/scene_error.h"
 
@@ -27,6 +28,7 @@ struct LoadOptions {
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
   BackFaces back_faces = BackFaces::show;
   std::vector<LightAdjustment> lights;  ///< applied to the loaded scene, in this order
+  std::vector<LightProfile> profiles;   ///< likewise
   bool bake_transforms = true;          ///< see scene/bake.h; if false, every instance stays an instance
 };
 

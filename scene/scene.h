@@ -5,9 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "scene/ies_profile.h"
 #include "scene/math.h"
 #include "scene/padded_vector.h"
 
@@ -133,6 +135,10 @@ struct PunctualLight {
   float range = kInfinity;            ///< metres; the extension's window function is 0 beyond it
   float cos_inner = 1.0f;             ///< spot: cosine of the inner cone angle
   float cos_outer = 0.70710678f;      ///< spot: cosine of the outer cone angle
+  /// Of a point light: the intensity is that of the brightest direction. The profile aims along `direction`,
+  /// with its x along `side` (world, unit, perpendicular).
+  std::shared_ptr<const IesProfile> profile;
+  Vec3 side{1.0f, 0.0f, 0.0f};
 };
 
 /// A camera that looks along -z of its transform, with y up.

@@ -13,6 +13,17 @@ namespace {
 
 constexpr renderer::RealRange kFactor{0.0, 1e30};
 
+/// What `read` makes of each of the parts that semicolons separate.
+auto read_parts(const std::string& text, auto read) {
+  std::vector<decltype(read(text))> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    parts.push_back(read(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 scene::LightAdjustment read_light(const std::string& flag, const std::string& text) {
   // Names may contain '='; values do not.
   const std::size_t equals = text.rfind('=');
@@ -34,13 +45,7 @@ scene::LightAdjustment read_light(const std::string& flag, const std::string& te
 }  // namespace
 
 std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text) {
-  std::vector<scene::LightAdjustment> lights;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    lights.push_back(read_light(flag, text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return lights;
+  return read_parts(text, [&](const std::string& part) { return read_light(flag, part); });
 }
 
 std::string text_of(const std::vector<scene::LightAdjustment>& lights) {
@@ -53,6 +58,22 @@ std::string text_of(const std::vector<scene::LightAdjustment>& lights) {
                                                 : fmt::format("{},{},{}", f.x(), f.y(), f.z());
     text += fmt::format("{}{}={}", text.empty() ? "" : ";", light.name, value);
   }
+  return text;
+}
+
+std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text) {
+  return read_parts(text, [&](const std::string& part) -> scene::LightProfile {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
+      throw renderer::BadOption(fmt::format("{}: '{}' is not NAME=FILE", flag, part));
+    return {part.substr(0, equals), part.substr(equals + 1)};
+  });
+}
+
+std::string text_of(const std::vector<scene::LightProfile>& profiles) {
+  std::string text;
+  for (const scene::LightProfile& profile : profiles)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ";", profile.name, profile.file);
   return text;
 }
 

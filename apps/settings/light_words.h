@@ -1,10 +1,11 @@
 #pragma once
-// The value of --lights.
+// The values of --lights and --ies.
 
 #include <string>
 #include <vector>
 
 #include "scene/light_adjustments.h"
+#include "scene/light_profiles.h"
 
 namespace gatelight::apps {
 
@@ -13,5 +14,9 @@ namespace gatelight::apps {
 std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text);
 /// What read_lights() takes.
 std::string text_of(const std::vector<scene::LightAdjustment>& lights);
+
+/// The same for "NAME=FILE;NAME=FILE".
+std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text);
+std::string text_of(const std::vector<scene::LightProfile>& profiles);
 
 }  // namespace gatelight::apps

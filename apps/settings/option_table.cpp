@@ -84,7 +84,7 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, bake_transforms] =
+  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, profiles, bake_transforms] =
       load;  // all are baked
   group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
   group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
@@ -101,6 +101,15 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
                "name that only begins so, and the last that fits a light counts: \"*=off;lamp=2\"",
        .value = [&lights]() -> OptionValue { return lights.empty() ? OptionValue() : text_of(lights); },
        .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); }});
+  group.add(
+      {.name = "ies",
+       .unit = "NAME=FILE;...",
+       .help =
+           "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
+           "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
+           "and loses its cone",
+       .value = [&profiles]() -> OptionValue { return profiles.empty() ? OptionValue() : text_of(profiles); },
+       .read = [&profiles](const std::string& text) { profiles = read_profiles("--ies", text); }});
   group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
   group.add(external_option(allow_external));
 }

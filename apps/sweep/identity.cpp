@@ -39,6 +39,7 @@ std::string scene_options(const RenderSettings& settings) {
                         lens.blades);
   if (environment.sky) text += fmt::format(" sky {}", renderer::text_of(*environment.sky));
   if (!settings.load.lights.empty()) text += fmt::format(" lights {}", apps::text_of(settings.load.lights));
+  if (!settings.load.profiles.empty()) text += fmt::format(" ies {}", apps::text_of(settings.load.profiles));
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),

@@ -45,7 +45,8 @@ constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
                                 {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
                                 {"--seed", "--seeds N"}};
 /// These decide which scene is loaded.
-constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing", "--lights"};
+constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing",
+                                       "--lights",      "--ies",     "--backfaces"};
 
 template <std::size_t N>
 bool contains(const char* const (&list)[N], const std::string& word) {

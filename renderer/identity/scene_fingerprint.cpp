@@ -99,12 +99,16 @@ void add_material(DigestRecord& record, const scene::Material& material) {
 }
 
 void add_light(DigestRecord& record, const scene::PunctualLight& light) {
-  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer] = light;
+  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer, profile, side] =
+      light;
   record.add(type);
   add_numbers(record, intensity);
   add_numbers(record, position);
   add_numbers(record, direction);
   for (const float value : {range, cos_inner, cos_outer}) record.add(value);
+  if (!profile) return;
+  record.add(digest_of(std::as_bytes(std::span(profile->values()))));
+  add_numbers(record, side);
 }
 
 Digest digest_file(const std::string& path) {

@@ -47,9 +47,10 @@ LightBounds bounds_of(const PunctualLight& light) {
   LightBounds bounds;
   bounds.centre = light.position;
   bounds.intensity = static_cast<double>(scene::luminance(light.intensity));
-  if (light.type == LightType::spot) {
+  const float cos_extent = light.profile ? std::cos(light.profile->extent()) : light.cos_outer;
+  if (light.type == LightType::spot || (light.profile && cos_extent >= 0.0f)) {
     bounds.axis = light.direction;
-    bounds.cos_emission = std::clamp(light.cos_outer, 0.0f, 1.0f);
+    bounds.cos_emission = std::clamp(cos_extent, 0.0f, 1.0f);
   } else {
     bounds.cos_normals = -1.0f;
   }

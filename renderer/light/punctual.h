@@ -24,11 +24,19 @@ inline float spot_falloff(const scene::PunctualLight& light, float cos_angle) {
   return x * x;
 }
 
+/// The share of the greatest intensity that a light with a profile sends to a point. `wi` points to the
+/// light.
+inline float profile_share(const scene::PunctualLight& light, const scene::Vec3& wi) {
+  const scene::Vec3 up = light.side.cross(light.direction);
+  return light.profile->relative({-wi.dot(light.side), -wi.dot(up), wi.dot(light.direction)});
+}
+
 /// The irradiance of a point or spot light on a plane that faces it at `distance`. `wi` points to the light.
 inline scene::Color punctual_irradiance(const scene::PunctualLight& light, const scene::Vec3& wi,
                                         float distance) {
   float factor = range_window(distance, light.range) / (distance * distance);
   if (light.type == scene::LightType::spot) factor *= spot_falloff(light, -wi.dot(light.direction));
+  if (light.profile) factor *= profile_share(light, wi);
   return light.intensity * factor;
 }
 

@@ -13,6 +13,7 @@ enum class LaneLight : std::uint32_t {
   none,         ///< no light can reach the point
   done,         ///< the sample is complete
   triangle,     ///< complete but for the texture of the emissive triangle `light`, at `light_point`
+  profile,      ///< complete but for the profile of the placed light `light`
   environment,  ///< a picture is sampled with `light_point`; `light_pdf` is the probability of the choice
 };
 

@@ -151,7 +151,7 @@ struct LanesOfLight {
   Float3 wi, radiance;
   Float distance, pdf, offset, cosine;
   Float2 point;
-  Mask valid, textured;
+  Mask valid, textured;  ///< textured: of a triangle; with a profile: of a placed light
 };
 
 /// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
@@ -240,6 +240,7 @@ GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int
   s.offset = 1e-4f * s.distance;
   s.cosine = 1.0f;
   s.valid = here & (s.distance > 0.0f) & (largest(s.radiance) < kInfinite);
+  s.textured = field(13) > 0.0f;
   return s;
 }
 
@@ -317,7 +318,9 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       const LanesOfLight s = sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)),
                                            probability, placed);
       take(s);
-      state = select(s.valid, state_of(LaneLight::done), state);
+      state =
+          select(s.valid, select(s.textured, state_of(LaneLight::profile), state_of(LaneLight::done)), state);
+      light = select(s.valid, chosen - view.triangle_count, light);
       delta |= s.valid;
     }
   }

@@ -38,7 +38,8 @@ LightArrays::LightArrays(const Lights& lights)
     const bool spot = light.type == scene::LightType::spot;
     placed_.insert(placed_.end(),
                    {1.0f / light.range, light.cos_outer, std::max(0.001f, light.cos_inner - light.cos_outer),
-                    spot ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f});
+                    spot ? 1.0f : 0.0f, light.profile ? 1.0f : 0.0f, 0.0f, 0.0f});
+    complete_ = complete_ && !light.profile;
   }
   for (const scene::PunctualLight& light : lights.distant()) {
     append(suns_, light.direction);

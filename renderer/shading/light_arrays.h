@@ -17,9 +17,10 @@ class LightArrays {
 
   /// Null where the kernels do not know how lights are chosen.
   const LightView* view() const { return usable_ ? &view_ : nullptr; }
-  /// Of the lights of Lights::sample_delta, where view() is not null. Their samples are always complete.
+  /// Of the lights of Lights::sample_delta, where view() is not null.
   LightView delta_view() const;
-  /// Whether the kernels complete all samples: there is no picture of the sky and no textured emitter.
+  /// Whether the kernels complete all samples: there is no picture of the sky, no textured emitter and no
+  /// profile.
   bool complete() const { return complete_; }
   std::size_t bytes() const { return (triangles_.size() + placed_.size() + suns_.size()) * sizeof(float); }
 

@@ -3,6 +3,7 @@
 #include "neural/simd/isa.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
+#include "renderer/light/punctual.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/shading/kernel_tables.h"
 
@@ -66,9 +67,7 @@ WideShading::WideShading(const Lights& lights, const LightArrays& arrays, const 
 void WideShading::sample_lights(ShadingBlock& block) const {
   if (wide_lights_) {
     kernels_.sample_lights(block, context_);
-    if (!lights_are_complete_) {
-      for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane);
-    }
+    if (!lights_are_complete_) complete_lights(block);
   } else {
     for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, false);
   }
@@ -92,10 +91,15 @@ void WideShading::delta_light(ShadingBlock& block) const {
   context.lights = delta_lights_;
   if (wide_lights_) {
     kernels_.sample_lights(block, context);
+    if (!lights_are_complete_) complete_lights(block);
   } else {
     for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, true);
   }
   kernels_.light(block, context);
+}
+
+void WideShading::complete_lights(ShadingBlock& block) const {
+  for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane);
 }
 
 void WideShading::complete_light(ShadingBlock& block, int lane) const {
@@ -108,6 +112,12 @@ void WideShading::complete_light(ShadingBlock& block, int lane) const {
       put(block.light_radiance, lane,
           lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
       break;
+    case LaneLight::profile: {
+      const float share =
+          profile_share(lights_.placed()[block.light[lane]], lane_vector(block.light_direction, lane));
+      put(block.light_radiance, lane, Color(lane_color(block.light_radiance, lane) * share));
+      break;
+    }
     case LaneLight::environment: {
       const EnvironmentSample sky = lights_.environment().sample(point, light_normal(block, lane));
       put(block.light_direction, lane, sky.wi);

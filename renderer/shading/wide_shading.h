@@ -47,6 +47,7 @@ class WideShading {
 
  private:
   void sample_lights(ShadingBlock& block) const;
+  void complete_lights(ShadingBlock& block) const;
   void complete_light(ShadingBlock& block, int lane) const;
   void put_light(ShadingBlock& block, int lane, bool delta) const;
 

@@ -69,6 +69,7 @@ class Loader {
     scene_.bounds = compute_bounds(scene_);
     check_bounds();
     adjust_lights(scene_, options_.lights);
+    give_profiles(scene_, options_.profiles);
     scene_.warnings = warnings_.take();
     return std::move(scene_);
   }

@@ -71,6 +71,9 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
   light.position = world.translation().cast<float>();
   const Eigen::Vector3d direction = -world.linear().col(2).stableNormalized();
   if (direction.norm() > 0.5) light.direction = direction.cast<float>();
+  const Vec3 side = world.linear().col(0).stableNormalized().cast<float>();
+  const Vec3 across = side - light.direction * light.direction.dot(side);
+  light.side = across.norm() > 1e-3f ? Vec3(across.normalized()) : any_perpendicular(light.direction);
   light.range = source.value("range", kInfinity);
   if (light.type == LightType::spot) {
     const json& spot = source["spot"];

@@ -60,6 +60,29 @@ TEST_F(LightFlags, ScaleAndSwitchOffAndAreInTheRecipe) {
   EXPECT_FALSE(json::parse(plain.metadata.at("options")).contains("lights"));
 }
 
+TEST_F(LightFlags, IesProfilesShapeALightAndAreInTheRecipe) {
+  json lit = json::parse(lit_scene());
+  lit["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "lamp"}}};
+  lit["nodes"].back()["translation"] = {0.0, 0.0, 1.0};
+  scene = folder.write("lamp.gltf", lit.dump());
+  const auto profile = [&](const char* candela) {
+    return folder.write(std::string("a") + candela + ".ies",
+                        std::string("TILT=NONE 1 -1 1 3 1 1 2 0 0 0 1 1 1  0 90 180  0 ") + candela);
+  };
+  const std::string down = profile("8 8 8"), up = profile("0 0 8"), half = profile("4 8 8");
+  const std::string off = "panel=off";
+  const float plain = middle(render({"--lights", off}));
+  EXPECT_GT(plain, 0.01f);
+  EXPECT_NEAR(middle(render({"--lights", off, "--ies", "lamp=" + down})), plain, 1e-5f * plain);
+  EXPECT_LT(middle(render({"--lights", off, "--ies", "lamp=" + half})), 0.95f * plain);
+  const Picture none = render({"--lights", off, "--ies", "l*=" + up});
+  EXPECT_LT(middle(none), 0.01f * plain);
+  EXPECT_EQ(json::parse(none.metadata.at("options"))["ies"], "l*=" + up);
+  const Output wrong = run_gatelight({"render", scene, "-o", (folder / "b.png").string(), "--ies", "lamp"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, ::testing::HasSubstr("--ies: 'lamp' is not NAME=FILE"));
+}
+
 TEST_F(LightFlags, InfoNamesWhatTheyCanChange) {
   const Output output = run_gatelight({"info", scene, "--lights", "noon=3;panel=0,4,0"});
   EXPECT_EQ(output.exit_code, 0) << output.err;

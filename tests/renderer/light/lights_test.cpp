@@ -219,6 +219,28 @@ TEST(LightsTest, LightsBetweenTheStepsOfTheNumberAreStillChosen) {
   EXPECT_GT(faint.pdf, 0.0f);
 }
 
+TEST(LightsTest, AProfileTurnsWithItsLight) {
+  // 60 candela along the aim, none at 90 degrees in x, 30 there in y.
+  scene::PunctualLight light{
+      .intensity = Color(4, 2, 8), .position = Vec3(0, 2, 0), .direction = Vec3(0, 0, 1)};
+  light.side = Vec3(0, 1, 0);
+  light.profile = std::make_shared<const scene::IesProfile>(
+      "TILT=NONE 1 -1 1 2 2 1 2 0 0 0 1 1 1  0 90  0 90  60 0 60 30");
+  scene::Scene scene;
+  scene.lights.push_back(light);
+  const LitScene lit(std::move(scene));
+  const auto sent = [&](const Vec3& offset) {
+    const LightSample s = lit.lights.sample(Vec3(0, 2, 0) + offset, Vec3::Zero(), 0.5f, Vec2(0.5f, 0.5f));
+    EXPECT_FALSE(s.pdf > 0.0f && !s.delta);
+    return s.pdf > 0.0f ? s.radiance.x() : 0.0f;
+  };
+  EXPECT_NEAR(sent({0, 0, 2}), 1.0f, 1e-5f);
+  EXPECT_NEAR(sent({0, 2, 0}), 0.0f, 1e-5f);
+  EXPECT_NEAR(sent({2, 0, 0}), 0.5f, 1e-5f);
+  EXPECT_NEAR(sent({-2, 0, 0}), 0.5f, 1e-5f);
+  EXPECT_EQ(sent({0, 0, -2}), 0.0f);
+}
+
 /// A point, a spot, one that misses the origin, three suns and a panel. Each has a colour of its own.
 scene::Scene delta_scene() {
   scene::Scene scene;

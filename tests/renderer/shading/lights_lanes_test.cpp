@@ -151,6 +151,27 @@ TEST(LightLanes, PointsAndSpotsAndSunsAreSampledAsByTheScalarCode) {
   expect_agreement(compare(LitScene(std::move(suns)), 18, SamplerKind::sobol, true));
 }
 
+/// Brightest at 60 degrees, with more light in x than in y, and none above.
+std::shared_ptr<const scene::IesProfile> lopsided_profile() {
+  return std::make_shared<const scene::IesProfile>(
+      "TILT=NONE 1 -1 1 3 2 1 2 0 0 0 1 1 1  0 60 90  0 90  10 80 30  10 40 5");
+}
+
+TEST(LightLanes, ProfilesAreThoseOfTheScalarCode) {
+  Random random(21);
+  scene::Scene scene = lamps(4, random);
+  for (int i = 0; i < 4; ++i) {
+    scene::PunctualLight light = punctual(i % 2 == 0 ? scene::LightType::point : scene::LightType::spot,
+                                          9.0f * random_direction(random), random_direction(random));
+    if (i > 0) light.profile = lopsided_profile();
+    if (i > 0) light.type = scene::LightType::point;
+    light.side = scene::any_perpendicular(light.direction);
+    scene.lights.push_back(light);
+  }
+  expect_agreement(compare(LitScene(scene), 22));
+  expect_agreement(compare(LitScene(std::move(scene)), 23, SamplerKind::sobol, true));
+}
+
 TEST(LightLanes, SkiesAreSampledAsByTheScalarCode) {
   EnvironmentOptions constant;
   constant.constant = Color(1, 2, 3);
