@@ -3,7 +3,7 @@
 blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
 
 Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
-JSON with the prefix "cycles: ". "out" may hold a path for the last picture (EXR, 32-bit float)."""
+JSON with the prefix "cycles: ". "out" may hold a path for the last picture (.exr in 32-bit float, or .png in sRGB without a view transform)."""
 
 import json
 import sys
@@ -81,7 +81,11 @@ def set_sampling(scene, job):
 
 def save(path):
     settings = bpy.context.scene.render.image_settings
-    settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
+    if path.endswith(".png"):
+        bpy.context.scene.view_settings.view_transform = "Standard"
+        settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
+    else:
+        settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
     bpy.data.images["Render Result"].save_render(path)
 
 
