@@ -26,7 +26,7 @@ class Numbers {
   explicit Numbers(std::string_view text) : rest_(text) {}
 
   double next(std::string_view what) {
-    const auto part = [](char c) { return c == ',' || static_cast<unsigned char>(c) <= ' '; };
+    const auto part = [](char c) { return c == ',' || c == '\x7f' || static_cast<unsigned char>(c) <= ' '; };
     rest_.remove_prefix(
         static_cast<std::size_t>(std::find_if_not(rest_.begin(), rest_.end(), part) - rest_.begin()));
     if (rest_.empty()) throw SceneError(fmt::format("the file ends before {}", what));

@@ -20,6 +20,7 @@ void checkpoint(Bytes bytes);
 void config_file(Bytes bytes);
 void command_line(Bytes bytes);
 void sweep_records(Bytes bytes);
+void ies_profile(Bytes bytes);
 void render(Bytes bytes);
 
 struct Target {
@@ -40,6 +41,7 @@ inline constexpr Target kTargets[] = {
     {"config_file", config_file},
     {"command_line", command_line},
     {"sweep_records", sweep_records},
+    {"ies_profile", ies_profile},
     {"render", render},
 };
 

@@ -1,0 +1,117 @@
+// Points of coarse balls are moved onto the round surface: that neither takes light nor lets it into closed
+// rooms.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/render.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using scene::Color;
+using scene::Vec3;
+using testing::Moments;
+using testing::SceneBuilder;
+
+RenderOptions looking(const Vec3& eye, float fov_degrees) {
+  RenderOptions options;
+  options.width = options.height = 32;
+  options.spp = 64;
+  options.max_depth = 64;
+  options.threads = 2;
+  options.camera.look_at = LookAt{eye, Vec3::Zero(), Vec3(0, 1, 0)};
+  options.camera.fov_degrees = fov_degrees;
+  return options;
+}
+
+Moments pixels(const scene::Scene& s, const RenderOptions& options) {
+  const Picture picture = Renderer(s, options).render();
+  Moments moments;
+  for (const float value : picture.layers[0].values) moments.add(static_cast<double>(value));
+  return moments;
+}
+
+/// A normal map all over a ball, which leans the normals by some 20 degrees to and fro.
+void make_rough(scene::Scene& s, scene::Mesh& ball, scene::Material& material) {
+  scene::Image map{.name = "bumps", .width = 2, .height = 2, .channels = 3};
+  map.pixels = {168, 128, 248, 88, 128, 248, 128, 168, 248, 128, 88, 248};
+  s.images.push_back(map);
+  s.textures.push_back({.image = 0, .nearest = true});
+  material.normal_texture.texture = 0;
+  for (const Vec3& n : ball.normals) {
+    const Vec3 tangent = scene::any_perpendicular(n);
+    ball.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), 1.0f);
+    ball.uv0.emplace_back(7.0f * n.x(), 7.0f * n.y());
+  }
+}
+
+/// Mean radiance of a white ball in a sky of radiance 1, from the whole of it.
+double white_ball(int segments, DirectLight direct, bool two_sided, bool bumps) {
+  SceneBuilder builder;
+  scene::Material white = SceneBuilder::lambert(Color::Ones());
+  white.double_sided = two_sided;
+  scene::Mesh& ball = builder.sphere(builder.material(white), Vec3::Zero(), 1.0f, segments, true);
+  if (bumps) make_rough(builder.scene(), ball, builder.scene().materials[0]);
+  RenderOptions options = looking(Vec3(0.5f, 0.3f, 4.0f), 30.0f);
+  options.environment.constant = Color::Ones();
+  options.direct = direct;
+  return pixels(builder.scene(), options).mean();
+}
+
+TEST(TerminatorEnergy, AWhiteBallInAWhiteSkyIsNotSeen) {
+  for (const DirectLight direct : {DirectLight::mis, DirectLight::nee, DirectLight::bsdf}) {
+    for (const int segments : {12, 24, 48}) {
+      EXPECT_NEAR(white_ball(segments, direct, false, false), 1.0, 0.002) << segments;
+      EXPECT_NEAR(white_ball(segments, direct, true, false), 1.0, 0.002) << segments << ", two-sided";
+    }
+  }
+}
+
+TEST(TerminatorEnergy, UnderANormalMapACoarseBallIsAsBrightAsAFineOne) {
+  const double fine = white_ball(192, DirectLight::mis, false, true);
+  for (const int segments : {12, 24, 48})
+    EXPECT_NEAR(white_ball(segments, DirectLight::mis, false, true), fine, 0.01 * fine) << segments;
+}
+
+/// The brightest pixel of a closed black room with a sun and a sky outside.
+double leak(scene::Scene& room, const RenderOptions& inside) {
+  room.lights.push_back({.type = scene::LightType::directional,
+                         .intensity = Color::Constant(1000.0f),
+                         .direction = Vec3(-0.6f, -0.7f, -0.4f).normalized()});
+  RenderOptions options = inside;
+  options.environment.constant = Color::Constant(100.0f);
+  const Picture picture = Renderer(room, options).render();
+  return static_cast<double>(
+      *std::max_element(picture.layers[0].values.begin(), picture.layers[0].values.end()));
+}
+
+TEST(TerminatorEnergy, NoLightComesIntoAClosedRoomWithBallsAtItsWalls) {
+  SceneBuilder builder;
+  scene::Material clay = SceneBuilder::lambert(Color::Constant(0.8f));
+  const int plain = builder.material(clay);
+  clay.double_sided = true;
+  const int two_sided = builder.material(clay);
+  builder.box(plain, Vec3(-2, -1, -2), Vec3(2, 1, 2), true);
+  // On the floor, in a corner, and close to the roof.
+  builder.sphere(plain, Vec3(0, -0.4f, 0), 0.6f, 12, true);
+  builder.sphere(two_sided, Vec3(-1.4f, 0.4f, -1.4f), 0.6f, 12, true);
+  builder.sphere(two_sided, Vec3(1.2f, 0.3f, -0.5f), 0.69f, 24, true);
+  EXPECT_EQ(leak(builder.scene(), looking(Vec3(0.2f, 0.1f, 1.9f), 80.0f)), 0.0);
+}
+
+TEST(TerminatorEnergy, NoLightComesIntoARoundRoomSeenFromItsInside) {
+  SceneBuilder builder;
+  scene::Material clay = SceneBuilder::lambert(Color::Constant(0.8f));
+  clay.double_sided = true;
+  builder.sphere(builder.material(clay), Vec3::Zero(), 2.0f, 12, true);
+  builder.sphere(builder.material(clay), Vec3(0, -1.2f, 0), 0.5f, 12, true);
+  EXPECT_EQ(leak(builder.scene(), looking(Vec3(0.2f, 0.1f, 1.5f), 80.0f)), 0.0);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
