@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -33,7 +34,20 @@ struct ReconstructSettings {
   int threads = 0;
 };
 
+/// The layers hold nothing of a background that was put behind the picture.
+void expect_no_background(const renderer::Picture& picture, const std::string& name) {
+  const auto recipe = picture.metadata.find("options");
+  if (recipe == picture.metadata.end()) return;
+  const nlohmann::json options = nlohmann::json::parse(recipe->second, nullptr, false);
+  if (options.is_object() && options.contains("background") && options["background"] != "scene")
+    throw InputError(fmt::format(
+        "'{}' has the background {}, which its samples do not hold, expected one that was rendered "
+        "with --background scene",
+        name, options["background"].dump()));
+}
+
 renderer::Picture finish(renderer::Picture picture, const std::string& name) {
+  expect_no_background(picture, name);
   renderer::Reconstruction finished;
   try {
     finished = reconstruct(renderer::sampled_picture(picture));

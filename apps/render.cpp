@@ -69,11 +69,13 @@ class RenderRun {
     const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
     settings_ = pictures.front();
     progress_.phase("build");
+    const std::size_t warnings_of_loading = report_.warnings.size();
     renderer::Renderer renderer(scene, settings_.render);
     int code = make_picture(renderer);
     for (std::size_t i = 1; i < pictures.size() && code == kDone; ++i) {
       settings_ = pictures[i];
       start_ = Clock::now();
+      report_.warnings.resize(warnings_of_loading);
       renderer.set_camera(settings_.render.camera);
       code = make_picture(renderer);
     }

@@ -4,10 +4,19 @@
 
 #include <algorithm>
 
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/file_names.h"
 #include "apps/terminal/errors.h"
 
 namespace gatelight::apps {
 namespace {
+
+/// A name without characters that end a folder's name.
+std::string file_part(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+  return name;
+}
 
 constexpr std::string_view kCamera = "{camera}";
 
@@ -27,12 +36,11 @@ std::string file_name(const scene::Scene& scene, std::size_t index) {
   std::string name = scene.cameras[index].name;
   if (name.empty() || std::count_if(scene.cameras.begin(), scene.cameras.end(), same) > 1)
     name += fmt::format("{}{}", name.empty() ? "" : "-", index);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
   return name;
 }
 
-void name_files(RenderSettings& settings, const std::string& camera) {
+void name_files(RenderSettings& settings, const std::string& name) {
+  const std::string camera = file_part(name);
   for (std::string& output : settings.outputs) output = replaced(output, camera);
   settings.stats = replaced(settings.stats, camera);
 }
@@ -42,6 +50,15 @@ std::string single_name(const RenderSettings& settings, const scene::Scene& scen
   if (settings.render.camera.look_at) return "eye";
   if (!settings.render.camera.name.empty()) return settings.render.camera.name;
   return scene.cameras.empty() ? "all-of-it" : file_name(scene, 0);
+}
+
+/// The names of cameras may make a file of another flag, or one file of two pictures.
+void check_file_names(const std::vector<RenderSettings>& pictures) {
+  FileNames names = read_files(pictures.front());
+  for (const RenderSettings& picture : pictures) {
+    for (const std::string& output : picture.outputs) names.write("--output", output);
+    names.write("--stats", picture.stats);
+  }
 }
 
 }  // namespace
@@ -71,12 +88,17 @@ std::vector<RenderSettings> pictures_of(const RenderSettings& settings, const sc
   };
   if (!names_all(settings)) {
     add(single_name(settings, scene));
+    check_file_names(pictures);
     return pictures;
   }
   if (scene.cameras.empty())
     throw InputError(fmt::format("--camera all: {} has no camera, expected --eye and --target", scene.path));
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    add(file_name(scene, i)).render.camera.name = fmt::format("{}", i);
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    renderer::CameraOptions& camera = add(file_name(scene, i)).render.camera;
+    camera.name = fmt::format("{}", i);
+    camera.index = i;
+  }
+  check_file_names(pictures);
   return pictures;
 }
 

@@ -38,6 +38,12 @@ std::uint64_t pixels_of(const RenderOptions& options) {
 void complete_view(RenderSettings& settings) {
   if (settings.render.camera.fov_degrees && settings.render.camera.focal_mm)
     throw UsageError("--fov and --lens exclude each other, expected one of them");
+  const LensOptions& lens = settings.render.camera.lens;
+  for (const char* flag : {"--focus", "--blades"}) {
+    if (settings.given.contains(flag) && !(lens.aperture > 0.0f) && !(lens.f_stop > 0.0f))
+      throw UsageError(
+          fmt::format("{}: without an aperture all is sharp, expected --aperture with it", flag));
+  }
   if (!settings.eye && !settings.target && !settings.up) return;
   if (!settings.eye || !settings.target) {
     throw UsageError(fmt::format("{} is missing: a view by hand needs --eye and --target",

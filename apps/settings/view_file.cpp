@@ -28,6 +28,17 @@ std::string text_of(const json& value) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
 
+/// Whether flags beside the file replace a member: its own, or one that excludes it.
+bool replaced(const std::set<std::string>& given, const std::string& member) {
+  const auto any = [&](std::initializer_list<const char*> flags) {
+    return std::any_of(flags.begin(), flags.end(), [&](const char* flag) { return given.contains(flag); });
+  };
+  if (given.contains("--" + member)) return true;
+  if (member == "camera") return any({"--eye", "--target"});
+  if (member == "eye" || member == "target" || member == "up") return any({"--camera"});
+  return (member == "fov" || member == "lens") && any({"--fov", "--lens"});
+}
+
 json read_object(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("cannot read the view '{}': there is no such file", path));
@@ -50,7 +61,7 @@ void read_view_file(RenderSettings& settings) {
                                    settings.view_file, name, fmt::join(kMembers, ", ")));
     const auto option =
         std::find_if(table.begin(), table.end(), [&](const Option& o) { return o.name == name; });
-    if (value.is_null() || settings.given.contains(option->flag())) continue;
+    if (value.is_null() || replaced(settings.given, name)) continue;
     try {
       option->read(text_of(value));
     } catch (const std::invalid_argument& error) {

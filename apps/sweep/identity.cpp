@@ -61,6 +61,8 @@ std::string deciding_text(const RenderSettings& settings, const renderer::View& 
   for (const renderer::NamedText& option : renderer::deciding_options(o, view, {{"isa", o.isa}})) {
     text += fmt::format("{} {}\n", option.name, option.text);
   }
+  if (!o.background.file.empty())
+    text += fmt::format("background {}\n", renderer::file_digest(o.background.file));
   // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
                             settings.image.display.exposure, renderer::word(settings.image.display.tonemap),

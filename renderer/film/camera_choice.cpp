@@ -103,6 +103,7 @@ scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& option
     camera.transform.translation() -= scene.origin;
     return camera;
   }
+  if (options.index) return scene.cameras.at(*options.index);
   if (!options.name.empty()) return find_named(scene, options.name);
   if (!scene.cameras.empty()) return scene.cameras.front();
   return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
@@ -121,6 +122,11 @@ float distance_to_subject(const scene::Scene& scene, const CameraOptions& option
 }
 
 void project(const scene::Scene& scene, const CameraOptions& options, View& view) {
+  const bool has_angle = !view.orthographic && options.projection != Projection::panorama;
+  if (!has_angle && (options.fov_degrees || options.focal_mm))
+    throw BadOption(fmt::format("{}: the view is {}, expected a perspective one",
+                                options.fov_degrees ? "--fov" : "--lens",
+                                view.orthographic ? "orthographic" : "a panorama"));
   if (options.projection == Projection::orthographic && !view.orthographic) {
     // As large as the perspective shows the subject.
     view.half_height = distance_to_subject(scene, options, view) * std::tan(0.5f * view.vertical_fov);
@@ -159,8 +165,9 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
     if (!(distance > 0.0f))
       throw BadOption(fmt::format("--focus {}: it is behind the camera '{}'", focus, view.name));
   }
-  if (!(distance > 0.0f))
-    throw BadOption(fmt::format("--focus {}: expected metres above 0, or a node", focus));
+  if (!(distance > 0.0f && distance <= kFurthest))
+    throw BadOption(
+        fmt::format("--focus {}: expected a node, or metres above 0 and at most {:g}", focus, kFurthest));
   return distance;
 }
 

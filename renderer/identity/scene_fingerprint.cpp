@@ -141,6 +141,10 @@ Digest digest_environment(const EnvironmentOptions& environment) {
 
 }  // namespace
 
+std::string file_digest(const std::string& path) {
+  return hexadecimal(digest_file(path));
+}
+
 SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment) {
   std::vector<MeshDigests> meshes(scene.meshes.size());
   std::vector<Digest> pixels(scene.images.size());

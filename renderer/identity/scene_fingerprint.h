@@ -2,6 +2,8 @@
 // Digests of all that decides the light of a scene, to check whether a file belongs to it. Names, cameras and
 // warnings do not count.
 
+#include <string>
+
 #include "renderer/identity/named_texts.h"
 #include "renderer/settings/environment_options.h"
 #include "scene/scene.h"
@@ -19,5 +21,8 @@ using SceneFingerprint = NamedTexts;
 /// Parallel (oneTBB), with the same result for any number of threads. Throws std::runtime_error, naming the
 /// environment's file, where it cannot be read.
 SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment);
+
+/// 32 hexadecimal digits of a file's content. Throws std::runtime_error where it cannot be read.
+std::string file_digest(const std::string& path);
 
 }  // namespace gatelight::renderer

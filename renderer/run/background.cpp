@@ -16,6 +16,13 @@ std::size_t size(int x) {
   return static_cast<std::size_t>(x);
 }
 
+/// Values that are not finite would spread into the pixels around, and shine through what is opaque.
+float repaired(float value) {
+  constexpr float kGreatest = 65504.0f;  // half precision stores anything larger as infinity
+  if (std::isfinite(value)) return value;
+  return value > 0.0f ? kGreatest : 0.0f;
+}
+
 /// Three values a pixel of the full picture: the middle of a file's picture, as much of it as covers the
 /// view.
 std::vector<float> read_cover(const std::string& file, int width, int height) {
@@ -35,7 +42,7 @@ std::vector<float> read_cover(const std::string& file, int width, int height) {
   for (int y = top; y < top + rows; ++y) {
     for (int x = left; x < left + columns; ++x) {
       const std::size_t at = (size(y) * size(source.width) + size(x)) * layer.channels.size();
-      for (const std::size_t c : *channels) middle.push_back(layer.values[at + c]);
+      for (const std::size_t c : *channels) middle.push_back(repaired(layer.values[at + c]));
     }
   }
   if (columns == width && rows == height) return middle;

@@ -98,6 +98,7 @@ std::vector<float> finished_alpha(const Film& film, SampledPicture* samples, con
       half.variance[i] = a * (1.0f - a) / std::max(0.5f * samples->counts[i / 3], 1.0f);
     }
     half.cache.clear();
+    half.seen.clear();
   }
   std::fill(samples->albedo.begin(), samples->albedo.end(), 1.0f);
   const std::vector<float> color = reconstruct(*samples).color;

@@ -153,7 +153,8 @@ class Renderer::Implementation::PictureRun {
 
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
-    const bool known = checked_ && checked_samples_ == loop.done();
+    // A check shows smoother edges; without checks the same samples must follow.
+    const bool known = checked_ && checked_samples_ == loop.done() && !renderer_.smoother_edges(film_);
     const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena,
                                          known ? &checked_->reconstruction : nullptr);
     if (checked_) checked_->reconstruction = {};

@@ -148,6 +148,8 @@ void read_aperture(LensOptions& lens, const std::string& text) {
   const RealRange range{.min = 0.0, .max = 1e6};
   const bool stops = text.starts_with("f/");
   const auto value = static_cast<float>(parse_real("--aperture", stops ? text.substr(2) : text, range));
+  if (stops && !(value > 0.0f))
+    throw BadOption(fmt::format("--aperture: '{}' is no f-stop, expected more than 0", text));
   lens.f_stop = stops ? value : 0.0f;
   lens.aperture = stops ? 0.0f : value;
 }
@@ -179,7 +181,8 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(decides_nothing(std::move(option))); };
   // Flags of the application set look_at.
-  auto& [name, look_at, fov_degrees, focal_mm, projection, view_height, lens] = camera;
+  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens] =
+      camera;
   add(any_word("camera", name, "NAME|INDEX",
                "Camera of the file, by its name, its node's or its index (default: the first); all of "
                "them with 'all' and {camera} in the outputs' names"))

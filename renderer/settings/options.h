@@ -2,6 +2,7 @@
 // The options of a picture, with their defaults. The command line binds its flags to these members.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct LensOptions {
 
 struct CameraOptions {
   std::string name;  ///< of a camera or its node, or an index; empty: the first, or auto-framing
+  std::optional<std::size_t> index;  ///< of a camera of the file; wins over `name`, which may be ambiguous
   std::optional<LookAt> look_at;
   std::optional<float> fov_degrees;  ///< vertical; overrides the camera's
   std::optional<float> focal_mm;     ///< the same, with 36 mm across the wider side of the picture

@@ -68,7 +68,8 @@ std::vector<int> whole_numbers(const std::string& name, std::string text, char s
 void read_date(const std::string& name, const std::string& text, SunTime& time) {
   constexpr const char* kExpected = "a date YEAR-MONTH-DAY from 1900 to 2100, such as 2026-06-21";
   const std::vector<int> n = whole_numbers(name, text, '-', kExpected);
-  if (n.size() != 3 || n[0] < 1900 || n[0] > 2100) refuse(name, text, kExpected);
+  // The types of dates keep eight bits.
+  if (n.size() != 3 || n[0] < 1900 || n[0] > 2100 || n[1] > 12 || n[2] > 31) refuse(name, text, kExpected);
   const std::chrono::year_month_day date{std::chrono::year(n[0]),
                                          std::chrono::month(static_cast<unsigned>(n[1])),
                                          std::chrono::day(static_cast<unsigned>(n[2]))};

@@ -48,7 +48,8 @@ std::vector<Pixel> pixels_at_edges(const PixelRect& rect, const std::vector<floa
 }
 
 Color seen_by(const World& world, const CameraSample& sample, const Ray& ray, const Hit& hit) {
-  if (!hit) return world.background_apart ? Color(Color::Zero()) : world.environment.radiance(ray.direction);
+  if (!hit || world.catches(hit.instance))
+    return world.background_apart ? Color(Color::Zero()) : world.environment.radiance(ray.direction);
   const RayCone& cone = sample.camera_ray.cone;
   return world.surfaces.at(hit, ray.direction, cone.width + cone.spread * hit.t, 0.5f).emission;
 }

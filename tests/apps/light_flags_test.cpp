@@ -79,7 +79,7 @@ TEST_F(LightFlags, IesProfilesShapeALightAndAreInTheRecipe) {
   EXPECT_LT(middle(none), 0.01f * plain);
   EXPECT_EQ(json::parse(none.metadata.at("options"))["ies"], "l*=" + up);
   const Output wrong = run_gatelight({"render", scene, "-o", (folder / "b.png").string(), "--ies", "lamp"});
-  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.err, ::testing::HasSubstr("--ies: 'lamp' is not NAME=FILE"));
 }
 

@@ -44,6 +44,15 @@ class ReconstructCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ReconstructCommand, RefusesPicturesWithABackgroundOfTheirOwn) {
+  for (const char* background : {"1,1,1", "transparent"}) {
+    const std::string samples = render("a.exr", "1", "reconstruction", {"--background", background});
+    const Output output = run_gatelight({"reconstruct", samples, "-o", path("finished.exr")});
+    EXPECT_EQ(output.exit_code, 2);
+    EXPECT_NE(output.err.find("background"), std::string::npos) << output.err;
+  }
+}
+
 TEST_F(ReconstructCommand, FinishesWhatRenderAndMergeWrite) {
   const std::string a = render("a.exr", "1", "reconstruction"), b = render("b.exr", "2", "reconstruction");
   ASSERT_EQ(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}).exit_code, 0);

@@ -102,8 +102,10 @@ TEST(Lens, FocusesOnAnObjectByItsName) {
   EXPECT_FLOAT_EQ(choose_camera(s, options, 1.0f).focus_distance, 5.0f);
   options.lens.focus = "cup";
   expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {"--focus cup", "built.glb"});
-  options.lens.focus = "-1";
-  expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {"--focus -1"});
+  for (const char* distance : {"-1", "0", "inf", "nan", "1e20"}) {
+    options.lens.focus = distance;
+    expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {std::string("--focus ") + distance});
+  }
   options.lens.focus = "vase";
   options.look_at = LookAt{{0, 0, 4}, {0, 0, 8}, {0, 1, 0}};
   expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {"vase", "behind"});
@@ -134,6 +136,8 @@ TEST(Projection, AnOrthographicViewShowsTheTargetAsLargeAsThePerspective) {
   expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--view-height", "orthographic"});
   options.view_height.reset();
   options.projection = Projection::panorama;
+  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--fov", "panorama"});
+  options.fov_degrees.reset();
   options.lens.aperture = 0.1f;
   expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--aperture"});
 }

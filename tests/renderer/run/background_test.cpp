@@ -138,6 +138,24 @@ TEST(Background, AColourShinesThroughByAlpha) {
   }
 }
 
+TEST(Background, WhatGlowsHasTheAlphaOfItsSheetToo) {
+  SceneBuilder builder;
+  scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(4.0f));
+  sheet.alpha_mode = scene::AlphaMode::blend;
+  sheet.base_alpha = 0.3f;
+  builder.quad(builder.material(sheet), Vec3(-50, -50, 0), Vec3(100, 0, 0), Vec3(0, 100, 0));
+  RenderOptions options = options_for(Integrator::path);
+  options.background.kind = Kind::transparent;
+  options.spp = 64;
+  options.reconstruct = true;
+  const Picture picture = rendered(builder.scene(), options);
+  double sum = 0.0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) sum += static_cast<double>(pixel(picture, x, y)[3]);
+  }
+  EXPECT_NEAR(sum / (kWidth * kHeight), 0.3, 0.01);
+}
+
 /// A picture whose red is its column and green its row.
 void write_grid(const std::filesystem::path& file, int width, int height) {
   Picture picture{.width = width, .height = height};
@@ -167,6 +185,19 @@ TEST(Background, AFileCoversTheViewAndARegionSeesItsPart) {
   const Picture whole = rendered(nothing, options);
   EXPECT_NEAR(pixel(whole, 10, 8)[0], 10 + 2 * 10 + 0.5f, 0.1f);
   EXPECT_NEAR(pixel(whole, 10, 8)[1], 2 * 8 + 0.5f, 0.1f);
+  // Infinite values behind what is opaque, and NaN.
+  Picture bright{.width = kWidth, .height = kHeight};
+  bright.layers.push_back({.channels = {"R", "G", "B"}, .values = {}});
+  for (int i = 0; i < kWidth * kHeight; ++i)
+    bright.layers[0].values.insert(bright.layers[0].values.end(), {scene::kInfinity, 1.0f, std::nanf("")});
+  write_image(bright, folder / "grid.exr", {.exr_float = true});
+  SceneBuilder wall;
+  wall.quad(wall.material(SceneBuilder::lambert(Color::Zero())), Vec3(-50, -50, 0), Vec3(100, 0, 0),
+            Vec3(0, 100, 0));
+  for (const float value : rendered(wall.scene(), options).layers.front().values) ASSERT_EQ(value, 0.0f);
+  const Picture open = rendered(nothing, options);
+  EXPECT_EQ(pixel(open, 3, 3)[0], 65504.0f);
+  EXPECT_EQ(pixel(open, 3, 3)[2], 0.0f);
   options.background.file = (folder / "missing.exr").string();
   tests::expect_message(tests::refusal<ImageError>([&] { rendered(nothing, options); }), {"missing.exr"});
 }

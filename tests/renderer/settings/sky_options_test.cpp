@@ -61,6 +61,7 @@ TEST(SkyOptionsText, BadPartsAreNamed) {
                         {"ground=0.1,ground=0.2", {"ground", "twice"}},
                         {"date=2026-02-29,time=1:00,place=1,2", {"date", "2026-02-29"}},
                         {"date=26-02-01,time=1:00,place=1,2", {"date", "26-02-01", "1900"}},
+                        {"date=2026-257-21,time=1:00,place=1,2", {"date", "2026-257-21"}},
                         {"date=2026-06,time=1:00,place=1,2", {"date", "2026-06"}},
                         {"date=2026-06-21,time=24:00,place=1,2", {"time", "24:00"}},
                         {"date=2026-06-21,time=12,place=1,2", {"time", "12"}},
