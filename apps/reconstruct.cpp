@@ -10,6 +10,7 @@
 #include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
+#include "renderer/image/cryptomatte.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
@@ -21,8 +22,8 @@ namespace {
 constexpr const char* kReconstructFooter =
     R"(Takes the grain out of a picture that was rendered with --aov reconstruction, or merged from such pictures. The samples
 are fitted to normals and depth in small windows; where that is not expected to be closer to the truth than the samples
-are, their mean is kept. An EXR holds the finished picture, the mean of the samples (layer raw) and the estimated standard
-error (layer error).
+are, their mean is kept. An EXR holds the finished picture, the mean of the samples (layer raw), the estimated standard
+error (layer error) and what Cryptomattes there were.
 
 Example:
   gatelight render room.glb -o samples.exr --exr float --spp 16 --aov reconstruction
@@ -58,11 +59,17 @@ renderer::Picture finish(renderer::Picture picture, const std::string& name) {
   const renderer::Layer* const mean = picture.find("raw");
   renderer::Layer raw = mean ? *mean : picture.layers.front();
   raw.name = "raw";
+  // Cryptomattes are not made of samples: they stay as they are.
+  std::vector<renderer::Layer> mattes;
+  for (renderer::Layer& layer : picture.layers) {
+    if (is_cryptomatte(picture, layer.name)) mattes.push_back(std::move(layer));
+  }
   picture.layers = {
       {.channels = {"R", "G", "B"}, .values = std::move(finished.color)},
       std::move(raw),
       {.name = "error", .channels = {"R", "G", "B"}, .values = std::move(finished.error)},
   };
+  picture.layers.insert(picture.layers.end(), mattes.begin(), mattes.end());
   picture.metadata["reconstructed"] = "yes";
   return picture;
 }

@@ -115,7 +115,7 @@ struct Mesh {
 /// A mesh in the world. Instances that share a mesh become Embree instances. A mesh with one instance holds
 /// world-space vertices, and that instance has the identity transform (scene/bake.h).
 struct Instance {
-  std::string name;
+  std::string name;  ///< of the node, else of the mesh, else "node N", by its number in the file
   int mesh = -1;
   Affine transform = Affine::Identity();  ///< mesh to world
   bool baked = false;                     ///< the mesh is in world space and no other instance uses it

@@ -39,6 +39,7 @@ ordered_json seconds(const RunReport& report, bool with_cache, bool reconstructs
     json["render_trace"] = s.threads > 0 ? s.rays.seconds / s.threads : 0.0;
   }
   if (reconstructs) json["reconstruct"] = s.reconstruct_seconds;
+  if (s.cryptomatte_seconds > 0.0) json["cryptomatte"] = s.cryptomatte_seconds;
   json["write"] = report.write_seconds;
   json["total"] = report.total_seconds;
   return json;

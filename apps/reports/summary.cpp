@@ -81,8 +81,10 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   std::string text = fmt::format("written   {}\n", fmt::join(settings.outputs, ", "));
   const std::string reconstruct =
       settings.render.reconstruct ? fmt::format(", reconstruct {:.2f}", s.reconstruct_seconds) : "";
-  text += fmt::format("seconds   load {:.2f}, build {:.2f}, {}{}, write {:.2f}, total {:.2f}\n",
-                      report.load_seconds, s.build_seconds, render_seconds_text(s), reconstruct,
+  const std::string cryptomatte =
+      s.cryptomatte_seconds > 0.0 ? fmt::format("cryptomatte {:.2f}, ", s.cryptomatte_seconds) : "";
+  text += fmt::format("seconds   load {:.2f}, build {:.2f}, {}{}{}, write {:.2f}, total {:.2f}\n",
+                      report.load_seconds, s.build_seconds, cryptomatte, render_seconds_text(s), reconstruct,
                       report.write_seconds, report.total_seconds);
   std::string error;
   if (s.estimated_error) {

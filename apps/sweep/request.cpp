@@ -27,10 +27,10 @@ constexpr const char* kDefaultCacheSpp = "4";
 
 /// Flags of files, of the progress of one picture, and of what ends one early.
 constexpr const char* kNoBaseFlags[] = {
-    "--output",    "--stats",        "--checkpoint",   "--checkpoint-every", "--resume",        "--cache-in",
-    "--cache-out", "--exr",          "--reproducible", "--progress",         "--quiet",         "--verbose",
-    "--aov",       "--time-limit",   "--max-error",    "--train-time",       "--white-balance", "--bits",
-    "--ocio",      "--ocio-display", "--ocio-view"};
+    "--output",    "--stats",       "--checkpoint",   "--checkpoint-every", "--resume",     "--cache-in",
+    "--cache-out", "--exr",         "--reproducible", "--progress",         "--quiet",      "--verbose",
+    "--aov",       "--cryptomatte", "--time-limit",   "--max-error",        "--train-time", "--white-balance",
+    "--bits",      "--ocio",        "--ocio-display", "--ocio-view"};
 
 /// With any of these a row named after a preset of `render` would not be what its name promises.
 constexpr const char* kNoRowFlags[] = {"--reconstruct", "--view", "--query-at", "--cache-holds"};

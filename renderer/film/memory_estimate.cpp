@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "renderer/film/film.h"
+#include "renderer/image/cryptomatte.h"
 #include "renderer/machine/errors.h"
 #include "renderer/machine/memory.h"
 #include "renderer/settings/resolved_options.h"
@@ -46,7 +47,8 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const std::size_t density =
       options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
   const std::size_t floats = (options.reconstruct ? 72 : halves ? 34 : 13) + density + aovs.size() * 3;
-  need.film = pixels * (Film::bytes_per_pixel(aovs) + floats * sizeof(float));
+  const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
+  need.film = pixels * (Film::bytes_per_pixel(aovs) + (floats + mattes) * sizeof(float));
   return need;
 }
 

@@ -14,6 +14,7 @@
 
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
+#include "renderer/image/cryptomatte.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -105,9 +106,9 @@ Picture read_exr(const std::filesystem::path& path) {
   for (auto it = header.begin(); it != header.end(); ++it) {
     const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
     const std::string_view name = it.name();
-    if (text != nullptr && name.substr(0, kPrefix.size()) == kPrefix) {
-      picture.metadata.emplace(name.substr(kPrefix.size()), text->value());
-    }
+    if (text == nullptr) continue;
+    if (name.starts_with(kPrefix)) picture.metadata.emplace(name.substr(kPrefix.size()), text->value());
+    if (name.starts_with(kCryptomattePrefix)) picture.attributes.emplace(name, text->value());
   }
   return picture;
 }

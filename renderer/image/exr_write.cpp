@@ -90,6 +90,7 @@ Imf::Header make_header(const Picture& picture) {
   for (const auto& [key, value] : picture.metadata) {
     header.insert("gatelight:" + key, Imf::StringAttribute(value));
   }
+  for (const auto& [key, value] : picture.attributes) header.insert(key, Imf::StringAttribute(value));
   return header;
 }
 

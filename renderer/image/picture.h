@@ -35,6 +35,7 @@ struct Picture {
   std::vector<Layer> layers;  ///< the first one is the beauty layer
   std::map<std::string, std::string>
       metadata;  ///< how the picture was made; in the EXR header as "gatelight:KEY"
+  std::map<std::string, std::string> attributes;  ///< in the EXR header as they are: those of cryptomatte.h
 
   std::optional<ViewMatrices> view;  ///< in the EXR header as worldToCamera and worldToNDC
 

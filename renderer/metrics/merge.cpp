@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "renderer/image/cryptomatte.h"
 #include "renderer/machine/finite_float.h"
 
 namespace gatelight::renderer {
@@ -13,11 +14,11 @@ namespace {
 
 enum class Rule : std::uint8_t { mean, sum, variance, error, first };
 
-Rule rule_of(const std::string& layer) {
+Rule rule_of(const Picture& picture, const std::string& layer) {
   if (layer == "samples") return Rule::sum;
   if (layer.starts_with("variance")) return Rule::variance;
   if (layer == "error") return Rule::error;
-  if (layer == "primitive" || layer == "instance") return Rule::first;
+  if (layer == "primitive" || layer == "instance" || is_cryptomatte(picture, layer)) return Rule::first;
   return Rule::mean;
 }
 
@@ -108,7 +109,7 @@ void PictureMerger::add(const NamedPicture& named) {
   }
   weight_ += weight;
   for (std::size_t l = 0; l < sums_.size(); ++l) {
-    const Rule rule = rule_of(merged_.layers[l].name);
+    const Rule rule = rule_of(merged_, merged_.layers[l].name);
     if (rule == Rule::first) continue;
     const bool squared = rule == Rule::variance || rule == Rule::error;
     const double factor = rule == Rule::sum ? 1.0 : squared ? weight * weight : weight;
@@ -123,7 +124,7 @@ void PictureMerger::add(const NamedPicture& named) {
 Picture PictureMerger::finish() const {
   Picture picture = merged_;
   for (std::size_t l = 0; l < sums_.size(); ++l) {
-    const Rule rule = rule_of(picture.layers[l].name);
+    const Rule rule = rule_of(picture, picture.layers[l].name);
     if (rule == Rule::first) continue;
     const bool squared = rule == Rule::variance || rule == Rule::error;
     const double divisor = rule == Rule::sum ? 1.0 : squared ? weight_ * weight_ : weight_;

@@ -13,8 +13,9 @@ namespace gatelight::renderer {
 /// entry have equal weights. Pictures are added one at a time, so that many need no more memory than two.
 ///
 /// Layers are averaged, except a few. "samples" is the sum; "variance", "variance-a", "variance-b" and
-/// "error" are those of the mean; "primitive" and "instance" are those of the first picture. The metadata
-/// keeps the entries that are equal in all pictures; "spp" is the sum, "seed" the list of all seeds.
+/// "error" are those of the mean; "primitive", "instance" and Cryptomattes are those of the first picture.
+/// The metadata keeps the entries that are equal in all pictures; "spp" is the sum, "seed" the list of all
+/// seeds.
 class PictureMerger {
  public:
   /// Throws CompareError when size, place, layers or integrator differ from the first picture. Also throws

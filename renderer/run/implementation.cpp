@@ -18,6 +18,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
+#include "renderer/transport/cryptomatte_pass.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/seen_light.h"
 #include "renderer/transport/shadow_catcher.h"
@@ -208,6 +209,15 @@ SeenLight Renderer::Implementation::smoother_edges(const Film& film) const {
   return [this, spp = film.samples_per_pixel()](std::vector<float>& seen) {
     smooth_edges(*world, camera, filter, options, region, spp, seen);
   };
+}
+
+Cryptomattes Renderer::Implementation::cryptomattes() {
+  if (options.cryptomattes.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  Cryptomattes mattes =
+      arena.execute([&] { return trace_cryptomattes(*world, camera, filter, options, region); });
+  statistics.cryptomatte_seconds = seconds_since(start);
+  return mattes;
 }
 
 Film Renderer::Implementation::make_film() const {

@@ -13,6 +13,7 @@
 #include "renderer/film/camera.h"
 #include "renderer/film/pixel_filter.h"
 #include "renderer/film/tiles.h"
+#include "renderer/image/cryptomatte.h"
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "renderer/run/checkpoint.h"
@@ -61,6 +62,8 @@ struct Renderer::Implementation {
   /// For finished_picture().
   SeenLight smoother_edges(const Film& film) const;
   CaughtShadows caught_shadows(const Film& film) const;
+  /// The layers of options.cryptomattes; the statistics get the time.
+  Cryptomattes cryptomattes();
   Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
   /// Statistics of this run and of the earlier ones.

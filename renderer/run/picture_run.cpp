@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "neural/base/errors.h"
 #include "neural/base/flush_denormals.h"
@@ -46,6 +47,7 @@ class Renderer::Implementation::PictureRun {
     run_passes(loop, *pass);
     end(loop, *pass);
     Picture picture = finished(loop.done());
+    add_cryptomattes(picture, std::move(mattes_));
     note_end(loop);
     return picture;
   }
@@ -68,13 +70,16 @@ class Renderer::Implementation::PictureRun {
     found_->restore(film_, earlier_);
   }
 
-  /// Starts the time of the picture.
+  /// Starts the time of the picture. What takes as long whatever its samples are comes first, so that a time
+  /// limit counts it.
   void plan() {
     begin_ = Clock::now();
+    mattes_ = renderer_.cryptomattes();
     budget_.limit = options_.time_limit_seconds;
     if (budget_.limit <= 0.0 || !options_.reconstruct) return;
+    const Clock::time_point start = Clock::now();
     budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
-    reconstruct_seconds_ = seconds_since(begin_);  // of the picture of noise
+    reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
   }
 
   Clock::time_point time_at(double seconds) const {
@@ -138,7 +143,9 @@ class Renderer::Implementation::PictureRun {
       if (loop.done() == options_.spp) return;
       if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
         renderer_.statistics = sum_up(loop, pass);
-        callbacks_.snapshot(finished(loop.done()));
+        Picture picture = finished(loop.done());
+        add_cryptomattes(picture, mattes_);
+        callbacks_.snapshot(picture);
       }
       if (options_.max_error > 0.0 && is_check(loop.done()) && !loop.over() && good_enough(loop)) return;
       if (loop.over()) return;
@@ -287,6 +294,7 @@ class Renderer::Implementation::PictureRun {
   std::string device_lost_;
   Clock::time_point begin_;  ///< of the time that the limit counts
   TimeBudget budget_;
+  Cryptomattes mattes_;
   std::optional<FinishedPicture> checked_;  ///< of the last check
   int checked_samples_ = 0;
   bool cut_short_ = false;  ///< some pixels have a sample more than others

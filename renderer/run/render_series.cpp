@@ -69,6 +69,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
   Training training = begin_training(
       nullptr, options.cache.cache_in.empty() ? SceneFingerprint{} : scene_fingerprint(), callbacks);
   training.chosen = false;
+  const Cryptomattes mattes = cryptomattes();
   training.all_steps = train_steps.back();
   CacheSession& session = *training.session;
   Film taught = make_film();
@@ -99,11 +100,12 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    const FinishedPicture finished =
+    FinishedPicture finished =
         finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     statistics.lost_light = finished.lost_light;
+    add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
     if (bookmark) {
@@ -116,6 +118,7 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
 
 bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
                                                     const Callbacks& callbacks) {
+  const Cryptomattes mattes = cryptomattes();
   Film film = make_film();
   Training untrained;
   double reconstruct_seconds = 0.0;  // of densities
@@ -130,11 +133,12 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    const FinishedPicture finished =
+    FinishedPicture finished =
         finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
     statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
     statistics.estimated_error = finished.estimated_error;
     statistics.lost_light = finished.lost_light;
+    add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));
   }

@@ -54,6 +54,9 @@ enum class Aov : std::uint8_t {
   nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
 };
 
+/// Names of the scene that a Cryptomatte tells apart.
+enum class MatteKind : std::uint8_t { object, material };
+
 enum class SamplerKind : std::uint8_t {
   sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a (0,2)-sequence of its own
   independent,  ///< a hash of the key

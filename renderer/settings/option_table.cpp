@@ -17,6 +17,13 @@ constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
 constexpr Choice<std::string_view> kIsa[] = {
     {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
 
+/// In the order of the enumeration.
+template <class Enumeration>
+void keep_each_once(std::vector<Enumeration>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 std::vector<Aov> read_aovs(const std::string& text) {
   std::vector<Aov> aovs;
   for (const std::string& word : split_list("--aov", text)) {
@@ -26,14 +33,22 @@ std::vector<Aov> read_aovs(const std::string& text) {
       aovs.push_back(parse_choice("--aov", word, kWords<Aov>));
     }
   }
-  std::sort(aovs.begin(), aovs.end());
-  aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
+  keep_each_once(aovs);
   return aovs;
 }
 
-OptionValue words_of(const std::vector<Aov>& aovs) {
+std::vector<MatteKind> read_cryptomattes(const std::string& text) {
+  std::vector<MatteKind> kinds;
+  for (const std::string& word : split_list("--cryptomatte", text))
+    kinds.push_back(parse_choice("--cryptomatte", word, kWords<MatteKind>));
+  keep_each_once(kinds);
+  return kinds;
+}
+
+template <class Enumeration>
+OptionValue words_of(const std::vector<Enumeration>& values) {
   std::vector<std::string> words;
-  for (const Aov aov : aovs) words.push_back(word(aov));
+  for (const Enumeration value : values) words.push_back(word(value));
   return words;
 }
 
@@ -97,6 +112,17 @@ Option aov_option(std::vector<Aov>& aovs) {
           .help = help,
           .value = [&] { return words_of(aovs); },
           .read = [&](const std::string& text) { aovs = read_aovs(text); }};
+}
+
+Option cryptomatte_option(std::vector<MatteKind>& kinds) {
+  return {.name = "cryptomatte",
+          .unit = "object,material",
+          .help =
+              "Masks for compositing in EXR files, by the names of objects, of materials or of both: the "
+              "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
+              "themselves",
+          .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
+          .read = [&](const std::string& text) { kinds = read_cryptomattes(text); }};
 }
 
 void read_environment(EnvironmentOptions& environment, const std::string& text) {
@@ -266,8 +292,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
          threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
-         clamp, ao_distance, reconstruct, adaptive, aovs, nan_policy, memory_limit_bytes, isa, camera,
-         environment, background, cache, checkpoint] = options;
+         clamp, ao_distance, reconstruct, adaptive, aovs, cryptomattes, nan_policy, memory_limit_bytes, isa,
+         camera, environment, background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -299,6 +325,7 @@ std::vector<Option> option_table(RenderOptions& options) {
                      "With --reconstruct on: from the third sample on, take more where the finished picture "
                      "has more noise; --spp is then the mean over the picture"));
   picture.add(aov_option(aovs));
+  picture.add(decides_nothing(cryptomatte_option(cryptomattes)));  // film and checkpoint know nothing of it
 
   add_view_options(table, camera, environment, background);
 

@@ -77,6 +77,7 @@ struct RenderOptions {
   bool reconstruct = false;   ///< fit the samples to their guides (reconstruction/README.md)
   bool adaptive = true;       ///< with reconstruct: more samples where more noise is left
   std::vector<Aov> aovs;
+  std::vector<MatteKind> cryptomattes;  ///< each once, in the order of the enumeration
   NanPolicy nan_policy = NanPolicy::drop;
   std::size_t memory_limit_bytes = 0;  ///< 0: no limit; building beyond it throws OutOfMemory
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512

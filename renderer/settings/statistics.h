@@ -83,6 +83,7 @@ struct RenderStatistics {
   double render_seconds = 0.0;
   double resumed_seconds = 0.0;  ///< those of render_seconds that a checkpoint brought
   double reconstruct_seconds = 0.0;
+  double cryptomatte_seconds = 0.0;
   int width = 0;
   int height = 0;
   int spp = 0;                ///< finished for every pixel

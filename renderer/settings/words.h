@@ -60,6 +60,9 @@ inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
                                               {"resolution", Aov::resolution},
                                               {"nearest-node", Aov::nearest_node}};
 template <>
+inline constexpr Choice<MatteKind> kWords<MatteKind>[] = {{"object", MatteKind::object},
+                                                          {"material", MatteKind::material}};
+template <>
 inline constexpr Choice<SamplerKind> kWords<SamplerKind>[] = {{"sobol", SamplerKind::sobol},
                                                               {"independent", SamplerKind::independent}};
 template <>

@@ -134,7 +134,8 @@ class Walker {
       if (!primitive.value("targets", json()).empty())
         warnings_.add("skins and morph targets are shown in their bind pose");
     }
-    const std::string name = name_of(node, mesh);
+    std::string name = name_of(node, mesh);
+    if (name.empty()) name = fmt::format("node {}", index);
     if (const json* instancing = find_extension(node, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       claim_instances(*instancing, mesh, where);

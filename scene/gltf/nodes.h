@@ -11,8 +11,8 @@ namespace gatelight::scene::gltf {
 
 /// A glTF mesh (all its primitives) in the world.
 struct Placement {
-  int mesh = -1;  ///< index in the file
-  std::string name;
+  int mesh = -1;     ///< index in the file
+  std::string name;  ///< Instance::name
   Affine transform = Affine::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
 };

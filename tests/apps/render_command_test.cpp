@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "renderer/image/cryptomatte.h"
 #include "renderer/image/image_read.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -209,6 +211,52 @@ TEST_F(RenderCommand, AllLayersAreInTheExr) {
        {"albedo", "normal", "depth", "position", "primitive", "instance", "samples", "variance"}) {
     EXPECT_NE(picture.find(name), nullptr) << name;
   }
+}
+
+TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndReconstructed) {
+  for (const char* seed : {"1", "2"}) {
+    const Output output = render({"-o", path(fmt::format("{}.exr", seed)), "--cryptomatte", "material,object",
+                                  "--seed", seed, "--aov", "reconstruction", "--stats", "-"});
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+    EXPECT_THAT(output.err, HasSubstr(", cryptomatte 0."));
+    const json stats = json::parse(output.out);
+    EXPECT_EQ(stats["options"]["cryptomatte"], json({"object", "material"}));
+    EXPECT_GT(stats["seconds"]["cryptomatte"], 0.0);
+  }
+  ASSERT_EQ(run_gatelight({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")}).exit_code, 0);
+  ASSERT_EQ(run_gatelight({"reconstruct", path("m.exr"), "-o", path("r.exr")}).exit_code, 0);
+  const Picture first = read_image(path("1.exr"));
+  for (const char* name : {"1.exr", "m.exr", "r.exr"}) {
+    const Picture picture = read_image(path(name));
+    std::set<std::string> manifests;
+    for (const auto& [key, value] : picture.attributes) {
+      if (key.ends_with("/manifest")) manifests.insert(value);
+    }
+    // The square's node has no name, nor has its material.
+    EXPECT_THAT(manifests,
+                UnorderedElementsAre(
+                    fmt::format(R"({{"node 0":"{:08x}"}})", renderer::cryptomatte_id("node 0")),
+                    fmt::format(R"({{"material 0":"{:08x}"}})", renderer::cryptomatte_id("material 0"))))
+        << name;
+    for (const char* kind : {"CryptoObject", "CryptoMaterial"}) {
+      const renderer::Layer* layer = picture.find(fmt::format("{}00", kind));
+      ASSERT_NE(layer, nullptr) << name;
+      EXPECT_EQ(layer->values, first.find(layer->name)->values) << name;
+      const float* middle = &layer->values[4 * (8 * 24 + 12)];
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(middle[0]),
+                renderer::cryptomatte_id(kind == std::string("CryptoObject") ? "node 0" : "material 0"));
+      EXPECT_EQ(middle[1], 1.0f);
+      EXPECT_EQ(layer->values[0], 0.0f) << "the corner sees the sky";
+    }
+  }
+  const Output info = run_gatelight({"info", path("1.exr")});
+  EXPECT_THAT(info.out, ::testing::ContainsRegex("\n--cryptomatte +object,material\n"));
+}
+
+TEST_F(RenderCommand, CryptomattesThatNoOutputKeepsAreToldOf) {
+  const Output output = render({"-o", path("a.png"), "--cryptomatte", "object"});
+  EXPECT_EQ(output.exit_code, 0);
+  expect_messages(output.warnings(), {{"--cryptomatte", ".exr"}});
 }
 
 TEST_F(RenderCommand, AmbientOcclusionOfAnOpenSquareIsOne) {

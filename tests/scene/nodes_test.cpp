@@ -55,6 +55,20 @@ TEST(Nodes, AMeshInSeveralNodesIsSeveralInstances) {
   EXPECT_EQ(scene.bounds.max(), Vec3(5, 1, 0));
 }
 
+TEST(Nodes, AnInstanceHasTheNameOfItsNodeElseOfItsMeshElseANumber) {
+  GltfBuilder file;
+  const int plain = file.mesh(file.triangle());
+  file.add("meshes", {{"primitives", {file.triangle()}}, {"name", "cup"}});
+  file.node({{"mesh", plain}, {"name", "left"}});
+  file.node({{"mesh", plain + 1}});
+  file.node({{"mesh", plain}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.instances.size(), 3u);
+  EXPECT_EQ(scene.instances[0].name, "left");
+  EXPECT_EQ(scene.instances[1].name, "cup");
+  EXPECT_EQ(scene.instances[2].name, "node 2");
+}
+
 TEST(Nodes, ADeepChainNeitherOverflowsNorLosesItsPlace) {
   GltfBuilder file;
   const int depth = 20000;

@@ -225,6 +225,7 @@ TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
       {{"--integrator", "nrc2"}, {"--integrator", "nrc2", "path|ao"}},
       {{"--isa", "sse9"}, {"--isa", "sse9", "auto|scalar|avx2|avx512"}},
       {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
+      {{"--cryptomatte", "object,asset"}, {"--cryptomatte", "asset", "object|material"}},
       {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
       {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
       {{"--sky", "clear", "--environment", "auto"}, {"--sky", "--environment"}},

@@ -115,8 +115,8 @@ TEST(SweepRequest, WhatCannotBeVariedIsRefusedWithWhatToUse) {
   expect_message(refused(words_for({}, {"seed=1,2"})), {"--seeds"});
   expect_message(refused(words_for({}, {"spp=1,2"})), {"--cache-spp"});
   expect_message(refused(words_for({}, {"train-steps=1,2"})), {"--train-steps"});
-  for (const char* flag :
-       {"output", "cache-in", "checkpoint", "time-limit", "train-time", "aov", "variant", "frob"}) {
+  for (const char* flag : {"output", "cache-in", "checkpoint", "time-limit", "train-time", "aov",
+                           "cryptomatte", "variant", "frob"}) {
     expect_message(refused(words_for({}, {std::string(flag) + "=a,b"})), {flag});
   }
   EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})), "");

@@ -50,6 +50,18 @@ TEST(Merge, MergesOfMergesEqualOneMerge) {
   EXPECT_EQ(once.metadata, twice.metadata);
 }
 
+TEST(Merge, CryptomattesAreThoseOfTheFirst) {
+  Picture a = picture({0, 0, 0}, {{"spp", "1"}}), b = a;
+  for (Picture* p : {&a, &b}) {
+    p->layers.push_back({.name = "CryptoObject00", .channels = {"R", "G", "B", "A"}, .values = {7, 1, 0, 0}});
+    p->attributes = {{"cryptomatte/1234567/name", "CryptoObject"}};
+  }
+  b.layers[1].values = {-9, 0.5, 7, 0.5};
+  const Picture m = merge(a, b);
+  EXPECT_THAT(m.layers[1].values, ElementsAre(7, 1, 0, 0));
+  EXPECT_EQ(m.attributes, a.attributes);
+}
+
 TEST(Merge, LayersFollowTheirMeaning) {
   Picture a = picture({0, 0, 0}, {{"spp", "1"}});
   Picture b = picture({0, 0, 0}, {{"spp", "3"}});

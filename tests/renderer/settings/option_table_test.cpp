@@ -20,6 +20,7 @@ RenderOptions said() {
   options.environment.constant = {0.1f, 2.0f, 3.0f};
   options.environment.sky = SkyOptions{.turbidity = 2.1f, .time = SunTime{.second_of_day = 4007}};
   options.aovs = {Aov::depth, Aov::primitive_id};
+  options.cryptomattes = {MatteKind::material};
   options.checkpoint.file = "c";
   options.cache.cache_in = "in";
   options.cache.cache_out = "out";
