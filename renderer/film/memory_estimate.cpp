@@ -45,8 +45,12 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const bool halves = std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end();
   const std::size_t density =
       options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
-  const std::size_t floats = (options.reconstruct ? 72 : halves ? 34 : 13) + density + aovs.size() * 3;
-  need.film = pixels * (Film::bytes_per_pixel(aovs) + floats * sizeof(float));
+  const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;
+  const std::size_t floats = (options.reconstruct ? 72
+                              : halves            ? 34
+                                                  : 13) +
+                             density + (aovs.size() + groups) * 3;
+  need.film = pixels * (Film::bytes_per_pixel(aovs, groups) + floats * sizeof(float));
   return need;
 }
 

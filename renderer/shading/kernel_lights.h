@@ -318,6 +318,7 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
                                            probability, placed);
       take(s);
       state = select(s.valid, state_of(LaneLight::done), state);
+      light = select(s.valid, chosen, light);
       delta |= s.valid;
     }
   }
@@ -334,11 +335,13 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       distance = select(taken, kInfinite, distance);
       pdf = select(taken, size, pdf);
       state = select(taken, state_of(LaneLight::done), state);
+      light = select(taken, Int(view.triangle_count + view.placed_count + i), light);
       delta |= taken;
     }
   }
   if (any(to_sky)) {
     distance = select(to_sky, kInfinite, distance);
+    light = select(to_sky, Int(view.triangle_count + view.placed_count + view.sun_count), light);
     if (view.sky == LightView::Sky::constant) {
       Float3 d = Frame(r.n).to_world(sample_cosine_hemisphere(u.x, u.y));
       Float density = max(0.0f, dot(d, r.n)) * kInvPi;

@@ -137,6 +137,7 @@ void WideShading::put_light(ShadingBlock& block, int lane, bool delta) const {
   block.light_pdf[lane] = s.pdf;
   block.light_offset[lane] = s.offset;
   block.light_cosine[lane] = s.cosine;
+  block.light[lane] = s.light;
 }
 
 }  // namespace gatelight::renderer

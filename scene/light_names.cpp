@@ -1,0 +1,52 @@
+#include "scene/light_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "scene/nearest_word.h"
+
+namespace gatelight::scene {
+namespace {
+
+/// "lights 'a', 'b'"; at most so many names that they fit into a line.
+std::string list_names(const char* what, const std::set<std::string>& names) {
+  constexpr std::size_t kMost = 24;
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) {
+    if (quoted.size() < kMost) quoted.push_back(fmt::format("'{}'", name));
+  }
+  if (names.size() > kMost) quoted.push_back(fmt::format("and {} more", names.size() - kMost));
+  return fmt::format("{} {}", what, fmt::join(quoted, ", "));
+}
+
+}  // namespace
+
+bool fits_light_name(const std::string& wanted, const std::string& name) {
+  if (wanted.empty() || wanted.back() != '*') return wanted == name;
+  return name.compare(0, wanted.size() - 1, wanted, 0, wanted.size() - 1) == 0;
+}
+
+LightNames::LightNames(const Scene& scene) : materials(scene.dark_lights.begin(), scene.dark_lights.end()) {
+  for (const PunctualLight& light : scene.lights) lights.insert(light.name);
+  for (const Material& material : scene.materials) {
+    if (material.emits()) materials.insert(material.name);
+  }
+}
+
+std::string LightNames::no_such_light(const std::string& wanted, const std::string& word) const {
+  std::vector<std::string> parts, all(lights.begin(), lights.end());
+  all.insert(all.end(), materials.begin(), materials.end());
+  if (!lights.empty()) parts.push_back(list_names("one of its lights", lights));
+  if (!materials.empty()) parts.push_back(list_names("one of its emissive materials", materials));
+  if (!word.empty()) {
+    parts.push_back(fmt::format("'{}'", word));
+    all.push_back(word);
+  }
+  if (parts.empty()) parts = {"none: the file has no light and no emissive material"};
+  return fmt::format("there is no light '{}', expected {}{}", wanted, fmt::join(parts, ", or "),
+                     did_you_mean(wanted, all));
+}
+
+}  // namespace gatelight::scene
