@@ -6,12 +6,15 @@
 #include "scene/scene_error.h"
 
 namespace gatelight::scene {
+
 void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments) {
+  if (adjustments.empty()) return;
+  const LightNames names(scene);
   std::vector<bool> used(adjustments.size(), false);
   const auto adjust = [&](const std::string& name, Color& light) {
     const LightAdjustment* last = nullptr;
     for (std::size_t i = 0; i < adjustments.size(); ++i) {
-      if (!fits_name(adjustments[i].name, name)) continue;
+      if (!fits_light_name(adjustments[i].name, name)) continue;
       used[i] = true;
       last = &adjustments[i];
     }
@@ -22,16 +25,15 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
                                    scene.path, name, last->factor.x(), last->factor.y(), last->factor.z()));
     }
   };
-  const std::string choice = adjustments.empty() ? "" : describe_light_names(scene);
   for (PunctualLight& light : scene.lights) adjust(light.name, light.intensity);
   for (Material& material : scene.materials) {
-    if (material.emits()) adjust(material.name, material.emission);
+    if (!material.emits()) continue;
+    adjust(material.name, material.emission);
+    if (!material.emits()) scene.dark_lights.push_back(material.name);
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) {
-      throw SceneError(
-          fmt::format("{}: there is no light '{}', expected {}", scene.path, adjustments[i].name, choice));
-    }
+    if (!used[i])
+      throw SceneError(fmt::format("{}: {}", scene.path, names.no_such_light(adjustments[i].name)));
   }
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <set>
 #include <vector>
+
+#include "scene/nearest_word.h"
 
 namespace gatelight::scene {
 namespace {
@@ -23,30 +23,30 @@ std::string list_names(const char* what, const std::set<std::string>& names) {
 
 }  // namespace
 
-bool fits_name(const std::string& wanted, const std::string& name) {
+bool fits_light_name(const std::string& wanted, const std::string& name) {
   if (wanted.empty() || wanted.back() != '*') return wanted == name;
   return name.compare(0, wanted.size() - 1, wanted, 0, wanted.size() - 1) == 0;
 }
 
-std::string describe_light_names(const Scene& scene) {
-  std::set<std::string> lights, materials;
+LightNames::LightNames(const Scene& scene) : materials(scene.dark_lights.begin(), scene.dark_lights.end()) {
   for (const PunctualLight& light : scene.lights) lights.insert(light.name);
   for (const Material& material : scene.materials) {
     if (material.emits()) materials.insert(material.name);
   }
-  if (lights.empty() && materials.empty()) return "none: the file has no light and no emissive material";
-  std::vector<std::string> parts;
-  if (!lights.empty()) parts.push_back(list_names("one of its lights", lights));
-  if (!materials.empty()) parts.push_back(list_names("one of its emissive materials", materials));
-  return fmt::format("{}", fmt::join(parts, ", or "));
 }
 
-std::string describe_placed_lights(const Scene& scene) {
-  std::set<std::string> names;
-  for (const PunctualLight& light : scene.lights) {
-    if (light.type != LightType::directional) names.insert(light.name);
+std::string LightNames::no_such_light(const std::string& wanted, const std::string& word) const {
+  std::vector<std::string> parts, all(lights.begin(), lights.end());
+  all.insert(all.end(), materials.begin(), materials.end());
+  if (!lights.empty()) parts.push_back(list_names("one of its lights", lights));
+  if (!materials.empty()) parts.push_back(list_names("one of its emissive materials", materials));
+  if (!word.empty()) {
+    parts.push_back(fmt::format("'{}'", word));
+    all.push_back(word);
   }
-  return names.empty() ? "none: the file has no such light" : list_names("one of", names);
+  if (parts.empty()) parts = {"none: the file has no light and no emissive material"};
+  return fmt::format("there is no light '{}', expected {}{}", wanted, fmt::join(parts, ", or "),
+                     did_you_mean(wanted, all));
 }
 
 }  // namespace gatelight::scene

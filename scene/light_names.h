@@ -1,19 +1,25 @@
 #pragma once
-// Lights that are chosen by name.
+// The lights of a scene by their names.
 
+#include <set>
 #include <string>
 
 #include "scene/scene.h"
 
 namespace gatelight::scene {
 
-/// Whether the name of a punctual light or of an emissive material is the wanted one, or begins so where that
-/// ends with '*'.
-bool fits_name(const std::string& wanted, const std::string& name);
+/// Whether a light's name is the wanted one, whose '*' at its end stands for any further letters.
+bool fits_light_name(const std::string& wanted, const std::string& name);
 
-/// "one of its lights 'a', 'b', or one of its emissive materials 'c'", for messages.
-std::string describe_light_names(const Scene& scene);
-/// "one of 'a', 'b'": point and spot lights.
-std::string describe_placed_lights(const Scene& scene);
+/// The names of punctual lights and of emissive materials.
+struct LightNames {
+  std::set<std::string> lights;
+  std::set<std::string> materials;  ///< with those that adjust_lights() made black
+
+  explicit LightNames(const Scene& scene);
+  /// "there is no light 'lamb', expected one of its lights 'lamp'; did you mean 'lamp'?". `word`: what else
+  /// is a name; empty: nothing.
+  std::string no_such_light(const std::string& wanted, const std::string& word = "") const;
+};
 
 }  // namespace gatelight::scene

@@ -161,6 +161,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
+  std::vector<std::string> dark_lights;  ///< names of emissive materials that adjust_lights() made black
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
   std::vector<std::string> warnings;  ///< one line each, without duplicates

@@ -228,6 +228,7 @@ void complete_settings(RenderSettings& settings) {
   if (settings.render.environment.sky && settings.given.contains("--environment"))
     throw UsageError("--sky and --environment exclude each other, expected one of them");
   check_picture(settings.render);
+  check_light_groups(settings.render);
   refuse_without_effect(settings);
   adapt_cache(settings);
   open_samples(settings);

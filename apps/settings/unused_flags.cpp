@@ -32,7 +32,8 @@ std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
   need({"--tonemap"}, settings.image.display.ocio.config.empty(), "the view of --ocio has its own curve");
   need({"--ocio-display", "--ocio-view"}, !settings.image.display.ocio.config.empty(), "there is no --ocio");
   need({"--bits"}, any({ImageFormat::png, ImageFormat::tiff}), "no output is a .png or .tif");
-  need({"--exr", "--aov", "--cryptomatte"}, any({ImageFormat::exr}), "no output is an .exr");
+  need({"--exr", "--aov", "--cryptomatte", "--light-groups"}, any({ImageFormat::exr}),
+       "no output is an .exr");
   return unused;
 }
 

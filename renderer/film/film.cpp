@@ -73,8 +73,13 @@ struct Importer {
 
 }  // namespace
 
-Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs)
-    : rect_(rect), full_width_(full_width), full_height_(full_height), aovs_(with_what_they_need(aovs)) {
+Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs,
+           std::vector<std::string> light_groups)
+    : rect_(rect),
+      full_width_(full_width),
+      full_height_(full_height),
+      aovs_(with_what_they_need(aovs)),
+      light_groups_(std::move(light_groups)) {
   const std::size_t pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   radiance_.resize(pixels);
   if (has(aovs_, Aov::reconstruction)) {
@@ -82,13 +87,14 @@ Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov>
     for (auto& half : seen_) half.resize(pixels);
   }
   if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
+  parts_.resize(pixels * light_groups_.size());
 }
 
-std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs) {
+std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs, std::size_t light_groups) {
   const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
   const std::size_t sums = has(aovs, Aov::reconstruction) ? 3 : 1;
   return sums * sizeof(Radiance) + (sums > 1 ? 2 * sizeof(std::array<double, 3>) : 0) +
-         (first ? sizeof(First) : 0);
+         (first ? sizeof(First) : 0) + light_groups * sizeof(std::array<double, 3>);
 }
 
 PixelSample Film::take(const Pixel& p) {
@@ -179,6 +185,15 @@ void Film::add(const PixelSample& sample, const FirstHit& first) {
   ++p.asked;
 }
 
+void Film::add_parts(const Pixel& p, std::span<const Color> parts, float scale) {
+  const std::size_t first = at(p) * light_groups_.size();
+  for (std::size_t g = 0; g < parts.size(); ++g) {
+    for (std::size_t i = 0; i < 3; ++i)
+      parts_[first + g][i] +=
+          static_cast<double>(parts[g][static_cast<Eigen::Index>(i)]) * static_cast<double>(scale);
+  }
+}
+
 double Film::mean_of(const Radiance& p, std::size_t channel) {
   return p.count > 0 ? p.sum[channel] / p.count : 0.0;
 }
@@ -258,6 +273,7 @@ FilmState Film::export_state() const {
   }
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);
+  for (const auto& sums_of : parts_) state.parts.insert(state.parts.end(), sums_of.begin(), sums_of.end());
   if (density_) {
     for (const std::vector<float>& half : density_->values())
       state.density.insert(state.density.end(), half.begin(), half.end());
@@ -268,7 +284,7 @@ FilmState Film::export_state() const {
 
 void Film::import_state(const FilmState& state) {
   assert(state.radiance_counts.size() == 2 * (radiance_.size() + 2 * halves_[0].size()) &&
-         state.first_ids.size() == 2 * first_.size());
+         state.first_ids.size() == 2 * first_.size() && state.parts.size() == 3 * parts_.size());
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
   for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {
     for (Radiance& p : *sums) each_of_radiance(p, radiance);
@@ -280,6 +296,7 @@ void Film::import_state(const FilmState& state) {
   }
   Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
   for (First& p : first_) each_of_first(p, first);
+  for (std::size_t i = 0; i < state.parts.size(); ++i) parts_[i / 3][i % 3] = state.parts[i];
   density_.reset();
   if (state.density.empty()) return;
   const auto middle = state.density.begin() + static_cast<std::ptrdiff_t>(radiance_.size());

@@ -28,16 +28,23 @@ struct FilmState {
   // Of a film whose passes follow a density: its values, half after half, and the passes that followed it.
   std::vector<float> density;
   std::vector<std::uint32_t> density_passes;
+  std::vector<double> parts;  ///< of groups of lights
 };
+
+/// The layers of groups of lights begin with it.
+inline constexpr const char* kLightLayer = "light-";
 
 class Film {
  public:
-  Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs);
+  /// `light_groups`: the names of groups of lights, whose parts the film keeps.
+  Film(PixelRect rect, int full_width, int full_height, std::span<const Aov> aovs,
+       std::vector<std::string> light_groups = {});
 
   const PixelRect& rect() const { return rect_; }
   std::size_t pixels() const { return radiance_.size(); }
   /// Whether some requested output variable comes from the primary hit.
   bool needs_first_hits() const { return !first_.empty(); }
+  const std::vector<std::string>& light_groups() const { return light_groups_; }
 
   /// Samples of a pixel so far, those that were dropped among them.
   std::uint32_t taken(const Pixel& p) const { return radiance_[at(p)].taken; }
@@ -60,6 +67,8 @@ class Film {
   /// `seen`: the part of it that the camera sees itself (FirstHit::seen).
   void add(const PixelSample& sample, const Color& radiance, const Color& seen = Color::Zero());
   void add(const PixelSample& sample, const FirstHit& first);
+  /// What each group of lights gives a sample that was added, times `scale`.
+  void add_parts(const Pixel& p, std::span<const Color> parts, float scale);
 
   /// The means so far. A pixel without samples is black. Runs in the caller's arena.
   Picture resolve() const;
@@ -80,7 +89,7 @@ class Film {
   /// The state comes from a film with the same size and output variables.
   void import_state(const FilmState& state);
 
-  static std::size_t bytes_per_pixel(std::span<const Aov> aovs);
+  static std::size_t bytes_per_pixel(std::span<const Aov> aovs, std::size_t light_groups = 0);
 
  private:
   struct Radiance {
@@ -130,6 +139,7 @@ class Film {
   /// The layers of Aov::reconstruction that are no output variables of their own.
   void add_guides(std::vector<Layer>& layers) const;
   void add_halves(std::vector<Layer>& layers, bool of_cache) const;
+  void add_light_groups(std::vector<Layer>& layers) const;
 
   PixelRect rect_;
   int full_width_;
@@ -140,6 +150,8 @@ class Film {
   std::array<std::vector<Radiance>, 2> halves_;
   std::array<std::vector<std::array<double, 3>>, 2> seen_;  ///< sums of that, as long as halves_
   std::vector<First> first_;
+  std::vector<std::string> light_groups_;
+  std::vector<std::array<double, 3>> parts_;  ///< sums of all groups of a pixel, then those of the next
   std::optional<SampleDensity> density_;
   std::uint32_t density_passes_ = 0;  ///< that followed the density
 };

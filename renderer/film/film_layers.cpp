@@ -174,6 +174,27 @@ void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
   }
 }
 
+// A group's share of the pixel's sum, times the mean: the layers add up to the mean also where that is not
+// the sum over the number of samples (uneven halves).
+void Film::add_light_groups(std::vector<Layer>& layers) const {
+  const std::size_t groups = light_groups_.size(), first = layers.size();
+  for (const std::string& name : light_groups_) {
+    layers.push_back({.name = kLightLayer + name, .channels = {"R", "G", "B"}, .full_precision = true});
+    layers.back().values.resize(3 * pixels());
+  }
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, pixels(), 4096), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = 3 * range.begin(); i < 3 * range.end(); ++i) {
+          const std::size_t p = i / 3, channel = i % 3;
+          double all = 0.0;
+          for (std::size_t g = 0; g < groups; ++g) all += parts_[p * groups + g][channel];
+          const double mean_of_all = mean(p, channel);
+          for (std::size_t g = 0; g < groups && all != 0.0; ++g)
+            layers[first + g].values[i] = finite_float(mean_of_all * (parts_[p * groups + g][channel] / all));
+        }
+      });
+}
+
 Picture Film::resolve() const {
   Picture picture{.width = rect_.width(),
                   .height = rect_.height(),
@@ -185,6 +206,7 @@ Picture Film::resolve() const {
   fill(beauty, pixels(), [&](std::size_t p, std::size_t i) { return mean(p, i); });
   picture.layers.push_back(std::move(beauty));
   for (const Aov aov : aovs_) picture.layers.push_back(layer(aov));
+  add_light_groups(picture.layers);
   if (halves_[0].empty()) return picture;
   add_guides(picture.layers);
   add_halves(picture.layers, std::find(aovs_.begin(), aovs_.end(), Aov::cache_radiance) != aovs_.end());

@@ -50,7 +50,8 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
 
 void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
-                 SampleCounts& counts) {
+                 SampleCounts& counts, std::span<const Color> parts) {
+  const std::size_t groups = parts.empty() ? 0 : film.light_groups().size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Color radiance = results[i].radiance;
     Color seen = first_hits.empty() ? Color(Color::Zero()) : first_hits[i].seen;
@@ -62,15 +63,18 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
       if (counts.located.size() > 16 * kNonFiniteKept) keep_first(counts.located);
       continue;
     }
+    float scale = 1.0f;
     if (options.clamp > 0.0f) {
       const float l = scene::luminance(radiance);
       if (l > options.clamp) {
-        radiance *= options.clamp / l;
-        seen *= options.clamp / l;
+        scale = options.clamp / l;
+        radiance *= scale;
+        seen *= scale;
         ++counts.clamped;
       }
     }
     film.add(samples[i], radiance, seen);
+    if (groups > 0) film.add_parts(samples[i].pixel, parts.subspan(i * groups, groups), scale);
   }
 }
 

@@ -46,9 +46,11 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const bool halves = std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end();
   const std::size_t density =
       options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
-  const std::size_t floats = (options.reconstruct ? 72 : halves ? 34 : 13) + density + aovs.size() * 3;
+  const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;
+  const std::size_t kept = options.reconstruct ? 72 : halves ? 34 : 13;
   const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
-  need.film = pixels * (Film::bytes_per_pixel(aovs) + (floats + mattes) * sizeof(float));
+  const std::size_t floats = kept + density + (aovs.size() + groups) * 3 + mattes;
+  need.film = pixels * (Film::bytes_per_pixel(aovs, groups) + floats * sizeof(float));
   return need;
 }
 

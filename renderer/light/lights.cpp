@@ -155,7 +155,7 @@ LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const V
     const float probability = choice.probability * share.size;
     if (!(probability > 0.0f)) return {};
     if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, probability, u);
-    return sample_placed(p, placed_[choice.light - triangles_.size()], probability);
+    return sample_placed(p, choice.light - triangles_.size(), probability);
   }
   const int number = share.part - (local ? 1 : 0);
   if (sky && number == distant) return sample_environment(n, share.size, u);
@@ -169,13 +169,16 @@ LightSample Lights::sample_delta(const Vec3& p, const Vec3& n, float u_select, c
   if (!local || share.part > 0) return sample_distant(n, share.size, share.part - (local ? 1 : 0));
   const LightTree::Choice choice = local_placed_.sample(root, p, n, share.rest);
   const float probability = choice.probability * share.size;
-  return probability > 0.0f ? sample_placed(p, placed_[choice.light], probability) : LightSample{};
+  return probability > 0.0f ? sample_placed(p, choice.light, probability) : LightSample{};
 }
 
 LightSample Lights::sample_distant(const Vec3& n, float choice, int number) const {
   for (const PunctualLight& light : distant_) {
     if (n.dot(light.direction) > 0.0f || number-- > 0) continue;
-    return {-light.direction, scene::kInfinity, light.intensity, choice, true};
+    LightSample sample{-light.direction, scene::kInfinity, light.intensity, choice, true};
+    sample.light = static_cast<std::uint32_t>(triangles_.size() + placed_.size() +
+                                              static_cast<std::size_t>(&light - distant_.data()));
+    return sample;
   }
   return {};
 }
@@ -197,10 +200,12 @@ LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float ch
   sample.radiance = triangles_.radiance(triangle, point.barycentrics);
   sample.offset = triangle.offset;
   sample.cosine = cosine;
+  sample.light = light;
   return sample;
 }
 
-LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, float choice) const {
+LightSample Lights::sample_placed(const Vec3& p, std::size_t number, float choice) const {
+  const PunctualLight& light = placed_[number];
   const Vec3 to_light = light.position - p;
   LightSample sample;
   sample.distance = to_light.norm();
@@ -211,6 +216,7 @@ LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, flo
   sample.radiance = punctual_irradiance(light, sample.wi, sample.distance);
   sample.pdf = choice;
   sample.delta = true;
+  sample.light = static_cast<std::uint32_t>(triangles_.size() + number);
   if (!sample.radiance.isFinite().all()) return {};
   return sample;
 }
@@ -218,6 +224,7 @@ LightSample Lights::sample_placed(const Vec3& p, const PunctualLight& light, flo
 LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& u) const {
   LightSample sample;
   sample.distance = scene::kInfinity;
+  sample.light = static_cast<std::uint32_t>(triangles_.size() + placed_.size() + distant_.size());
   if (environment_.constant() && !n.isZero(0.0f)) {
     const Vec3 local = sample_cosine_hemisphere(u);
     sample.wi = Basis(n).to_world(local);

@@ -26,6 +26,7 @@ struct LightSample {
   // `cosine` is between the ray and the light's normal.
   float offset = 0.0f;
   float cosine = 1.0f;
+  std::uint32_t light = 0;  ///< its number: triangles, placed and directional lights, then the environment
 };
 
 /// Thread-safe after construction; holds references to its arguments.
@@ -86,7 +87,8 @@ class Lights {
 
   float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
   LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const;
-  LightSample sample_placed(const Vec3& p, const scene::PunctualLight& light, float choice) const;
+  /// `number`: of the placed light.
+  LightSample sample_placed(const Vec3& p, std::size_t number, float choice) const;
   /// Samples the directional light with this number among those above the horizon of n.
   LightSample sample_distant(const Vec3& n, float choice, int number) const;
   LightSample sample_environment(const Vec3& n, float choice, const Vec2& u) const;

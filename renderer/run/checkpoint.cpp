@@ -24,7 +24,7 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 7;
+constexpr int kVersion = 8;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
@@ -80,6 +80,7 @@ void each_array(State& film, Visit&& visit) {
   visit("film.first_ids", TensorType::f32, film.first_ids);
   visit("film.density", TensorType::f32, film.density);
   visit("film.density_passes", TensorType::u32, film.density_passes);
+  visit("film.parts", TensorType::f64, film.parts);
 }
 
 const char* phase_name(Phase phase) {
@@ -241,11 +242,14 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
       read_array(file_, name, type, values);
     });
     // A film never holds a value that is not finite; the resumed picture would show it.
-    const auto bad =
-        std::find_if(sums.radiance.begin(), sums.radiance.end(), [](double x) { return !std::isfinite(x); });
-    if (bad != sums.radiance.end())
-      file_.fail(fmt::format("tensor 'film.radiance': element {} is {}, expected a finite number",
-                             bad - sums.radiance.begin(), *bad));
+    const auto require_finite = [&](const char* name, const std::vector<double>& values) {
+      const auto bad = std::find_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); });
+      if (bad != values.end())
+        file_.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number", name,
+                               bad - values.begin(), *bad));
+    };
+    require_finite("film.radiance", sums.radiance);
+    require_finite("film.parts", sums.parts);
     // The same of a density, which decides how many samples are taken.
     const auto wrong = std::find_if(sums.density.begin(), sums.density.end(),
                                     [](float x) { return !(x >= 0.0f && x <= SampleDensity::kMost); });

@@ -16,7 +16,7 @@ namespace {
 void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
   if (std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end()) return;
   std::erase_if(picture.layers, [&](const Layer& layer) {
-    return !layer.name.empty() &&
+    return !layer.name.empty() && !layer.name.starts_with(kLightLayer) &&
            std::none_of(aovs.begin(), aovs.end(), [&](Aov aov) { return word(aov) == layer.name; });
   });
 }

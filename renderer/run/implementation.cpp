@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
+#include "neural/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_report.h"
@@ -126,6 +128,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
   const neural::FlushDenormals flush;  // also on the arena's threads, as the arena is made here
+  check_light_groups(options);
   require_threads(threads);
   const Clock::time_point start = Clock::now();
   // A loaded cache needs no more steps, unless the caller asks for some.
@@ -139,6 +142,7 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
                   AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
     world->background_apart = options.background.apart();
     world->catchers = find_catchers(scene, options.background);
+    world->light_groups = LightGroups(options.light_groups, scene, world->lights);
   });
   look_through(options.camera);
   statistics.build_seconds = seconds_since(start);
@@ -185,7 +189,12 @@ SceneFingerprint Renderer::Implementation::scene_fingerprint() {
 CheckpointIdentity Renderer::Implementation::identity(const SceneFingerprint& fingerprint) const {
   NamedTexts machine = {{"isa", world->accel.isa()}};
   if (uses_cache(options.integrator)) machine.push_back({"kernels", cache_machine(options)});
-  return {deciding_options(options, view, machine), fingerprint, scene.instances.size()};
+  NamedTexts decisive = deciding_options(options, view, machine);
+  // The fingerprint does not know names, which decide here.
+  if (const std::vector<std::uint8_t> members = world->light_groups.members(); !members.empty())
+    decisive.push_back(
+        {"lights-of-groups", neural::hexadecimal(neural::digest_of(std::as_bytes(std::span(members))))});
+  return {decisive, fingerprint, scene.instances.size()};
 }
 
 std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
@@ -221,7 +230,7 @@ Cryptomattes Renderer::Implementation::cryptomattes() {
 }
 
 Film Renderer::Implementation::make_film() const {
-  return {region, options.width, options.height, film_aovs(options)};
+  return {region, options.width, options.height, film_aovs(options), world->light_groups.names()};
 }
 
 RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Film& film, const Pass* pass,

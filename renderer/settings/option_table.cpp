@@ -125,6 +125,19 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
           .read = [&](const std::string& text) { kinds = read_cryptomattes(text); }};
 }
 
+Option light_groups_option(std::vector<LightGroup>& groups) {
+  return {.name = "light-groups",
+          .unit = "none|A=LIGHT,LIGHT;B=...",
+          .help =
+              "Layers of EXR files, light-A and so on, with the part of these lights and emissive "
+              "materials of the file, by name ('*' ends a name that only begins so), or of the "
+              "environment; 'rest' is that of all others; with --integrator path: "
+              "\"key=Sun,Lamp*;sky=environment\"",
+          .value = [&]() -> OptionValue { return groups.empty() ? OptionValue() : text_of(groups); },
+          .read = [&](const std::string& text) { groups = read_light_groups(text); },
+          .if_none = "none"};
+}
+
 void read_environment(EnvironmentOptions& environment, const std::string& text) {
   environment.automatic = text == "auto";
   environment.file.clear();
@@ -292,8 +305,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
          threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
-         clamp, ao_distance, reconstruct, adaptive, aovs, cryptomattes, nan_policy, memory_limit_bytes, isa,
-         camera, environment, background, cache, checkpoint] = options;
+         clamp, ao_distance, reconstruct, adaptive, aovs, cryptomattes, light_groups, nan_policy,
+         memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -326,6 +339,7 @@ std::vector<Option> option_table(RenderOptions& options) {
                      "has more noise; --spp is then the mean over the picture"));
   picture.add(aov_option(aovs));
   picture.add(decides_nothing(cryptomatte_option(cryptomattes)));  // film and checkpoint know nothing of it
+  picture.add(light_groups_option(light_groups));
 
   add_view_options(table, camera, environment, background);
 

@@ -12,6 +12,7 @@
 #include "renderer/settings/cache_options.h"
 #include "renderer/settings/choices.h"
 #include "renderer/settings/environment_options.h"
+#include "renderer/settings/light_group_options.h"
 
 namespace gatelight::renderer {
 
@@ -77,7 +78,8 @@ struct RenderOptions {
   bool reconstruct = false;   ///< fit the samples to their guides (reconstruction/README.md)
   bool adaptive = true;       ///< with reconstruct: more samples where more noise is left
   std::vector<Aov> aovs;
-  std::vector<MatteKind> cryptomattes;  ///< each once, in the order of the enumeration
+  std::vector<MatteKind> cryptomattes;   ///< each once, in the order of the enumeration
+  std::vector<LightGroup> light_groups;  ///< of path alone: each has a layer
   NanPolicy nan_policy = NanPolicy::drop;
   std::size_t memory_limit_bytes = 0;  ///< 0: no limit; building beyond it throws OutOfMemory
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512

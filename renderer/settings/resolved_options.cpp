@@ -1,7 +1,11 @@
 #include "renderer/settings/resolved_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
 
@@ -18,6 +22,14 @@ std::vector<Aov> film_aovs(const RenderOptions& options) {
     aovs.push_back(Aov::cache_radiance);
   if (options.background.apart() && !has(Aov::alpha)) aovs.push_back(Aov::alpha);
   return aovs;
+}
+
+void check_light_groups(const RenderOptions& options) {
+  check_light_groups(options.light_groups);
+  if (!options.light_groups.empty() && options.integrator != Integrator::path)
+    refuse_light_groups(
+        fmt::format("the integrator '{}' does not tell lights apart, expected --integrator path",
+                    word(options.integrator)));
 }
 
 bool training_gives_samples(const RenderOptions& options) {

@@ -14,6 +14,10 @@ float resolve_ao_distance(float option, const scene::Box& bounds);
 /// What the film keeps: the output variables of the options, and those that reconstruction reads.
 std::vector<Aov> film_aovs(const RenderOptions& options);
 
+/// Throws BadOption for groups of lights that are not as they must be, or with an integrator that does not
+/// tell lights apart.
+void check_light_groups(const RenderOptions& options);
+
 /// Whether training paths can be samples of the picture: of radiance, one for each point, each to its end.
 bool training_gives_samples(const RenderOptions& options);
 

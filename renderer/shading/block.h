@@ -39,7 +39,7 @@ struct alignas(64) ShadingBlock {
 
   // The light sample: LightSample, and where it stands.
   Words light_state;  ///< LaneLight
-  Words light;        ///< of LaneLight::triangle: its number
+  Words light;        ///< LightSample::light
   Words light_is_delta;
   Floats light_point[2];
   Floats light_direction[3], light_distance, light_radiance[3], light_pdf, light_offset, light_cosine;

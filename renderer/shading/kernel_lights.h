@@ -320,7 +320,7 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       take(s);
       state =
           select(s.valid, select(s.textured, state_of(LaneLight::profile), state_of(LaneLight::done)), state);
-      light = select(s.valid, chosen - view.triangle_count, light);
+      light = select(s.valid, chosen, light);
       delta |= s.valid;
     }
   }
@@ -337,11 +337,13 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
       distance = select(taken, kInfinite, distance);
       pdf = select(taken, size, pdf);
       state = select(taken, state_of(LaneLight::done), state);
+      light = select(taken, Int(view.triangle_count + view.placed_count + i), light);
       delta |= taken;
     }
   }
   if (any(to_sky)) {
     distance = select(to_sky, kInfinite, distance);
+    light = select(to_sky, Int(view.triangle_count + view.placed_count + view.sun_count), light);
     if (view.sky == LightView::Sky::constant) {
       Float3 d = Frame(r.n).to_world(sample_cosine_hemisphere(u.x, u.y));
       Float density = max(0.0f, dot(d, r.n)) * kInvPi;

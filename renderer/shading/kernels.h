@@ -20,7 +20,8 @@ struct LightView {
   const float* triangles = nullptr;
   std::uint32_t triangle_count = 0;
   const float* placed = nullptr;  ///< point and spot lights; they follow the triangles in the tree
-  const float* suns = nullptr;    ///< direction and irradiance
+  std::uint32_t placed_count = 0;
+  const float* suns = nullptr;  ///< direction and irradiance
   std::uint32_t sun_count = 0;
   Sky sky = Sky::none;
   float sky_radiance[3] = {0.0f, 0.0f, 0.0f};

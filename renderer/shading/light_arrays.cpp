@@ -47,6 +47,7 @@ LightArrays::LightArrays(const Lights& lights)
   }
   view_.triangles = triangles_.data();
   view_.placed = placed_.data();
+  view_.placed_count = static_cast<std::uint32_t>(lights.placed().size());
   view_.suns = suns_.data();
   view_.sun_count = static_cast<std::uint32_t>(lights.distant().size());
   const Environment& sky = lights.environment();

@@ -67,7 +67,7 @@ WideShading::WideShading(const Lights& lights, const LightArrays& arrays, const 
 void WideShading::sample_lights(ShadingBlock& block) const {
   if (wide_lights_) {
     kernels_.sample_lights(block, context_);
-    if (!lights_are_complete_) complete_lights(block);
+    if (!lights_are_complete_) complete_lights(block, lights_.triangles().size());
   } else {
     for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, false);
   }
@@ -91,18 +91,18 @@ void WideShading::delta_light(ShadingBlock& block) const {
   context.lights = delta_lights_;
   if (wide_lights_) {
     kernels_.sample_lights(block, context);
-    if (!lights_are_complete_) complete_lights(block);
+    if (!lights_are_complete_) complete_lights(block, 0);
   } else {
     for (int lane = 0; lane < block.count; ++lane) put_light(block, lane, true);
   }
   kernels_.light(block, context);
 }
 
-void WideShading::complete_lights(ShadingBlock& block) const {
-  for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane);
+void WideShading::complete_lights(ShadingBlock& block, std::size_t first_placed) const {
+  for (int lane = 0; lane < block.count; ++lane) complete_light(block, lane, first_placed);
 }
 
-void WideShading::complete_light(ShadingBlock& block, int lane) const {
+void WideShading::complete_light(ShadingBlock& block, int lane, std::size_t first_placed) const {
   const Vec2 point(block.light_point[0][lane], block.light_point[1][lane]);
   switch (static_cast<LaneLight>(block.light_state[lane])) {
     case LaneLight::none:
@@ -113,8 +113,8 @@ void WideShading::complete_light(ShadingBlock& block, int lane) const {
           lights_.triangles().radiance(lights_.triangles()[block.light[lane]], point));
       break;
     case LaneLight::profile: {
-      const float share =
-          profile_share(lights_.placed()[block.light[lane]], lane_vector(block.light_direction, lane));
+      const float share = profile_share(lights_.placed()[block.light[lane] - first_placed],
+                                        lane_vector(block.light_direction, lane));
       put(block.light_radiance, lane, Color(lane_color(block.light_radiance, lane) * share));
       break;
     }
@@ -147,6 +147,7 @@ void WideShading::put_light(ShadingBlock& block, int lane, bool delta) const {
   block.light_pdf[lane] = s.pdf;
   block.light_offset[lane] = s.offset;
   block.light_cosine[lane] = s.cosine;
+  block.light[lane] = s.light;
 }
 
 }  // namespace gatelight::renderer

@@ -47,8 +47,9 @@ class WideShading {
 
  private:
   void sample_lights(ShadingBlock& block) const;
-  void complete_lights(ShadingBlock& block) const;
-  void complete_light(ShadingBlock& block, int lane) const;
+  /// `first_placed`: the number of the first placed light.
+  void complete_lights(ShadingBlock& block, std::size_t first_placed) const;
+  void complete_light(ShadingBlock& block, int lane, std::size_t first_placed) const;
   void put_light(ShadingBlock& block, int lane, bool delta) const;
 
   const Lights& lights_;

@@ -6,24 +6,29 @@ namespace gatelight::renderer {
 
 /// Adds a light sample unless it is black or roulette ends it.
 template <class MakeRay>
-void PathIntegrator::add_light(const Walker& path, const Color& contribution, MakeRay make_ray,
-                               Scratch& scratch) {
+void PathIntegrator::add_light(const Walker& path, const Color& contribution, std::uint32_t light,
+                               MakeRay make_ray, Scratch& scratch) {
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.faint);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(make_ray());
-  scratch.pending.push_back({contribution * weight, path.index});
+  scratch.pending.push_back({contribution * weight, path.index, light});
 }
 
 PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit,
                                    Color& radiance, FirstHit* first, Scratch& scratch) const {
-  const auto add = [&](const Emission& emission) {
-    if (emission.any()) radiance += path.carried() * emission.radiance * emission.weight;
+  const LightGroups& groups = walk_.world.light_groups;
+  // `group` tells whose light it is.
+  const auto add = [&](const Emission& emission, const auto& group) {
+    if (!emission.any()) return;
+    const Color light = path.carried() * emission.radiance * emission.weight;
+    radiance += light;
+    if (!groups.empty()) scratch.parts[path.index * groups.size() + group()] += light;
   };
   if (!hit || path.looks_through(walk_, hit)) {
     if (first) leave_guide(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
     if (first && path.surfaces == 0) first->seen = sky.radiance;
-    add(sky);
+    add(sky, [&] { return groups.of_environment(); });
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
@@ -32,7 +37,7 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
     first->seen = m.emission.radiance;
   }
   if (first) meet_guide(path, m, *first);
-  add(m.emission);
+  add(m.emission, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
   if (path.shades_wide(m)) {
     path.wait(m, number, options_.min_depth, scratch.blocks[0]);
@@ -44,7 +49,8 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
   const LightAt at = path.light_at(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
   add_light(
-      path, contribution, [&] { return shadow_ray(m.surface, at.light, path.seed); }, scratch);
+      path, contribution, at.light.light, [&] { return shadow_ray(m.surface, at.light, path.seed); },
+      scratch);
   std::optional<Drawn> drawn = path.draw(m, bsdf);
   if (drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn))
     scratch.go_on(number, ray);
@@ -60,7 +66,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     const Color contribution = path.carried() * lane_color(points.direct, lane);
     add_light(
-        path, contribution, [&] { return shadow_ray_at(points, lane); }, scratch);
+        path, contribution, points.light[lane], [&] { return shadow_ray_at(points, lane); }, scratch);
     if (!points.alive[lane]) continue;
     Ray next;
     if (path.advance(block, lane, drawn_at(points, lane), scratch.hits[number].t, next))
@@ -72,6 +78,8 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
                            std::span<FirstHit> first_hits, RayCounts& counts, Scratch& scratch) const {
   scratch.paths.resize(samples.size());
   scratch.rays.resize(samples.size());
+  const LightGroups& groups = walk_.world.light_groups;
+  scratch.parts.assign(groups.size() * samples.size(), Color::Zero());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     scratch.paths[i] = Walker(samples[i], i);
     scratch.rays[i] = samples[i].ray();
@@ -86,7 +94,11 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
       },
       [&](PathBlock& block) { shade(block, first_hits, scratch); },
       [&](const PendingLight& light, const Color& transmittance) {
-        results[light.index].radiance += light.contribution * transmittance;
+        const Color arrived = light.contribution * transmittance;
+        results[light.index].radiance += arrived;
+        if (groups.empty()) return;
+        const std::size_t group = groups.of_light(walk_.world.lights.triangles(), light.light);
+        scratch.parts[light.index * groups.size() + group] += arrived;
       });
 }
 

@@ -31,7 +31,8 @@ class PathIntegrator {
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
       : walk_(world, options.mis), options_(options) {}
 
-  /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`.
+  /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
+  /// world has groups of lights, their parts are in Scratch::parts.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
              std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
@@ -40,7 +41,8 @@ class PathIntegrator {
   PathBlock* scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
                      FirstHit* first, Scratch& scratch) const;
   template <class MakeRay>
-  static void add_light(const Walker& path, const Color& contribution, MakeRay make_ray, Scratch& scratch);
+  static void add_light(const Walker& path, const Color& contribution, std::uint32_t light, MakeRay make_ray,
+                        Scratch& scratch);
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   Walk walk_;
@@ -51,8 +53,13 @@ class PathIntegrator {
 struct PendingLight {
   Color contribution{0.0f, 0.0f, 0.0f};
   std::uint32_t index = 0;
+  std::uint32_t light = 0;  ///< LightSample::light
 };
 
-struct PathIntegrator::Scratch : Waves<Walker, PendingLight> {};
+struct PathIntegrator::Scratch : Waves<Walker, PendingLight> {
+  /// The radiance that each group of lights gives a sample: all groups of the first sample, then those of the
+  /// next. Empty without groups.
+  std::vector<Color> parts;
+};
 
 }  // namespace gatelight::renderer

@@ -34,7 +34,7 @@ void ReferencePass::add_samples(int samples, Film& film, const std::function<voi
             } else {
               ao_.trace(w.samples, w.results, w.first_hits, w.rays, w.ao);
             }
-            add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts);
+            add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts, w.path.parts);
           }
           report(static_cast<double>(++finished) / tiles.count());
         }

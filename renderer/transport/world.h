@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/light/environment.h"
+#include "renderer/light/light_groups.h"
 #include "renderer/light/lights.h"
 #include "renderer/shading/light_arrays.h"
 #include "renderer/shading/wide_shading.h"
@@ -46,6 +47,7 @@ struct World {
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
+  LightGroups light_groups;       ///< empty: nobody asks for the parts of a picture
   bool background_apart = false;  ///< the environment lights, and the camera does not see it
   /// 1 for instances that catch shadows and are not seen themselves; empty without any.
   std::vector<std::uint8_t> catchers;

@@ -1,8 +1,9 @@
-// --lights and --sky through the real program.
+// --lights, --light-groups and --sky through the real program.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "renderer/image/image_read.h"
@@ -91,6 +92,76 @@ TEST_F(LightFlags, InfoNamesWhatTheyCanChange) {
   const json told = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
   EXPECT_EQ(told["lights"][0]["intensity"], (json{1.0, 1.0, 1.0}));
   EXPECT_EQ(told["emissive_materials"][0]["name"], "panel");
+}
+
+/// The middle of a layer.
+float middle_of(const Picture& picture, const std::string& layer) {
+  const renderer::Layer* const found = picture.find(layer);
+  EXPECT_NE(found, nullptr) << layer;
+  return found ? found->values[3 * (8 * 24 + 12)] : 0.0f;
+}
+
+TEST_F(LightFlags, GroupsAreLayersThatAddUpAndAreInTheRecipe) {
+  const std::vector<std::string> flags = {"--light-groups", "key=no*;sky=environment", "--environment",
+                                          "0.25,0.25,0.25"};
+  const Picture picture = render(flags);
+  ASSERT_EQ(picture.layers.size(), 4u);
+  EXPECT_FLOAT_EQ(middle_of(picture, "light-rest"), 0.25f);
+  const auto share = [&](const char* layer) { return middle_of(picture, layer); };
+  EXPECT_GT(share("light-key"), 0.1f);
+  EXPECT_GT(share("light-sky"), 0.01f);
+  EXPECT_NEAR(share("light-key") + share("light-sky") + share("light-rest"), middle(picture), 1e-6f);
+  EXPECT_EQ(json::parse(picture.metadata.at("options"))["light-groups"], "key=no*;sky=environment");
+  const Output command = run_gatelight({"info", (folder / "a.exr").string(), "--command"});
+  EXPECT_THAT(command.out, ::testing::HasSubstr("--light-groups 'key=no*;sky=environment'"));
+  EXPECT_FALSE(json::parse(render({}).metadata.at("options")).contains("light-groups"));
+  // With --lights: what is switched off is black.
+  const Picture dark = render({"--light-groups", "panel=panel;key=noon", "--lights", "panel=off;noon=2"});
+  ASSERT_EQ(dark.layers.size(), 3u);
+  EXPECT_EQ(middle_of(dark, "light-panel"), 0.0f);
+  EXPECT_FLOAT_EQ(middle_of(dark, "light-key"), middle(dark));
+}
+
+TEST_F(LightFlags, GroupsOfReconstructedPicturesAddUpToRawAndAreMerged) {
+  std::vector<std::string> files;
+  for (const char* seed : {"1", "2"}) {
+    files.push_back((folder / (std::string(seed) + ".exr")).string());
+    const Output output = run_gatelight({"render", scene, "-o", files.back(), "--size", "24x16", "--spp",
+                                         seed[0] == '1' ? "4" : "10", "--seed", seed, "--reconstruct", "on",
+                                         "--aov", "raw", "--environment", "0.3,0.2,0.1", "--light-groups",
+                                         "key=noon;panel=panel;sky=environment"});
+    ASSERT_EQ(output.exit_code, 0) << output.err;
+  }
+  files.push_back((folder / "merged.exr").string());
+  const Output merged = run_gatelight({"merge", "-o", files[2], files[0], files[1]});
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  for (const std::string& file : files) {
+    const Picture picture = read_image(file);
+    const std::vector<float>& raw = picture.find("raw")->values;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      double sum = 0.0;
+      for (const char* layer : {"light-key", "light-panel", "light-sky"})
+        sum += static_cast<double>(picture.find(layer)->values[i]);
+      ASSERT_NEAR(sum, static_cast<double>(raw[i]), 1e-6 * static_cast<double>(raw[i])) << file << " " << i;
+    }
+  }
+}
+
+TEST_F(LightFlags, BadGroupsAreOneLine) {
+  const auto refused = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"render", scene, "-o", (folder / "b.exr").string()};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return run_gatelight_inside(arguments);
+  };
+  expect_failure(refused({"--light-groups", "key=noom"}), 1,
+                 {"--light-groups", "key", "'noom'", "'noon'", "'panel'", "did you mean 'noon'"});
+  expect_failure(refused({"--light-groups", "a=*;b=noon"}), 1, {"--light-groups", "'noon'", "'a'", "'b'"});
+  expect_failure(refused({"--light-groups", "a=environment"}), 1, {"--light-groups", "--environment"});
+  expect_failure(refused({"--light-groups", "a b=noon"}), 1, {"--light-groups", "'a b'"});
+  expect_failure(refused({"--light-groups", "key=noon", "--integrator", "nrc"}), 1,
+                 {"--light-groups", "nrc", "--integrator path"});
+  expect_failure(refused({"--light-groups", "key=noon", "--preset", "standard"}), 1,
+                 {"--light-groups", "nrc", "--integrator path"});
 }
 
 TEST_F(LightFlags, ASkyIsTheLightOfASceneWithoutAndInTheRecipe) {

@@ -80,6 +80,9 @@ TEST_P(Killed, AtAnyMomentAndGoneOnWithItHasTheSameBytes) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
                          ::testing::Values(Kill{"path", {"--integrator", "path", "--spp", "64"}},
+                                           Kill{"light_groups",
+                                                {"--integrator", "path", "--spp", "64", "--environment",
+                                                 "0.2,0.2,0.2", "--light-groups", "sky=environment"}},
                                            Kill{"nrc",
                                                 {"--integrator", "nrc", "--spp", "24", "--train-steps", "24",
                                                  "--batch", "2048"}}),

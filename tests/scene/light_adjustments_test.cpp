@@ -33,6 +33,7 @@ TEST(LightAdjustments, ANameIsThatOfALightOrOfAnEmissiveMaterial) {
   EXPECT_TRUE(same(scene.lights[2].intensity, Color(0.5f, 2.0f, 8.0f)));
   EXPECT_TRUE(same(scene.lights[0].intensity, Color(1.0f, 2.0f, 4.0f)));
   EXPECT_FALSE(scene.materials[0].emits());
+  EXPECT_EQ(scene.dark_lights, std::vector<std::string>{"screen"});
   EXPECT_TRUE(same(scene.materials[1].emission, Color(3.0f, 3.0f, 3.0f)));
 }
 
@@ -55,6 +56,7 @@ TEST(LightAdjustments, UnknownNamesAreRefusedWithWhatThereIs) {
   refuse("moon", {"lit.glb", "'moon'", "'lamp left'", "'sun'", "'lamp shade'", "'screen'"});
   refuse("wall", {"lit.glb", "'wall'", "'sun'"});  // it does not emit
   refuse("lamp", {"'lamp'", "'lamp left'"});
+  refuse("lamp rigth", {"'lamp rigth'", "did you mean 'lamp right'"});
   refuse("moon*", {"'moon*'"});
   Scene dark;
   dark.path = "dark.glb";

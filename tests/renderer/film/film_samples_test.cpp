@@ -113,6 +113,28 @@ TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
   EXPECT_EQ(counts.clamped, 1u);
 }
 
+TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
+  Film film({0, 0, 2, 1}, 2, 1, {}, {"a", "rest"});
+  SampleCounts counts;
+  const std::vector<PixelSample> samples = {{{0, 0}, 0}, {{1, 0}, 0}};
+  RenderOptions options;
+  options.clamp = 2.0f;
+  const std::vector<SampleResult> results = {{Color(8, 8, 8)}, {Color(kInfinity, 1, 1)}};
+  const std::vector<Color> parts = {Color(2, 2, 2), Color(6, 6, 6), Color(kInfinity, 1, 1), Color(0, 0, 0)};
+  add_to_film(samples, options, results, {}, film, counts, parts);
+  const std::vector<SampleResult> more = {{Color(1, 1, 0)}, {Color(1, 1, 1)}};
+  const std::vector<Color> their = {Color(1, 1, 0), Color(0, 0, 0), Color(0.25f, 1, 0), Color(0.75f, 0, 1)};
+  add_to_film(samples, options, more, {}, film, counts, their);
+  const Picture picture = film.resolve();
+  ASSERT_EQ(picture.layers.size(), 3u);
+  const std::vector<float> expected = {0.75f, 0.75f, 0.25f, 0.25f, 1.0f, 0.0f};
+  const std::vector<float> expected_rest = {0.75f, 0.75f, 0.75f, 0.75f, 0.0f, 1.0f};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(picture.find("light-a")->values[i], expected[i], 1e-6f) << i;
+    EXPECT_NEAR(picture.find("light-rest")->values[i], expected_rest[i], 1e-6f) << i;
+  }
+}
+
 TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
   const Aov aovs[] = {Aov::depth};
   Film film({0, 0, 1, 1}, 1, 1, aovs);

@@ -49,6 +49,10 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
          o.aovs = {Aov::depth, Aov::variance};
        },
        {"aov", "depth,variance"}},
+      {[](O o, C) {
+         o.light_groups = {{"key", {"lamp*", "sun"}}};
+       },
+       {"light-groups", "none", "key=lamp*,sun"}},
       {[](O, C c) { c.transform(2, 3) = 1.0f; }, {"camera", "1,0,0,0,1,0,0,0,1,0,0,0"}},
       {[](O, C c) { c.vertical_fov = 1.25f; }, {"camera", "1.25"}},
       {[](O, C c) { c.orthographic = true; }, {"camera", "orthographic"}},

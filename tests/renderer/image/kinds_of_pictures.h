@@ -89,6 +89,12 @@ inline const Kind kKinds[] = {
        o.reconstruct = true;
        o.aovs = {Aov::sample_count, Aov::raw, Aov::error};
      }},
+    {"path_light_groups_adaptive", Integrator::path,
+     [](RenderOptions& o) {
+       o.light_groups = {{"lamp", {"*"}}, {"sky", {"environment"}}};
+       o.reconstruct = true;
+       o.aovs = {Aov::raw};
+     }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
     {"nao", Integrator::nao, [](RenderOptions&) {}},
     {"nao_hashgrid", Integrator::nao,

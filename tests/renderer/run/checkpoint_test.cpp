@@ -32,9 +32,9 @@ CheckpointIdentity identity() {
 }
 
 Film blank_film(bool with_first_hits) {
-  const std::vector<Aov> aovs =
-      with_first_hits ? std::vector{Aov::depth, Aov::cache_error, Aov::reconstruction} : std::vector<Aov>{};
-  return {{1, 1, 4, 3}, 8, 8, aovs};
+  if (!with_first_hits) return {{1, 1, 4, 3}, 8, 8, {}};
+  const Aov aovs[] = {Aov::depth, Aov::cache_error, Aov::reconstruction};
+  return {{1, 1, 4, 3}, 8, 8, aovs, {"a", "rest"}};
 }
 
 /// Another sample for each pixel, with some of everything.
@@ -45,6 +45,7 @@ void add_sample(Film& film, std::uint64_t seed) {
     for (int x = 1; x < 4; ++x) {
       film.add(film.take({x, y}), Color(next(), next(), next()));
       if (!film.needs_first_hits()) continue;
+      film.add_parts({x, y}, std::vector{Color(next(), next(), next()), Color(next(), next(), next())}, 1.0f);
       FirstHit hit;
       hit.hit = x != 2;
       hit.asked = y != 2;
@@ -62,7 +63,7 @@ void add_sample(Film& film, std::uint64_t seed) {
 
 bool same(const FilmState& a, const FilmState& b) {
   return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.first == b.first &&
-         a.first_counts == b.first_counts && a.first_ids == b.first_ids;
+         a.first_counts == b.first_counts && a.first_ids == b.first_ids && a.parts == b.parts;
 }
 
 TEST(FilmState, AFilmGoesOnToTheBit) {
@@ -199,6 +200,14 @@ TEST(Checkpoint, SumsThatNoPictureHasAreRefused) {
     RenderStatistics statistics;
     expect_message(refusal<neural::CacheFileError>([&] { checkpoint.restore(film, statistics); }),
                    {"film.radiance", "7"});
+    Film with_groups = blank_film(true);
+    sums = with_groups.export_state();
+    sums.parts[5] = value;
+    with_groups.import_state(sums);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, with_groups, {});
+    Checkpoint of_groups(folder / "a");
+    expect_message(refusal<neural::CacheFileError>([&] { of_groups.restore(with_groups, statistics); }),
+                   {"film.parts", "5"});
   }
 }
 

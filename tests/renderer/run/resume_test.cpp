@@ -169,6 +169,24 @@ TEST(Checkpoints, WhatDecidesBitsMustBeTheSame) {
   EXPECT_THROW(render(s, options), OutputError);
 }
 
+TEST(Checkpoints, GroupsOfLightsMustBeTheSame) {
+  scene::Scene s = room();
+  s.materials[1].name = "lamp";
+  s.lights = {{.name = "bulb", .position = Vec3(0, 2, 1)}, {.name = "bulb", .position = Vec3(1, 2, 1)}};
+  const TemporaryFolder folder;
+  RenderOptions options = picture_of(Integrator::path);
+  options.light_groups = {{"key", {"lamp", "bulb"}}};
+  options.checkpoint.file = folder / "picture";
+  options.checkpoint.resume = true;
+  render(s, options);
+  options.light_groups = {{"key", {"lamp"}}, {"fill", {"bulb"}}};
+  expect_message(refusal<neural::CacheFileError>([&] { render(s, options); }),
+                 {"light-groups", "key=lamp,bulb", "key=lamp;fill=bulb"});
+  options.light_groups = {{"key", {"lamp", "bulb"}}};
+  s.lights[1].name = "other";
+  tests::expect_names(refusal<neural::CacheFileError>([&] { render(s, options); }), {"lights-of-groups"});
+}
+
 TEST(CacheFiles, WhatWasSavedAnswersAndLearnsOnToTheBit) {
   const scene::Scene s = room();
   for (const Integrator integrator : {Integrator::nao, Integrator::nrc}) {

@@ -85,6 +85,7 @@ TEST(ShadingIsa, APictureHasTheSameBitsOnEveryInstructionSet) {
     options.sampler = sampler;
     options.environment.constant = Color(0.2f, 0.3f, 0.5f);
     options.aovs = {Aov::albedo};
+    options.light_groups = {{"lamps", {"*"}}, {"sky", {"environment"}}};
     std::optional<Picture> first;
     for (const neural::simd::Isa isa : neural::simd::available_isas()) {
       const Variable chosen("GATELIGHT_ISA", std::string(neural::simd::isa_name(isa)));

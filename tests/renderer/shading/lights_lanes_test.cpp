@@ -42,7 +42,8 @@ scene::Scene lamps(int count, Random& random) {
 
 struct Agreement {
   int same = 0;
-  int other = 0;  ///< another light, by a random number at the border between two
+  int other = 0;         ///< another light, by a random number at the border between two
+  int other_number = 0;  ///< in the same direction
   double worst = 0.0;
 };
 
@@ -96,6 +97,7 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
         agreement.worst = std::max(agreement.worst, static_cast<double>(difference));
       };
       EXPECT_EQ(result.light_is_delta[lane] != 0, expected.delta);
+      if (!delta && result.light[lane] != expected.light) ++agreement.other_number;
       meet(result.light_distance[lane], expected.distance);
       meet(result.light_pdf[lane], expected.pdf);
       meet(result.light_cosine[lane], expected.cosine);
@@ -111,6 +113,7 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
 void expect_agreement(const Agreement& a, double worst = 5e-3) {
   EXPECT_GT(a.same, 1000);
   EXPECT_LT(a.other, 1e-3 * a.same);
+  EXPECT_LT(a.other_number, 1e-3 * a.same);
   EXPECT_LT(a.worst, worst);
 }
 
@@ -232,6 +235,7 @@ TEST(LightLanes, SelectionByPowerIsTheScalarCode) {
       ASSERT_EQ(block.light_pdf[lane], expected.pdf);
       if (expected.pdf > 0.0f) {
         ASSERT_EQ(lane_vector(block.light_direction, lane), expected.wi);
+        ASSERT_EQ(block.light[lane], expected.light);
       }
     }
   }

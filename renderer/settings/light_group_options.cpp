@@ -1,0 +1,73 @@
+#include "renderer/settings/light_group_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "renderer/machine/errors.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// The texts between separators; as many as there are separators, and one more.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+}
+
+}  // namespace
+
+std::string text_of(const std::vector<LightGroup>& groups) {
+  std::string text;
+  for (const LightGroup& group : groups)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ";", group.name, fmt::join(group.lights, ","));
+  return text;
+}
+
+void refuse_light_groups(const std::string& why) {
+  throw BadOption(fmt::format("--light-groups: {}", why));
+}
+
+void check_light_groups(const std::vector<LightGroup>& groups) {
+  std::set<std::string> names;
+  for (const LightGroup& group : groups) {
+    if (group.name.empty() || !std::all_of(group.name.begin(), group.name.end(), is_letter))
+      refuse_light_groups(fmt::format("'{}' is not a name of letters, digits, '-' and '_'", group.name));
+    if (group.name == kRestGroup)
+      refuse_light_groups(fmt::format(
+          "'{}' is the group of the lights that no group names, expected another name", group.name));
+    if (!names.insert(group.name).second)
+      refuse_light_groups(fmt::format("the group '{}' is there twice, expected it once", group.name));
+    if (group.lights.empty() || std::any_of(group.lights.begin(), group.lights.end(),
+                                            [](const std::string& light) { return light.empty(); }))
+      refuse_light_groups(
+          fmt::format("'{}={}' is not NAME=LIGHT,LIGHT", group.name, fmt::join(group.lights, ",")));
+  }
+  if (groups.size() > kMostLightGroups)
+    refuse_light_groups(fmt::format("{} groups, expected at most {}", groups.size(), kMostLightGroups));
+}
+
+std::vector<LightGroup> read_light_groups(const std::string& text) {
+  if (text == "none") return {};
+  std::vector<LightGroup> groups;
+  for (const std::string& part : split(text, ';')) {
+    const std::size_t equals = part.find('=');  // names of groups have none
+    if (equals == std::string::npos) refuse_light_groups(fmt::format("'{}' is not NAME=LIGHT,LIGHT", part));
+    groups.push_back({part.substr(0, equals), split(part.substr(equals + 1), ',')});
+  }
+  check_light_groups(groups);
+  return groups;
+}
+
+}  // namespace gatelight::renderer
