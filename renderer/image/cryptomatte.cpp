@@ -22,7 +22,7 @@ std::string hexadecimal(std::uint32_t id) {
 }
 
 /// As a string of JSON.
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -41,7 +41,7 @@ std::string manifest(std::span<const std::string> names) {
   std::string text;
   for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
     text += text.empty() ? "{" : ",";
-    text += quoted(name) + ":\"" + hexadecimal(cryptomatte_id(name)) + "\"";
+    text += json_string(name) + ":\"" + hexadecimal(cryptomatte_id(name)) + "\"";
   }
   return text.empty() ? "{}" : text + "}";
 }

@@ -29,6 +29,9 @@
 namespace gatelight::renderer {
 namespace {
 
+/// Points of a pixel in each half that shadows are caught at under a time limit, which must know them before.
+constexpr int kTimedShadowPoints = 32;
+
 PixelRect resolve_region(const RenderOptions& options) {
   if (!options.region) return {0, 0, options.width, options.height};
   const auto& [x0, y0, x1, y1] = *options.region;
@@ -203,13 +206,39 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   return std::make_unique<ReferencePass>(*world, context);
 }
 
+FinishedPicture Renderer::Implementation::finish(const Film& film) {
+  FinishedPicture finished =
+      finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
+  finished.picture.view = camera.matrices(scene.origin);
+  return finished;
+}
+
+void Renderer::Implementation::tell(const FinishedPicture& finished, double seconds) {
+  statistics.reconstruct_seconds = seconds;
+  statistics.estimated_error = finished.estimated_error;
+  statistics.lost_light = finished.lost_light;
+}
+
 CaughtShadows Renderer::Implementation::caught_shadows(const Film& film) const {
-  constexpr int kFewest = 16, kMost = 256;  // points of a pixel in each half
+  constexpr int kFewest = 16, kMost = 256;
   if (world->catchers.empty()) return {};
-  const int samples = std::clamp(static_cast<int>(film.samples_per_pixel()) / 2, kFewest, kMost);
+  const int wanted = std::clamp(static_cast<int>(film.samples_per_pixel()) / 2, kFewest, kMost);
+  const int samples = options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
   return [this, samples](std::size_t half) {
     return catch_shadows(*world, camera, filter, options, region, samples, static_cast<std::uint32_t>(half));
   };
+}
+
+double Renderer::Implementation::expect_shadow_seconds() {
+  constexpr int kPoints = 4, kWidth = 128;
+  if (world->catchers.empty()) return 0.0;
+  const int width = std::min(region.width(), kWidth);
+  PixelRect strip = region;
+  strip.x0 += (region.width() - width) / 2;
+  strip.x1 = strip.x0 + width;
+  const Clock::time_point start = Clock::now();
+  arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints, 0); });
+  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width;
 }
 
 SeenLight Renderer::Implementation::smoother_edges(const Film& film) const {

@@ -59,7 +59,13 @@ struct Renderer::Implementation {
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
   bool return_to_good(Training& training, Film& film, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
-  /// For finished_picture().
+  /// The finished picture of a film, with its view.
+  FinishedPicture finish(const Film& film);
+  /// What a finished picture tells goes into the statistics. `seconds`: of all reconstruction.
+  void tell(const FinishedPicture& finished, double seconds);
+  /// What finish() is expected to take for the catchers of shadows under a time limit.
+  double expect_shadow_seconds();
+  // For finished_picture().
   SeenLight smoother_edges(const Film& film) const;
   CaughtShadows caught_shadows(const Film& film) const;
   /// The layers of options.cryptomattes; the statistics get the time.

@@ -76,7 +76,9 @@ class Renderer::Implementation::PictureRun {
     begin_ = Clock::now();
     mattes_ = renderer_.cryptomattes();
     budget_.limit = options_.time_limit_seconds;
-    if (budget_.limit <= 0.0 || !options_.reconstruct) return;
+    if (budget_.limit <= 0.0) return;
+    budget_.shadows = renderer_.expect_shadow_seconds();
+    if (!options_.reconstruct) return;
     const Clock::time_point start = Clock::now();
     budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
     reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
@@ -170,7 +172,7 @@ class Renderer::Implementation::PictureRun {
     loop.leave_out(seconds);
     if (known) return;
     // The last reconstruction takes as long, which is known better now.
-    budget_.reconstruct = seconds;
+    budget_.reconstruct = options_.background.apart() ? 2.0 * seconds : seconds;  // the alpha too
     limit_passes(loop);
   }
 
@@ -179,13 +181,13 @@ class Renderer::Implementation::PictureRun {
     const Clock::time_point start = Clock::now();
     std::optional<double> error;
     if (options_.reconstruct) {
-      checked_ = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_),
-                                  renderer_.caught_shadows(film_));
+      checked_ = renderer_.finish(film_);
       checked_samples_ = loop.done();
       reconstruct_seconds_ += checked_->reconstruct_seconds;
       error = checked_->estimated_error;
       // Measured with these samples it is better than what was expected.
       budget_.reconstruct = seconds_since(start);
+      budget_.shadows = 0.0;
       limit_passes(loop);
     } else {
       error = error_of_samples(film_, renderer_.arena);
@@ -229,15 +231,11 @@ class Renderer::Implementation::PictureRun {
     if (checked_ && checked_samples_ == samples && !cut_short_) {
       finished = std::move(*checked_);
     } else {
-      finished = finished_picture(film_, options_, renderer_.arena, renderer_.smoother_edges(film_),
-                                  renderer_.caught_shadows(film_));
+      finished = renderer_.finish(film_);
       reconstruct_seconds_ += finished.reconstruct_seconds;
     }
     checked_.reset();
-    renderer_.statistics.reconstruct_seconds = reconstruct_seconds_;
-    renderer_.statistics.estimated_error = finished.estimated_error;
-    renderer_.statistics.lost_light = finished.lost_light;
-    finished.picture.view = renderer_.camera.matrices(renderer_.scene.origin);
+    renderer_.tell(finished, reconstruct_seconds_);
     return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }

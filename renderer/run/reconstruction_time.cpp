@@ -47,9 +47,13 @@ Film film_of_noise(int width, int height, const RenderOptions& options) {
 double expect_reconstruct_seconds(const PixelRect& region, const RenderOptions& options,
                                   tbb::task_arena& arena) {
   const int width = std::min(region.width(), kWidth), height = std::min(region.height(), kMostRows);
-  const Film film = film_of_noise(width, height, options);
+  RenderOptions of_noise = options;
+  // A file would be read, and that does not grow with the picture.
+  if (options.background.kind == BackgroundOptions::Kind::file)
+    of_noise.background.kind = BackgroundOptions::Kind::color;
+  const Film film = film_of_noise(width, height, of_noise);
   const Clock::time_point start = Clock::now();
-  finished_picture(film, options, arena);
+  finished_picture(film, of_noise, arena);
   const double all = static_cast<double>(region.width()) * region.height();
   return seconds_since(start) * all / (static_cast<double>(width) * height);
 }

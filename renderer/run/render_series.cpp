@@ -100,11 +100,8 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    FinishedPicture finished =
-        finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
-    statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
-    statistics.estimated_error = finished.estimated_error;
-    statistics.lost_light = finished.lost_light;
+    FinishedPicture finished = finish(film);
+    tell(finished, reconstruct_seconds + finished.reconstruct_seconds);
     add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
@@ -133,11 +130,8 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    FinishedPicture finished =
-        finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
-    statistics.reconstruct_seconds = reconstruct_seconds + finished.reconstruct_seconds;
-    statistics.estimated_error = finished.estimated_error;
-    statistics.lost_light = finished.lost_light;
+    FinishedPicture finished = finish(film);
+    tell(finished, reconstruct_seconds + finished.reconstruct_seconds);
     add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));

@@ -6,6 +6,8 @@
 #include <array>
 #include <limits>
 
+#include "renderer/machine/errors.h"
+
 // Structured bindings name every member of the structs: a new member does not compile until it is described
 // here.
 

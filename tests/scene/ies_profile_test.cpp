@@ -103,7 +103,7 @@ TEST(IesProfile, BrokenFilesAreRefusedByTheirValue) {
   refuse(web({0, 90}, {0, 45}, {1, 2, 3, 4}), {"0", "45"});
 }
 
-Scene lit_scene() {
+Scene scene_with_lights() {
   Scene scene;
   scene.path = "lit.glb";
   for (const auto& [name, type] : {std::pair("lamp left", LightType::spot),
@@ -117,7 +117,7 @@ TEST(LightProfiles, GoToLightsByNameWhichBecomePointLights) {
   const tests::TemporaryFolder folder;
   const std::string down = folder.write("down.ies", web({0, 90}, {0}, {10, 40}));
   const std::string up = folder.write("up.ies", web({90, 180}, {0}, {10, 70}));
-  Scene scene = lit_scene();
+  Scene scene = scene_with_lights();
   give_profiles(scene, {{"*", down}, {"lamp right", up}});
   ASSERT_TRUE(scene.lights[0].profile && scene.lights[1].profile);
   EXPECT_EQ(scene.lights[0].profile->greatest(), 40.0);
@@ -130,7 +130,7 @@ TEST(LightProfiles, UnknownLightsAndFilesAreRefused) {
   const tests::TemporaryFolder folder;
   const std::string good = folder.write("good.ies", web({0, 90}, {0}, {10, 40}));
   const std::string bad = folder.write("bad.ies", "TILT=NONE 1 2");
-  Scene scene = lit_scene();
+  Scene scene = scene_with_lights();
   const auto refuse = [&](const LightProfile& profile, const tests::NameList& names) {
     expect_refusal<SceneError>([&] { give_profiles(scene, {profile}); }, names);
   };

@@ -7,6 +7,7 @@
 
 #include "neural/simd/isa.h"
 #include "renderer/render.h"
+#include "renderer/settings/words.h"
 #include "tests/support/grouped_lights.h"
 #include "tests/support/light_scenes.h"
 #include "tests/support/messages.h"
