@@ -8,6 +8,7 @@
 #include "apps/reports/scene_report.h"
 #include "apps/settings/common_flags.h"
 #include "apps/settings/complete_settings.h"
+#include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/subcommand.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "apps/settings/complete_settings.h"
 #include "apps/settings/file_names.h"
 #include "apps/terminal/errors.h"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "apps/settings/camera_names.h"
+#include "apps/settings/file_names.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/view_file.h"
 #include "apps/terminal/errors.h"
@@ -199,17 +200,6 @@ void require_file(const std::string& what, const std::string& path) {
 }
 
 }  // namespace
-
-FileNames read_files(const RenderSettings& settings) {
-  FileNames names;
-  names.read("SCENE", settings.scene);
-  names.read("--environment", settings.render.environment.file);
-  names.read("--background", settings.render.background.file);
-  names.read("--view-file", settings.view_file);
-  names.read("--config", settings.config);
-  names.read("--cache-in", settings.render.cache.cache_in);
-  return names;
-}
 
 std::set<std::string> flags_without_effect(RenderSettings settings) {
   std::set<std::string> flags;

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 
-#include "apps/settings/file_names.h"
 #include "apps/settings/render_settings.h"
 
 namespace gatelight::apps {
@@ -16,9 +15,6 @@ std::set<std::string> flags_without_effect(RenderSettings settings);
 /// Checks flags against each other (such as the region against the size) and fills in what follows from them:
 /// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
-
-/// The files that are read, each with its flag. Callers add the files that they write.
-FileNames read_files(const RenderSettings& settings);
 
 /// Checks before the long work that inputs exist and outputs can be written. Throws InputError,
 /// renderer::OutputError or renderer::UnknownFormat.

@@ -40,4 +40,16 @@ void FileNames::write(std::string_view flag, const std::string& name, std::strin
       fmt::format("{}: '{}' is the file of {} too, expected another", flag, name, entry->second));
 }
 
+FileNames read_files(const RenderSettings& settings) {
+  FileNames names;
+  names.read("SCENE", settings.scene);
+  for (const scene::LightProfile& profile : settings.load.profiles) names.read("--ies", profile.file);
+  names.read("--environment", settings.render.environment.file);
+  names.read("--background", settings.render.background.file);
+  names.read("--view-file", settings.view_file);
+  names.read("--config", settings.config);
+  names.read("--cache-in", settings.render.cache.cache_in);
+  return names;
+}
+
 }  // namespace gatelight::apps

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "apps/settings/render_settings.h"
+
 namespace gatelight::apps {
 
 /// Files are compared by their location after following links, not by name. Empty names and "-" are no files.
@@ -18,5 +20,8 @@ class FileNames {
  private:
   std::map<std::filesystem::path, std::string> flags_;
 };
+
+/// The files that are read, each with its flag. Callers add the files that they write.
+FileNames read_files(const RenderSettings& settings);
 
 }  // namespace gatelight::apps

@@ -68,7 +68,7 @@ TEST_F(LightFlags, IesProfilesShapeALightAndAreInTheRecipe) {
   scene = folder.write("lamp.gltf", lit.dump());
   const auto profile = [&](const char* candela) {
     return folder.write(std::string("a") + candela + ".ies",
-                        std::string("TILT=NONE 1 -1 1 3 1 1 2 0 0 0 1 1 1  0 90 180  0 ") + candela);
+                        std::string("TILT=NONE\n1 -1 1 3 1 1 2 0 0 0 1 1 1  0 90 180  0 ") + candela);
   };
   const std::string down = profile("8 8 8"), up = profile("0 0 8"), half = profile("4 8 8");
   const std::string off = "panel=off";

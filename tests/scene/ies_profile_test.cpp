@@ -95,11 +95,11 @@ TEST(IesProfile, BrokenFilesAreRefusedByTheirValue) {
   refuse(with("10 40", "10 -4"), {"-4"});
   refuse(with("10 40", "0 0"), {"0", "light"});
   refuse(with("1 2 0 0 0", "2 2 0 0 0"), {"2", "type C"});
-  refuse(with("0 90 ", "0 190"), {"190", "180"});
-  refuse(with("0 90 ", "90 0"), {"90", "0"});
+  refuse(with("0 90\r", "0 190\r"), {"190", "180"});
+  refuse(with("0 90\r", "90 0\r"), {"90", "0"});
   refuse(with("1 -1 1 2 1", "1 -1 1 2.5 1"), {"2.5"});
   refuse(with("1 -1 1 2 1", "1 -1 1 1e9 1"), {"10000"});
-  refuse(with("1 1 1\r", "0 1 1\r"), {"0"});
+  refuse(with("1 1 1 \r", "0 1 1 \r"), {"0"});
   refuse(web({0, 90}, {0, 45}, {1, 2, 3, 4}), {"0", "45"});
 }
 

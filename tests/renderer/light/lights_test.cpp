@@ -225,7 +225,7 @@ TEST(LightsTest, AProfileTurnsWithItsLight) {
       .intensity = Color(4, 2, 8), .position = Vec3(0, 2, 0), .direction = Vec3(0, 0, 1)};
   light.side = Vec3(0, 1, 0);
   light.profile = std::make_shared<const scene::IesProfile>(
-      "TILT=NONE 1 -1 1 2 2 1 2 0 0 0 1 1 1  0 90  0 90  60 0 60 30");
+      "TILT=NONE\n1 -1 1 2 2 1 2 0 0 0 1 1 1  0 90  0 90  60 0 60 30");
   scene::Scene scene;
   scene.lights.push_back(light);
   const LitScene lit(std::move(scene));

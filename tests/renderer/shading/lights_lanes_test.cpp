@@ -157,7 +157,7 @@ TEST(LightLanes, PointsAndSpotsAndSunsAreSampledAsByTheScalarCode) {
 /// Brightest at 60 degrees, with more light in x than in y, and none above.
 std::shared_ptr<const scene::IesProfile> lopsided_profile() {
   return std::make_shared<const scene::IesProfile>(
-      "TILT=NONE 1 -1 1 3 2 1 2 0 0 0 1 1 1  0 60 90  0 90  10 80 30  10 40 5");
+      "TILT=NONE\n1 -1 1 3 2 1 2 0 0 0 1 1 1  0 60 90  0 90  10 80 30  10 40 5");
 }
 
 TEST(LightLanes, ProfilesAreThoseOfTheScalarCode) {

@@ -90,18 +90,43 @@ double leak(scene::Scene& room, const RenderOptions& inside) {
       *std::max_element(picture.layers[0].values.begin(), picture.layers[0].values.end()));
 }
 
-TEST(TerminatorEnergy, NoLightComesIntoAClosedRoomWithBallsAtItsWalls) {
+TEST(TerminatorEnergy, NoLightComesIntoAClosedRoomWithBallsNearItsWalls) {
   SceneBuilder builder;
   scene::Material clay = SceneBuilder::lambert(Color::Constant(0.8f));
   const int plain = builder.material(clay);
   clay.double_sided = true;
   const int two_sided = builder.material(clay);
   builder.box(plain, Vec3(-2, -1, -2), Vec3(2, 1, 2), true);
-  // On the floor, in a corner, and close to the roof.
-  builder.sphere(plain, Vec3(0, -0.4f, 0), 0.6f, 12, true);
-  builder.sphere(two_sided, Vec3(-1.4f, 0.4f, -1.4f), 0.6f, 12, true);
-  builder.sphere(two_sided, Vec3(1.2f, 0.3f, -0.5f), 0.69f, 24, true);
+  // 6 cm over the floor, from a corner, and below the roof: a tenth of a radius.
+  builder.sphere(plain, Vec3(0, -0.34f, 0), 0.6f, 12, true);
+  builder.sphere(two_sided, Vec3(-1.34f, 0.34f, -1.34f), 0.6f, 12, true);
+  builder.sphere(two_sided, Vec3(1.2f, 0.34f, -0.5f), 0.6f, 24, true);
   EXPECT_EQ(leak(builder.scene(), looking(Vec3(0.2f, 0.1f, 1.9f), 80.0f)), 0.0);
+}
+
+/// Mean radiance of a ball that lies on a floor, in a sky, and the same without the floor.
+TEST(TerminatorEnergy, ABallThatLiesOnAFloorHardlySeesWhatIsBelow) {
+  const auto lit_from_below = [](int segments, bool floor) {
+    SceneBuilder builder;
+    builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 1, 0), 1.0f, segments,
+                   true);
+    if (floor)
+      builder.quad(builder.material(SceneBuilder::lambert(Color::Zero())), Vec3(-50, 0, 50), Vec3(100, 0, 0),
+                   Vec3(0, 0, -100));
+    scene::Scene& s = builder.scene();
+    s.lights.push_back({.type = scene::LightType::directional,
+                        .intensity = Color::Ones(),
+                        .direction = Vec3(0.5f, 0.8f, 0).normalized()});
+    RenderOptions options = looking(Vec3(0, 0.5f, 4), 40.0f);
+    options.camera.look_at->target = Vec3(0, 0.5f, 0);
+    options.max_depth = 1;
+    return pixels(s, options).mean();
+  };
+  for (const int segments : {12, 24, 48}) {
+    const double share = lit_from_below(segments, true) / lit_from_below(segments, false);
+    std::printf("%d segments: %.2e of the light from below the floor\n", segments, share);
+    EXPECT_LT(share, 0.01) << segments;
+  }
 }
 
 TEST(TerminatorEnergy, NoLightComesIntoARoundRoomSeenFromItsInside) {
