@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <utility>
 
 #include "apps/settings/camera_names.h"
 #include "apps/settings/file_names.h"
@@ -40,8 +41,10 @@ void complete_view(RenderSettings& settings) {
   if (settings.render.camera.fov_degrees && settings.render.camera.focal_mm)
     throw UsageError("--fov and --lens exclude each other, expected one of them");
   const LensOptions& lens = settings.render.camera.lens;
-  for (const char* flag : {"--focus", "--blades"}) {
-    if (settings.given.contains(flag) && !(lens.aperture > 0.0f) && !(lens.f_stop > 0.0f))
+  const bool sharp = !(lens.aperture > 0.0f) && !(lens.f_stop > 0.0f);
+  for (const auto& [flag, used] :
+       {std::pair("--focus", !lens.focus.empty()), {"--blades", lens.blades > 0}}) {
+    if (sharp && used && settings.given.contains(flag))
       throw UsageError(
           fmt::format("{}: without an aperture all is sharp, expected --aperture with it", flag));
   }

@@ -47,8 +47,10 @@ LightBounds bounds_of(const PunctualLight& light) {
   LightBounds bounds;
   bounds.centre = light.position;
   bounds.intensity = static_cast<double>(scene::luminance(light.intensity));
+  // The extent of a profile ends with a row of its grid, a quarter of a degree after the last light.
+  constexpr float kBelowHorizon = -0.005f;
   const float cos_extent = light.profile ? std::cos(light.profile->extent()) : light.cos_outer;
-  if (light.type == LightType::spot || (light.profile && cos_extent >= 0.0f)) {
+  if (light.type == LightType::spot || (light.profile && cos_extent > kBelowHorizon)) {
     bounds.axis = light.direction;
     bounds.cos_emission = std::clamp(cos_extent, 0.0f, 1.0f);
   } else {
