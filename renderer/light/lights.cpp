@@ -47,12 +47,16 @@ LightBounds bounds_of(const PunctualLight& light) {
   LightBounds bounds;
   bounds.centre = light.position;
   bounds.intensity = static_cast<double>(scene::luminance(light.intensity));
-  // The extent of a profile ends with a row of its grid, a quarter of a degree after the last light.
-  constexpr float kBelowHorizon = -0.005f;
-  const float cos_extent = light.profile ? std::cos(light.profile->extent()) : light.cos_outer;
-  if (light.type == LightType::spot || (light.profile && cos_extent > kBelowHorizon)) {
+  if (light.profile) {
+    // Nothing beyond the extent, and at least half of the weight up to it.
+    constexpr float kHalf = scene::kPi / 3.0f, kRounding = 0.005f;
+    const float extent = light.profile->extent();
     bounds.axis = light.direction;
-    bounds.cos_emission = std::clamp(cos_extent, 0.0f, 1.0f);
+    bounds.cos_normals = std::cos(std::max(extent - kHalf, 0.0f));
+    bounds.cos_emission = std::cos(std::min(extent, kHalf) + kRounding);
+  } else if (light.type == LightType::spot) {
+    bounds.axis = light.direction;
+    bounds.cos_emission = std::clamp(light.cos_outer, 0.0f, 1.0f);
   } else {
     bounds.cos_normals = -1.0f;
   }
