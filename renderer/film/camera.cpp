@@ -79,7 +79,7 @@ CameraRay Camera::ray(float x, float y) const {
 }
 
 CameraRay Camera::ray(float x, float y, const scene::Vec2& lens) const {
-  if (!(lens_radius_ > 0.0f) || !(focus_distance_ > 0.0f)) return ray(x, y);
+  if (!has_lens()) return ray(x, y);
   const scene::Vec2 p =
       lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : sample_concentric_disk(lens));
   const Vec3 offset = p.x() * unit_right_ + p.y() * unit_up_;

@@ -19,6 +19,7 @@ class Camera {
   /// camera; the vertical field of view stays.
   Camera(const View& view, int width, int height);
 
+  bool has_lens() const { return lens_radius_ > 0.0f && focus_distance_ > 0.0f; }
   /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
   /// lens; that of a pinhole is ignored.
   CameraRay ray(float x, float y, const scene::Vec2& lens) const;
