@@ -28,6 +28,8 @@
 namespace gatelight::renderer {
 namespace {
 
+// The first reconstruction of a run touches much memory for the first time.
+constexpr double kFirstTime = 1.25, kNextTime = 0.85;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -70,17 +72,16 @@ class Renderer::Implementation::PictureRun {
     found_->restore(film_, earlier_);
   }
 
-  /// Starts the time of the picture. What takes as long whatever its samples are comes first, so that a time
-  /// limit counts it.
+  /// What takes as long whatever the picture's samples are comes first, so that a time limit counts it.
   void plan() {
-    begin_ = Clock::now();
     mattes_ = renderer_.cryptomattes();
     budget_.limit = options_.time_limit_seconds;
     if (budget_.limit <= 0.0) return;
     budget_.shadows = renderer_.expect_shadow_seconds();
     if (!options_.reconstruct) return;
     const Clock::time_point start = Clock::now();
-    budget_.reconstruct = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    budget_.reconstruct =
+        kFirstTime * expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
     reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
   }
 
@@ -143,6 +144,7 @@ class Renderer::Implementation::PictureRun {
         return;
       }
       if (loop.done() == options_.spp) return;
+      limit_passes(loop);
       if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
         renderer_.statistics = sum_up(loop, pass);
         Picture picture = finished(loop.done());
@@ -155,13 +157,21 @@ class Renderer::Implementation::PictureRun {
     }
   }
 
-  void limit_passes(SampleLoop& loop) const {
+  void limit_passes(SampleLoop& loop) {
+    if (budget_.limit <= 0.0) return;
+    // Three rays a pixel at most, which a sample's many rays tell the time of.
+    constexpr double kEdgesOfSample = 0.3;
+    budget_.edges = renderer_.smoother_edges(film_) ? kEdgesOfSample * loop.seconds_per_sample() : 0.0;
     // A checkpoint holds whole passes.
-    if (budget_.limit > 0.0) loop.end_at(time_at(budget_.passes_end()), !identity_);
+    loop.end_at(time_at(budget_.passes_end()), !identity_);
   }
 
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
+    // Where no passes would follow in time. A checkpoint must hold what any other run would have.
+    const bool late =
+        budget_.limit > 0.0 && seconds_since(begin_) + budget_.reconstruct > budget_.passes_end();
+    if (late && !identity_) return;
     // A check shows smoother edges; without checks the same samples must follow.
     const bool known = checked_ && checked_samples_ == loop.done() && !renderer_.smoother_edges(film_);
     const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena,
@@ -172,7 +182,7 @@ class Renderer::Implementation::PictureRun {
     loop.leave_out(seconds);
     if (known) return;
     // The last reconstruction takes as long, which is known better now.
-    budget_.reconstruct = options_.background.apart() ? 2.0 * seconds : seconds;  // the alpha too
+    budget_.reconstruct = kNextTime * (options_.background.apart() ? 2.0 * seconds : seconds);  // alpha
     limit_passes(loop);
   }
 
@@ -282,6 +292,7 @@ class Renderer::Implementation::PictureRun {
   Implementation& renderer_;
   const RenderOptions& options_;
   const Callbacks& callbacks_;
+  Clock::time_point begin_ = Clock::now();  ///< of the time that the limit counts
   Film film_;
   SceneFingerprint fingerprint_;
   std::optional<CheckpointIdentity> identity_;  ///< empty: no checkpoints are written
@@ -290,7 +301,6 @@ class Renderer::Implementation::PictureRun {
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;
   std::string device_lost_;
-  Clock::time_point begin_;  ///< of the time that the limit counts
   TimeBudget budget_;
   Cryptomattes mattes_;
   std::optional<FinishedPicture> checked_;  ///< of the last check

@@ -33,6 +33,8 @@ class SampleLoop {
 
   /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
+  /// Of the last pass; 0 before the first.
+  double seconds_per_sample() const { return per_sample_; }
   /// Finished samples of every pixel.
   int done() const { return done_; }
   /// Whether the loop was stopped or the time is over.
