@@ -15,7 +15,7 @@ namespace {
 constexpr float kContrast = 2.0f;
 constexpr double kLeastShare = 0.1;
 /// Samples of the filter at an edge: at most, and at least so many times the picture's.
-constexpr int kMostSamples = 32;
+constexpr int kMostSamples = 256;
 constexpr double kTimesMore = 2.0;
 /// Rays for each pixel of the picture, where there are many edges.
 constexpr std::size_t kMostRays = 3;
