@@ -328,11 +328,14 @@ TEST(SeenLight, EdgesOfBrightLampsAreSmoothInFinishedPictures) {
   options.environment.constant = Color::Zero();
   options.width = 128;
   options.height = 96;
-  options.spp = 4;
-  const double raw = raggedness(builder.scene(), options);
-  options.reconstruct = true;
-  EXPECT_LT(raggedness(builder.scene(), options), 0.6 * raw);
-  EXPECT_GT(raw, 0.1);
+  for (const int spp : {4, 32}) {
+    options.spp = spp;
+    options.reconstruct = false;
+    const double raw = raggedness(builder.scene(), options);
+    options.reconstruct = true;
+    EXPECT_LT(raggedness(builder.scene(), options), 0.6 * raw) << spp;
+    EXPECT_GT(raw, 0.02) << spp;
+  }
 }
 
 TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {
