@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/reports/recipe.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/subcommand.h"
@@ -37,10 +39,8 @@ struct ReconstructSettings {
 
 /// The layers hold nothing of a background that was put behind the picture.
 void expect_no_background(const renderer::Picture& picture, const std::string& name) {
-  const auto recipe = picture.metadata.find("options");
-  if (recipe == picture.metadata.end()) return;
-  const nlohmann::json options = nlohmann::json::parse(recipe->second, nullptr, false);
-  if (options.is_object() && options.contains("background") && options["background"] != "scene")
+  const nlohmann::ordered_json options = recipe_options(picture);
+  if (options.contains("background") && options["background"] != "scene")
     throw InputError(fmt::format(
         "'{}' has the background {}, which its samples do not hold, expected one that was rendered "
         "with --background scene",
@@ -69,7 +69,8 @@ renderer::Picture finish(renderer::Picture picture, const std::string& name) {
       std::move(raw),
       {.name = "error", .channels = {"R", "G", "B"}, .values = std::move(finished.error)},
   };
-  picture.layers.insert(picture.layers.end(), mattes.begin(), mattes.end());
+  picture.layers.insert(picture.layers.end(), std::move_iterator(mattes.begin()),
+                        std::move_iterator(mattes.end()));
   picture.metadata["reconstructed"] = "yes";
   return picture;
 }

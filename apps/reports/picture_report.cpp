@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/reports/recipe.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 
@@ -40,14 +41,6 @@ std::string layer_text(const renderer::Layer& layer) {
   return fmt::format("{} ({})", layer.name.empty() ? "beauty" : layer.name, fmt::join(layer.channels, ","));
 }
 
-/// The options as JSON; discarded where the text is none.
-ordered_json options_of(const Picture& picture) {
-  const auto found = picture.metadata.find(kOptions);
-  if (found == picture.metadata.end()) return ordered_json(ordered_json::value_t::discarded);
-  ordered_json json = ordered_json::parse(found->second, nullptr, false);
-  return json.is_object() ? json : ordered_json(ordered_json::value_t::discarded);
-}
-
 /// "960,540", "sobol", "0.5".
 std::string value_text(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -69,7 +62,7 @@ Rows rows_of(const std::string& file, const Picture& picture) {
   Rows rows = {{"picture", file}, {"size", size_text(picture)}};
   for (std::size_t i = 0; i < picture.layers.size(); ++i)
     rows.emplace_back(i == 0 ? "layers" : "", layer_text(picture.layers[i]));
-  const ordered_json options = options_of(picture);
+  const ordered_json options = recipe_options(picture);
   for (const auto& [key, value] : picture.metadata) {
     if (key != kOptions || options.is_discarded()) rows.emplace_back(key, value);
   }
@@ -92,7 +85,7 @@ ordered_json recipe_json(const Picture& picture) {
         kNumbers.contains(key) ? ordered_json::parse(value, nullptr, false) : ordered_json();
     recipe[key] = number.is_number() ? number : ordered_json(value);
   }
-  const ordered_json options = options_of(picture);
+  const ordered_json options = recipe_options(picture);
   if (!options.is_discarded()) recipe[kOptions] = options;
   return recipe;
 }

@@ -92,4 +92,11 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
   return recipe;
 }
 
+ordered_json recipe_options(const renderer::Picture& picture) {
+  const auto found = picture.metadata.find("options");
+  if (found == picture.metadata.end()) return ordered_json(ordered_json::value_t::discarded);
+  ordered_json json = ordered_json::parse(found->second, nullptr, false);
+  return json.is_object() ? json : ordered_json(ordered_json::value_t::discarded);
+}
+
 }  // namespace gatelight::apps

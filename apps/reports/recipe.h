@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/settings/render_settings.h"
+#include "renderer/image/picture.h"
 #include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
@@ -23,5 +24,8 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
                                                const std::vector<std::string>& command,
                                                const renderer::RenderStatistics& statistics,
                                                double seconds_so_far);
+
+/// Every option of a picture that was read; discarded where it has no recipe.
+nlohmann::ordered_json recipe_options(const renderer::Picture& picture);
 
 }  // namespace gatelight::apps

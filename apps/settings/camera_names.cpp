@@ -51,15 +51,6 @@ std::string single_name(const RenderSettings& settings, const scene::Scene& scen
   return scene.cameras.empty() ? "all-of-it" : file_name(scene, 0);
 }
 
-/// The names of cameras may make a file of another flag, or one file of two pictures.
-void check_file_names(const std::vector<RenderSettings>& pictures) {
-  FileNames names = read_files(pictures.front());
-  for (const RenderSettings& picture : pictures) {
-    for (const std::string& output : picture.outputs) names.write("--output", output);
-    names.write("--stats", picture.stats);
-  }
-}
-
 }  // namespace
 
 void check_camera_names(const RenderSettings& settings) {

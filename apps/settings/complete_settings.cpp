@@ -89,14 +89,6 @@ void check_picture(const RenderOptions& options) {
   }
 }
 
-void check_file_names(const RenderSettings& settings) {
-  FileNames names = read_files(settings);
-  for (const std::string& output : settings.outputs) names.write("--output", output);
-  names.write("--stats", settings.stats);
-  names.write("--cache-out", settings.render.cache.cache_out, "--cache-in");
-  names.write("--checkpoint", settings.render.checkpoint.file);
-}
-
 std::string no_cache(const RenderOptions& o) {
   return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
                      word(o.integrator));
@@ -228,7 +220,7 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render);
   check_checkpoint(settings);
   check_camera_names(settings);
-  check_file_names(settings);
+  check_file_names({&settings, 1});
   if (settings.render.threads == 0) settings.render.threads = available_threads();
 }
 

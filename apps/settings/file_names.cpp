@@ -52,4 +52,14 @@ FileNames read_files(const RenderSettings& settings) {
   return names;
 }
 
+void check_file_names(std::span<const RenderSettings> pictures) {
+  FileNames names = read_files(pictures.front());
+  for (const RenderSettings& picture : pictures) {
+    for (const std::string& output : picture.outputs) names.write("--output", output);
+    names.write("--stats", picture.stats);
+  }
+  names.write("--cache-out", pictures.front().render.cache.cache_out, "--cache-in");
+  names.write("--checkpoint", pictures.front().render.checkpoint.file);
+}
+
 }  // namespace gatelight::apps

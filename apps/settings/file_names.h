@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,8 @@ class FileNames {
 
 /// The files that are read, each with its flag. Callers add the files that they write.
 FileNames read_files(const RenderSettings& settings);
+
+/// Throws UsageError where a picture of a run would write a file that is read, or that is written already.
+void check_file_names(std::span<const RenderSettings> pictures);
 
 }  // namespace gatelight::apps

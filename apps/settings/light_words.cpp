@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "renderer/machine/errors.h"
@@ -12,17 +11,6 @@ namespace gatelight::apps {
 namespace {
 
 constexpr renderer::RealRange kFactor{0.0, 1e30};
-
-/// What `read` makes of each of the parts that semicolons separate.
-auto read_parts(const std::string& text, auto read) {
-  std::vector<decltype(read(text))> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    parts.push_back(read(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 scene::LightAdjustment read_light(const std::string& flag, const std::string& text) {
   // Names may contain '='; values do not.
@@ -45,7 +33,9 @@ scene::LightAdjustment read_light(const std::string& flag, const std::string& te
 }  // namespace
 
 std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text) {
-  return read_parts(text, [&](const std::string& part) { return read_light(flag, part); });
+  std::vector<scene::LightAdjustment> lights;
+  for (const std::string& part : renderer::split(text, ';')) lights.push_back(read_light(flag, part));
+  return lights;
 }
 
 std::string text_of(const std::vector<scene::LightAdjustment>& lights) {
@@ -62,12 +52,14 @@ std::string text_of(const std::vector<scene::LightAdjustment>& lights) {
 }
 
 std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text) {
-  return read_parts(text, [&](const std::string& part) -> scene::LightProfile {
+  std::vector<scene::LightProfile> profiles;
+  for (const std::string& part : renderer::split(text, ';')) {
     const std::size_t equals = part.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
       throw renderer::BadOption(fmt::format("{}: '{}' is not NAME=FILE", flag, part));
-    return {part.substr(0, equals), part.substr(equals + 1)};
-  });
+    profiles.push_back({part.substr(0, equals), part.substr(equals + 1)});
+  }
+  return profiles;
 }
 
 std::string text_of(const std::vector<scene::LightProfile>& profiles) {

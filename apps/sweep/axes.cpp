@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/terminal/errors.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
@@ -16,11 +17,7 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
   if (values_are_lists && separator == ',') {
     values.push_back(text);
   } else {
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find(separator, begin), text.size());
-      values.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
+    values = renderer::split(text, separator);
   }
   std::set<std::string> seen;
   for (const std::string& value : values) {

@@ -149,9 +149,9 @@ void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, Training
       const std::uint32_t jitter = hash(start.sample.seed ^ 0x1b873593u);
       const float x = static_cast<float>(cells[t][i].x) + sampling::to_unit_float(jitter);
       const float y = static_cast<float>(cells[t][i].y) + sampling::to_unit_float(hash(jitter));
-      start.sample.camera_ray = camera_.ray(static_cast<float>(region_.x0) + x * cell_width,
-                                            static_cast<float>(region_.y0) + y * cell_height,
-                                            start.sample.sampler.get_2d(dimension::kLens));
+      start.sample.camera_ray =
+          camera_ray(camera_, static_cast<float>(region_.x0) + x * cell_width,
+                     static_cast<float>(region_.y0) + y * cell_height, start.sample.sampler);
     }
   });
 }

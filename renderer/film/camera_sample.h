@@ -91,4 +91,9 @@ inline constexpr std::uint32_t kLightChoice = 2;
 inline constexpr std::uint32_t kLightPoint = 3;
 }  // namespace dimension
 
+/// The camera's ray through a point of the picture. Without a lens no point of it is drawn.
+inline CameraRay camera_ray(const Camera& camera, float x, float y, const Sampler& sampler) {
+  return camera.has_lens() ? camera.ray(x, y, sampler.get_2d(dimension::kLens)) : camera.ray(x, y);
+}
+
 }  // namespace gatelight::renderer

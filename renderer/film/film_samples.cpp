@@ -19,9 +19,8 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   s.sampler = Sampler(options.sampler, options.seed, x, y, number);
   s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
   const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
-  const float u = static_cast<float>(pixel.x) + 0.5f + offset.x();
-  const float v = static_cast<float>(pixel.y) + 0.5f + offset.y();
-  s.camera_ray = camera.has_lens() ? camera.ray(u, v, s.sampler.get_2d(dimension::kLens)) : camera.ray(u, v);
+  s.camera_ray = camera_ray(camera, static_cast<float>(pixel.x) + 0.5f + offset.x(),
+                            static_cast<float>(pixel.y) + 0.5f + offset.y(), s.sampler);
   return s;
 }
 

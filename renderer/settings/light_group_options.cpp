@@ -7,20 +7,10 @@
 #include <set>
 
 #include "renderer/machine/errors.h"
+#include "renderer/settings/values.h"
 
 namespace gatelight::renderer {
 namespace {
-
-/// The texts between separators; as many as there are separators, and one more.
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';

@@ -19,32 +19,21 @@ constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
 constexpr Choice<std::string_view> kIsa[] = {
     {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
 
-/// In the order of the enumeration.
+/// Values by a list of words, each once, in the order of the enumeration. `all`: a word for all of them.
 template <class Enumeration>
-void keep_each_once(std::vector<Enumeration>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-std::vector<Aov> read_aovs(const std::string& text) {
-  std::vector<Aov> aovs;
-  for (const std::string& word : split_list("--aov", text)) {
-    if (word == "all") {
-      for (const Choice<Aov>& choice : kWords<Aov>) aovs.push_back(choice.value);
+std::vector<Enumeration> read_words(const std::string& flag, const std::string& text,
+                                    std::string_view all = "") {
+  std::vector<Enumeration> values;
+  for (const std::string& word : split_list(flag, text)) {
+    if (word == all) {
+      for (const Choice<Enumeration>& choice : kWords<Enumeration>) values.push_back(choice.value);
     } else {
-      aovs.push_back(parse_choice("--aov", word, kWords<Aov>));
+      values.push_back(parse_choice(flag, word, kWords<Enumeration>));
     }
   }
-  keep_each_once(aovs);
-  return aovs;
-}
-
-std::vector<MatteKind> read_cryptomattes(const std::string& text) {
-  std::vector<MatteKind> kinds;
-  for (const std::string& word : split_list("--cryptomatte", text))
-    kinds.push_back(parse_choice("--cryptomatte", word, kWords<MatteKind>));
-  keep_each_once(kinds);
-  return kinds;
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
 }
 
 template <class Enumeration>
@@ -113,7 +102,7 @@ Option aov_option(std::vector<Aov>& aovs) {
           .unit = "LIST",
           .help = help,
           .value = [&] { return words_of(aovs); },
-          .read = [&](const std::string& text) { aovs = read_aovs(text); }};
+          .read = [&](const std::string& text) { aovs = read_words<Aov>("--aov", text, "all"); }};
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
@@ -124,7 +113,7 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
               "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
               "themselves",
           .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
-          .read = [&](const std::string& text) { kinds = read_cryptomattes(text); }};
+          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("--cryptomatte", text); }};
 }
 
 Option light_groups_option(std::vector<LightGroup>& groups) {

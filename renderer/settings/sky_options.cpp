@@ -49,20 +49,16 @@ std::vector<Part> parts_of(const std::string& flag, const std::string& text) {
 }
 
 /// Whole numbers with a separator between them: "2026-06-21", "14:30".
-std::vector<int> whole_numbers(const std::string& name, std::string text, char separator,
+std::vector<int> whole_numbers(const std::string& name, const std::string& text, char separator,
                                const char* expected) {
   std::vector<int> numbers;
-  const std::string whole = text;
-  while (true) {
-    const std::size_t at = text.find(separator);
-    const std::string digits = text.substr(0, at);
+  for (const std::string& digits : split(text, separator)) {
     const bool good =
         !digits.empty() && digits.size() <= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
-    if (!good) refuse(name, whole, expected);
+    if (!good) refuse(name, text, expected);
     numbers.push_back(std::stoi(digits));
-    if (at == std::string::npos) return numbers;
-    text.erase(0, at + 1);
   }
+  return numbers;
 }
 
 void read_date(const std::string& name, const std::string& text, SunTime& time) {

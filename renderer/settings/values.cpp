@@ -59,20 +59,10 @@ std::string describe(const RealRange& range) {
   return range.infinity ? text + ", or inf" : text;
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t at = text.find(separator);
-    parts.push_back(text.substr(0, at));
-    if (at == std::string_view::npos) return parts;
-    text.remove_prefix(at + 1);
-  }
-}
-
 /// `size` numbers with separators between them, or nothing.
 template <typename Number, std::size_t size>
 std::optional<std::array<Number, size>> read_numbers(std::string_view text, char separator) {
-  const std::vector<std::string_view> parts = split(text, separator);
+  const std::vector<std::string> parts = split(text, separator);
   std::array<Number, size> numbers{};
   if (parts.size() != size) return std::nullopt;
   for (std::size_t i = 0; i < size; ++i) {
@@ -131,11 +121,20 @@ std::array<int, 4> parse_region(const std::string& flag, const std::string& text
   return region;
 }
 
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    parts.emplace_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
 std::vector<std::string> split_list(const std::string& flag, const std::string& text) {
-  std::vector<std::string> words;
-  for (const std::string_view part : split(text, ',')) {
-    if (part.empty()) refuse(flag, text, "a list of words separated by commas");
-    words.emplace_back(part);
+  std::vector<std::string> words = split(text, ',');
+  for (const std::string& word : words) {
+    if (word.empty()) refuse(flag, text, "a list of words separated by commas");
   }
   return words;
 }
@@ -149,9 +148,7 @@ std::string join_names(std::span<const std::string_view> names) {
 }
 
 void refuse_choice(const std::string& flag, const std::string& text, const std::string& names) {
-  std::vector<std::string> words;
-  for (const std::string_view word : split(names, '|')) words.emplace_back(word);
-  refuse(flag, text, "one of " + names + scene::did_you_mean(text, words));
+  refuse(flag, text, "one of " + names + scene::did_you_mean(text, split(names, '|')));
 }
 
 }  // namespace gatelight::renderer

@@ -40,6 +40,8 @@ std::array<int, 2> parse_size(const std::string& flag, const std::string& text);
 /// "x0,y0,x1,y1", with x0 < x1 and y0 < y1.
 std::array<int, 4> parse_region(const std::string& flag, const std::string& text);
 
+/// What stands between the separators: one part more than there are of them.
+std::vector<std::string> split(std::string_view text, char separator);
 /// "a,b,c". Empty words are refused.
 std::vector<std::string> split_list(const std::string& flag, const std::string& text);
 

@@ -98,16 +98,22 @@ TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
   }
 }
 
-TEST(Background, BlendedSheetsAreSampledEvenly) {
+/// A blended sheet of alpha 0.3 over the whole view, before nothing.
+Picture sheet_of(const Color& emission, bool reconstruct) {
   SceneBuilder builder;
-  scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f));
+  scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f), emission);
   sheet.alpha_mode = scene::AlphaMode::blend;
   sheet.base_alpha = 0.3f;
   builder.quad(builder.material(sheet), Vec3(-50, -50, 0), Vec3(100, 0, 0), Vec3(0, 100, 0));
   RenderOptions options = options_for(Integrator::path);
   options.background.kind = Kind::transparent;
   options.spp = 64;
-  const Picture picture = rendered(builder.scene(), options);
+  options.reconstruct = reconstruct;
+  return rendered(builder.scene(), options);
+}
+
+TEST(Background, BlendedSheetsAreSampledEvenly) {
+  const Picture picture = sheet_of(Color::Zero(), false);
   double squares = 0.0;
   int count = 0;
   // In one of the two triangles.
@@ -139,16 +145,7 @@ TEST(Background, AColourShinesThroughByAlpha) {
 }
 
 TEST(Background, WhatGlowsHasTheAlphaOfItsSheetToo) {
-  SceneBuilder builder;
-  scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(4.0f));
-  sheet.alpha_mode = scene::AlphaMode::blend;
-  sheet.base_alpha = 0.3f;
-  builder.quad(builder.material(sheet), Vec3(-50, -50, 0), Vec3(100, 0, 0), Vec3(0, 100, 0));
-  RenderOptions options = options_for(Integrator::path);
-  options.background.kind = Kind::transparent;
-  options.spp = 64;
-  options.reconstruct = true;
-  const Picture picture = rendered(builder.scene(), options);
+  const Picture picture = sheet_of(Color::Constant(4.0f), true);
   double sum = 0.0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) sum += static_cast<double>(pixel(picture, x, y)[3]);
