@@ -15,11 +15,13 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
+#include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/scouting.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/errors.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -34,6 +36,9 @@ constexpr double kMostPaths = 1 << 24;
 /// Records whose paths are traced together. Paths of several batches are more coherent, and threads wait less
 /// often (5 to 10 % faster than single batches of 16384).
 constexpr std::uint64_t kTracedRecords = 1 << 16;
+
+/// Shares of the ranks are looked at after so much work of one of them.
+constexpr double kRebalanceSeconds = 0.5;
 
 void check_options(const RenderOptions& all) {
   const CacheOptions& options = all.cache;
@@ -92,14 +97,15 @@ std::uint64_t ask_cache(const neural::Trainer& trainer, neural::QueryPrecision p
 
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                            const RenderOptions& options, const CacheSetup* setup,
-                           const std::function<void(const neural::Model&)>& expect_model)
-    : options_(options) {
+                           const std::function<void(const neural::Model&)>& expect_model,
+                           const RankTiles* ranks)
+    : options_(options), ranks_(ranks && !ranks->ranks.alone() ? ranks : nullptr) {
   check_options(options);
   Clock::time_point start = Clock::now();
   if (setup) {
     setup_ = *setup;
   } else {
-    ScoutReport report = scout(world, camera, region, options);
+    ScoutReport report = scout(world, camera, region, options, ranks_);
     setup_ = std::move(report.setup);
     scout_rays_ = report.rays;
   }
@@ -168,12 +174,14 @@ std::uint64_t CacheSession::last_group_end(std::uint64_t steps) const {
   return last;
 }
 
-RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count) const {
+RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
+                                    std::uint64_t first_sample) const {
   const std::uint64_t records = options_.cache.batch * count;
   RecordRequest request = records_->request(setup_, step, records);
   request.most_records = records;
   request.batches = count;
-  request.first_sample = samples_;
+  request.first_sample = first_sample;
+  request.ranks = ranks_;
   if (options_.cache.candidates > 1) request.counts = counts_.values();
   return request;
 }
@@ -206,49 +214,116 @@ void CacheSession::settle() {
   statistics_.train_step_seconds += seconds_since(begin);
 }
 
+void CacheSession::look_at_answers(const RecordBatch& group) {
+  const std::size_t some = std::min(TrainingGuard::kLookedAt, group.records.size());
+  guard_.look_at_answers(group.targets, group.records.batch(0, some), *trainer_, steps_);
+}
+
+void CacheSession::trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group) {
+  const Clock::time_point begin = Clock::now();
+  const RayCounts before = records_->rays();
+  group.request = request(step, count, first_sample);
+  records_->trace(group.request, group.records);
+  RayCounts rays = records_->rays();
+  rays.subtract(before);
+  group.work = {seconds_since(begin), rays.camera + rays.bounce + rays.shadow};
+  statistics_.train_trace_seconds += group.work.seconds;
+}
+
+void CacheSession::finish(Group& group) {
+  double answered = 0.0;
+  const AnswerPoints answer_tail = [&](const SurfacePoints& points, std::span<float> answers) {
+    const Clock::time_point begin = Clock::now();
+    ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
+    answered += seconds_since(begin);
+  };
+  const Clock::time_point begin = Clock::now();
+  records_->finish(answer_tail, group.records);
+  const double seconds = seconds_since(begin);
+  statistics_.train_query_seconds += answered;
+  statistics_.train_trace_seconds += seconds - answered;
+  if (!ranks_) return;
+  group.work.seconds += seconds;
+  group.coming = ranks_->ranks.begin_gather(pack_records(group.records, *ranks_, group.work));
+}
+
+void CacheSession::learn_from(Group& group, const Watch& watch) {
+  const Clock::time_point begin = Clock::now();
+  RecordBatch& records = group.records;
+  for (std::size_t b = 0; b < records.starts.blocks(); ++b) {
+    if (records.mine(b)) paths_of_rank_ += records.starts.offsets[b + 1] - records.starts.offsets[b];
+  }
+  if (group.coming) {
+    const std::vector<RankWork> work = unpack_records(group.coming->wait(), *ranks_, records);
+    work_.resize(work.size());
+    for (std::size_t r = 0; r < work.size(); ++r) {
+      work_[r].seconds += work[r].seconds;
+      work_[r].rays += work[r].rays;
+    }
+  }
+  records_->deal(group.request, records);
+  statistics_.training_paths += records.paths_traced;
+  samples_ += group.samples();
+  if (watch.samples && group.samples() > 0) watch.samples(records);
+  statistics_.train_trace_seconds += seconds_since(begin);
+  for (std::uint64_t batch = 0; batch < group.steps(); ++batch) {
+    counts_.add(records, batch, steps_);
+    learn(records, batch);
+  }
+  if (!trainer_->backend().runs_alongside()) look_at_answers(records);
+  const auto longer = [](const RankWork& a, const RankWork& b) { return a.seconds < b.seconds; };
+  const auto longest = std::max_element(work_.begin(), work_.end(), longer);
+  if (!watch.rebalance || longest == work_.end() || longest->seconds < kRebalanceSeconds) return;
+  watch.rebalance(work_);
+  work_.clear();
+}
+
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
-  RecordBatch group;
-  const auto look_at_answers = [&] {
-    const std::size_t some = std::min(TrainingGuard::kLookedAt, group.records.size());
-    guard_.look_at_answers(group.targets, group.records.batch(0, some), *trainer_, steps_);
+  // With ranks a group is traced while the records of the one before travel. Candidates are chosen by what was
+  // learned before.
+  const bool ahead = ranks_ && options_.cache.candidates == 1;
+  const auto give_up = [&] {
+    const double limit = options_.cache.train_seconds;
+    bool over = limit > 0.0 && seconds_since(start) >= limit;
+    if (ranks_) over = agreed(ranks_->ranks, over);
+    return (watch.stop && watch.stop()) || over;
   };
-  const AnswerPoints answer_tail = [this](const SurfacePoints& points, std::span<float> answers) {
-    const Clock::time_point begin = Clock::now();
-    ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
-    statistics_.train_query_seconds += seconds_since(begin);
-  };
-  while (steps_ < steps) {
-    const Clock::time_point begin = Clock::now();
-    const double queried = statistics_.train_query_seconds;
-    const std::uint64_t count = std::min(group_end(steps_), steps) - steps_;
-    const RecordRequest wish = request(steps_, count);
-    records_->trace(wish, group);
-    const double stepped = statistics_.train_step_seconds;
-    settle();  // the steps of the group before, which a device computed meanwhile
-    look_at_answers();
-    const double waited = statistics_.train_step_seconds - stepped;
-    records_->finish(wish, answer_tail, group);
-    statistics_.train_trace_seconds +=
-        seconds_since(begin) - waited - (statistics_.train_query_seconds - queried);
-    statistics_.training_paths += group.paths_traced;
-    samples_ += group.starts.samples.size();
-    if (watch.samples && !group.starts.samples.empty()) watch.samples(group);
-    for (std::uint64_t batch = 0; batch < count; ++batch) {
-      counts_.add(group, batch, steps_);
-      learn(group, batch);
-    }
-    if (!trainer_->backend().runs_alongside()) look_at_answers();
+  Group groups[2];
+  Group *next = &groups[0], *last = ahead ? &groups[1] : next;
+  Group* learning = nullptr;  // traced and finished, but not learned
+  const auto learn_now = [&] {
+    learn_from(*learning, watch);
+    learning = nullptr;
     statistics_.train_seconds = before + seconds_since(start);
     if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
     if (watch.after_group) watch.after_group();
-    const double limit = options_.cache.train_seconds;
-    if ((watch.stop && watch.stop()) || (limit > 0.0 && seconds_since(start) >= limit)) break;
+    return !give_up();
+  };
+  bool goes_on = true;
+  while (goes_on) {
+    const std::uint64_t under_way = learning ? learning->steps() : 0, step = steps_ + under_way;
+    if (step >= steps && !learning) break;
+    Group* group = nullptr;
+    if (step < steps) {
+      group = next;
+      const std::uint64_t count = std::min(group_end(step), steps) - step;
+      trace(step, count, samples_ + (learning ? learning->samples() : 0), *group);
+    }
+    if (learning) goes_on = learn_now();
+    // After a stop what was traced ahead is dropped: it will be traced again.
+    if (!group || !goes_on) continue;
+    settle();  // the steps of the group before, which a device computed meanwhile
+    look_at_answers(last->records);
+    finish(*group);
+    learning = group;
+    std::swap(next, last);
+    if (!ahead) goes_on = learn_now();
   }
   settle();
-  look_at_answers();
+  look_at_answers(last->records);
   statistics_.train_seconds = before + seconds_since(start);
 }
 

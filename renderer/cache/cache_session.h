@@ -18,9 +18,11 @@ class CacheSession {
   /// session. All functions run in the caller's arena. A setup from a file decides the size of the model:
   /// `expect_model` is called before memory is allocated, and throws where the file holds less. Throws
   /// neural::BadConfiguration, Unavailable.
+  /// `ranks`: several that train together; they must outlive it. All call the same functions.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, const CacheSetup* setup = nullptr,
-               const std::function<void(const neural::Model&)>& expect_model = {});
+               const std::function<void(const neural::Model&)>& expect_model = {},
+               const RankTiles* ranks = nullptr);
   ~CacheSession();
 
   /// Callbacks of training, called between groups of steps.
@@ -30,6 +32,8 @@ class CacheSession {
     std::function<void()> after_group;  ///< a state exported here resumes with the same bits
     /// Receives the paths of a group that are samples of the picture too.
     std::function<void(const RecordBatch& group)> samples;
+    /// Receives what each rank has done since the last call, about once a second. Shares may be dealt anew.
+    std::function<void(const std::vector<RankWork>& work)> rebalance;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
@@ -77,16 +81,35 @@ class CacheSession {
   const CacheSetup& setup() const { return setup_; }
   std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
-  /// Rays of scouting and training.
+  /// Rays of scouting and training, of this rank.
   RayCounts rays() const;
+  /// Paths of training that this rank has traced.
+  std::uint64_t paths_of_rank() const { return paths_of_rank_; }
   /// All statistics of the cache except those of rendering.
   const CacheStatistics& statistics() const { return statistics_; }
 
  private:
-  RecordRequest request(std::uint64_t step, std::uint64_t count) const;
+  /// The records of some steps on their way.
+  struct Group {
+    RecordRequest request;
+    RecordBatch records;
+    RankWork work;  ///< of this rank
+    std::unique_ptr<Ranks::Gathering> coming;
+    std::uint64_t steps() const { return request.batches; }
+    std::uint64_t samples() const { return records.starts.samples.size(); }
+  };
+  RecordRequest request(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample) const;
+  void trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
+  void finish(Group& group);
+  /// With the records of all ranks.
+  void learn_from(Group& group, const Watch& watch);
   void learn(const RecordBatch& group, std::uint64_t batch);
+  void look_at_answers(const RecordBatch& group);
 
   const RenderOptions& options_;
+  const RankTiles* ranks_;
+  std::vector<RankWork> work_;  ///< of the ranks, since the last rebalance
+  std::uint64_t paths_of_rank_ = 0;
   CacheSetup setup_;
   std::unique_ptr<neural::Trainer> trainer_;
   PointInputs inputs_;

@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "renderer/cache/record_exchange.h"
 #include "renderer/transport/occlusion.h"
 
 namespace gatelight::renderer {
@@ -19,11 +20,18 @@ OcclusionRecords::OcclusionRecords(const World& world, const TrainingPoints& poi
       inputs_(inputs) {}
 
 void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
-  points_.choose(request.step, request.points, true, request.counts, batch.starts, rays_);
+  RayCounts by_all;  // all ranks trace them, and one counts them
+  const bool counting = !request.ranks || request.ranks->ranks.first();
+  points_.choose(request.step, request.points, false, request.counts, batch.starts,
+                 counting ? rays_ : by_all);
+  if (request.ranks) choose_tracers(batch, *request.ranks);
+  if (batch.starts.hits.empty())
+    points_.trace(batch.starts, [&](std::size_t block) { return batch.mine(block); }, rays_);
   const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
   batch.paths.assign(batch.starts.blocks(), PathBatch(inputs_));
   std::mutex mutex;
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    if (!batch.mine(b)) return;
     SurfacePoints& records = batch.paths[b].records;
     std::vector<float>& targets = batch.paths[b].targets;
     RayCounts counts;
@@ -49,7 +57,6 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
     const std::lock_guard lock(mutex);
     rays_.add(counts);
   });
-  batch.deal(request, inputs_, 1);
 }
 
 }  // namespace gatelight::renderer

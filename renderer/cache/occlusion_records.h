@@ -19,8 +19,10 @@ class OcclusionRecords : public RecordSource {
             .points = points_for(static_cast<double>(records), static_cast<double>(setup.records_per_path))};
   }
   AnswerUnits units(const CacheSetup&) const override { return {.greatest = 1.0f}; }
+  std::size_t outputs() const override { return 1; }
+  const PointInputs& inputs() const override { return inputs_; }
   void trace(const RecordRequest& request, RecordBatch& batch) override;
-  void finish(const RecordRequest&, const AnswerPoints&, RecordBatch&) override {}
+  void finish(const AnswerPoints&, RecordBatch&) override {}
   RayCounts rays() const override { return rays_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "renderer/cache/record_exchange.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -42,8 +43,12 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
 }
 
 void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
-  points_.choose(request.step, request.points, false, request.counts, batch.starts, start_rays_,
+  RayCounts by_all;  // all ranks trace them, and one counts them
+  const bool counting = !request.ranks || request.ranks->ranks.first();
+  points_.choose(request.step, request.points, false, request.counts, batch.starts,
+                 counting ? start_rays_ : by_all,
                  request.samples ? std::optional(request.first_sample) : std::nullopt);
+  if (request.ranks) choose_tracers(batch, *request.ranks);
   const bool samples = !batch.starts.samples.empty();
   batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
   PathPlan plan;
@@ -62,6 +67,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+    if (!batch.mine(b)) return batch.paths[b].begin(0);
     Worker& worker = workers_.local();
     const std::size_t begin = batch.starts.offsets[b];
     const std::size_t size = batch.starts.offsets[b + 1] - begin;
@@ -74,7 +80,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   });
 }
 
-void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) {
+void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   const std::vector<std::size_t> query_offsets =
       offsets_of(batch.paths, [](const PathBatch& p) { return p.queries.size(); });
   batch.queries = SurfacePoints(inputs_);
@@ -114,7 +120,6 @@ void RadianceRecords::finish(const RecordRequest& request, const AnswerPoints& a
     if (times > 1) batch.paths[b].average_first_records(times);
   });
   if (samples) end_samples(answer, batch);
-  batch.deal(request, inputs_, 3);
 }
 
 /// The picture's samples end in the cache where its other samples will.

@@ -17,8 +17,10 @@ class RadianceRecords : public RecordSource {
 
   RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const override;
   AnswerUnits units(const CacheSetup& setup) const override { return {1.0f / setup.target_scale}; }
+  std::size_t outputs() const override { return 3; }
+  const PointInputs& inputs() const override { return inputs_; }
   void trace(const RecordRequest& request, RecordBatch& batch) override;
-  void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) override;
+  void finish(const AnswerPoints& answer, RecordBatch& batch) override;
   RayCounts rays() const override;
 
  private:

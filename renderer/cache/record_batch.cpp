@@ -7,19 +7,21 @@
 
 namespace gatelight::renderer {
 
-void RecordBatch::add_to(Film& film, const RenderOptions& options, SampleCounts& counts) const {
+void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTiles* ranks,
+                         SampleCounts& counts) const {
   tbb::enumerable_thread_specific<SampleCounts> parts;
   tbb::parallel_for(std::size_t{0}, radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
-    const std::size_t begin = starts.offsets[b];
-    const std::size_t size = starts.offsets[b + 1] - begin;
-    std::vector<SampleResult> results(size);
-    for (std::size_t i = 0; i < size; ++i) results[i].radiance = radiance[begin + i];
-    std::span<const FirstHit> hits;
-    if (film.needs_first_hits()) hits = std::span(first_hits).subspan(begin, size);
-    const auto samples = std::span(starts.samples).subspan(begin, size);
-    for ([[maybe_unused]] const PixelSample& sample : samples) {
+    std::vector<PixelSample> samples;
+    std::vector<SampleResult> results;
+    std::vector<FirstHit> hits;
+    for (std::size_t i = starts.offsets[b]; i < starts.offsets[b + 1]; ++i) {
+      const PixelSample& sample = starts.samples[i];
+      if (ranks && !ranks->owns(sample.pixel)) continue;
       [[maybe_unused]] const PixelSample taken = film.take(sample.pixel);
       assert(taken.number == sample.number);
+      samples.push_back(sample);
+      results.push_back({radiance[i]});
+      if (film.needs_first_hits()) hits.push_back(first_hits[i]);
     }
     add_to_film(samples, options, results, hits, film, parts.local());
   });

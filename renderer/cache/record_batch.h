@@ -13,6 +13,7 @@
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 #include "renderer/film/film_samples.h"
+#include "renderer/film/rank_tiles.h"
 
 namespace gatelight::renderer {
 
@@ -58,6 +59,7 @@ struct RecordRequest {
   float target_scale = 1.0f;
   float faint = 0.0f;                     ///< PathPlan::faint
   std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
+  const RankTiles* ranks = nullptr;       ///< that share the work
 };
 
 /// Where each block begins in an array of the points of all blocks; the last entry is their number.
@@ -80,7 +82,9 @@ struct RecordBatch {
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
-  Dealing dealing;  ///< of `records`
+  Dealing dealing;           ///< of `records`
+  std::vector<int> tracers;  ///< of blocks, where several ranks share them; else empty
+  int self = 0;              ///< this rank
 
   neural::TrainingBatch batch(std::uint64_t m) const {
     const std::uint64_t begin = dealing.begin(m);
@@ -88,8 +92,10 @@ struct RecordBatch {
     const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
     return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
   }
-  /// Adds the starts that are the picture's samples to its film.
-  void add_to(Film& film, const RenderOptions& options, SampleCounts& counts) const;
+  /// Whether this rank traces the block.
+  bool mine(std::size_t block) const { return tracers.empty() || tracers[block] == self; }
+  /// Adds the starts that are the picture's samples to its film: all, or those of the rank's own pixels.
+  void add_to(Film& film, const RenderOptions& options, const RankTiles* ranks, SampleCounts& counts) const;
   /// Deals the records of all `paths` to the batches, with `outputs` targets each, times the request's scale.
   void deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
 };
@@ -109,7 +115,8 @@ struct AnswerUnits {
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
 
 /// Makes records in two parts, so that tracing can overlap with the training of the steps before: trace()
-/// does not use the cache, finish() queries it. Gives the same bits for any number of threads.
+/// does not use the cache, finish() queries it. Both work on the rank's own blocks. Then the caller deals the
+/// records. Gives the same bits for any number of threads.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
@@ -117,9 +124,16 @@ class RecordSource {
   virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
   /// The units of answers of a cache that learned these records.
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
+  virtual std::size_t outputs() const = 0;  ///< targets of a record
+  virtual const PointInputs& inputs() const = 0;
   virtual void trace(const RecordRequest& request, RecordBatch& batch) = 0;
-  virtual void finish(const RecordRequest& request, const AnswerPoints& answer, RecordBatch& batch) = 0;
+  virtual void finish(const AnswerPoints& answer, RecordBatch& batch) = 0;
   virtual RayCounts rays() const = 0;
+
+  /// Deals the records of all blocks to the batches.
+  void deal(const RecordRequest& request, RecordBatch& batch) const {
+    batch.deal(request, inputs(), outputs());
+  }
 };
 
 }  // namespace gatelight::renderer

@@ -7,7 +7,9 @@
 
 #include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
+#include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
+#include "renderer/ranks/packing.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -76,7 +78,7 @@ void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
 }  // namespace
 
 ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
-                  const RenderOptions& options) {
+                  const RenderOptions& options, const RankTiles* ranks) {
   ScoutReport report;
   const scene::Scene& scene = world.scene;
   RenderOptions plain = options;
@@ -91,6 +93,7 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
 
   TrainingStarts starts;
   points.choose(kStep, kCameraRays, true, {}, starts, report.rays);
+  if (ranks && !ranks->ranks.first()) report.rays = {};  // all ranks trace them
   for (std::size_t i = 0; i < starts.starts.size(); ++i) {
     const Hit& hit = starts.hits[i];
     if (!hit) continue;
@@ -107,9 +110,14 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
     inputs.positions = true;
     RadianceRecords records(paths, points, plain, inputs);
     RecordBatch batch;
-    const RecordRequest request{.step = kStep - 1, .points = kPaths};
+    const RecordRequest request{.step = kStep - 1, .points = kPaths, .ranks = ranks};
     records.trace(request, batch);
-    records.finish(request, {}, batch);
+    records.finish({}, batch);
+    if (ranks) {
+      Bytes mine = pack_records(batch, *ranks, {});
+      unpack_records(ranks->ranks.gather(std::move(mine)), *ranks, batch);
+    }
+    records.deal(request, batch);
     report.rays.add(records.rays());
 
     double all = 0.0;
@@ -120,6 +128,10 @@ ScoutReport scout(const World& world, const Camera& camera, const PixelRect& reg
         all += n;
         few += std::min(n, options.cache.self_training.vertices);
       }
+    }
+    if (ranks) {  // the numbers are whole, so their sums are exact
+      all = sum_of_all(ranks->ranks, all);
+      few = sum_of_all(ranks->ranks, few);
     }
     for (std::size_t i = 0; i < batch.records.size(); ++i) {
       mark(met, batch.records.surface(i));

@@ -13,8 +13,9 @@ struct ScoutReport {
   RayCounts rays;
 };
 
-/// Gives the same bits for any number of threads. For ambient occlusion only primary hits are used.
+/// Gives the same bits for any number of threads and of ranks, which share the paths. For ambient occlusion only
+/// primary hits are used. The rays are those of this rank.
 ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
-                  const RenderOptions& options);
+                  const RenderOptions& options, const RankTiles* ranks = nullptr);
 
 }  // namespace gatelight::renderer

@@ -57,6 +57,15 @@ void SurfacePoints::copy(const SurfacePoints& from, std::size_t begin, std::size
   });
 }
 
+void SurfacePoints::pack(Packer& packer) const {
+  each_array(inputs_, [&](auto array, auto) { packer.add_all(std::span(this->*array)); });
+}
+
+void SurfacePoints::unpack(Unpacker& unpacker, std::size_t size) {
+  resize(size);
+  each_array(inputs_, [&](auto array, auto) { unpacker.read_all(std::span(this->*array)); });
+}
+
 bool SurfacePoints::same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const {
   constexpr float kNear = 1e-4f;
   const neural::Float2& a = barycentrics_[i];

@@ -6,6 +6,7 @@
 
 #include "neural/base/batch.h"
 #include "neural/model/model.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 
@@ -56,6 +57,11 @@ class SurfacePoints {
   void resize(std::size_t size);
 
   void push_back(const SurfacePoint& point);
+
+  /// All points, for another rank.
+  void pack(Packer& packer) const;
+  /// Replaces all points by so many.
+  void unpack(Unpacker& unpacker, std::size_t size);
 
   /// Copies `count` points of another with the same inputs: from its `begin` to our `at`. Ranges that do not
   /// overlap may be copied at the same time.

@@ -4,6 +4,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "neural/learning/training_counts.h"
@@ -85,7 +86,8 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
   } else {
     from_camera(step, count, result);
     const bool compare = options_.cache.candidates > 1 && !counts.empty();
-    if (need_hits || compare || options_.cache.samples_per_point > 1) trace(result, rays);
+    if (need_hits || compare || options_.cache.samples_per_point > 1)
+      trace(result, [](std::size_t) { return true; }, rays);
   }
   if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
   if (options_.cache.samples_per_point > 1) repeat(step, result);
@@ -190,12 +192,15 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
   });
 }
 
-void TrainingPoints::trace(TrainingStarts& result, RayCounts& rays) const {
-  result.hits.resize(result.starts.size());
-  rays.camera += result.starts.size();
+void TrainingPoints::trace(TrainingStarts& result, const std::function<bool(std::size_t)>& wanted,
+                           RayCounts& rays) const {
+  result.hits.assign(result.starts.size(), {});
+  std::atomic<std::uint64_t> traced_rays = 0;
   tbb::parallel_for(std::size_t{0}, result.blocks(), [&](std::size_t block) {
+    if (!wanted(block)) return;
     const std::size_t begin = result.offsets[block];
     const std::size_t size = result.offsets[block + 1] - begin;
+    traced_rays += size;
     std::vector<Ray> traced(size);
     for (std::size_t i = 0; i < size; ++i) {
       traced[i] = result.starts[begin + i].sample.camera_ray.ray;
@@ -203,6 +208,7 @@ void TrainingPoints::trace(TrainingStarts& result, RayCounts& rays) const {
     }
     world_.accel.intersect(traced, std::span(result.hits).subspan(begin, size), true);
   });
+  rays.camera += traced_rays;
 }
 
 std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direction) const {

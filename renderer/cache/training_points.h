@@ -1,6 +1,7 @@
 #pragma once
 // The points where training paths begin.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +45,10 @@ class TrainingPoints {
               TrainingStarts& result, RayCounts& rays,
               const std::optional<std::uint64_t>& first_sample = {}) const;
 
+  /// Finds the hits of the starts in some blocks.
+  void trace(TrainingStarts& starts, const std::function<bool(std::size_t block)>& wanted,
+             RayCounts& rays) const;
+
   static constexpr std::uint32_t kNoTriangle = ~0u;
   /// Index, among all triangles with storage, of the side of the triangle that a ray hit; or kNoTriangle.
   /// Needs a layout.
@@ -53,7 +58,6 @@ class TrainingPoints {
   void from_picture(std::uint64_t step, std::uint64_t first, std::size_t count, TrainingStarts& result) const;
   void from_camera(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
   void from_surfaces(std::uint64_t step, std::size_t count, TrainingStarts& result) const;
-  void trace(TrainingStarts& result, RayCounts& rays) const;
   void prefer_seldom(std::uint64_t step, std::span<const std::uint32_t> counts, TrainingStarts& result) const;
   void repeat(std::uint64_t step, TrainingStarts& result) const;
   const World& world_;

@@ -234,12 +234,6 @@ double Film::variance_of_mean(const Radiance& p, std::size_t channel) {
   return std::max(0.0, (p.square[channel] - sum * sum / n) / (n * (n - 1.0)));
 }
 
-std::uint64_t Film::samples() const {
-  std::uint64_t sum = 0;
-  for (const Radiance& p : radiance_) sum += p.taken;
-  return sum;
-}
-
 double Film::samples_per_pixel() const {
   double sum = 0.0;
   for (const Radiance& p : radiance_) sum += p.count;
@@ -253,6 +247,56 @@ float Film::faint(const Pixel& p) const {
   const Radiance& r = radiance_[at(p)];
   if (r.count < kFewest) return 0.0f;
   return static_cast<float>(kShare * *std::max_element(r.sum.begin(), r.sum.end()) / r.count);
+}
+
+void Film::pack(std::span<const Pixel> pixels, Packer& packer) const {
+  for (const Pixel& pixel : pixels) {
+    const std::size_t i = at(pixel);
+    packer.add(radiance_[i]);
+    for (const std::size_t h : {0u, 1u}) {
+      if (halves_[h].empty()) continue;
+      packer.add(halves_[h][i]);
+      packer.add(seen_[h][i]);
+    }
+    if (!first_.empty()) packer.add(first_[i]);
+    const std::size_t groups = light_groups_.size();
+    packer.add_all(std::span(parts_).subspan(i * groups, groups));
+  }
+}
+
+void Film::unpack(std::span<const Pixel> pixels, Unpacker& unpacker) {
+  for (const Pixel& pixel : pixels) {
+    const std::size_t i = at(pixel);
+    radiance_[i] = unpacker.read<Radiance>();
+    for (const std::size_t h : {0u, 1u}) {
+      if (halves_[h].empty()) continue;
+      halves_[h][i] = unpacker.read<Radiance>();
+      seen_[h][i] = unpacker.read<std::array<double, 3>>();
+    }
+    if (!first_.empty()) first_[i] = unpacker.read<First>();
+    const std::size_t groups = light_groups_.size();
+    unpacker.read_all(std::span(parts_).subspan(i * groups, groups));
+  }
+}
+
+Film Film::rows(int first, int end) const {
+  PixelRect rect = rect_;
+  rect.y0 = first;
+  rect.y1 = end;
+  Film part(rect, full_width_, full_height_, aovs_, light_groups_);
+  const auto begin = static_cast<std::ptrdiff_t>(rect_.index(rect.x0, rect.y0));
+  const auto copy = [&](const auto& from, auto& to, std::size_t each = 1) {
+    if (!from.empty())
+      std::copy_n(from.begin() + begin * static_cast<std::ptrdiff_t>(each), to.size(), to.begin());
+  };
+  copy(radiance_, part.radiance_);
+  for (const std::size_t h : {0u, 1u}) {
+    copy(halves_[h], part.halves_[h]);
+    copy(seen_[h], part.seen_[h]);
+  }
+  copy(first_, part.first_);
+  copy(parts_, part.parts_, light_groups_.size());
+  return part;
 }
 
 FilmState Film::export_state() const {

@@ -13,6 +13,7 @@
 #include "renderer/film/tiles.h"
 #include "renderer/image/picture.h"
 #include "renderer/image/pixel_rect.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
@@ -48,6 +49,8 @@ class Film {
 
   /// Samples of a pixel so far, those that were dropped among them.
   std::uint32_t taken(const Pixel& p) const { return radiance_[at(p)].taken; }
+  /// Of these, the samples that count.
+  std::uint32_t count(const Pixel& p) const { return radiance_[at(p)].count; }
   /// Counts the pixel's next sample. Where the film keeps halves, it belongs to the one that has less.
   PixelSample take(const Pixel& p);
   /// Counts the next sample of a half. The film must keep halves.
@@ -77,8 +80,6 @@ class Film {
   Layer layer(Aov aov) const;
   /// The mean alpha of a half's samples, of all where the half has none. The film must keep first hits.
   std::vector<float> alpha_of_half(std::size_t half) const;
-  /// Of all pixels, those that were dropped among them.
-  std::uint64_t samples() const;
   /// Mean number of samples of a pixel that count.
   double samples_per_pixel() const;
 
@@ -88,6 +89,15 @@ class Film {
   FilmState export_state() const;
   /// The state comes from a film with the same size and output variables.
   void import_state(const FilmState& state);
+
+  /// The exact sums of some pixels, for a film of the same kind in another process. Neither density nor the
+  /// number of its passes goes with them.
+  void pack(std::span<const Pixel> pixels, Packer& packer) const;
+  /// Replaces those of the same pixels.
+  void unpack(std::span<const Pixel> pixels, Unpacker& unpacker);
+  /// A film of some rows with the same sums; no density.
+  Film rows(int first, int end) const;
+  const std::optional<SampleDensity>& density() const { return density_; }
 
   static std::size_t bytes_per_pixel(std::span<const Aov> aovs, std::size_t light_groups = 0);
 

@@ -36,10 +36,22 @@ TileGrid::TileGrid(const PixelRect& region)
       first_column_(region.x0 / kTile),
       first_row_(region.y0 / kTile),
       columns_((region.x1 + kTile - 1) / kTile - first_column_),
-      rows_((region.y1 + kTile - 1) / kTile - first_row_) {}
+      end_(columns_ * ((region.y1 + kTile - 1) / kTile - first_row_)) {}
 
-void TileGrid::pixels(int tile, std::vector<Pixel>& result) const {
+TileGrid TileGrid::part(int first, int end) const {
+  TileGrid grid = *this;
+  grid.begin_ = begin_ + first;
+  grid.end_ = begin_ + end;
+  return grid;
+}
+
+int TileGrid::tile_at(const Pixel& pixel) const {
+  return (pixel.y / kTile - first_row_) * columns_ + pixel.x / kTile - first_column_ - begin_;
+}
+
+void TileGrid::pixels(int number, std::vector<Pixel>& result) const {
   result.clear();
+  const int tile = begin_ + number;
   const int left = (first_column_ + tile % columns_) * kTile;
   const int top = (first_row_ + tile / columns_) * kTile;
   for (const Pixel& place : kTileOrder) {

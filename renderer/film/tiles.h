@@ -37,7 +37,12 @@ class TileGrid {
  public:
   explicit TileGrid(const PixelRect& region);
 
-  int count() const { return columns_ * rows_; }
+  /// The tiles first <= tile < end of a grid, as a grid of its own.
+  TileGrid part(int first, int end) const;
+
+  int count() const { return end_ - begin_; }
+  /// The tile that holds a pixel of the region.
+  int tile_at(const Pixel& pixel) const;
   /// Sets `result` to the tile's pixels within the region, in Morton order, which keeps packets of 16 rays
   /// square.
   void pixels(int tile, std::vector<Pixel>& result) const;
@@ -47,7 +52,8 @@ class TileGrid {
   int first_column_;
   int first_row_;
   int columns_;
-  int rows_;
+  int begin_ = 0;  ///< of the tiles of the whole region, in rows from the top
+  int end_;
 };
 
 }  // namespace gatelight::renderer

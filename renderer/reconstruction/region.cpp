@@ -30,11 +30,13 @@ constexpr float kOwnWeight = 0.6f;
 constexpr int kErrorSmoothing = 5;
 /// Windows add up in bands of so many rows: first the even bands, then the odd ones.
 constexpr int kBandWindows = 8;
-static_assert(kHalo % (2 * kBandWindows * window::kStride) == 0);
+static_assert(kHalo % window::kStride == 0);
 /// Windows, their patches and variances, and the smoothing of errors.
 constexpr int kFitReach =
     2 * window::kRadius + window::kPatch + 1 + 2 * kErrorSmoothing + kErrorSmoothing / 2;
 static_assert(kHalo >= kFitReach + kOutlierReach);
+/// So far from a row the centres of windows may lie that decide it.
+constexpr int kWindowReach = window::kRadius + 2 * kErrorSmoothing + kErrorSmoothing / 2 + window::kStride;
 static_assert(kBandWindows * window::kStride >= 2 * window::kRadius + 1);
 
 float saturated(double x) {
@@ -48,15 +50,15 @@ void for_each_row(int height, Function function) {
 
 }  // namespace
 
-Region::Region(const SampledPicture& samples, int first, int end, float scale)
+Region::Region(const SampledPicture& samples, int top, int first, int end, float scale)
     : width_(samples.width), height_(end - first), first_(first), scale_(scale) {
-  read(samples);
+  read(samples, top);
   complete_variance();
   fill_gaps();
   lost_ = spread_outliers(halves_[0], halves_[1], divisor_, width_, height_);
 }
 
-void Region::read(const SampledPicture& s) {
+void Region::read(const SampledPicture& s, int top) {
   const auto each = [&](auto&& function) {
     for (Half& half : halves_) {
       for (int c = 0; c < 3; ++c) function(half.color[c]), function(half.variance[c]);
@@ -70,7 +72,7 @@ void Region::read(const SampledPicture& s) {
     for (Plane& plane : cache_) plane.resize(pixels());
     cache_noise_.resize(pixels());
   }
-  const std::size_t offset = static_cast<std::size_t>(first_) * static_cast<std::size_t>(width_);
+  const std::size_t offset = static_cast<std::size_t>(first_ - top) * static_cast<std::size_t>(width_);
   for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
       const std::size_t p = at(x, y);
@@ -204,8 +206,12 @@ Plane Region::cache_variance() const {
   return variance;
 }
 
-void Region::fit(const ReconstructionKernels& kernels) {
+void Region::fit(const ReconstructionKernels& kernels, int from_row, int to_row) {
   const DealtLayout layout(width_, height_);
+  // Windows of the whole picture are counted, so that bands are the same in every region.
+  const int above = first_ / window::kStride;
+  const int from = std::max((from_row - kWindowReach) / window::kStride, above);
+  const int to = std::min((to_row + kWindowReach) / window::kStride + 1, above + layout.rows());
   std::vector<Plane> planes;
   const auto keep = [&](Plane plane) {
     planes.push_back(std::move(plane));
@@ -253,17 +259,16 @@ void Region::fit(const ReconstructionKernels& kernels) {
   for (int h = 0; h < 2; ++h) {
     std::vector<Plane> sums(5, Plane(layout.size(), 0.0f));
     const FitView out{{sums[0].data(), sums[1].data(), sums[2].data()}, sums[3].data(), sums[4].data()};
-    const int bands = (layout.rows() + kBandWindows - 1) / kBandWindows;
+    const int first_pair = from / (2 * kBandWindows), end_pair = (to - 1) / (2 * kBandWindows) + 1;
     for (const int odd : {0, 1}) {
       tbb::parallel_for(
-          tbb::blocked_range<int>(0, (bands + 1 - odd) / 2, 1),
+          tbb::blocked_range<int>(first_pair, end_pair, 1),
           [&](const tbb::blocked_range<int>& range) {
-            for (int i = range.begin(); i < range.end(); ++i) {
-              const int begin = (2 * i + odd) * kBandWindows;
-              const int end = std::min(begin + kBandWindows, layout.rows());
-              for (int r = begin; r < end; ++r) {
-                kernels.fit_row(band, out, window::kMargin + window::kFirst + r * window::kStride, h,
-                                kBandwidth);
+            for (int pair = range.begin(); pair < range.end(); ++pair) {
+              const int begin = (2 * pair + odd) * kBandWindows;
+              for (int r = std::max(begin, from); r < std::min(begin + kBandWindows, to); ++r) {
+                kernels.fit_row(band, out, window::kMargin + window::kFirst + (r - above) * window::kStride,
+                                h, kBandwidth);
               }
             }
           },
@@ -359,16 +364,16 @@ void Region::join() {
   });
 }
 
-Region::Light Region::light_of_row(int y) const {
+std::array<double, 2> Region::light_of_row(int y) const {
   const std::size_t row = static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_);
-  Light light;
+  double kept = 0.0, lost = 0.0;
   for (std::size_t p = row; p < row + static_cast<std::size_t>(width_); ++p) {
-    light.lost += static_cast<double>(lost_[p]);
+    lost += static_cast<double>(lost_[p]);
     for (const Half& half : halves_) {
-      for (int c = 0; c < 3; ++c) light.kept += static_cast<double>(half.color[c][p] * divisor_[c][p]);
+      for (int c = 0; c < 3; ++c) kept += static_cast<double>(half.color[c][p] * divisor_[c][p]);
     }
   }
-  return light;
+  return {kept, lost};
 }
 
 void Region::write_row(int y, Row to) const {

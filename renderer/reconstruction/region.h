@@ -1,23 +1,26 @@
 #pragma once
 // Some rows of a picture on their way from samples to the finished picture.
 
+#include <array>
+
 #include "renderer/reconstruction/outliers.h"
 #include "renderer/reconstruction/sampled_picture.h"
 
 namespace gatelight::renderer {
 
 /// The rows that a finished row depends on, in each direction: outliers, windows, their patches, and the
-/// smoothing of errors. A multiple of the rows that alternate in Region::fit().
+/// smoothing of errors. A multiple of the windows' stride.
 inline constexpr int kHalo = 64;
 
 class Region {
  public:
-  /// The rows first <= y < end of `samples`. `scale` is a usual brightness; the methods' small numbers are
+  /// The rows first <= y < end of a picture, of which `samples` are those from `top` on. `first` is a multiple
+  /// of the windows' stride. `scale` is a usual brightness; the methods' small numbers are
   /// relative to it.
-  Region(const SampledPicture& samples, int first, int end, float scale);
+  Region(const SampledPicture& samples, int top, int first, int end, float scale);
 
-  /// Fits both halves in all windows.
-  void fit(const ReconstructionKernels& kernels);
+  /// Fits both halves in all windows that decide the rows from_row <= y < to_row.
+  void fit(const ReconstructionKernels& kernels, int from_row, int to_row);
   /// Joins the fits with the samples' mean by their estimated errors.
   void join();
   /// Where a row of each goes, 3 floats a pixel, of noise one.
@@ -30,11 +33,7 @@ class Region {
   void write_row(int y, Row to) const;
   /// Sums over a row of the samples, relative to each other: what stays and what is lost with outliers. A row
   /// may get more than it gives.
-  struct Light {
-    double kept = 0.0;
-    double lost = 0.0;
-  };
-  Light light_of_row(int y) const;
+  std::array<double, 2> light_of_row(int y) const;
 
  private:
   struct Half : HalfPlanes {
@@ -42,7 +41,7 @@ class Region {
     Plane influence;  ///< of a pixel's own samples on its fit
   };
 
-  void read(const SampledPicture& samples);
+  void read(const SampledPicture& samples, int top);
   void complete_variance();
   void fill_gaps();
   Plane smooth_variance(const Half& half) const;

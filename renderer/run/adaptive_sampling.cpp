@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "renderer/image/box_filter.h"
-#include "renderer/machine/clock.h"
-#include "renderer/run/finished_picture.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -72,13 +70,8 @@ SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished
   return {rect, std::move(values)};
 }
 
-double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena,
-                     const Reconstruction* known) {
-  if (samples == 0 || next_density(options, samples - 1) != samples || film.new_density()) return 0.0;
-  const Clock::time_point start = Clock::now();
-  arena.execute(
-      [&] { film.follow(make_density(film.rect(), known ? *known : finished_film(film, options))); });
-  return seconds_since(start);
+bool density_due(const Film& film, int samples, const RenderOptions& options) {
+  return samples > 0 && next_density(options, samples - 1) == samples && !film.new_density();
 }
 
 }  // namespace gatelight::renderer

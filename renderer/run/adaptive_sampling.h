@@ -1,8 +1,6 @@
 #pragma once
 // Samples where they are needed: after some passes the finished picture tells where the next ones go.
 
-#include <tbb/task_arena.h>
-
 #include "renderer/film/film.h"
 #include "renderer/film/sample_density.h"
 #include "renderer/reconstruction/reconstruct.h"
@@ -20,9 +18,8 @@ int next_density(const RenderOptions& options, int samples);
 /// depend on what they were (Kirk and Arvo 1991).
 SampleDensity make_density(const PixelRect& rect, const Reconstruction& finished);
 
-/// Before a pass: where `samples` per pixel are one of these numbers, the film follows the density of its
-/// finished picture from now on. `known`: its reconstruction, if it is. Returns the seconds that this took.
-double adapt_density(Film& film, int samples, const RenderOptions& options, tbb::task_arena& arena,
-                     const Reconstruction* known = nullptr);
+/// Whether the film should follow the density of its finished picture from now on: before a pass, where
+/// `samples` per pixel are one of these numbers.
+bool density_due(const Film& film, int samples, const RenderOptions& options);
 
 }  // namespace gatelight::renderer

@@ -28,12 +28,11 @@ constexpr int kHalfSmoothing = 1;
 /// An error counts relative to at least this share of the finished value.
 constexpr float kLeastShare = 0.2f;
 
-bool tells_error(const Film& film) {
-  return film.samples_per_pixel() >= 2.0;
-}
+/// Samples of a pixel that tell an error.
+constexpr double kTellingSamples = 2.0;
 
 std::optional<double> error_of(const Film& film, const Picture& picture) {
-  if (!tells_error(film)) return std::nullopt;
+  if (film.samples_per_pixel() < kTellingSamples) return std::nullopt;
   return estimated_error(picture, picture.layers.front(), film.layer(Aov::error), kSmoothing);
 }
 
@@ -60,26 +59,27 @@ SampledPicture samples_of(const Picture& picture, const RenderOptions& options) 
 }
 
 /// Both halves get the same.
-void improve(SampledPicture& samples, const SeenLight& better) {
+void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& rows, const SeenLight& better) {
   std::vector<float>&a = samples.halves[0].seen, &b = samples.halves[1].seen;
   if (a.empty()) return;
   std::vector<float> seen(a.size());
   for (std::size_t i = 0; i < seen.size(); ++i)
     seen[i] = samples.counts[i / 3] < 2.0f ? a[i] : 0.5f * (a[i] + b[i]);
   const std::vector<float> before = seen;
-  better(seen);
+  better(rect, rows, seen);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i] != before[i]) a[i] = b[i] = seen[i];
   }
 }
 
-/// A value for each pixel. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
+/// A value for each pixel of the rows. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
 /// finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
-std::vector<float> finished_alpha(const Film& film, SampledPicture* samples, const CaughtShadows& shadows) {
+std::vector<float> finished_alpha(const Film& film, const SharedRows& rows, SampledPicture* samples,
+                                  const CaughtShadows& shadows) {
   if (!samples) {
     std::vector<float> alpha = film.layer(Aov::alpha).values;
     for (std::size_t h = 0; shadows && h < 2; ++h) {
-      const std::vector<float> caught = shadows(h);
+      const std::vector<float> caught = shadows(film.rect(), h);
       for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += 0.5f * caught[p];
     }
     return alpha;
@@ -88,7 +88,7 @@ std::vector<float> finished_alpha(const Film& film, SampledPicture* samples, con
     SampledPicture::Half& half = samples->halves[h];
     std::vector<float> alpha = film.alpha_of_half(h);
     if (shadows) {
-      const std::vector<float> caught = shadows(h);
+      const std::vector<float> caught = shadows(film.rect(), h);
       for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += caught[p];
     }
     for (std::size_t i = 0; i < half.color.size(); ++i) {
@@ -101,46 +101,76 @@ std::vector<float> finished_alpha(const Film& film, SampledPicture* samples, con
     half.seen.clear();
   }
   std::fill(samples->albedo.begin(), samples->albedo.end(), 1.0f);
-  const std::vector<float> color = reconstruct(*samples).color;
+  const std::vector<float> color = reconstruct_rows(*samples, rows).color;
   std::vector<float> result(color.size() / 3);
   for (std::size_t p = 0; p < result.size(); ++p) result[p] = color[3 * p];
   return result;
 }
 
+/// Leaves the rows of the picture that are finished.
+void crop(Picture& picture, const SharedRows& rows) {
+  const auto width = static_cast<std::ptrdiff_t>(picture.width);
+  const std::ptrdiff_t above = (rows.first - rows.top) * width, pixels = (rows.end - rows.first) * width;
+  for (Layer& layer : picture.layers) {
+    const auto channels = static_cast<std::ptrdiff_t>(layer.channels.size());
+    const auto begin = layer.values.begin() + above * channels;
+    layer.values = std::vector<float>(begin, begin + pixels * channels);
+  }
+  picture.y0 += rows.first - rows.top;
+  picture.height = rows.end - rows.first;
+}
+
 }  // namespace
 
-Reconstruction finished_film(const Film& film, const RenderOptions& options) {
-  return reconstruct(samples_of(film.resolve(), options));
+Reconstruction finished_film(const Film& film, const SharedRows& rows, const RenderOptions& options) {
+  return reconstruct_rows(samples_of(film.resolve(), options), rows);
+}
+
+FinishedPicture finished_rows(const Film& film, const SharedRows& rows, const RenderOptions& options,
+                              tbb::task_arena& arena, const SeenLight& better, const CaughtShadows& shadows) {
+  FinishedPicture result;
+  Picture& picture = result.picture;
+  arena.execute([&] {
+    picture = film.resolve();
+    SampledPicture samples = samples_of(picture, options);
+    if (better) improve(samples, film.rect(), rows, better);
+    drop_unwanted(picture, options.aovs);
+    crop(picture, rows);
+    Reconstruction& finished = result.reconstruction = reconstruct_rows(samples, rows);
+    picture.layers.front().values = std::move(finished.color);
+    for (Layer& layer : picture.layers) {
+      if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
+    }
+    if (options.background.apart()) result.alpha = finished_alpha(film, rows, &samples, shadows);
+  });
+  return result;
+}
+
+void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOptions& options) {
+  whole.lost_light = lost_light(whole.reconstruction.kept_and_lost);
+  if (samples_per_pixel >= kTellingSamples)
+    whole.estimated_error = error_of(whole.picture, whole.reconstruction);
+  if (options.background.apart()) put_before(whole.picture, whole.alpha, options.background);
 }
 
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
                                  const SeenLight& better, const CaughtShadows& shadows) {
-  FinishedPicture result;
-  Picture& picture = result.picture;
   const Clock::time_point start = Clock::now();
+  const SharedRows all = SharedRows::all(film.rect().height());
+  FinishedPicture result;
+  if (options.reconstruct) {
+    result = finished_rows(film, all, options, arena, better, shadows);
+    arena.execute([&] { complete(result, film.samples_per_pixel(), options); });
+    result.reconstruct_seconds = seconds_since(start);
+    return result;
+  }
   arena.execute([&] {
-    picture = film.resolve();
-    if (!options.reconstruct) {
-      result.estimated_error = error_of(film, picture);
-      drop_unwanted(picture, options.aovs);
-      if (options.background.apart())
-        put_before(picture, finished_alpha(film, nullptr, shadows), options.background);
-      return;
-    }
-    SampledPicture samples = samples_of(picture, options);
-    if (better) improve(samples, better);
-    drop_unwanted(picture, options.aovs);
-    Reconstruction& finished = result.reconstruction = reconstruct(samples);
-    result.lost_light = finished.lost_light;
-    picture.layers.front().values = std::move(finished.color);
-    if (tells_error(film)) result.estimated_error = error_of(picture, finished);
-    for (Layer& layer : picture.layers) {
-      if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
-    }
+    result.picture = film.resolve();
+    result.estimated_error = error_of(film, result.picture);
+    drop_unwanted(result.picture, options.aovs);
     if (options.background.apart())
-      put_before(picture, finished_alpha(film, &samples, shadows), options.background);
+      put_before(result.picture, finished_alpha(film, all, nullptr, shadows), options.background);
   });
-  if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/film/film.h"
+#include "renderer/image/shared_rows.h"
 #include "renderer/reconstruction/reconstruct.h"
 #include "renderer/settings/options.h"
 
@@ -20,15 +21,17 @@ struct FinishedPicture {
   double reconstruct_seconds = 0.0;
   /// Relative RMS, as metrics/estimated_error.h defines it. Empty where pixels have less than two samples.
   std::optional<double> estimated_error;
-  double lost_light = 0.0;  ///< with bright samples, of the samples' light
+  double lost_light = 0.0;   ///< with bright samples, of the samples' light
+  std::vector<float> alpha;  ///< of the pixels, where the background is apart
 };
 
 /// Replaces what the samples found of the light that the camera sees itself (3 floats a pixel) by better
-/// values.
-using SeenLight = std::function<void(std::vector<float>& seen)>;
+/// values, in the rows of a film.
+using SeenLight =
+    std::function<void(const PixelRect& rect, const SharedRows& rows, std::vector<float>& seen)>;
 
-/// A half's estimate of the alpha of caught shadows (transport/shadow_catcher.h), for each pixel.
-using CaughtShadows = std::function<std::vector<float>(std::size_t half)>;
+/// A half's estimate of the alpha of caught shadows (transport/shadow_catcher.h), for each pixel of `rect`.
+using CaughtShadows = std::function<std::vector<float>(const PixelRect& rect, std::size_t half)>;
 
 /// The means of the samples, or with options.reconstruct the finished picture, with the output variables of
 /// the options. The film keeps those of film_aovs(options). `better` is called in the arena where the picture
@@ -36,8 +39,19 @@ using CaughtShadows = std::function<std::vector<float>(std::size_t half)>;
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
                                  const SeenLight& better = {}, const CaughtShadows& shadows = {});
 
-/// The reconstruction of a film that keeps film_aovs(options), with its halves. Runs in the caller's arena.
-Reconstruction finished_film(const Film& film, const RenderOptions& options);
+/// The same for rows of a picture that several ranks have, with options.reconstruct. `film` has them with
+/// their margin. The result has picture, reconstruction and alpha of these rows alone; complete() makes the
+/// rest.
+FinishedPicture finished_rows(const Film& film, const SharedRows& rows, const RenderOptions& options,
+                              tbb::task_arena& arena, const SeenLight& better, const CaughtShadows& shadows);
+
+/// Puts a picture whose rows are all there before its background, and estimates its error. Runs in the
+/// caller's arena. `samples_per_pixel`: Film::samples_per_pixel().
+void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOptions& options);
+
+/// The reconstruction of a film that keeps film_aovs(options), with its halves: of `rows`, of which the film
+/// has those at hand. Runs in the caller's arena.
+Reconstruction finished_film(const Film& film, const SharedRows& rows, const RenderOptions& options);
 
 /// Its estimated_error alone, without reconstruction.
 std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena);

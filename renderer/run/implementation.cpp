@@ -19,6 +19,7 @@
 #include "renderer/light/soft_sky.h"
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/cryptomatte_pass.h"
 #include "renderer/transport/reference_pass.h"
@@ -119,14 +120,19 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 
 }  // namespace
 
-Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in)
+Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in,
+                                         Ranks& ranks_in)
     : scene(scene_in),
       options(with_sky(scene, options_in)),
+      ranks(ranks_in),
       threads(options.threads > 0 ? options.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads),
       region(resolve_region(options)),
       tiles(region),
+      threads_of_ranks(one_of_each(ranks, static_cast<double>(threads))),
+      shares(tiles.count(), threads_of_ranks),
+      own(tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()))),
       view(chosen_view(options.camera)),
       filter(options.filter, options.filter_width),
       budget(checked_budget(scene, options)) {
@@ -201,16 +207,9 @@ CheckpointIdentity Renderer::Implementation::identity(const SceneFingerprint& fi
 }
 
 std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
-  const PassContext context{tiles, options, camera, filter};
+  const PassContext context{own, options, camera, filter};
   if (training.session) return std::make_unique<CachedPass>(*world, context, *training.session);
   return std::make_unique<ReferencePass>(*world, context);
-}
-
-FinishedPicture Renderer::Implementation::finish(const Film& film) {
-  FinishedPicture finished =
-      finished_picture(film, options, arena, smoother_edges(film), caught_shadows(film));
-  finished.picture.view = camera.matrices(scene.origin);
-  return finished;
 }
 
 void Renderer::Implementation::tell(const FinishedPicture& finished, double seconds) {
@@ -219,13 +218,21 @@ void Renderer::Implementation::tell(const FinishedPicture& finished, double seco
   statistics.lost_light = finished.lost_light;
 }
 
-CaughtShadows Renderer::Implementation::caught_shadows(const Film& film) const {
+CaughtShadows Renderer::Implementation::caught_shadows(double samples_per_pixel) const {
   constexpr int kFewest = 16, kMost = 256;
   if (world->catchers.empty()) return {};
-  const int wanted = std::clamp(static_cast<int>(film.samples_per_pixel()) / 2, kFewest, kMost);
+  const int wanted = std::clamp(static_cast<int>(samples_per_pixel) / 2, kFewest, kMost);
   const int samples = options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
-  return [this, samples](std::size_t half) {
-    return catch_shadows(*world, camera, filter, options, region, samples, static_cast<std::uint32_t>(half));
+  return [this, samples](const PixelRect& rect, std::size_t half) {
+    return catch_shadows(*world, camera, filter, options, rect, samples, static_cast<std::uint32_t>(half));
+  };
+}
+
+SeenLight Renderer::Implementation::smoother_edges(double samples_per_pixel) const {
+  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f)
+    return {};
+  return [this, samples_per_pixel](const PixelRect& rect, const SharedRows& rows, std::vector<float>& seen) {
+    smooth_edges(*world, camera, filter, options, rect, rows, samples_per_pixel, seen);
   };
 }
 
@@ -238,15 +245,7 @@ double Renderer::Implementation::expect_shadow_seconds() {
   strip.x1 = strip.x0 + width;
   const Clock::time_point start = Clock::now();
   arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints, 0); });
-  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width;
-}
-
-SeenLight Renderer::Implementation::smoother_edges(const Film& film) const {
-  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f)
-    return {};
-  return [this, spp = film.samples_per_pixel()](std::vector<float>& seen) {
-    smooth_edges(*world, camera, filter, options, region, spp, seen);
-  };
+  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width / ranks.count();
 }
 
 Cryptomattes Renderer::Implementation::cryptomattes() {
@@ -268,13 +267,10 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
   RenderStatistics sum = statistics;
   sum.render_seconds = seconds;
   sum.spp = spp;
-  sum.samples = film.samples();
   SampleCounts counts = pass ? pass->counts() : SampleCounts{};
   counts.add(training.counts);
   sum.rays = pass ? pass->rays() : RayCounts{};
-  sum.nonfinite = counts.nonfinite;
-  sum.clamped = counts.clamped;
-  sum.nonfinite_samples = std::move(counts.located);
+  sum.samples = samples_of_rank(film);
   if (training.session) {
     sum.rays.add(training.session->rays());
     sum.cache = training.session->statistics();
@@ -283,13 +279,19 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
     sum.cache.diverged = training.diverged;
     if (pass) pass->add_to(sum.cache);
   }
+  sum.nonfinite = counts.nonfinite;
+  sum.clamped = counts.clamped;
+  sum.nonfinite_samples = std::move(counts.located);
+  add_other_ranks(sum, training.session ? training.session->paths_of_rank() : 0);
   add_earlier(sum, earlier);
   sum.resumed_seconds = earlier.render_seconds;
   return sum;
 }
 
 Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
-    : implementation_(std::make_unique<Implementation>(scene, options)) {}
+    : implementation_(std::make_unique<Implementation>(scene, options, one_rank())) {}
+Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
+    : implementation_(std::make_unique<Implementation>(scene, options, ranks)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 

@@ -12,12 +12,17 @@
 #include "renderer/cache/cache_session.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/pixel_filter.h"
+#include "renderer/film/rank_tiles.h"
 #include "renderer/film/tiles.h"
 #include "renderer/image/cryptomatte.h"
 #include "renderer/machine/clock.h"
+#include "renderer/ranks/ranks.h"
+#include "renderer/ranks/shares.h"
 #include "renderer/render.h"
 #include "renderer/run/checkpoint.h"
+#include "renderer/run/film_exchange.h"
 #include "renderer/run/finished_picture.h"
+#include "renderer/run/sample_loop.h"
 #include "renderer/transport/pass.h"
 #include "renderer/transport/world.h"
 
@@ -42,7 +47,7 @@ struct Training {
 };
 
 struct Renderer::Implementation {
-  Implementation(const scene::Scene& scene_in, const RenderOptions& options_in);
+  Implementation(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks_in);
 
   View chosen_view(const CameraOptions& chosen) const;
   /// Chooses the view, and says in the statistics what is to be told of it.
@@ -59,22 +64,40 @@ struct Renderer::Implementation {
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
   bool return_to_good(Training& training, Film& film, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
-  /// The finished picture of a film, with its view.
-  FinishedPicture finish(const Film& film);
+  /// The finished picture of a film, with its view. Rank 0 gets it.
+  FinishedPicture finish(Film& film);
+  /// The film follows the density of its finished picture from now on. `known`: its reconstruction, if it is,
+  /// at rank 0. Returns the seconds that this took.
+  double adapt_density(Film& film, const Reconstruction* known);
+  /// Of all pixels, at whatever rank.
+  double samples_per_pixel(const Film& film) const;
+  /// The exact film, at rank 0.
+  void gather(Film& film) { gather_film(film, tiles, shares, ranks); }
+  /// Deals the tiles anew where some rank took much longer than others.
+  void rebalance(Film& film, const std::vector<RankWork>& measured);
   /// What a finished picture tells goes into the statistics. `seconds`: of all reconstruction.
   void tell(const FinishedPicture& finished, double seconds);
   /// What finish() is expected to take for the catchers of shadows under a time limit.
   double expect_shadow_seconds();
   // For finished_picture().
-  SeenLight smoother_edges(const Film& film) const;
-  CaughtShadows caught_shadows(const Film& film) const;
+  SeenLight smoother_edges(double samples_per_pixel) const;
+  CaughtShadows caught_shadows(double samples_per_pixel) const;
+  /// The rows that this rank finishes. The film gets their margin too.
+  SharedRows share_rows(Film& film);
   /// The layers of options.cryptomattes; the statistics get the time.
   Cryptomattes cryptomattes();
   Film make_film() const;
   std::unique_ptr<Pass> make_pass(Training& training);
-  /// Statistics of this run and of the earlier ones.
+  /// Of the tiles of this rank.
+  std::uint64_t samples_of_rank(const Film& film) const;
+  /// What each rank counts on its own is summed up, and told by rank.
+  void add_other_ranks(RenderStatistics& statistics, std::uint64_t training_paths) const;
+  /// Statistics of this run and of the earlier ones, of all ranks.
   RenderStatistics sum_up(int spp, double seconds, const Film& film, const Pass* pass,
                           const Training& training, const RenderStatistics& earlier) const;
+
+  /// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the density.
+  double run_adaptive_pass(SampleLoop& loop, Film& film, int goal);
 
   class PictureRun;
   bool render_step_series(const std::vector<int>& train_steps, const SeriesPicture& picture,
@@ -84,17 +107,23 @@ struct Renderer::Implementation {
 
   const scene::Scene& scene;
   RenderOptions options;
+  Ranks& ranks;
   int threads;
   tbb::global_control control;
   tbb::task_arena arena;
   PixelRect region;
   TileGrid tiles;
+  std::vector<double> threads_of_ranks;
+  Shares shares;  ///< of the tiles
+  TileGrid own;   ///< this rank's
+  RankTiles rank_tiles{ranks, tiles, shares};
   View view;
   Camera camera{view, 1, 1};
   FilterSampler filter;
   std::size_t budget;
   std::optional<World> world;
-  bool steps_chosen = false;  ///< of training, by the picture's pixels and samples
+  Clock::time_point begin = Clock::now();  ///< of the picture
+  bool steps_chosen = false;               ///< of training, by the picture's pixels and samples
   RenderStatistics statistics;
 };
 

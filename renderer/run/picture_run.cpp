@@ -16,6 +16,8 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/machine/atomic_file.h"
 #include "renderer/machine/clock.h"
+#include "renderer/ranks/packing.h"
+#include "renderer/ranks/shared_file.h"
 #include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/error_checks.h"
 #include "renderer/run/finished_picture.h"
@@ -37,7 +39,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Renderer::Implementation::PictureRun {
  public:
   PictureRun(Implementation& renderer, const Callbacks& callbacks)
-      : renderer_(renderer), options_(renderer.options), callbacks_(callbacks), film_(renderer.make_film()) {}
+      : renderer_(renderer),
+        options_(renderer.options),
+        callbacks_(callbacks),
+        ranks_(renderer.ranks),
+        film_(renderer.make_film()) {
+    renderer_.begin = begin_;
+  }
 
   Picture make() {
     restore();
@@ -45,11 +53,11 @@ class Renderer::Implementation::PictureRun {
     train();
     write_cache();
     const std::unique_ptr<Pass> pass = renderer_.make_pass(training_);
-    SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp);
+    SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp, ranks_);
     run_passes(loop, *pass);
     end(loop, *pass);
     Picture picture = finished(loop.done());
-    add_cryptomattes(picture, std::move(mattes_));
+    if (ranks_.first()) add_cryptomattes(picture, std::move(mattes_));
     note_end(loop);
     return picture;
   }
@@ -59,15 +67,16 @@ class Renderer::Implementation::PictureRun {
     const CacheOptions& cache = options_.cache;
     const bool keeps = !options_.checkpoint.file.empty();
     const bool caches = uses_cache(options_.integrator);
-    if (caches && !cache.cache_out.empty()) check_writable(cache.cache_out);
+    if (caches && !cache.cache_out.empty() && ranks_.first()) check_writable(cache.cache_out);
     if (keeps || (caches && !(cache.cache_in.empty() && cache.cache_out.empty())))
       fingerprint_ = renderer_.scene_fingerprint();
     if (!keeps) return;
     const std::string& file = options_.checkpoint.file;
     identity_ = renderer_.identity(fingerprint_);
-    check_writable(file);
-    if (!options_.checkpoint.resume || !std::filesystem::exists(file)) return;
-    found_.emplace(file);
+    if (ranks_.first()) check_writable(file);
+    if (!options_.checkpoint.resume || !agreed(ranks_, std::filesystem::exists(file))) return;
+    shared_ = share_file(ranks_, file);
+    found_.emplace(shared_.path());
     found_->expect(*identity_, options_.spp);
     found_->restore(film_, earlier_);
   }
@@ -77,11 +86,11 @@ class Renderer::Implementation::PictureRun {
     mattes_ = renderer_.cryptomattes();
     budget_.limit = options_.time_limit_seconds;
     if (budget_.limit <= 0.0) return;
-    budget_.shadows = renderer_.expect_shadow_seconds();
+    budget_.shadows = agreed(ranks_, renderer_.expect_shadow_seconds());
     if (!options_.reconstruct) return;
     const Clock::time_point start = Clock::now();
-    budget_.reconstruct =
-        kFirstTime * expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    const double alone = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
+    budget_.reconstruct = agreed(ranks_, kFirstTime * alone / ranks_.count());
     reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
   }
 
@@ -116,7 +125,7 @@ class Renderer::Implementation::PictureRun {
   }
 
   void write_cache() const {
-    if (!training_.session || !whole() || options_.cache.cache_out.empty()) return;
+    if (!training_.session || !whole() || options_.cache.cache_out.empty() || !ranks_.first()) return;
     try_writing(false, [&] {
       write_cache_file(options_.cache.cache_out, training_.session->export_state(),
                        training_.session->model(), training_options(options_),
@@ -139,20 +148,24 @@ class Renderer::Implementation::PictureRun {
       } catch (const neural::DeviceLost& error) {
         // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
         // not resume from it; the last checkpoint is kept.
-        if (loop.done() == 0) throw;
+        if (loop.done() == 0 || !ranks_.alone()) throw;
         device_lost_ = error.what();
         return;
       }
       if (loop.done() == options_.spp) return;
       limit_passes(loop);
-      if (callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted()) {
+      const bool wanted = callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted();
+      if (any(ranks_, wanted)) {
         renderer_.statistics = sum_up(loop, pass);
         Picture picture = finished(loop.done());
-        add_cryptomattes(picture, mattes_);
-        callbacks_.snapshot(picture);
+        if (ranks_.first()) {
+          add_cryptomattes(picture, mattes_);
+          callbacks_.snapshot(picture);
+        }
       }
-      if (options_.max_error > 0.0 && is_check(loop.done()) && !loop.over() && good_enough(loop)) return;
       if (loop.over()) return;
+      if (options_.max_error > 0.0 && is_check(loop.done()) && (good_enough(loop) || loop.over())) return;
+      renderer_.rebalance(film_, loop.last_pass());
       if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
     }
   }
@@ -161,23 +174,22 @@ class Renderer::Implementation::PictureRun {
     if (budget_.limit <= 0.0) return;
     // Three rays a pixel at most, which a sample's many rays tell the time of.
     constexpr double kEdgesOfSample = 0.3;
-    budget_.edges = renderer_.smoother_edges(film_) ? kEdgesOfSample * loop.seconds_per_sample() : 0.0;
+    budget_.edges = edges_are_smoother() ? kEdgesOfSample * loop.seconds_per_sample() : 0.0;
     // A checkpoint holds whole passes.
     loop.end_at(time_at(budget_.passes_end()), !identity_);
   }
 
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
+    if (!density_due(film_, loop.done(), options_)) return;
     // Where no passes would follow in time. A checkpoint must hold what any other run would have.
     const bool late =
         budget_.limit > 0.0 && seconds_since(begin_) + budget_.reconstruct > budget_.passes_end();
-    if (late && !identity_) return;
+    if (agreed(ranks_, late) && !identity_) return;
     // A check shows smoother edges; without checks the same samples must follow.
-    const bool known = checked_ && checked_samples_ == loop.done() && !renderer_.smoother_edges(film_);
-    const double seconds = adapt_density(film_, loop.done(), options_, renderer_.arena,
-                                         known ? &checked_->reconstruction : nullptr);
+    const bool known = checked_ && checked_samples_ == loop.done() && !edges_are_smoother();
+    const double seconds = renderer_.adapt_density(film_, known ? &checked_->reconstruction : nullptr);
     if (checked_) checked_->reconstruction = {};
-    if (seconds == 0.0) return;
     reconstruct_seconds_ += seconds;
     loop.leave_out(seconds);
     if (known) return;
@@ -185,6 +197,7 @@ class Renderer::Implementation::PictureRun {
     budget_.reconstruct = kNextTime * (options_.background.apart() ? 2.0 * seconds : seconds);  // alpha
     limit_passes(loop);
   }
+  bool edges_are_smoother() const { return static_cast<bool>(renderer_.smoother_edges(0.0)); }
 
   /// Estimates the error.
   bool good_enough(SampleLoop& loop) {
@@ -200,8 +213,10 @@ class Renderer::Implementation::PictureRun {
       budget_.shadows = 0.0;
       limit_passes(loop);
     } else {
-      error = error_of_samples(film_, renderer_.arena);
+      renderer_.gather(film_);
+      if (ranks_.first()) error = error_of_samples(film_, renderer_.arena);
     }
+    error = agreed(ranks_, error);
     loop.leave_out(seconds_since(start));
     if (!error) return false;
     const double times = *error / options_.max_error;
@@ -212,7 +227,7 @@ class Renderer::Implementation::PictureRun {
   void end(const SampleLoop& loop, const Pass& pass) {
     RenderStatistics& told = renderer_.statistics;
     told = sum_up(loop, pass);
-    cut_short_ = pass.cut_short() || !device_lost_.empty();
+    cut_short_ = loop.cut_short() || !device_lost_.empty();
     told.device_lost = device_lost_;
     if (whole() && device_lost_.empty()) keep(Phase::render, told, false);
     loop.report_end();
@@ -257,11 +272,15 @@ class Renderer::Implementation::PictureRun {
     return renderer_.sum_up(loop.done(), loop.seconds(), film_, &pass, training_, earlier_);
   }
   bool checkpoint_due() const {
-    return identity_ && seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds;
+    return identity_ &&
+           agreed(ranks_, seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds);
   }
   /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
   void keep(Phase phase, const RenderStatistics& sum, bool again) {
     if (!identity_) return;
+    renderer_.gather(film_);
+    last_checkpoint_ = Clock::now();
+    if (!ranks_.first()) return;
     const int samples = phase == Phase::render ? sum.spp : 0;
     const CheckpointProgress progress{phase, samples, training_.first_step, training_.samples() > 0};
     try_writing(again, [&] {
@@ -292,11 +311,13 @@ class Renderer::Implementation::PictureRun {
   Implementation& renderer_;
   const RenderOptions& options_;
   const Callbacks& callbacks_;
+  Ranks& ranks_;
   Clock::time_point begin_ = Clock::now();  ///< of the time that the limit counts
   Film film_;
   SceneFingerprint fingerprint_;
   std::optional<CheckpointIdentity> identity_;  ///< empty: no checkpoints are written
   Clock::time_point last_checkpoint_ = Clock::now();
+  SharedFile shared_;
   std::optional<Checkpoint> found_;
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;

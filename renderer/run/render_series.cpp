@@ -45,21 +45,20 @@ void check_series(const Series& series, const RenderOptions& options) {
   refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
 }
 
-/// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the density.
-double run_adaptive_pass(SampleLoop& loop, Film& film, int goal, const RenderOptions& options,
-                         tbb::task_arena& arena) {
-  const double seconds = adapt_density(film, loop.done(), options, arena);
+}  // namespace
+
+double Renderer::Implementation::run_adaptive_pass(SampleLoop& loop, Film& film, int goal) {
+  const double seconds = density_due(film, loop.done(), options) ? adapt_density(film, nullptr) : 0.0;
   loop.leave_out(seconds);
   loop.run_pass(std::min(goal, next_density(options, loop.done())));
   return seconds;
 }
 
-}  // namespace
-
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
   const neural::FlushDenormals flush;
   Implementation& self = *implementation_;
   check_series(series, self.options);
+  if (!self.ranks.alone()) throw BadOption("a series with several ranks: expected one");
   return uses_cache(self.options.integrator) ? self.render_step_series(series.train_steps, picture, callbacks)
                                              : self.render_sample_series(series.spp, picture, callbacks);
 }
@@ -92,10 +91,10 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
     Film film = taught;
     double reconstruct_seconds = 0.0;  // of densities
     const std::unique_ptr<Pass> pass = make_pass(training);
-    SampleLoop loop(arena, options, callbacks, *pass, film, options.spp);
+    SampleLoop loop(arena, options, callbacks, *pass, film, options.spp, ranks);
     while (loop.done() < options.spp) {
       if (loop.over()) return false;
-      reconstruct_seconds += run_adaptive_pass(loop, film, options.spp, options, arena);
+      reconstruct_seconds += run_adaptive_pass(loop, film, options.spp);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
@@ -120,11 +119,11 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
   Training untrained;
   double reconstruct_seconds = 0.0;  // of densities
   const std::unique_ptr<Pass> pass = make_pass(untrained);
-  SampleLoop loop(arena, options, callbacks, *pass, film, spp.back());
+  SampleLoop loop(arena, options, callbacks, *pass, film, spp.back(), ranks);
   for (std::size_t point = 0; point < spp.size(); ++point) {
     while (loop.done() < spp[point]) {
       if (loop.over()) return false;
-      reconstruct_seconds += run_adaptive_pass(loop, film, spp[point], options, arena);
+      reconstruct_seconds += run_adaptive_pass(loop, film, spp[point]);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), untrained, {});
     statistics.interrupted = false;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "renderer/ranks/packing.h"
 #include "renderer/run/time_budget.h"
 
 namespace gatelight::renderer {
@@ -17,8 +18,14 @@ constexpr double kPassSeconds = 0.7;
 }  // namespace
 
 SampleLoop::SampleLoop(tbb::task_arena& arena, const RenderOptions& options, const Callbacks& callbacks,
-                       Pass& pass, Film& film, int spp)
-    : arena_(arena), options_(options), callbacks_(callbacks), pass_(pass), film_(film), spp_(spp) {}
+                       Pass& pass, Film& film, int spp, Ranks& ranks)
+    : arena_(arena),
+      options_(options),
+      callbacks_(callbacks),
+      pass_(pass),
+      film_(film),
+      ranks_(ranks),
+      spp_(spp) {}
 
 void SampleLoop::end_at(Clock::time_point end, bool in_part) {
   end_ = std::chrono::duration<double>(end - start_).count();
@@ -44,21 +51,42 @@ void SampleLoop::run_pass(int goal) {
       report(fraction, batch);
     });
   });
-  const double end = now();
-  if (!pass_.cut_short()) done_ += batch;
+  note_pass(batch, now() - begin);
+}
+
+void SampleLoop::note_pass(int batch, double seconds) {
+  const RayCounts counts = pass_.rays();
+  const std::uint64_t rays = counts.camera + counts.bounce + counts.shadow;
+  PassReport mine{{seconds, rays - rays_}, stop_, pass_.cut_short(), {}, false};
+  rays_ = rays;
   if (options_.nan_policy == NanPolicy::error) {
-    const std::vector<NonFiniteSample> located = pass_.counts().located;
-    if (!located.empty()) {
-      throw NumericalError(fmt::format("sample {} of pixel {},{} (seed {}) is not finite", located[0].sample,
-                                       located[0].x, located[0].y, located[0].seed));
-    }
+    const std::vector<NonFiniteSample> found = pass_.counts().located;
+    mine.found_nonfinite = !found.empty();
+    if (mine.found_nonfinite) mine.nonfinite = found[0];
   }
-  per_sample_ = (end - begin) / batch;
-  batch_ = samples_of_pass(end, per_sample_, kPassSeconds, end_, 2 * batch);
+  last_pass_.clear();
+  double slowest = 0.0;
+  std::vector<NonFiniteSample> located;
+  for (const PassReport& report : one_of_each(ranks_, mine)) {
+    last_pass_.push_back(report.work);
+    slowest = std::max(slowest, report.work.seconds);
+    if (report.stop) stop_ = true;
+    cut_short_ |= report.cut_short;
+    if (report.found_nonfinite) located.push_back(report.nonfinite);
+  }
+  keep_first(located);
+  if (!located.empty()) {
+    throw NumericalError(fmt::format("sample {} of pixel {},{} (seed {}) is not finite", located[0].sample,
+                                     located[0].x, located[0].y, located[0].seed));
+  }
+  if (!cut_short_) done_ += batch;
+  per_sample_ = slowest / batch;
+  batch_ = agreed(ranks_, samples_of_pass(now(), per_sample_, kPassSeconds, end_, 2 * batch));
 }
 
 bool SampleLoop::over() const {
-  return stop_ || pass_.cut_short() || now() >= end_ || (!in_part_ && !pass_fits(now(), per_sample_, end_));
+  return any(ranks_, stop_ || cut_short_ || now() >= end_ ||
+                         (!in_part_ && !pass_fits(now(), per_sample_, end_)));
 }
 
 Progress SampleLoop::progress(double samples) const {

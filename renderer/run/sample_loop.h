@@ -1,6 +1,6 @@
 #pragma once
 // Runs pass after pass over one film: chooses the samples of each pass, reports progress, and checks for the
-// end.
+// end. Where several ranks share the film, each has its own tiles, and all run the same passes.
 
 #include <tbb/task_arena.h>
 
@@ -8,8 +8,11 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "renderer/machine/clock.h"
+#include "renderer/ranks/ranks.h"
+#include "renderer/ranks/shares.h"
 #include "renderer/render.h"
 #include "renderer/transport/pass.h"
 
@@ -19,7 +22,7 @@ class SampleLoop {
  public:
   /// `spp` is the goal that progress reports. The references must outlive the loop. Its clock starts now.
   SampleLoop(tbb::task_arena& arena, const RenderOptions& options, const Callbacks& callbacks, Pass& pass,
-             Film& film, int spp);
+             Film& film, int spp, Ranks& ranks);
 
   /// The film already holds so many samples of an earlier run.
   void begin_at(int done) { done_ = done; }
@@ -35,11 +38,15 @@ class SampleLoop {
   void run_pass(int goal);
   /// Of the last pass; 0 before the first.
   double seconds_per_sample() const { return per_sample_; }
+  /// What each rank did in the last pass.
+  const std::vector<RankWork>& last_pass() const { return last_pass_; }
   /// Finished samples of every pixel.
   int done() const { return done_; }
-  /// Whether the loop was stopped or the time is over.
+  /// Whether the loop was stopped or the time is over, at any rank.
   bool over() const;
   bool stopped() const { return stop_; }
+  /// Whether a pass left pixels out, at any rank.
+  bool cut_short() const { return cut_short_; }
   double seconds() const { return seconds_since(start_) - left_out_; }
   /// Excludes time that the caller spent on something else.
   void leave_out(double seconds) { left_out_ += seconds; }
@@ -47,6 +54,16 @@ class SampleLoop {
   void report_end() const;
 
  private:
+  /// What a rank tells the others after a pass.
+  struct PassReport {
+    RankWork work;
+    bool stop = false;
+    bool cut_short = false;
+    NonFiniteSample nonfinite;
+    bool found_nonfinite = false;
+  };
+  /// Joins the reports of all ranks.
+  void note_pass(int batch, double seconds);
   void report(double of_pass, int batch);
   Progress progress(double samples) const;
   double now() const { return seconds_since(start_); }
@@ -56,6 +73,7 @@ class SampleLoop {
   const Callbacks& callbacks_;
   Pass& pass_;
   Film& film_;
+  Ranks& ranks_;
   int spp_;
   int done_ = 0;
   int batch_ = 1;  ///< samples of the next pass
@@ -65,6 +83,9 @@ class SampleLoop {
   double end_ = std::numeric_limits<double>::infinity();  ///< of the passes, in seconds since the start
   bool in_part_ = false;
   double per_sample_ = 0.0;  ///< seconds of the last pass
+  bool cut_short_ = false;   ///< pixels were left out, at any rank
+  std::uint64_t rays_ = 0;   ///< of this rank, before the last pass
+  std::vector<RankWork> last_pass_;
   std::optional<double> error_;
   double expected_samples_ = 0.0;  ///< by the error
   std::mutex report_mutex_;

@@ -5,6 +5,7 @@
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/time_budget.h"
 #include "renderer/settings/resolved_options.h"
@@ -24,7 +25,8 @@ Training Renderer::Implementation::begin_training(Checkpoint* found, const Scene
   const auto make_session = [&](const CacheSetup* setup, const auto& expect_model) {
     if (!setup && callbacks.progress) callbacks.progress({.phase = Phase::scout, .spp = options.spp});
     arena.execute([&] {
-      training.session = std::make_unique<CacheSession>(*world, camera, region, options, setup, expect_model);
+      training.session =
+          std::make_unique<CacheSession>(*world, camera, region, options, setup, expect_model, &rank_tiles);
     });
   };
   if (found) {
@@ -61,7 +63,7 @@ void Renderer::Implementation::train(Training& training, Film& film, const Callb
   double last_seconds = 0.0;
   std::uint64_t last_step = session.steps();
   watch.stop = [&] {
-    training.stopped = callbacks.stop && callbacks.stop();
+    training.stopped = any(ranks, callbacks.stop && callbacks.stop());
     if (training.stopped || !limited) return training.stopped;
     const double now = seconds_since(start);
     const std::uint64_t step = session.steps(), next = session.group_end(step) - step;
@@ -69,12 +71,15 @@ void Renderer::Implementation::train(Training& training, Film& film, const Callb
         (now - last_seconds) / static_cast<double>(std::max(step - last_step, std::uint64_t{1}));
     last_seconds = now;
     last_step = step;
-    return step >= training.first_step + kLeastSteps &&
-           !group_fits(now, seconds * static_cast<double>(next), end_seconds);
+    const bool late = !group_fits(now, seconds * static_cast<double>(next), end_seconds);
+    return step >= training.first_step + kLeastSteps && agreed(ranks, late);
   };
+  watch.rebalance = [&](const std::vector<RankWork>& work) { rebalance(film, work); };
   watch.after_group = after_group;
   if (training.first_step == 0)
-    watch.samples = [&](const RecordBatch& group) { group.add_to(film, options, training.counts); };
+    watch.samples = [&](const RecordBatch& group) {
+      group.add_to(film, options, ranks.alone() ? nullptr : &rank_tiles, training.counts);
+    };
   watch.progress = [&](int step, int, double loss) {
     const int done = step - first;
     const double now = session.statistics().train_seconds;

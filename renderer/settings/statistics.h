@@ -75,6 +75,16 @@ struct CacheStatistics {
   std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
 };
 
+/// Of one of several ranks.
+struct RankStatistics {
+  int threads = 0;
+  std::uint64_t samples = 0;         ///< camera paths of the picture
+  std::uint64_t training_paths = 0;
+  double seconds = 0.0;              ///< since the picture was begun
+  std::uint64_t bytes_sent = 0;
+  double waiting_seconds = 0.0;  ///< for other ranks, with what travels
+};
+
 /// What ended a picture.
 enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device };
 
@@ -104,6 +114,7 @@ struct RenderStatistics {
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
+  std::vector<RankStatistics> ranks;  ///< where there are several
   std::string device_lost;   ///< why the device was lost, where that ended the picture; else empty
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "renderer/film/film_samples.h"
 
@@ -18,20 +20,25 @@ constexpr double kLeastShare = 0.1;
 constexpr int kMostSamples = 256;
 constexpr double kTimesMore = 2.0;
 /// Rays for each pixel of the picture, where there are many edges.
-constexpr std::size_t kMostRays = 3;
+constexpr double kMostRays = 3.0;
 
-/// Whether light differs much in the 3x3 pixels around each.
-std::vector<Pixel> pixels_at_edges(const PixelRect& rect, const std::vector<float>& seen) {
-  const int width = rect.width(), height = rect.height();
+/// The pixels of `rows` around which light differs much, in 3x3 pixels.
+std::vector<Pixel> pixels_at_edges(const PixelRect& rect, const SharedRows& rows,
+                                   const std::vector<float>& seen) {
+  const int width = rect.width(), height = rect.height(), above = rows.top;
   std::vector<float> brightness(seen.size() / 3);
-  double sum = 0.0;
-  for (std::size_t p = 0; p < brightness.size(); ++p) {
+  for (std::size_t p = 0; p < brightness.size(); ++p)
     brightness[p] = seen[3 * p] + seen[3 * p + 1] + seen[3 * p + 2];
-    sum += static_cast<double>(brightness[p]);
+  std::vector<double> sums;
+  for (int y = rows.first - above; y < rows.end - above; ++y) {
+    const auto begin = brightness.begin() + static_cast<std::ptrdiff_t>(y) * width;
+    sums.push_back(std::accumulate(begin, begin + width, 0.0));
   }
-  const auto least = static_cast<float>(kLeastShare * sum / static_cast<double>(brightness.size()));
+  sums = rows.join(std::move(sums));
+  const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / width / rows.height;
+  const auto least = static_cast<float>(kLeastShare * mean);
   std::vector<Pixel> pixels;
-  for (int y = 0; y < height; ++y) {
+  for (int y = rows.first - above; y < rows.end - above; ++y) {
     for (int x = 0; x < width; ++x) {
       float low = scene::kInfinity, high = 0.0f;
       for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
@@ -57,11 +64,14 @@ Color seen_by(const World& world, const CameraSample& sample, const Ray& ray, co
 }  // namespace
 
 void smooth_edges(const World& world, const Camera& camera, const FilterSampler& filter,
-                  const RenderOptions& options, const PixelRect& rect, double spp, std::vector<float>& seen) {
-  const std::vector<Pixel> pixels = pixels_at_edges(rect, seen);
+                  const RenderOptions& options, const PixelRect& rect, const SharedRows& rows, double spp,
+                  std::vector<float>& seen) {
+  const std::vector<Pixel> pixels = pixels_at_edges(rect, rows, seen);
+  const std::vector<double> numbers = rows.join({static_cast<double>(pixels.size())});
+  const double at_edges = std::accumulate(numbers.begin(), numbers.end(), 0.0);
   if (pixels.empty()) return;
-  const std::size_t all = seen.size() / 3;
-  const int count = static_cast<int>(std::min<std::size_t>(kMostSamples, kMostRays * all / pixels.size()));
+  const double all = static_cast<double>(rect.width()) * rows.height;
+  const int count = static_cast<int>(std::min<double>(kMostSamples, std::floor(kMostRays * all / at_edges)));
   if (count < kTimesMore * spp) return;
   RenderOptions more = options;
   more.seed = hash(options.seed ^ 0x65646765u);

@@ -24,7 +24,9 @@ Moments targets(const ViewedWorld& viewed, float distance, std::size_t points, i
   const StoredSurfaces stored;
   OcclusionRecords records(viewed.world, chosen, options, stored, distance, {});
   RecordBatch batch;
-  records.trace({.step = 1, .points = points}, batch);
+  const RecordRequest request{.step = 1, .points = points};
+  records.trace(request, batch);
+  records.deal(request, batch);
   Moments moments;
   for (const float t : batch.targets) moments.add(static_cast<double>(t));
   return moments;

@@ -23,7 +23,8 @@ RecordBatch made(const ViewedWorld& viewed, const RenderOptions& options, const 
   OcclusionRecords records(viewed.world, points, options, stored, distance, {});
   RecordBatch batch;
   records.trace(request, batch);
-  records.finish(request, {}, batch);
+  records.finish({}, batch);
+  records.deal(request, batch);
   EXPECT_EQ(records.rays().camera,
             batch.paths_traced / static_cast<std::size_t>(options.cache.samples_per_point));
   return batch;

@@ -30,9 +30,9 @@ Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, s
   RecordBatch batch;
   const RecordRequest request{.step = 3, .points = points, .self_training = self_training};
   records.trace(request, batch);
-  records.finish(
-      request, [&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); },
-      batch);
+  records.finish([&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); },
+                 batch);
+  records.deal(request, batch);
   Moments moments;
   for (const PathBatch& block : batch.paths) {
     for (const std::int32_t record : block.first_records) {
@@ -93,7 +93,8 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
     RecordBatch batch;
     const RecordRequest request{.step = 4, .points = 1000};
     records.trace(request, batch);
-    records.finish(request, {}, batch);
+    records.finish({}, batch);
+    records.deal(request, batch);
     // The averaged record of a point stands before its paths' others.
     Moments moments;
     std::size_t begin = 0;
@@ -241,7 +242,8 @@ TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
   RecordBatch batch;
   const RecordRequest request{.step = 4, .points = 400};
   records.trace(request, batch);
-  records.finish(request, {}, batch);
+  records.finish({}, batch);
+    records.deal(request, batch);
   Moments at_dark;
   Moments at_bright;
   for (std::size_t i = 0; i < batch.records.size(); ++i) {

@@ -34,7 +34,8 @@ struct Made {
     const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
     RadianceRecords records(paths, points, options, with_positions());
     records.trace(request, batch);
-    records.finish(request, answer, batch);
+    records.finish(answer, batch);
+    records.deal(request, batch);
   }
   std::uint32_t instance(std::size_t i) const { return batch.records.surface(i) / 2; }
 
@@ -225,7 +226,8 @@ TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   RecordBatch batch;
   const RecordRequest request{.step = 1, .points = 100, .self_training = true};
   records.trace(request, batch);
-  records.finish(request, {}, batch);
+  records.finish({}, batch);
+    records.deal(request, batch);
   EXPECT_EQ(batch.records.size(), 0u);
   EXPECT_EQ(batch.queries.size(), 0u);
   EXPECT_GT(records.rays().bounce, batch.paths_traced);
@@ -270,7 +272,8 @@ TEST(RadianceRecords, ABatchThatIsUsedAgainIsAsNew) {
   for (const std::size_t count : {2000u, 300u}) {
     const RecordRequest request{.step = count, .points = count};
     records.trace(request, used);
-    records.finish(request, {}, used);
+    records.finish({}, used);
+    records.deal(request, used);
   }
   const Made fresh(viewed, options, {.step = 300, .points = 300});
   EXPECT_EQ(used.targets, fresh.batch.targets);

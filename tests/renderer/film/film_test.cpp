@@ -137,7 +137,7 @@ TEST(Film, HalvesOfDifferentNumbersCountAsIfTheyHadTakenTurns) {
   };
   for (const float value : {1.0f, 3.0f}) add(0, value);
   for (const float value : {5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 13.0f}) add(1, value);
-  EXPECT_EQ(film.samples(), 8u);
+  EXPECT_EQ(film.taken({0, 0}), 8u);
   const Picture picture = film.resolve();
   EXPECT_FLOAT_EQ(picture.find("half-a")->values[0], 2.0f);
   EXPECT_FLOAT_EQ(picture.find("half-b")->values[0], 8.0f);

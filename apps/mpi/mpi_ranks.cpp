@@ -1,0 +1,232 @@
+#include "apps/mpi/mpi_ranks.h"
+
+#include <atomic>
+#include <cassert>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "apps/mpi/attendant.h"
+#include "apps/mpi/chunks.h"
+#include "apps/mpi/gatherings.h"
+#include "apps/mpi/mpi_calls.h"
+#include "apps/mpi/mpi_world.h"
+
+namespace gatelight::apps {
+namespace {
+
+using renderer::Bytes;
+using Clock = std::chrono::steady_clock;
+
+/// After a fault, a gathering that some ranks have not begun cannot end.
+constexpr std::chrono::seconds kGatheringsAfterFault(2);
+
+std::size_t index(int rank) {
+  return static_cast<std::size_t>(rank);
+}
+
+/// Adds the time of its life.
+class WaitingTime {
+ public:
+  explicit WaitingTime(std::atomic<std::int64_t>& nanoseconds) : nanoseconds_(nanoseconds) {}
+  ~WaitingTime() {
+    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin_).count();
+  }
+  WaitingTime(const WaitingTime&) = delete;
+  WaitingTime& operator=(const WaitingTime&) = delete;
+
+ private:
+  std::atomic<std::int64_t>& nanoseconds_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+}  // namespace
+
+struct MpiRanks::Connection {
+  Connection(int* argc, char*** argv) : world(argc, argv) {}
+  bool gatherings_over() const {
+    const std::lock_guard lock(mpi_mutex());
+    return gatherings.idle();
+  }
+
+  MpiWorld world;
+  Gatherings gatherings{world};
+  std::optional<Attendant> attendant;  ///< a process alone has none
+  Callbacks callbacks;
+  std::optional<int> fault;  ///< its code
+  bool ended = false;
+  int exceptions = std::uncaught_exceptions();
+  std::atomic<std::uint64_t> bytes_sent = 0;
+  std::atomic<std::int64_t> waiting = 0;  ///< nanoseconds
+};
+
+MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds)
+    : connection_(std::make_unique<Connection>(argc, argv)) {
+  Connection& mpi = *connection_;
+  mpi.callbacks = std::move(callbacks);
+  if (count() > 1) mpi.attendant.emplace(mpi.world, mpi.gatherings, mpi.callbacks, silence_seconds);
+}
+
+MpiRanks::~MpiRanks() {
+  Connection& mpi = *connection_;
+  if (mpi.ended) return;
+  // The others would wait forever.
+  if (mpi.attendant && !mpi.fault && std::uncaught_exceptions() > mpi.exceptions)
+    mpi.attendant->abort({.code = mpi.callbacks.lost_code, .line = "ended by an exception"});
+  try {
+    end();
+  } catch (const std::exception& error) {
+    if (mpi.attendant) mpi.attendant->abort({.code = mpi.callbacks.lost_code, .line = error.what()});
+  }
+}
+
+int MpiRanks::rank() const {
+  return connection_->world.rank;
+}
+
+int MpiRanks::count() const {
+  return connection_->world.count;
+}
+
+int MpiRanks::local_count() const {
+  return connection_->world.local_count;
+}
+
+const std::string& MpiRanks::host(int rank) const {
+  return connection_->world.hosts.at(index(rank));
+}
+
+std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
+  Connection& mpi = *connection_;
+  assert(outgoing.size() == index(count()));
+  if (alone()) return outgoing;
+  const WaitingTime time(mpi.waiting);
+  struct Exchange {
+    std::vector<Bytes> outgoing, incoming;
+    std::vector<std::uint64_t> outgoing_sizes, incoming_sizes;
+    Requests requests{kNoRequest};
+  };
+  const MpiMemory<Exchange> all;
+  all->outgoing = std::move(outgoing);
+  Bytes own = std::exchange(all->outgoing[index(rank())], {});
+  for (const Bytes& bytes : all->outgoing) {
+    all->outgoing_sizes.push_back(bytes.size());
+    mpi.bytes_sent += bytes.size();
+  }
+  all->incoming_sizes.resize(index(count()));
+  {
+    const std::lock_guard lock(mpi_mutex());
+    check(MPI_Ialltoall(all->outgoing_sizes.data(), 1, kUint64, all->incoming_sizes.data(), 1, kUint64,
+                        mpi.world.data, all->requests.data()),
+          "MPI_Ialltoall");
+  }
+  wait_for(all->requests);
+
+  all->requests.clear();
+  for (const std::uint64_t size : all->incoming_sizes) all->incoming.emplace_back(size);
+  {
+    const std::lock_guard lock(mpi_mutex());
+    for (int other = 0; other < count(); ++other)
+      begin_receive(mpi.world.data, other, all->incoming[index(other)], all->requests);
+    // Each rank begins with its next, so that they do not all send to the same one.
+    for (int i = 1; i < count(); ++i) {
+      const int to = (rank() + i) % count();
+      begin_send(mpi.world.data, to, all->outgoing[index(to)], all->requests);
+    }
+  }
+  wait_for(all->requests);
+  all->incoming[index(rank())] = std::move(own);
+  return std::move(all->incoming);
+}
+
+void MpiRanks::broadcast(Bytes& bytes) {
+  Connection& mpi = *connection_;
+  if (alone()) return;
+  const WaitingTime time(mpi.waiting);
+  struct Broadcast {
+    Bytes bytes;
+    std::uint64_t size = 0;
+    Requests requests;
+  };
+  const MpiMemory<Broadcast> all;
+  all->bytes = std::move(bytes);
+  all->size = all->bytes.size();
+  {
+    const std::lock_guard lock(mpi_mutex());
+    begin_broadcast(mpi.world.data, std::as_writable_bytes(std::span(&all->size, 1)), all->requests);
+  }
+  wait_for(all->requests);
+
+  all->requests.clear();
+  all->bytes.resize(all->size);
+  {
+    const std::lock_guard lock(mpi_mutex());
+    begin_broadcast(mpi.world.data, all->bytes, all->requests);
+  }
+  wait_for(all->requests);
+  bytes = std::move(all->bytes);
+  if (first()) mpi.bytes_sent += all->size * static_cast<std::uint64_t>(count() - 1);
+}
+
+std::unique_ptr<renderer::Ranks::Gathering> MpiRanks::begin_gather(Bytes mine) {
+  struct Running : Gathering {
+    explicit Running(Connection& connection) : mpi(connection) {}
+    std::vector<Bytes> wait() override {
+      const WaitingTime time(mpi.waiting);
+      for (Pauses pauses;; pauses.sleep()) {
+        const std::lock_guard lock(mpi_mutex());
+        mpi.gatherings.advance();
+        if (Gatherings::over(*gather)) break;
+      }
+      return Gatherings::take(*gather);
+    }
+    Connection& mpi;
+    std::shared_ptr<Gatherings::Gather> gather;
+  };
+  if (alone()) return renderer::OneRank().begin_gather(std::move(mine));
+  auto running = std::make_unique<Running>(*connection_);
+  connection_->bytes_sent += mine.size() * static_cast<std::uint64_t>(count() - 1);
+  const std::lock_guard lock(mpi_mutex());
+  running->gather = connection_->gatherings.begin(std::move(mine));
+  return running;
+}
+
+renderer::Ranks::Traffic MpiRanks::traffic() const {
+  return {.bytes_sent = connection_->bytes_sent,
+          .waiting_seconds = 1e-9 * static_cast<double>(connection_->waiting.load())};
+}
+
+void MpiRanks::fail(int code, const std::string& line) {
+  Connection& mpi = *connection_;
+  mpi.fault = code;
+  if (mpi.attendant) {
+    mpi.attendant->fail({.code = code, .line = line});
+  } else {
+    mpi.callbacks.on_fault(code, line);
+  }
+}
+
+void MpiRanks::end() {
+  Connection& mpi = *connection_;
+  if (mpi.ended) return;
+  if (mpi.attendant) {
+    const auto give_up = Clock::now() + kGatheringsAfterFault;
+    for (Pauses pauses; !mpi.gatherings_over(); pauses.sleep()) {
+      if (mpi.fault && Clock::now() > give_up) abort_all(*mpi.fault);
+    }
+    Requests barrier{kNoRequest};
+    {
+      const std::lock_guard lock(mpi_mutex());
+      check(MPI_Ibarrier(mpi.world.data, barrier.data()), "MPI_Ibarrier");
+    }
+    wait_for(barrier);
+    mpi.attendant->stop();
+  }
+  mpi.ended = true;
+  mpi.world.finalize();
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,73 @@
+#include "renderer/cache/record_exchange.h"
+
+#include "renderer/ranks/packing.h"
+
+namespace gatelight::renderer {
+
+void choose_tracers(RecordBatch& batch, const RankTiles& ranks) {
+  const TrainingStarts& starts = batch.starts;
+  const std::size_t blocks = starts.blocks();
+  batch.tracers.clear();
+  batch.self = ranks.ranks.rank();
+  const std::int64_t tiles = ranks.tiles.count();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    batch.tracers.push_back(
+        starts.samples.empty()
+            ? ranks.shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
+                                                  static_cast<std::int64_t>(blocks)))
+            : ranks.owner(starts.samples[starts.offsets[b]].pixel));
+  }
+}
+
+Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankWork& work) {
+  Packer packer;
+  packer.add(work);
+  for (std::size_t b = 0; b < batch.paths.size(); ++b) {
+    if (!batch.mine(b)) continue;
+    const PathBatch& paths = batch.paths[b];
+    packer.add(static_cast<std::uint32_t>(paths.records.size()));
+    packer.add(static_cast<std::uint32_t>(paths.targets.size()));
+    paths.records.pack(packer);
+    packer.add_all(std::span(paths.targets));
+  }
+  if (batch.starts.samples.empty()) return packer.take();
+  for (std::size_t b = 0; b < batch.paths.size(); ++b) {
+    if (!batch.mine(b)) continue;
+    for (std::size_t i = batch.starts.offsets[b]; i < batch.starts.offsets[b + 1]; ++i) {
+      if (ranks.owns(batch.starts.samples[i].pixel)) continue;
+      packer.add(static_cast<std::uint64_t>(i));
+      packer.add(batch.radiance[i]);
+      packer.add(batch.first_hits[i]);
+    }
+  }
+  return packer.take();
+}
+
+std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTiles& ranks,
+                                     RecordBatch& batch) {
+  std::vector<RankWork> work;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    Unpacker unpacker(all[r]);
+    work.push_back(unpacker.read<RankWork>());
+    if (static_cast<int>(r) == ranks.ranks.rank()) continue;
+    for (std::size_t b = 0; b < batch.paths.size(); ++b) {
+      if (batch.tracers[b] != static_cast<int>(r)) continue;
+      PathBatch& paths = batch.paths[b];
+      const auto records = unpacker.read<std::uint32_t>();
+      paths.targets.resize(unpacker.read<std::uint32_t>());
+      paths.records.unpack(unpacker, records);
+      unpacker.read_all(std::span(paths.targets));
+    }
+    while (!unpacker.done()) {
+      const auto i = static_cast<std::size_t>(unpacker.read<std::uint64_t>());
+      const auto radiance = unpacker.read<Color>();
+      const auto first = unpacker.read<FirstHit>();
+      if (!ranks.owns(batch.starts.samples[i].pixel)) continue;
+      batch.radiance[i] = radiance;
+      batch.first_hits[i] = first;
+    }
+  }
+  return work;
+}
+
+}  // namespace gatelight::renderer

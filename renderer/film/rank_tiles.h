@@ -1,0 +1,20 @@
+#pragma once
+// Whose pixel is it, where several ranks make one picture.
+
+#include "renderer/film/tiles.h"
+#include "renderer/ranks/ranks.h"
+#include "renderer/ranks/shares.h"
+
+namespace gatelight::renderer {
+
+/// The references outlive it. Shares may change.
+struct RankTiles {
+  Ranks& ranks;
+  const TileGrid& tiles;
+  const Shares& shares;
+
+  int owner(const Pixel& pixel) const { return shares.owner(tiles.tile_at(pixel)); }
+  bool owns(const Pixel& pixel) const { return owner(pixel) == ranks.rank(); }
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,207 @@
+// What the ranks of a picture do together: its film, and the finished picture.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "renderer/ranks/packing.h"
+#include "renderer/run/adaptive_sampling.h"
+#include "renderer/run/implementation.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Tiles are dealt anew where the slowest rank took so many times the mean.
+constexpr double kImbalance = 1.03;
+
+/// The layers' values of some rows, as rank 0 joins them.
+template <class Visit>
+void each_array(FinishedPicture& finished, Visit visit) {
+  for (Layer& layer : finished.picture.layers) visit(layer.values);
+  Reconstruction& r = finished.reconstruction;
+  for (auto& half : r.halves) visit(half);
+  for (auto& half : r.noise) visit(half);
+  visit(r.kept_and_lost);
+  visit(finished.alpha);
+}
+
+/// Rank 0 gets the rows of all ranks in `mine`.
+void join_rows(FinishedPicture& mine, int height, Ranks& ranks) {
+  Packer packer;
+  each_array(mine, [&](const auto& values) {
+    packer.add(static_cast<std::uint64_t>(values.size()));
+    packer.add_all(std::span(values));
+  });
+  std::vector<Bytes> outgoing(static_cast<std::size_t>(ranks.count()));
+  if (!ranks.first()) outgoing[0] = packer.take();
+  const std::vector<Bytes> incoming = ranks.exchange(std::move(outgoing));
+  if (!ranks.first()) {
+    mine = {};
+    return;
+  }
+  for (std::size_t r = 1; r < incoming.size(); ++r) {
+    Unpacker unpacker(incoming[r]);
+    each_array(mine, [&](auto& values) {
+      const std::size_t before = values.size();
+      values.resize(before + static_cast<std::size_t>(unpacker.read<std::uint64_t>()));
+      unpacker.read_all(std::span(values).subspan(before));
+    });
+  }
+  mine.picture.height = height;
+}
+
+}  // namespace
+
+std::uint64_t Renderer::Implementation::samples_of_rank(const Film& film) const {
+  std::uint64_t sum = 0;
+  std::vector<Pixel> pixels;
+  for (int tile = 0; tile < own.count(); ++tile) {
+    own.pixels(tile, pixels);
+    for (const Pixel& p : pixels) sum += film.taken(p);
+  }
+  return sum;
+}
+
+void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, std::uint64_t training_paths) const {
+  if (ranks.alone()) return;
+  struct Counts {
+    RankStatistics of_rank;
+    RayCounts rays;
+    std::uint64_t samples, nonfinite, clamped, queries, negative_answers, unstored_hits;
+  };
+  const Ranks::Traffic traffic = ranks.traffic();
+  const auto all = one_of_each(
+      ranks, Counts{{.threads = threads,
+                     .samples = sum.samples,
+                     .training_paths = training_paths,
+                     .seconds = seconds_since(begin),
+                     .bytes_sent = traffic.bytes_sent,
+                     .waiting_seconds = traffic.waiting_seconds},
+                    sum.rays, sum.samples, sum.nonfinite, sum.clamped, sum.cache.queries,
+                    sum.cache.negative_answers, sum.cache.unstored_hits});
+  sum.ranks.clear();
+  sum.rays = {};
+  sum.samples = sum.nonfinite = sum.clamped = 0;
+  sum.cache.queries = sum.cache.negative_answers = sum.cache.unstored_hits = 0;
+  for (const Counts& counts : all) {
+    sum.ranks.push_back(counts.of_rank);
+    sum.rays.add(counts.rays);
+    sum.samples += counts.samples;
+    sum.nonfinite += counts.nonfinite;
+    sum.clamped += counts.clamped;
+    sum.cache.queries += counts.queries;
+    sum.cache.negative_answers += counts.negative_answers;
+    sum.cache.unstored_hits += counts.unstored_hits;
+  }
+  sum.nonfinite_samples = joined(ranks, std::move(sum.nonfinite_samples));
+  keep_first(sum.nonfinite_samples);
+}
+
+double Renderer::Implementation::samples_per_pixel(const Film& film) const {
+  if (ranks.alone()) return film.samples_per_pixel();
+  std::uint64_t sum = 0;
+  std::vector<Pixel> pixels;
+  for (int tile = 0; tile < own.count(); ++tile) {
+    own.pixels(tile, pixels);
+    for (const Pixel& p : pixels) sum += film.count(p);
+  }
+  return static_cast<double>(sum_of_all(ranks, sum)) / static_cast<double>(film.pixels());
+}
+
+void Renderer::Implementation::rebalance(Film& film, const std::vector<RankWork>& measured) {
+  if (ranks.alone() || Shares::imbalance(measured) < kImbalance) return;
+  const Shares before = shares;
+  shares.rebalance(measured);
+  exchange_tiles(film, tiles, before, ranks, [&](int rank, int tile) { return shares.owner(tile) == rank; });
+  own = tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()));
+}
+
+SharedRows Renderer::Implementation::share_rows(Film& film) {
+  SharedRows rows = SharedRows::all(region.height());
+  if (ranks.alone()) return rows;
+  std::vector<int> begins = {0};
+  double threads_before = 0.0, all = 0.0;
+  for (const double n : threads_of_ranks) all += n;
+  for (const double n : threads_of_ranks) {
+    threads_before += n;
+    const auto units = static_cast<int>(std::lround(threads_before / all * rows.height / kRowUnit));
+    begins.push_back(std::min(units * kRowUnit, rows.height));
+  }
+  begins.back() = rows.height;
+  const auto wanted = [&](int rank) {
+    const auto r = static_cast<std::size_t>(rank);
+    return std::pair(std::max(begins[r] - kRowMargin, 0), std::min(begins[r + 1] + kRowMargin, rows.height));
+  };
+  const int first_row = region.y0 / kTile * kTile - region.y0;  // of the grid
+  const int columns = (region.x1 + kTile - 1) / kTile - region.x0 / kTile;
+  exchange_tiles(film, tiles, shares, ranks, [&](int rank, int tile) {
+    const auto [top, bottom] = wanted(rank);
+    const int row = first_row + tile / columns * kTile;
+    return top < bottom && row + kTile > top && row < bottom;
+  });
+  const auto self = static_cast<std::size_t>(ranks.rank());
+  rows.first = begins[self];
+  rows.end = begins[self + 1];
+  rows.top = wanted(ranks.rank()).first;
+  rows.join = [this](std::vector<double> mine) { return joined(ranks, std::move(mine)); };
+  return rows;
+}
+
+FinishedPicture Renderer::Implementation::finish(Film& film) {
+  const Clock::time_point start = Clock::now();
+  const double spp = samples_per_pixel(film);
+  const SeenLight better = smoother_edges(spp);
+  const CaughtShadows shadows = caught_shadows(spp);
+  FinishedPicture finished;
+  if (ranks.alone() || !options.reconstruct) {
+    gather(film);
+    if (ranks.first()) finished = finished_picture(film, options, arena, better, shadows);
+  } else {
+    const SharedRows rows = share_rows(film);
+    const int bottom = std::min(rows.end + kRowMargin, rows.height);
+    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options, arena, better,
+                             shadows);
+    join_rows(finished, rows.height, ranks);
+    if (ranks.first()) arena.execute([&] { complete(finished, spp, options); });
+    finished.reconstruct_seconds = seconds_since(start);
+  }
+  if (ranks.first()) finished.picture.view = camera.matrices(scene.origin);
+  return finished;
+}
+
+double Renderer::Implementation::adapt_density(Film& film, const Reconstruction* known) {
+  const Clock::time_point start = Clock::now();
+  FinishedPicture finished;
+  if (!known) {
+    const SharedRows rows = share_rows(film);
+    const int bottom = std::min(rows.end + kRowMargin, rows.height);
+    finished.reconstruction = arena.execute([&] {
+      return ranks.alone() ? finished_film(film, rows, options)
+                           : finished_film(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options);
+    });
+    if (!ranks.alone()) join_rows(finished, rows.height, ranks);
+    known = &finished.reconstruction;
+  }
+  if (ranks.alone()) {
+    arena.execute([&] { film.follow(make_density(region, *known)); });
+    return seconds_since(start);
+  }
+  Bytes bytes;
+  if (ranks.first()) {
+    Packer packer;
+    const SampleDensity density = arena.execute([&] { return make_density(region, *known); });
+    for (const std::vector<float>& half : density.values()) packer.add_all(std::span(half));
+    bytes = packer.take();
+  }
+  ranks.broadcast(bytes);
+  Unpacker unpacker(bytes);
+  std::array<std::vector<float>, 2> values;
+  for (std::vector<float>& half : values) {
+    half.resize(film.pixels());
+    unpacker.read_all(std::span(half));
+  }
+  film.follow(SampleDensity::restore(region, std::move(values)));
+  return seconds_since(start);
+}
+
+}  // namespace gatelight::renderer
