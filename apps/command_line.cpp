@@ -25,8 +25,8 @@ namespace {
 constexpr const char* kProgramFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
 over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
-8 nothing in a sweep is within the limits of --advise; 129, 130 and 143 stopped by a signal after writing the picture so
-far. The last line on stderr says what failed, on which file, and what to do.
+8 nothing in a sweep is within the limits of --advise; 9 another rank of gatelight-mpi does not answer; 129, 130 and 143
+stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file, and what to do.
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256
@@ -167,7 +167,7 @@ int fail(const ConfigFile& config) {
   return failure.code;
 }
 
-int parse(int argc, const char* const* argv, bool runs) {
+int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
   root.set_version_flag("--version", version());
@@ -178,7 +178,7 @@ int parse(int argc, const char* const* argv, bool runs) {
   root.formatter(make_help_formatter());
   const std::shared_ptr<const ConfigFile> config = accept_config_file(root);
   const std::vector<Subcommand> subcommands = {
-      add_render_command(root, std::vector<std::string>(argv, argv + argc)),
+      add_render_command(root, std::vector<std::string>(argv, argv + argc), group),
       add_compare_command(root),
       add_info_command(root),
       add_merge_command(root),
@@ -189,7 +189,12 @@ int parse(int argc, const char* const* argv, bool runs) {
     root.parse(argc, argv);
     refuse_empty_words(root);
     for (const Subcommand& subcommand : subcommands) {
-      if (subcommand.app->parsed()) return runs ? subcommand.run() : kDone;
+      if (!subcommand.app->parsed()) continue;
+      if (!group.ranks.alone() && !subcommand.of_ranks) {
+        throw UsageError(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
+                                     subcommand.app->get_name()));
+      }
+      return runs ? subcommand.run() : kDone;
     }
   } catch (const CLI::ParseError& error) {
     return finish_parsing(root, error, *config, subcommands);
@@ -209,10 +214,10 @@ bool wants_json(int argc, const char* const* argv) {
   return false;
 }
 
-int parse_or_fail(int argc, const char* const* argv, bool runs) {
+int parse_or_fail(int argc, const char* const* argv, bool runs, const RankGroup& group) {
   set_json_messages(wants_json(argc, argv));
   try {
-    return parse(argc, argv, runs);
+    return parse(argc, argv, runs, group);
   } catch (...) {
     return fail({});
   }
@@ -221,11 +226,15 @@ int parse_or_fail(int argc, const char* const* argv, bool runs) {
 }  // namespace
 
 int read_only(int argc, const char* const* argv) {
-  return parse_or_fail(argc, argv, false);
+  return parse_or_fail(argc, argv, false, {renderer::one_rank(), 1, {}});
 }
 
 int run(int argc, const char* const* argv) {
-  return parse_or_fail(argc, argv, true);
+  return run(argc, argv, {renderer::one_rank(), 1, {}});
+}
+
+int run(int argc, const char* const* argv, const RankGroup& group) {
+  return parse_or_fail(argc, argv, true, group);
 }
 
 }  // namespace gatelight::apps

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/rank_group.h"
+
 namespace gatelight::apps {
 
 /// Parses the command line and its --config file, but runs nothing. Returns 0, or the exit code of an error
@@ -8,5 +10,7 @@ int read_only(int argc, const char* const* argv);
 
 /// Runs the whole program. Returns the exit code; throws nothing.
 int run(int argc, const char* const* argv);
+/// The same as one of several ranks. All of them run the same command.
+int run(int argc, const char* const* argv, const RankGroup& group);
 
 }  // namespace gatelight::apps

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "apps/rank_checks.h"
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/camera_names.h"
@@ -24,6 +26,7 @@
 #include "renderer/film/memory_estimate.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/machine/clock.h"
+#include "renderer/ranks/packing.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 
@@ -57,20 +60,27 @@ double count_pixels(const renderer::RenderOptions& options) {
 
 class RenderRun {
  public:
-  RenderRun(RenderSettings settings, const std::vector<std::string>& command)
+  RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group)
       : settings_(std::move(settings)),
+        group_(group),
         progress_(settings_.quiet ? ProgressMode::none : settings_.progress, count_pixels(settings_.render)) {
     report_.command = command;
+    report_.hosts = group.hosts;
   }
 
   int run() {
+    share_machines(settings_, group_);
     const scene::Scene scene = load();
-    if (stop_signal() != 0) return stop_without_picture();
+    if (const int number = signal(); number != 0) return stop_without_picture(number);
+    expect_equal_ranks(settings_, scene, group_);
+    const std::size_t memory = require_memory_of_ranks(settings_, scene, group_);
+    log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.alone() ? "" : " by each rank",
+                           format_bytes(memory)));
     const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
     settings_ = pictures.front();
     progress_.phase("build");
     const std::size_t warnings_of_loading = report_.warnings.size();
-    renderer::Renderer renderer(scene, settings_.render);
+    renderer::Renderer renderer(scene, settings_.render, group_.ranks);
     int code = make_picture(renderer);
     for (std::size_t i = 1; i < pictures.size() && code == kDone; ++i) {
       settings_ = pictures[i];
@@ -85,11 +95,11 @@ class RenderRun {
  private:
   int make_picture(renderer::Renderer& renderer) {
     for (const std::string& warning : renderer.statistics().warnings) warn(warning);
-    if (stop_signal() != 0) return stop_without_picture();
+    if (const int number = signal(); number != 0) return stop_without_picture(number);
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
     report_.statistics = renderer.statistics();
-    report_.signal = stop_signal();
-    write_results(std::move(picture));
+    report_.signal = signal();
+    if (group_.ranks.first()) write_results(std::move(picture));
     if (!report_.statistics.device_lost.empty())
       throw neural::DeviceLost(
           fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
@@ -113,8 +123,6 @@ class RenderRun {
       log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings_.scene,
                              format_integer(scene::count_triangles(scene)), scene.instances.size(),
                              scene.lights.size()));
-      log_detail(fmt::format("memory needed, estimated: {}",
-                             format_bytes(renderer::estimate_memory(scene, settings_.render).total())));
       log_detail(fmt::format("options: {}", dump_options(settings_)));
     }
     return scene;
@@ -188,13 +196,19 @@ class RenderRun {
     if (!again && !failed_output_) failed_output_ = error;
   }
 
+  /// What any rank was sent.
+  int signal() const {
+    const std::vector<int> signals = renderer::one_of_each(group_.ranks, stop_signal());
+    return *std::max_element(signals.begin(), signals.end());
+  }
+
   /// A signal before the first pass: there is nothing to write.
-  int stop_without_picture() {
+  int stop_without_picture(int signal) {
     progress_.clear();
     print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
-                             stop_signal(), settings_.scene),
-                 kSignalBase + stop_signal());
-    return kSignalBase + stop_signal();
+                             signal, settings_.scene),
+                 kSignalBase + signal);
+    return kSignalBase + signal;
   }
 
   void warn(const std::string& text) {
@@ -204,25 +218,27 @@ class RenderRun {
   }
 
   RenderSettings settings_;  ///< of the picture that is made
+  const RankGroup& group_;
   RunReport report_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };
 
-int run_render(RenderSettings settings, const std::vector<std::string>& command) {
+int run_render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group) {
   set_json_messages(settings.progress == ProgressMode::json);
   if (settings.preset && settings.render.integrator == renderer::Integrator::nrc &&
       !settings.given.contains("--exposure")) {
     settings.exposure.reset();
   }
   complete_settings(settings);
-  check_files(settings);
-  set_log_level(settings.quiet, settings.verbose);
+  if (!group.ranks.first()) settings.quiet = true;
+  if (group.ranks.first()) check_files(settings);
+  set_log_level(settings.quiet, settings.verbose && group.ranks.first());
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {
-    return RenderRun(settings, command).run();
+    return RenderRun(settings, command, group).run();
   } catch (const renderer::TrainingDiverged& error) {
     throw renderer::TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const renderer::NumericalError& error) {
@@ -234,16 +250,17 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command)
 
 }  // namespace
 
-Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command) {
+Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
+                              const RankGroup& group) {
   CLI::App* app = add_subcommand(root, "render", "Render a scene to EXR and PNG", kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
   add_flags(*app, option_table(*settings));
   return {app,
-          [app, settings, command] {
+          [app, settings, command, &group] {
             finish_flags(*app, *settings);
-            return run_render(*settings, command);
+            return run_render(*settings, command, group);
           },
-          common_flags()};
+          common_flags(), true};
 }
 
 }  // namespace gatelight::apps

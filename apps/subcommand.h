@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/rank_group.h"
+
 namespace CLI {
 class App;
 }
@@ -16,9 +18,11 @@ struct Subcommand {
   CLI::App* app = nullptr;         ///< owned by the root
   std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
   std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
+  bool of_ranks = false;           ///< several ranks may run it together
 };
 
-Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command);
+Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
+                              const RankGroup& group);
 Subcommand add_compare_command(CLI::App& root);
 Subcommand add_info_command(CLI::App& root);
 Subcommand add_merge_command(CLI::App& root);

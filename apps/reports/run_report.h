@@ -12,6 +12,7 @@ namespace gatelight::apps {
 
 struct RunReport {
   std::vector<std::string> command;
+  std::vector<std::string> hosts;  ///< of the ranks, where there are several
   renderer::RenderStatistics statistics;
   double load_seconds = 0.0;
   double write_seconds = 0.0;

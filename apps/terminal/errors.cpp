@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
@@ -22,6 +23,11 @@ namespace {
 
 /// What oneTBB throws where it cannot start a thread.
 constexpr std::string_view kThreadFailed = "pthread_create has failed";
+
+std::function<void(const Failure&)>& failure_handler() {
+  static std::function<void(const Failure&)> handler;
+  return handler;
+}
 
 }  // namespace
 
@@ -90,7 +96,12 @@ void end_program() {
   std::_Exit(failure.code);
 }
 
+void handle_failures(std::function<void(const Failure&)> handler) {
+  failure_handler() = std::move(handler);
+}
+
 void print_failure(const Failure& failure) {
+  if (failure_handler()) return failure_handler()(failure);
   const std::string message = one_line(failure.message);
   if (json_messages()) {
     print_json_line(

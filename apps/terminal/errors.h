@@ -1,6 +1,7 @@
 #pragma once
 // Failures of the program: an exit code for each kind of reason, and one last line on stderr.
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +20,7 @@ enum ExitCode : int {
   kNumerical = 6,
   kPartly = 7,        ///< some cells of a sweep failed, the others are there
   kNoAdvice = 8,      ///< nothing in a sweep meets the limits of --advise
+  kLost = 9,          ///< another rank of a run on several machines does not answer
   kSignalBase = 128,  ///< plus the signal's number
 };
 
@@ -47,8 +49,11 @@ std::string one_line(std::string text);
 /// ends the program with its line and its code.
 [[noreturn]] void end_program();
 
-/// Prints the last line of stderr.
+/// Prints the last line of stderr, or gives it to the handler.
 void print_failure(const Failure& failure);
+
+/// Where several ranks run one command, one of them prints. None: this process prints its failures itself.
+void handle_failures(std::function<void(const Failure&)> handler);
 
 /// Prints the last line of stderr after a signal, which is no failure. The code is the program's.
 void print_notice(const std::string& text, int code);

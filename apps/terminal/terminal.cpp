@@ -3,6 +3,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,15 @@
 #include "renderer/machine/atomic_file.h"
 
 namespace gatelight::apps {
+namespace {
+
+std::atomic<bool> is_silent{false};
+
+}  // namespace
+
+void set_silent(bool silent) {
+  is_silent = silent;
+}
 
 int terminal_columns() {
   winsize size{};
@@ -20,6 +30,7 @@ int terminal_columns() {
 }
 
 void tell(std::string_view text) {
+  if (is_silent) return;
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
@@ -33,6 +44,7 @@ void write_text(const std::string& target, const std::string& text) {
     renderer::write_file_atomically(target, text);
     return;
   }
+  if (is_silent) return;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw renderer::OutputError("cannot write to stdout: " + std::generic_category().message(errno));
   }

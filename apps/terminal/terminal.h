@@ -9,6 +9,9 @@ namespace gatelight::apps {
 
 int terminal_columns();
 
+/// Nothing is written to the terminal from now on: neither to stderr nor to stdout. Other ranks speak.
+void set_silent(bool silent);
+
 /// Writes to stderr. Write errors (a full disk, a pipe without a reader) are ignored.
 void tell(std::string_view text);
 

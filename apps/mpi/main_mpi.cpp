@@ -1,0 +1,72 @@
+// gatelight with its pictures made by several ranks.
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <string>
+
+#include "apps/command_line.h"
+#include "apps/mpi/mpi_ranks.h"
+#include "apps/rank_group.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/signals.h"
+#include "apps/terminal/terminal.h"
+#include "neural/base/flush_denormals.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// Failures travel from rank to rank as one text.
+constexpr char kSeparator = '\x1f';
+
+void print_fault(int code, const std::string& line) {
+  // A rank that speaks for rank 0 was silent.
+  set_silent(false);
+  handle_failures({});
+  const std::size_t at = line.find(kSeparator);
+  const std::string advice = at == std::string::npos ? "" : line.substr(at + 1);
+  print_failure({code, line.substr(0, at), advice});
+}
+
+RankCallbacks make_callbacks() {
+  return {.on_fault = print_fault,
+          .on_lost =
+              [](int rank, const std::string& host, double seconds) {
+                print_fault(kLost, fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks end{}"
+                                               "--resume goes on from the last --checkpoint",
+                                               rank, host, seconds, kSeparator));
+              },
+          .lost_code = kLost};
+}
+
+int run_ranks(int argc, char** argv) {
+  MpiRanks ranks(&argc, &argv, make_callbacks());
+  RankGroup group{ranks, ranks.local_count(), {}};
+  for (int rank = 0; rank < ranks.count(); ++rank) group.hosts.push_back(ranks.host(rank));
+  set_silent(!ranks.first());
+  handle_failures([&](const Failure& failure) {
+    ranks.fail(failure.code, failure.message + kSeparator + failure.advice);
+  });
+  const int code = run(argc, argv, group);
+  ranks.end();
+  return code;
+}
+
+}  // namespace
+}  // namespace gatelight::apps
+
+int main(int argc, char** argv) {
+  using namespace gatelight;
+  // TBB copies this state to its threads at its first use.
+  const neural::FlushDenormals flush;
+  std::set_terminate(apps::end_program);
+  apps::ignore_write_signals();
+  try {
+    return apps::run_ranks(argc, argv);
+  } catch (const std::exception& error) {
+    apps::handle_failures({});
+    apps::set_silent(false);
+    apps::print_failure({apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
+    return apps::kUnavailable;
+  }
+}

@@ -1,0 +1,20 @@
+#pragma once
+// The processes that run one command together, and their machines.
+
+#include <string>
+#include <vector>
+
+#include "renderer/ranks/ranks.h"
+
+namespace gatelight::apps {
+
+struct RankGroup {
+  renderer::Ranks& ranks;
+  int local_count = 1;             ///< ranks of this machine
+  std::vector<std::string> hosts;  ///< of each rank; empty for a process alone
+
+  /// "rank 1 of 3 (host)".
+  std::string name_of(int rank) const;
+};
+
+}  // namespace gatelight::apps
