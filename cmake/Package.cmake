@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(GATELIGHT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/gatelight)
 
-foreach(program IN ITEMS gatelight gatelight-bench)
+foreach(program IN ITEMS gatelight gatelight-mpi gatelight-bench)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -39,8 +40,16 @@ RankCallbacks make_callbacks() {
           .lost_code = kLost};
 }
 
+/// Seconds after which a silent rank is lost.
+double silence() {
+  constexpr double kUsual = 20.0;
+  const char* const text = std::getenv("GATELIGHT_RANK_SILENCE");
+  const double seconds = text ? std::atof(text) : 0.0;
+  return seconds > 0.0 ? seconds : kUsual;
+}
+
 int run_ranks(int argc, char** argv) {
-  MpiRanks ranks(&argc, &argv, make_callbacks());
+  MpiRanks ranks(&argc, &argv, make_callbacks(), silence());
   RankGroup group{ranks, ranks.local_count(), {}};
   for (int rank = 0; rank < ranks.count(); ++rank) group.hosts.push_back(ranks.host(rank));
   set_silent(!ranks.first());

@@ -23,16 +23,20 @@ class Shares {
   int end(int rank) const { return begins_[static_cast<std::size_t>(rank) + 1]; }
   int owner(int tile) const;
 
-  /// Of what was measured for these shares: the longest time over the mean.
-  static double imbalance(std::span<const RankWork> measured);
-  /// Learns how much work the tiles are and how fast the ranks, and deals anew so that all take equally long.
-  void rebalance(std::span<const RankWork> measured);
+  /// Learns from what was measured for these shares how much work the tiles are and how fast the ranks. Deals
+  /// anew where some rank would take much longer than the others; else returns false.
+  bool rebalance(std::span<const RankWork> measured);
 
  private:
-  void deal(std::span<const double> speeds);
+  void learn(std::span<const RankWork> measured);
+  /// The longest time that is expected of a rank over the mean.
+  double imbalance() const;
+  void deal();
 
   std::vector<int> begins_;     ///< of each rank; then the number of tiles
   std::vector<double> density_;  ///< expected rays of each tile, up to a factor
+  std::vector<double> speeds_;   ///< rays a second of each rank, up to a factor
+  bool measured_ = false;        ///< the speeds are no guess
 };
 
 }  // namespace gatelight::renderer

@@ -21,7 +21,6 @@
 #include "renderer/machine/threads.h"
 #include "renderer/ranks/packing.h"
 #include "renderer/settings/resolved_options.h"
-#include "renderer/transport/cryptomatte_pass.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/seen_light.h"
 #include "renderer/transport/shadow_catcher.h"
@@ -246,15 +245,6 @@ double Renderer::Implementation::expect_shadow_seconds() {
   const Clock::time_point start = Clock::now();
   arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints, 0); });
   return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width / ranks.count();
-}
-
-Cryptomattes Renderer::Implementation::cryptomattes() {
-  if (options.cryptomattes.empty()) return {};
-  const Clock::time_point start = Clock::now();
-  Cryptomattes mattes =
-      arena.execute([&] { return trace_cryptomattes(*world, camera, filter, options, region); });
-  statistics.cryptomatte_seconds = seconds_since(start);
-  return mattes;
 }
 
 Film Renderer::Implementation::make_film() const {

@@ -82,6 +82,8 @@ struct Renderer::Implementation {
   // For finished_picture().
   SeenLight smoother_edges(double samples_per_pixel) const;
   CaughtShadows caught_shadows(double samples_per_pixel) const;
+  /// The first row of each rank, where they share what costs alike everywhere; then the number of rows.
+  std::vector<int> rows_of_ranks() const;
   /// The rows that this rank finishes. The film gets their margin too.
   SharedRows share_rows(Film& film);
   /// The layers of options.cryptomattes; the statistics get the time.

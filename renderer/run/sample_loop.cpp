@@ -14,6 +14,8 @@ namespace {
 
 /// A pass takes about this long, so that time limits, signals and snapshots are handled soon.
 constexpr double kPassSeconds = 0.7;
+/// Ranks wait for each other after each pass, and their speeds jump.
+constexpr double kPassSecondsOfRanks = 3.0;
 
 }  // namespace
 
@@ -81,7 +83,8 @@ void SampleLoop::note_pass(int batch, double seconds) {
   }
   if (!cut_short_) done_ += batch;
   per_sample_ = slowest / batch;
-  batch_ = agreed(ranks_, samples_of_pass(now(), per_sample_, kPassSeconds, end_, 2 * batch));
+  const double usual = ranks_.alone() ? kPassSeconds : kPassSecondsOfRanks;
+  batch_ = agreed(ranks_, samples_of_pass(now(), per_sample_, usual, end_, 2 * batch));
 }
 
 bool SampleLoop::over() const {

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "renderer/ranks/packing.h"
 #include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/implementation.h"
+#include "renderer/transport/cryptomatte_pass.h"
 
 namespace gatelight::renderer {
 namespace {
-
-/// Tiles are dealt anew where the slowest rank took so many times the mean.
-constexpr double kImbalance = 1.03;
 
 /// The layers' values of some rows, as rank 0 joins them.
 template <class Visit>
@@ -109,25 +108,31 @@ double Renderer::Implementation::samples_per_pixel(const Film& film) const {
 }
 
 void Renderer::Implementation::rebalance(Film& film, const std::vector<RankWork>& measured) {
-  if (ranks.alone() || Shares::imbalance(measured) < kImbalance) return;
+  if (ranks.alone()) return;
   const Shares before = shares;
-  shares.rebalance(measured);
+  if (!shares.rebalance(measured)) return;
   exchange_tiles(film, tiles, before, ranks, [&](int rank, int tile) { return shares.owner(tile) == rank; });
   own = tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()));
+}
+
+std::vector<int> Renderer::Implementation::rows_of_ranks() const {
+  const int height = region.height();
+  const double all = std::accumulate(threads_of_ranks.begin(), threads_of_ranks.end(), 0.0);
+  std::vector<int> begins = {0};
+  double before = 0.0;
+  for (const double n : threads_of_ranks) {
+    before += n;
+    const auto units = static_cast<int>(std::lround(before / all * height / kRowUnit));
+    begins.push_back(std::min(units * kRowUnit, height));
+  }
+  begins.back() = height;
+  return begins;
 }
 
 SharedRows Renderer::Implementation::share_rows(Film& film) {
   SharedRows rows = SharedRows::all(region.height());
   if (ranks.alone()) return rows;
-  std::vector<int> begins = {0};
-  double threads_before = 0.0, all = 0.0;
-  for (const double n : threads_of_ranks) all += n;
-  for (const double n : threads_of_ranks) {
-    threads_before += n;
-    const auto units = static_cast<int>(std::lround(threads_before / all * rows.height / kRowUnit));
-    begins.push_back(std::min(units * kRowUnit, rows.height));
-  }
-  begins.back() = rows.height;
+  const std::vector<int> begins = rows_of_ranks();
   const auto wanted = [&](int rank) {
     const auto r = static_cast<std::size_t>(rank);
     return std::pair(std::max(begins[r] - kRowMargin, 0), std::min(begins[r + 1] + kRowMargin, rows.height));
@@ -145,6 +150,21 @@ SharedRows Renderer::Implementation::share_rows(Film& film) {
   rows.top = wanted(ranks.rank()).first;
   rows.join = [this](std::vector<double> mine) { return joined(ranks, std::move(mine)); };
   return rows;
+}
+
+Cryptomattes Renderer::Implementation::cryptomattes() {
+  if (options.cryptomattes.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  const std::vector<int> begins = rows_of_ranks();
+  const auto self = static_cast<std::size_t>(ranks.rank());
+  PixelRect rows = region;
+  rows.y0 = region.y0 + begins[self];
+  rows.y1 = region.y0 + begins[self + 1];
+  Cryptomattes mattes =
+      arena.execute([&] { return trace_cryptomattes(*world, camera, filter, options, rows); });
+  for (Layer& layer : mattes.layers) layer.values = joined(ranks, std::move(layer.values));
+  statistics.cryptomatte_seconds = seconds_since(start);
+  return mattes;
 }
 
 FinishedPicture Renderer::Implementation::finish(Film& film) {
