@@ -68,8 +68,8 @@ class Renderer {
   /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or std::runtime_error
   /// that names the file when the environment cannot be read.
   Renderer(const scene::Scene& scene, const RenderOptions& options);
-  /// One of several processes, which must outlive the renderer, that make one picture together. Each holds the
-  /// scene, and all call the same functions with the same options; threads and memory limits may differ.
+  /// One of several processes, which must outlive the renderer, that make one picture together. Each holds
+  /// the scene, and all call the same functions with the same options; threads and memory limits may differ.
   Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
@@ -78,9 +78,9 @@ class Renderer {
   /// Throws BadOption as the constructor does, with the view unchanged.
   void set_camera(const CameraOptions& camera);
 
-  /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless a
-  /// time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and the
-  /// others get an empty picture; a stop that one of them is asked for stops all.
+  /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless
+  /// a time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and
+  /// the others get an empty picture; a stop that one of them is asked for stops all.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
   /// or samples. Returns false when callbacks.stop ends it before the last point; `picture` is not called for

@@ -1,16 +1,22 @@
 #include "apps/mpi/mpi_ranks.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "apps/mpi/attendant.h"
 #include "apps/mpi/chunks.h"
+#include "apps/mpi/deadline.h"
 #include "apps/mpi/gatherings.h"
 #include "apps/mpi/mpi_calls.h"
 #include "apps/mpi/mpi_world.h"
@@ -20,6 +26,9 @@ namespace {
 
 using renderer::Bytes;
 using Clock = std::chrono::steady_clock;
+
+/// The start of all ranks may take so many times the silence that tells a lost one.
+constexpr double kStartTimes = 2.0;
 
 /// After a fault, a gathering that some ranks have not begun cannot end.
 constexpr std::chrono::seconds kGatheringsAfterFault(2);
@@ -43,6 +52,19 @@ class WaitingTime {
   Clock::time_point begin_ = Clock::now();
 };
 
+/// Ends this process where others do not come. Its launcher then ends them. One that is later lets rank 0
+/// speak.
+std::function<void()> give_up(const RankCallbacks& callbacks, const std::string& line) {
+  return [&callbacks, line] {
+    callbacks.on_fault(callbacks.lost_code, line);
+    std::_Exit(callbacks.lost_code);
+  };
+}
+
+double patience(double seconds) {
+  return seconds + std::min(rank_of_launcher(), 10);
+}
+
 }  // namespace
 
 struct MpiRanks::Connection {
@@ -58,15 +80,23 @@ struct MpiRanks::Connection {
   Callbacks callbacks;
   std::optional<int> fault;  ///< its code
   bool ended = false;
+  double silence = 0.0;
   int exceptions = std::uncaught_exceptions();
   std::atomic<std::uint64_t> bytes_sent = 0;
   std::atomic<std::int64_t> waiting = 0;  ///< nanoseconds
 };
 
-MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds)
-    : connection_(std::make_unique<Connection>(argc, argv)) {
+MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds) {
+  const double start_seconds = patience(kStartTimes * silence_seconds);
+  {
+    const Deadline deadline(
+        start_seconds,
+        give_up(callbacks, fmt::format("not all ranks have started within {:.0f} s", start_seconds)));
+    connection_ = std::make_unique<Connection>(argc, argv);
+  }
   Connection& mpi = *connection_;
   mpi.callbacks = std::move(callbacks);
+  mpi.silence = silence_seconds;
   if (count() > 1) mpi.attendant.emplace(mpi.world, mpi.gatherings, mpi.callbacks, silence_seconds);
 }
 
@@ -226,6 +256,10 @@ void MpiRanks::end() {
     mpi.attendant->stop();
   }
   mpi.ended = true;
+  const double seconds = patience(mpi.silence);
+  const Deadline deadline(
+      seconds, give_up(mpi.callbacks,
+                       fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
   mpi.world.finalize();
 }
 

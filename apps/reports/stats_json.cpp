@@ -53,6 +53,7 @@ ordered_json ranks(const RunReport& report) {
                    {"threads", rank.threads},
                    {"samples", rank.samples},
                    {"training_paths", rank.training_paths},
+                   {"record_bytes", rank.record_bytes},
                    {"seconds", rank.seconds},
                    {"bytes_sent", rank.bytes_sent},
                    {"waiting_seconds", rank.waiting_seconds}});

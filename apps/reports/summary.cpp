@@ -65,9 +65,9 @@ std::string ranks_text(const RunReport& report) {
     bytes += rank.bytes_sent;
   }
   const std::size_t machines = std::set<std::string>(report.hosts.begin(), report.hosts.end()).size();
-  return fmt::format("ranks     {} with {} threads on {} machine{}; waiting {}, sent {}\n", ranks.size(), threads,
-                     machines, machines == 1 ? "" : "s", format_percent(waiting / std::max(seconds, 1e-9)),
-                     format_bytes(bytes));
+  return fmt::format("ranks     {} with {} threads on {} machine{}; waiting {}, sent {}\n", ranks.size(),
+                     threads, machines, machines == 1 ? "" : "s",
+                     format_percent(waiting / std::max(seconds, 1e-9)), format_bytes(bytes));
 }
 
 }  // namespace

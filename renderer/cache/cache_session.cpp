@@ -244,7 +244,9 @@ void CacheSession::finish(Group& group) {
   statistics_.train_trace_seconds += seconds - answered;
   if (!ranks_) return;
   group.work.seconds += seconds;
-  group.coming = ranks_->ranks.begin_gather(pack_records(group.records, *ranks_, group.work));
+  Bytes packed = pack_records(group.records, *ranks_, group.work);
+  record_bytes_ += packed.size();
+  group.coming = ranks_->ranks.begin_gather(std::move(packed));
 }
 
 void CacheSession::learn_from(Group& group, const Watch& watch) {
@@ -282,8 +284,8 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
-  // With ranks a group is traced while the records of the one before travel. Candidates are chosen by what was
-  // learned before.
+  // With ranks a group is traced while the records of the one before travel. Candidates are chosen by what
+  // was learned before.
   const bool ahead = ranks_ && options_.cache.candidates == 1;
   const auto give_up = [&] {
     const double limit = options_.cache.train_seconds;

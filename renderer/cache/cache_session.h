@@ -85,6 +85,8 @@ class CacheSession {
   RayCounts rays() const;
   /// Paths of training that this rank has traced.
   std::uint64_t paths_of_rank() const { return paths_of_rank_; }
+  /// Bytes of the records that this rank gave to others.
+  std::uint64_t record_bytes() const { return record_bytes_; }
   /// All statistics of the cache except those of rendering.
   const CacheStatistics& statistics() const { return statistics_; }
 
@@ -110,6 +112,7 @@ class CacheSession {
   const RankTiles* ranks_;
   std::vector<RankWork> work_;  ///< of the ranks, since the last rebalance
   std::uint64_t paths_of_rank_ = 0;
+  std::uint64_t record_bytes_ = 0;
   CacheSetup setup_;
   std::unique_ptr<neural::Trainer> trainer_;
   PointInputs inputs_;

@@ -26,7 +26,8 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
                  counting ? rays_ : by_all);
   if (request.ranks) choose_tracers(batch, *request.ranks);
   if (batch.starts.hits.empty())
-    points_.trace(batch.starts, [&](std::size_t block) { return batch.mine(block); }, rays_);
+    points_.trace(
+        batch.starts, [&](std::size_t block) { return batch.mine(block); }, rays_);
   const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
   batch.paths.assign(batch.starts.blocks(), PathBatch(inputs_));
   std::mutex mutex;

@@ -11,11 +11,10 @@ void choose_tracers(RecordBatch& batch, const RankTiles& ranks) {
   batch.self = ranks.ranks.rank();
   const std::int64_t tiles = ranks.tiles.count();
   for (std::size_t b = 0; b < blocks; ++b) {
-    batch.tracers.push_back(
-        starts.samples.empty()
-            ? ranks.shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
-                                                  static_cast<std::int64_t>(blocks)))
-            : ranks.owner(starts.samples[starts.offsets[b]].pixel));
+    batch.tracers.push_back(starts.samples.empty()
+                                ? ranks.shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
+                                                                      static_cast<std::int64_t>(blocks)))
+                                : ranks.owner(starts.samples[starts.offsets[b]].pixel));
   }
 }
 

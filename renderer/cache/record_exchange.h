@@ -12,8 +12,8 @@ namespace gatelight::renderer {
 /// samples of the picture, ranks in turn by their shares.
 void choose_tracers(RecordBatch& batch, const RankTiles& ranks);
 
-/// What this rank has traced, for all ranks: its records, the samples that belong to pixels of others, and how
-/// much work it was.
+/// What this rank has traced, for all ranks: its records, the samples that belong to pixels of others, and
+/// how much work it was.
 Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankWork& work);
 
 /// Completes `batch` by what all ranks sent. Returns the work of each.

@@ -5,6 +5,7 @@
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/training_points.h"
+#include "renderer/film/rank_tiles.h"
 
 namespace gatelight::renderer {
 
@@ -13,8 +14,8 @@ struct ScoutReport {
   RayCounts rays;
 };
 
-/// Gives the same bits for any number of threads and of ranks, which share the paths. For ambient occlusion only
-/// primary hits are used. The rays are those of this rank.
+/// Gives the same bits for any number of threads and of ranks, which share the paths. For ambient occlusion
+/// only primary hits are used. The rays are those of this rank.
 ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
                   const RenderOptions& options, const RankTiles* ranks = nullptr);
 

@@ -87,7 +87,8 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
     from_camera(step, count, result);
     const bool compare = options_.cache.candidates > 1 && !counts.empty();
     if (need_hits || compare || options_.cache.samples_per_point > 1)
-      trace(result, [](std::size_t) { return true; }, rays);
+      trace(
+          result, [](std::size_t) { return true; }, rays);
   }
   if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
   if (options_.cache.samples_per_point > 1) repeat(step, result);

@@ -36,8 +36,8 @@ class Ranks {
     /// Waits until they are there. Returns them in the order of ranks. Call it once.
     virtual std::vector<Bytes> wait() = 0;
   };
-  /// Gives `mine` to all ranks. The caller may go on with its work and call the other functions until it waits
-  /// for the result; one gathering at a time.
+  /// Gives `mine` to all ranks. The caller may go on with its work and call the other functions until it
+  /// waits for the result; one gathering at a time.
   virtual std::unique_ptr<Gathering> begin_gather(Bytes mine) = 0;
   std::vector<Bytes> gather(Bytes mine) { return begin_gather(std::move(mine))->wait(); }
 

@@ -16,7 +16,8 @@ Bytes read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Bytes bytes(static_cast<std::size_t>(std::filesystem::file_size(path)));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file) throw std::system_error(errno, std::generic_category(), fmt::format("cannot read '{}'", path.string()));
+  if (!file)
+    throw std::system_error(errno, std::generic_category(), fmt::format("cannot read '{}'", path.string()));
   return bytes;
 }
 

@@ -23,7 +23,8 @@ Shares::Shares(int tiles, std::span<const double> speeds)
 }
 
 int Shares::owner(int tile) const {
-  return static_cast<int>(std::upper_bound(begins_.begin() + 1, begins_.end() - 1, tile) - begins_.begin()) - 1;
+  return static_cast<int>(std::upper_bound(begins_.begin() + 1, begins_.end() - 1, tile) - begins_.begin()) -
+         1;
 }
 
 bool Shares::rebalance(std::span<const RankWork> measured) {

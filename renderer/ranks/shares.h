@@ -33,7 +33,7 @@ class Shares {
   double imbalance() const;
   void deal();
 
-  std::vector<int> begins_;     ///< of each rank; then the number of tiles
+  std::vector<int> begins_;      ///< of each rank; then the number of tiles
   std::vector<double> density_;  ///< expected rays of each tile, up to a factor
   std::vector<double> speeds_;   ///< rays a second of each rank, up to a factor
   bool measured_ = false;        ///< the speeds are no guess

@@ -14,9 +14,9 @@ inline constexpr int kHalo = 64;
 
 class Region {
  public:
-  /// The rows first <= y < end of a picture, of which `samples` are those from `top` on. `first` is a multiple
-  /// of the windows' stride. `scale` is a usual brightness; the methods' small numbers are
-  /// relative to it.
+  /// The rows first <= y < end of a picture, of which `samples` are those from `top` on. `first` is a
+  /// multiple of the windows' stride. `scale` is a usual brightness; the methods' small numbers are relative
+  /// to it.
   Region(const SampledPicture& samples, int top, int first, int end, float scale);
 
   /// Fits both halves in all windows that decide the rows from_row <= y < to_row.

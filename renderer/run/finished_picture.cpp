@@ -59,7 +59,8 @@ SampledPicture samples_of(const Picture& picture, const RenderOptions& options) 
 }
 
 /// Both halves get the same.
-void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& rows, const SeenLight& better) {
+void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& rows,
+             const SeenLight& better) {
   std::vector<float>&a = samples.halves[0].seen, &b = samples.halves[1].seen;
   if (a.empty()) return;
   std::vector<float> seen(a.size());
@@ -72,8 +73,8 @@ void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& r
   }
 }
 
-/// A value for each pixel of the rows. Panes that stochastic rays pass are as noisy in it as in the colours, and it is
-/// finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
+/// A value for each pixel of the rows. Panes that stochastic rays pass are as noisy in it as in the colours,
+/// and it is finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
 std::vector<float> finished_alpha(const Film& film, const SharedRows& rows, SampledPicture* samples,
                                   const CaughtShadows& shadows) {
   if (!samples) {

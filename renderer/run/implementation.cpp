@@ -272,7 +272,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
   sum.nonfinite = counts.nonfinite;
   sum.clamped = counts.clamped;
   sum.nonfinite_samples = std::move(counts.located);
-  add_other_ranks(sum, training.session ? training.session->paths_of_rank() : 0);
+  add_other_ranks(sum, training);
   add_earlier(sum, earlier);
   sum.resumed_seconds = earlier.render_seconds;
   return sum;

@@ -93,12 +93,13 @@ struct Renderer::Implementation {
   /// Of the tiles of this rank.
   std::uint64_t samples_of_rank(const Film& film) const;
   /// What each rank counts on its own is summed up, and told by rank.
-  void add_other_ranks(RenderStatistics& statistics, std::uint64_t training_paths) const;
+  void add_other_ranks(RenderStatistics& statistics, const Training& training) const;
   /// Statistics of this run and of the earlier ones, of all ranks.
   RenderStatistics sum_up(int spp, double seconds, const Film& film, const Pass* pass,
                           const Training& training, const RenderStatistics& earlier) const;
 
-  /// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the density.
+  /// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the
+  /// density.
   double run_adaptive_pass(SampleLoop& loop, Film& film, int goal);
 
   class PictureRun;

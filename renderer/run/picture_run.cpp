@@ -272,8 +272,7 @@ class Renderer::Implementation::PictureRun {
     return renderer_.sum_up(loop.done(), loop.seconds(), film_, &pass, training_, earlier_);
   }
   bool checkpoint_due() const {
-    return identity_ &&
-           agreed(ranks_, seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds);
+    return identity_ && agreed(ranks_, seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds);
   }
   /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
   void keep(Phase phase, const RenderStatistics& sum, bool again) {

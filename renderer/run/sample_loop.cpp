@@ -88,8 +88,8 @@ void SampleLoop::note_pass(int batch, double seconds) {
 }
 
 bool SampleLoop::over() const {
-  return any(ranks_, stop_ || cut_short_ || now() >= end_ ||
-                         (!in_part_ && !pass_fits(now(), per_sample_, end_)));
+  return any(ranks_,
+             stop_ || cut_short_ || now() >= end_ || (!in_part_ && !pass_fits(now(), per_sample_, end_)));
 }
 
 Progress SampleLoop::progress(double samples) const {

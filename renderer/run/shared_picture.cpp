@@ -61,7 +61,7 @@ std::uint64_t Renderer::Implementation::samples_of_rank(const Film& film) const 
   return sum;
 }
 
-void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, std::uint64_t training_paths) const {
+void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Training& training) const {
   if (ranks.alone()) return;
   struct Counts {
     RankStatistics of_rank;
@@ -69,15 +69,21 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, std::uint6
     std::uint64_t samples, nonfinite, clamped, queries, negative_answers, unstored_hits;
   };
   const Ranks::Traffic traffic = ranks.traffic();
-  const auto all = one_of_each(
-      ranks, Counts{{.threads = threads,
-                     .samples = sum.samples,
-                     .training_paths = training_paths,
-                     .seconds = seconds_since(begin),
-                     .bytes_sent = traffic.bytes_sent,
-                     .waiting_seconds = traffic.waiting_seconds},
-                    sum.rays, sum.samples, sum.nonfinite, sum.clamped, sum.cache.queries,
-                    sum.cache.negative_answers, sum.cache.unstored_hits});
+  const CacheSession* const session = training.session.get();
+  const auto all = one_of_each(ranks, Counts{{.threads = threads,
+                                              .samples = sum.samples,
+                                              .training_paths = session ? session->paths_of_rank() : 0,
+                                              .record_bytes = session ? session->record_bytes() : 0,
+                                              .seconds = seconds_since(begin),
+                                              .bytes_sent = traffic.bytes_sent,
+                                              .waiting_seconds = traffic.waiting_seconds},
+                                             sum.rays,
+                                             sum.samples,
+                                             sum.nonfinite,
+                                             sum.clamped,
+                                             sum.cache.queries,
+                                             sum.cache.negative_answers,
+                                             sum.cache.unstored_hits});
   sum.ranks.clear();
   sum.rays = {};
   sum.samples = sum.nonfinite = sum.clamped = 0;
@@ -179,8 +185,8 @@ FinishedPicture Renderer::Implementation::finish(Film& film) {
   } else {
     const SharedRows rows = share_rows(film);
     const int bottom = std::min(rows.end + kRowMargin, rows.height);
-    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options, arena, better,
-                             shadows);
+    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options, arena,
+                             better, shadows);
     join_rows(finished, rows.height, ranks);
     if (ranks.first()) arena.execute([&] { complete(finished, spp, options); });
     finished.reconstruct_seconds = seconds_since(start);
@@ -196,8 +202,9 @@ double Renderer::Implementation::adapt_density(Film& film, const Reconstruction*
     const SharedRows rows = share_rows(film);
     const int bottom = std::min(rows.end + kRowMargin, rows.height);
     finished.reconstruction = arena.execute([&] {
-      return ranks.alone() ? finished_film(film, rows, options)
-                           : finished_film(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options);
+      return ranks.alone()
+                 ? finished_film(film, rows, options)
+                 : finished_film(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options);
     });
     if (!ranks.alone()) join_rows(finished, rows.height, ranks);
     known = &finished.reconstruction;

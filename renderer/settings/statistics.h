@@ -78,11 +78,12 @@ struct CacheStatistics {
 /// Of one of several ranks.
 struct RankStatistics {
   int threads = 0;
-  std::uint64_t samples = 0;         ///< camera paths of the picture
+  std::uint64_t samples = 0;  ///< camera paths of the picture
   std::uint64_t training_paths = 0;
-  double seconds = 0.0;              ///< since the picture was begun
-  std::uint64_t bytes_sent = 0;
-  double waiting_seconds = 0.0;  ///< for other ranks, with what travels
+  std::uint64_t record_bytes = 0;  ///< of this rank's records of training, packed
+  double seconds = 0.0;            ///< since the picture was begun
+  std::uint64_t bytes_sent = 0;    ///< to all other ranks, of everything
+  double waiting_seconds = 0.0;    ///< for other ranks, with what travels
 };
 
 /// What ended a picture.
@@ -115,7 +116,7 @@ struct RenderStatistics {
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
   std::vector<RankStatistics> ranks;  ///< where there are several
-  std::string device_lost;   ///< why the device was lost, where that ended the picture; else empty
+  std::string device_lost;            ///< why the device was lost, where that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer

@@ -27,7 +27,7 @@ def launcher():
 
 class Program:
     def __init__(self, folder, scene):
-        self.folder = pathlib.Path(folder)
+        self.folder = pathlib.Path(folder).resolve()
         self.scene = scene
         self.alone_program = self.folder / "gatelight"
         self.program = self.folder / "gatelight-mpi"
@@ -90,7 +90,16 @@ class TwoMachines:
     """Two network namespaces and a line between them, for Open MPI."""
 
     def __init__(self, rate="1gbit", delay="0.25ms"):
-        self.rate, self.delay = rate, delay
+        self.rate, self.delay, self.delayed = rate, delay, False
+
+    def limit(self, host):
+        """Kernels without netem have no delay."""
+        add = ["ip", "netns", "exec", host, "tc", "qdisc", "add", "dev", "gla", "root"]
+        netem = [*add, "netem", "delay", self.delay, "rate", self.rate, "limit", "100000"]
+        self.delayed = subprocess.run(netem, capture_output=True).returncode == 0
+        if not self.delayed:
+            rate = [*add, "tbf", "rate", self.rate, "burst", "128kb", "latency", "20ms"]
+            subprocess.run(rate, check=True, capture_output=True)
 
     def ip(self, *words):
         subprocess.run(["ip", *words], check=True, capture_output=True)
@@ -106,9 +115,7 @@ class TwoMachines:
                 self.ip("-n", host, "addr", "add", f"{address}/24", "dev", "gla")
                 self.ip("-n", host, "link", "set", "gla", "up")
                 self.ip("-n", host, "link", "set", "lo", "up")
-                subprocess.run(["ip", "netns", "exec", host, "tc", "qdisc", "add", "dev", "gla", "root", "netem",
-                                "delay", self.delay, "rate", self.rate, "limit", "100000"],
-                               check=True, capture_output=True)
+                self.limit(host)
         except (OSError, subprocess.CalledProcessError) as error:
             self.__exit__()
             raise Skipped(f"no network namespaces here: {error}") from error

@@ -243,7 +243,7 @@ TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
   const RecordRequest request{.step = 4, .points = 400};
   records.trace(request, batch);
   records.finish({}, batch);
-    records.deal(request, batch);
+  records.deal(request, batch);
   Moments at_dark;
   Moments at_bright;
   for (std::size_t i = 0; i < batch.records.size(); ++i) {

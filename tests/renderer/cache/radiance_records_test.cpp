@@ -227,7 +227,7 @@ TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   const RecordRequest request{.step = 1, .points = 100, .self_training = true};
   records.trace(request, batch);
   records.finish({}, batch);
-    records.deal(request, batch);
+  records.deal(request, batch);
   EXPECT_EQ(batch.records.size(), 0u);
   EXPECT_EQ(batch.queries.size(), 0u);
   EXPECT_GT(records.rays().bounce, batch.paths_traced);

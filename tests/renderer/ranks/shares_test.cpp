@@ -45,7 +45,8 @@ TEST(Shares, SettleWhereAllTakeEquallyLong) {
     for (int r = 0; r < kRanks; ++r) {
       RankWork& work = measured[static_cast<std::size_t>(r)];
       work.rays = 0;
-      for (int t = shares.begin(r); t < shares.end(r); ++t) work.rays += static_cast<std::uint64_t>(rays_of(t));
+      for (int t = shares.begin(r); t < shares.end(r); ++t)
+        work.rays += static_cast<std::uint64_t>(rays_of(t));
       work.seconds = static_cast<double>(work.rays) * seconds_of_ray[r];
       sum += work.seconds;
       most = std::max(most, work.seconds);
