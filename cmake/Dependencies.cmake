@@ -12,6 +12,9 @@ find_package(embree 3.13 CONFIG REQUIRED)
 find_package(TBB 2021 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(spdlog CONFIG REQUIRED)
+# Only gatelight-mpi needs it, and is left out without.
+set(MPI_CXX_SKIP_MPICXX TRUE)
+find_package(MPI COMPONENTS CXX QUIET)
 # xxHash has no CMake files and is used as a header only.
 find_path(GATELIGHT_XXHASH xxhash.h REQUIRED)
 mark_as_advanced(GATELIGHT_XXHASH)

@@ -85,11 +85,13 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
                                              sum.cache.negative_answers,
                                              sum.cache.unstored_hits});
   sum.ranks.clear();
+  sum.threads = 0;
   sum.rays = {};
   sum.samples = sum.nonfinite = sum.clamped = 0;
   sum.cache.queries = sum.cache.negative_answers = sum.cache.unstored_hits = 0;
   for (const Counts& counts : all) {
     sum.ranks.push_back(counts.of_rank);
+    sum.threads += counts.of_rank.threads;
     sum.rays.add(counts.rays);
     sum.samples += counts.samples;
     sum.nonfinite += counts.nonfinite;
