@@ -65,13 +65,13 @@ std::string RankGroup::name_of(int rank) const {
 void share_machines(RenderSettings& settings, const RankGroup& group) {
   if (group.ranks.alone()) return;
   renderer::RenderOptions& options = settings.render;
-  if (options.threads == 0) {
+  if (!settings.given.contains("--threads")) {
     const int processors = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
     const int fair = std::max(processors / group.local_count, 1);
     options.threads = std::min(renderer::available_threads(), fair);
   }
-  if (options.isa != "auto") return;
-  // Of the rays and of the kernels. Equal machines choose as a process alone does.
+  // Of the rays and of the kernels. Equal machines choose as a process alone does. Ranks with a choice of
+  // their own ask too, because the options are compared later.
   const std::array<int, 2> best = {rank_of_isa(renderer::best_isa()),
                                    static_cast<int>(neural::simd::select_isa())};
   int least = std::min(best[0], best[1]);
@@ -80,8 +80,8 @@ void share_machines(RenderSettings& settings, const RankGroup& group) {
     least = std::min({least, other[0], other[1]});
     equal &= other == best;
   }
-  // All see the same differences, because each compares with all.
-  if (renderer::any(group.ranks, !equal))
+  // Each compares with its own, so all see the same where one sees a difference.
+  if (renderer::any(group.ranks, !equal) && options.isa == "auto")
     options.isa = std::string(neural::simd::isa_name(static_cast<neural::simd::Isa>(least)));
 }
 

@@ -100,6 +100,7 @@ class RenderRun {
     report_.statistics = renderer.statistics();
     report_.signal = signal();
     if (group_.ranks.first()) write_results(std::move(picture));
+    renderer::agreed(group_.ranks, 0);  // what follows may end all ranks, and the picture is written
     if (!report_.statistics.device_lost.empty())
       throw neural::DeviceLost(
           fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
@@ -233,7 +234,8 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   }
   complete_settings(settings);
   if (!group.ranks.first()) settings.quiet = true;
-  if (group.ranks.first()) check_files(settings);
+  check_inputs(settings);
+  if (group.ranks.first()) check_outputs(settings);
   set_log_level(settings.quiet, settings.verbose && group.ranks.first());
   install_signal_handlers();
   // Errors without a file name get the scene's name.

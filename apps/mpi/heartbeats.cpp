@@ -39,7 +39,10 @@ std::optional<Heartbeats::Lost> Heartbeats::step() {
   if (leaving_) return std::nullopt;
   until_beat_ -= seconds;
   const bool due = until_beat_ <= 0.0;
-  if (due) until_beat_ = kBeatSeconds;
+  if (due) {
+    until_beat_ = kBeatSeconds;
+    mailbox_.forget_sent();
+  }
   for (Peer& peer : peers_) {
     if (due && !mailbox_.sending(peer.rank, kTag)) send(peer.rank, false);
     if (peer.left) continue;

@@ -32,8 +32,7 @@ std::optional<Mailbox::Message> Mailbox::receive() {
   return std::exchange(in_, {});
 }
 
-bool Mailbox::sending(int to, int tag) {
-  forget_sent();
+bool Mailbox::sending(int to, int tag) const {
   return std::any_of(out_.begin(), out_.end(), [&](const Sending& sending) {
     return sending.message.rank == to && sending.message.tag == tag;
   });

@@ -23,7 +23,9 @@ class Mailbox {
   std::optional<Message> receive();
 
   /// Whether such a message is still on its way out.
-  bool sending(int to, int tag);
+  bool sending(int to, int tag) const;
+  /// Messages that are out need no memory.
+  void forget_sent();
   bool sending_any();
 
  private:
@@ -31,7 +33,6 @@ class Mailbox {
     Message message;
     Requests request{kNoRequest};
   };
-  void forget_sent();
 
   MPI_Comm comm_;
   std::vector<Sending> out_;

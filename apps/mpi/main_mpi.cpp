@@ -23,10 +23,9 @@ constexpr char kSeparator = '\x1f';
 void print_fault(int code, const std::string& line) {
   // A rank that speaks for rank 0 was silent.
   set_silent(false);
-  handle_failures({});
   const std::size_t at = line.find(kSeparator);
   const std::string advice = at == std::string::npos ? "" : line.substr(at + 1);
-  print_failure({code, line.substr(0, at), advice});
+  tell_failure({code, line.substr(0, at), advice});
 }
 
 RankCallbacks make_callbacks() {
@@ -73,9 +72,8 @@ int main(int argc, char** argv) {
   try {
     return apps::run_ranks(argc, argv);
   } catch (const std::exception& error) {
-    apps::handle_failures({});
     apps::set_silent(false);
-    apps::print_failure({apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
+    apps::tell_failure({apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
     return apps::kUnavailable;
   }
 }

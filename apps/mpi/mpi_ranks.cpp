@@ -253,13 +253,13 @@ void MpiRanks::end() {
       check(MPI_Ibarrier(mpi.world.data, barrier.data()), "MPI_Ibarrier");
     }
     wait_for(barrier);
-    mpi.attendant->stop();
   }
   mpi.ended = true;
   const double seconds = patience(mpi.silence);
   const Deadline deadline(
       seconds, give_up(mpi.callbacks,
                        fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
+  if (mpi.attendant) mpi.attendant->stop();
   mpi.world.finalize();
 }
 

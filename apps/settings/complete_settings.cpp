@@ -224,7 +224,7 @@ void complete_settings(RenderSettings& settings) {
   if (settings.render.threads == 0) settings.render.threads = available_threads();
 }
 
-void check_files(const RenderSettings& settings) {
+void check_inputs(const RenderSettings& settings) {
   require_file("the scene", settings.scene);
   if (!settings.render.environment.file.empty()) {
     require_file("the environment", settings.render.environment.file);
@@ -234,12 +234,15 @@ void check_files(const RenderSettings& settings) {
     require_file("the background", background);
     check_image_input(background);
   }
+  if (const std::string& cache = settings.render.cache.cache_in; !cache.empty())
+    require_file("the cache", cache);
+}
+
+void check_outputs(const RenderSettings& settings) {
   for (const std::string& output : settings.outputs) check_image_output(output);
   check_display(settings.image.display);
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
-  const CacheOptions& cache = settings.render.cache;
-  if (!cache.cache_in.empty()) require_file("the cache", cache.cache_in);
-  if (!cache.cache_out.empty()) check_writable(cache.cache_out);
+  if (const std::string& cache = settings.render.cache.cache_out; !cache.empty()) check_writable(cache);
   if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
 }
 

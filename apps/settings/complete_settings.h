@@ -16,8 +16,10 @@ std::set<std::string> flags_without_effect(RenderSettings settings);
 /// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
 
-/// Checks before the long work that inputs exist and outputs can be written. Throws InputError,
-/// renderer::OutputError or renderer::UnknownFormat.
-void check_files(const RenderSettings& settings);
+/// Checks before the long work that inputs exist. Throws InputError.
+void check_inputs(const RenderSettings& settings);
+
+/// The same: that outputs can be written. Throws renderer::OutputError or renderer::UnknownFormat.
+void check_outputs(const RenderSettings& settings);
 
 }  // namespace gatelight::apps

@@ -49,7 +49,10 @@ void make_folder(const fs::path& folder) {
 void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
   for (const PlannedScene& scene : plan.scenes) {
     for (const PlannedSeries& series : scene.series) {
-      check_files(cell_settings(series, scene.file, plan.seeds.front(), series.points.front()));
+      const RenderSettings cell =
+          cell_settings(series, scene.file, plan.seeds.front(), series.points.front());
+      apps::check_inputs(cell);
+      check_outputs(cell);
     }
   }
   if (settings.reference_file.empty()) return;

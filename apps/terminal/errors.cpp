@@ -101,7 +101,10 @@ void handle_failures(std::function<void(const Failure&)> handler) {
 }
 
 void print_failure(const Failure& failure) {
-  if (failure_handler()) return failure_handler()(failure);
+  failure_handler() ? failure_handler()(failure) : tell_failure(failure);
+}
+
+void tell_failure(const Failure& failure) {
   const std::string message = one_line(failure.message);
   if (json_messages()) {
     print_json_line(

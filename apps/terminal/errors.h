@@ -49,7 +49,10 @@ std::string one_line(std::string text);
 /// ends the program with its line and its code.
 [[noreturn]] void end_program();
 
-/// Prints the last line of stderr, or gives it to the handler.
+/// Prints the last line of stderr.
+void tell_failure(const Failure& failure);
+
+/// The same, or gives it to the handler.
 void print_failure(const Failure& failure);
 
 /// Where several ranks run one command, one of them prints. None: this process prints its failures itself.

@@ -226,6 +226,8 @@ void CacheSession::trace(std::uint64_t step, std::uint64_t count, std::uint64_t 
   records_->trace(group.request, group.records);
   RayCounts rays = records_->rays();
   rays.subtract(before);
+  group.rays = rays;
+  unlearned_rays_.add(rays);
   group.work = {seconds_since(begin), rays.camera + rays.bounce + rays.shadow};
   statistics_.train_trace_seconds += group.work.seconds;
 }
@@ -252,6 +254,7 @@ void CacheSession::finish(Group& group) {
 void CacheSession::learn_from(Group& group, const Watch& watch) {
   const Clock::time_point begin = Clock::now();
   RecordBatch& records = group.records;
+  unlearned_rays_.subtract(group.rays);
   for (std::size_t b = 0; b < records.starts.blocks(); ++b) {
     if (records.mine(b)) paths_of_rank_ += records.starts.offsets[b + 1] - records.starts.offsets[b];
   }
@@ -315,8 +318,13 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
       trace(step, count, samples_ + (learning ? learning->samples() : 0), *group);
     }
     if (learning) goes_on = learn_now();
-    // After a stop what was traced ahead is dropped: it will be traced again.
-    if (!group || !goes_on) continue;
+    if (!group) continue;
+    if (!goes_on) {
+      // What was traced ahead will be traced again.
+      unlearned_rays_.subtract(group->rays);
+      abandoned_rays_.add(group->rays);
+      break;
+    }
     settle();  // the steps of the group before, which a device computed meanwhile
     look_at_answers(last->records);
     finish(*group);
@@ -330,7 +338,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
 }
 
 void CacheSession::start_anew() {
-  Bookmark start{{.setup = setup_}, first_statistics_, scout_rays_, {}};
+  Bookmark start{{.setup = setup_}, first_statistics_, 0, 0, scout_rays_, {}};
   start.state.model = neural::initial_state(model(), trainer_->options());
   start.state.triangle_counts.assign(counts_.values().size(), 0);
   return_to(start);
@@ -364,21 +372,25 @@ void CacheSession::import_state(const CacheState& state) {
 }
 
 CacheSession::Bookmark CacheSession::bookmark() const {
-  return {export_state(), statistics_, rays(), last_losses_};
+  return {export_state(), statistics_, paths_of_rank_, record_bytes_, rays(), last_losses_};
 }
 
 void CacheSession::return_to(const Bookmark& bookmark) {
   import_state(bookmark.state);
+  unlearned_rays_ = {};  // of training that ended with an exception
   RayCounts abandoned = rays();
   abandoned.subtract(bookmark.rays);
   abandoned_rays_.add(abandoned);
   statistics_ = bookmark.statistics;
+  paths_of_rank_ = bookmark.paths_of_rank;
+  record_bytes_ = bookmark.record_bytes;
   last_losses_ = bookmark.last_losses;
 }
 
 RayCounts CacheSession::rays() const {
   RayCounts sum = scout_rays_;
   sum.add(records_->rays());
+  sum.subtract(unlearned_rays_);
   sum.subtract(abandoned_rays_);
   return sum;
 }

@@ -60,6 +60,7 @@ class CacheSession {
   struct Bookmark {
     CacheState state;
     CacheStatistics statistics;
+    std::uint64_t paths_of_rank = 0, record_bytes = 0;
     RayCounts rays;
     std::vector<double> last_losses;
   };
@@ -95,7 +96,8 @@ class CacheSession {
   struct Group {
     RecordRequest request;
     RecordBatch records;
-    RankWork work;  ///< of this rank
+    RankWork work;   ///< of this rank
+    RayCounts rays;  ///< the same
     std::unique_ptr<Ranks::Gathering> coming;
     std::uint64_t steps() const { return request.batches; }
     std::uint64_t samples() const { return records.starts.samples.size(); }
@@ -127,6 +129,7 @@ class CacheSession {
   TrainingGuard guard_;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
+  RayCounts unlearned_rays_;  ///< of a group that is traced and not learned yet
   RayCounts abandoned_rays_;  ///< of steps that return_to() undid
   CacheStatistics statistics_;
   CacheStatistics first_statistics_;  ///< before the first step

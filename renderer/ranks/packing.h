@@ -75,6 +75,22 @@ std::vector<T> joined(Ranks& ranks, std::vector<T> mine) {
   return all;
 }
 
+/// The same for rank 0; the others get nothing.
+template <class T>
+std::vector<T> joined_at_first(Ranks& ranks, std::vector<T> mine) {
+  if (ranks.alone()) return mine;
+  Packer packer;
+  packer.add_all(std::span(mine));
+  std::vector<Bytes> outgoing(static_cast<std::size_t>(ranks.count()));
+  outgoing[0] = packer.take();
+  std::vector<T> all;
+  for (const Bytes& bytes : ranks.exchange(std::move(outgoing))) {
+    const std::vector<T> values = Unpacker(bytes).rest<T>();
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
 /// One value of each rank.
 template <class T>
 std::vector<T> one_of_each(Ranks& ranks, const T& mine) {

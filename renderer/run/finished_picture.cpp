@@ -110,6 +110,7 @@ std::vector<float> finished_alpha(const Film& film, const SharedRows& rows, Samp
 
 /// Leaves the rows of the picture that are finished.
 void crop(Picture& picture, const SharedRows& rows) {
+  if (picture.height == rows.end - rows.first) return;
   const auto width = static_cast<std::ptrdiff_t>(picture.width);
   const std::ptrdiff_t above = (rows.first - rows.top) * width, pixels = (rows.end - rows.first) * width;
   for (Layer& layer : picture.layers) {

@@ -223,7 +223,14 @@ CaughtShadows Renderer::Implementation::caught_shadows(double samples_per_pixel)
   const int wanted = std::clamp(static_cast<int>(samples_per_pixel) / 2, kFewest, kMost);
   const int samples = options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
   return [this, samples](const PixelRect& rect, std::size_t half) {
-    return catch_shadows(*world, camera, filter, options, rect, samples, static_cast<std::uint32_t>(half));
+    // Whole tiles have the same packets of rays in every part of the picture.
+    PixelRect rows = rect;
+    rows.y0 = std::max(rect.y0 / kTile * kTile, region.y0);
+    rows.y1 = std::min((rect.y1 + kTile - 1) / kTile * kTile, region.y1);
+    std::vector<float> caught =
+        catch_shadows(*world, camera, filter, options, rows, samples, static_cast<std::uint32_t>(half));
+    const auto first = caught.begin() + static_cast<std::ptrdiff_t>(rows.index(rect.x0, rect.y0));
+    return std::vector<float>(first, first + static_cast<std::ptrdiff_t>(rect.index(rect.x0, rect.y1)));
   };
 }
 
@@ -244,7 +251,7 @@ double Renderer::Implementation::expect_shadow_seconds() {
   strip.x1 = strip.x0 + width;
   const Clock::time_point start = Clock::now();
   arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints, 0); });
-  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width / ranks.count();
+  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width * share_of_rows();
 }
 
 Film Renderer::Implementation::make_film() const {

@@ -84,6 +84,8 @@ struct Renderer::Implementation {
   CaughtShadows caught_shadows(double samples_per_pixel) const;
   /// The first row of each rank, where they share what costs alike everywhere; then the number of rows.
   std::vector<int> rows_of_ranks() const;
+  /// Of the picture, that the rank with most rows finishes, with their margin.
+  double share_of_rows() const;
   /// The rows that this rank finishes. The film gets their margin too.
   SharedRows share_rows(Film& film);
   /// The layers of options.cryptomattes; the statistics get the time.
@@ -125,6 +127,7 @@ struct Renderer::Implementation {
   FilterSampler filter;
   std::size_t budget;
   std::optional<World> world;
+  Ranks::Traffic traffic_before;           ///< before the picture
   Clock::time_point begin = Clock::now();  ///< of the picture
   bool steps_chosen = false;               ///< of training, by the picture's pixels and samples
   RenderStatistics statistics;

@@ -45,6 +45,7 @@ class Renderer::Implementation::PictureRun {
         ranks_(renderer.ranks),
         film_(renderer.make_film()) {
     renderer_.begin = begin_;
+    renderer_.traffic_before = ranks_.traffic();
   }
 
   Picture make() {
@@ -74,7 +75,8 @@ class Renderer::Implementation::PictureRun {
     const std::string& file = options_.checkpoint.file;
     identity_ = renderer_.identity(fingerprint_);
     if (ranks_.first()) check_writable(file);
-    if (!options_.checkpoint.resume || !agreed(ranks_, std::filesystem::exists(file))) return;
+    if (!options_.checkpoint.resume || !agreed(ranks_, ranks_.first() && std::filesystem::exists(file)))
+      return;
     shared_ = share_file(ranks_, file);
     found_.emplace(shared_.path());
     found_->expect(*identity_, options_.spp);
@@ -90,7 +92,7 @@ class Renderer::Implementation::PictureRun {
     if (!options_.reconstruct) return;
     const Clock::time_point start = Clock::now();
     const double alone = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
-    budget_.reconstruct = agreed(ranks_, kFirstTime * alone / ranks_.count());
+    budget_.reconstruct = agreed(ranks_, kFirstTime * alone * renderer_.share_of_rows());
     reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
   }
 
@@ -181,7 +183,10 @@ class Renderer::Implementation::PictureRun {
 
   /// Chooses anew where samples go, where that is due.
   void adapt(SampleLoop& loop) {
-    if (!density_due(film_, loop.done(), options_)) return;
+    if (!density_due(film_, loop.done(), options_)) {
+      if (checked_) checked_->reconstruction = {};
+      return;
+    }
     // Where no passes would follow in time. A checkpoint must hold what any other run would have.
     const bool late =
         budget_.limit > 0.0 && seconds_since(begin_) + budget_.reconstruct > budget_.passes_end();

@@ -57,6 +57,8 @@ void SampleLoop::run_pass(int goal) {
 }
 
 void SampleLoop::note_pass(int batch, double seconds) {
+  // A rank without tiles was not asked on the way.
+  if (!ranks_.alone() && callbacks_.stop && callbacks_.stop()) stop_ = true;
   const RayCounts counts = pass_.rays();
   const std::uint64_t rays = counts.camera + counts.bounce + counts.shadow;
   PassReport mine{{seconds, rays - rays_}, stop_, pass_.cut_short(), {}, false};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "renderer/ranks/packing.h"
@@ -68,7 +69,9 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
     RayCounts rays;
     std::uint64_t samples, nonfinite, clamped, queries, negative_answers, unstored_hits;
   };
-  const Ranks::Traffic traffic = ranks.traffic();
+  Ranks::Traffic traffic = ranks.traffic();
+  traffic.bytes_sent -= traffic_before.bytes_sent;
+  traffic.waiting_seconds -= traffic_before.waiting_seconds;
   const CacheSession* const session = training.session.get();
   const auto all = one_of_each(ranks, Counts{{.threads = threads,
                                               .samples = sum.samples,
@@ -123,6 +126,14 @@ void Renderer::Implementation::rebalance(Film& film, const std::vector<RankWork>
   own = tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()));
 }
 
+double Renderer::Implementation::share_of_rows() const {
+  if (ranks.alone()) return 1.0;
+  const std::vector<int> begins = rows_of_ranks();
+  int most = 0;
+  for (std::size_t r = 0; r + 1 < begins.size(); ++r) most = std::max(most, begins[r + 1] - begins[r]);
+  return std::min(1.0, static_cast<double>(most + 2 * kRowMargin) / region.height());
+}
+
 std::vector<int> Renderer::Implementation::rows_of_ranks() const {
   const int height = region.height();
   const double all = std::accumulate(threads_of_ranks.begin(), threads_of_ranks.end(), 0.0);
@@ -143,7 +154,9 @@ SharedRows Renderer::Implementation::share_rows(Film& film) {
   const std::vector<int> begins = rows_of_ranks();
   const auto wanted = [&](int rank) {
     const auto r = static_cast<std::size_t>(rank);
-    return std::pair(std::max(begins[r] - kRowMargin, 0), std::min(begins[r + 1] + kRowMargin, rows.height));
+    // A rank without rows joins the others with a few.
+    const int margin = begins[r] < begins[r + 1] ? kRowMargin : kRowUnit;
+    return std::pair(std::max(begins[r] - margin, 0), std::min(begins[r + 1] + margin, rows.height));
   };
   const int first_row = region.y0 / kTile * kTile - region.y0;  // of the grid
   const int columns = (region.x1 + kTile - 1) / kTile - region.x0 / kTile;
@@ -155,7 +168,7 @@ SharedRows Renderer::Implementation::share_rows(Film& film) {
   const auto self = static_cast<std::size_t>(ranks.rank());
   rows.first = begins[self];
   rows.end = begins[self + 1];
-  rows.top = wanted(ranks.rank()).first;
+  std::tie(rows.top, rows.bottom) = wanted(ranks.rank());
   rows.join = [this](std::vector<double> mine) { return joined(ranks, std::move(mine)); };
   return rows;
 }
@@ -170,7 +183,7 @@ Cryptomattes Renderer::Implementation::cryptomattes() {
   rows.y1 = region.y0 + begins[self + 1];
   Cryptomattes mattes =
       arena.execute([&] { return trace_cryptomattes(*world, camera, filter, options, rows); });
-  for (Layer& layer : mattes.layers) layer.values = joined(ranks, std::move(layer.values));
+  for (Layer& layer : mattes.layers) layer.values = joined_at_first(ranks, std::move(layer.values));
   statistics.cryptomatte_seconds = seconds_since(start);
   return mattes;
 }
@@ -186,8 +199,7 @@ FinishedPicture Renderer::Implementation::finish(Film& film) {
     if (ranks.first()) finished = finished_picture(film, options, arena, better, shadows);
   } else {
     const SharedRows rows = share_rows(film);
-    const int bottom = std::min(rows.end + kRowMargin, rows.height);
-    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options, arena,
+    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + rows.bottom), rows, options, arena,
                              better, shadows);
     join_rows(finished, rows.height, ranks);
     if (ranks.first()) arena.execute([&] { complete(finished, spp, options); });
@@ -202,11 +214,10 @@ double Renderer::Implementation::adapt_density(Film& film, const Reconstruction*
   FinishedPicture finished;
   if (!known) {
     const SharedRows rows = share_rows(film);
-    const int bottom = std::min(rows.end + kRowMargin, rows.height);
     finished.reconstruction = arena.execute([&] {
       return ranks.alone()
                  ? finished_film(film, rows, options)
-                 : finished_film(film.rows(region.y0 + rows.top, region.y0 + bottom), rows, options);
+                 : finished_film(film.rows(region.y0 + rows.top, region.y0 + rows.bottom), rows, options);
     });
     if (!ranks.alone()) join_rows(finished, rows.height, ranks);
     known = &finished.reconstruction;

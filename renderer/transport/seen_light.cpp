@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "renderer/film/film_samples.h"
@@ -88,7 +89,11 @@ void smooth_edges(const World& world, const Camera& camera, const FilterSampler&
       }
     }
     std::vector<Hit> hits(rays.size());
-    world.accel.intersect(rays, hits, true);
+    // Packets hold the rays of one pixel, so that a part of the picture has the same ones.
+    for (std::size_t ray = 0; ray < rays.size(); ray += static_cast<std::size_t>(count)) {
+      const auto size = static_cast<std::size_t>(count);
+      world.accel.intersect(std::span(rays).subspan(ray, size), std::span(hits).subspan(ray, size), true);
+    }
     for (std::size_t i = begin; i < end; ++i) {
       Eigen::Array3d sum = Eigen::Array3d::Zero();
       for (int s = 0; s < count; ++s) {

@@ -89,24 +89,25 @@ class ThreadRank final : public renderer::Ranks {
   std::uint64_t sent_ = 0;
 };
 
-/// Runs the function at so many ranks, each a thread. It must end at all ranks or at none. Throws what rank 0
-/// throws.
+/// Runs the function at so many ranks, each a thread. It must end at all ranks or at none. Throws what the
+/// first rank of them throws.
 inline void run_ranks(int count, const std::function<void(renderer::Ranks&)>& function) {
   Mailboxes boxes(count);
   std::vector<std::thread> threads;
-  std::exception_ptr failure;
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
   for (int rank = 0; rank < count; ++rank) {
     threads.emplace_back([&, rank] {
       ThreadRank self(rank, boxes);
       try {
         function(self);
       } catch (...) {
-        if (rank == 0) failure = std::current_exception();
+        failures[static_cast<std::size_t>(rank)] = std::current_exception();
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace gatelight::tests

@@ -77,15 +77,15 @@ TEST_P(RanksOfPictures, GoOnWhereAnyNumberOfThemStopped) {
   GetParam().change(options);
   Renderer renderer(s, options);
   const Result straight{renderer.render(), renderer.statistics()};
-  for (const int first_stop : {2, 5}) {
+  for (const int first_stop : {1, 3, 8}) {
     const TemporaryFolder folder;
     options.checkpoint.file = folder / "picture";
     options.checkpoint.resume = true;
-    options.checkpoint.every_seconds = first_stop == 2 ? 0.0 : 60.0;
+    options.checkpoint.every_seconds = first_stop == 3 ? 60.0 : 0.0;
     Result result;
     int runs = 0;
     for (int stop = first_stop; runs < 20; ++runs, stop = 2 * stop + 1) {
-      result = render_by(1 + runs % 3, s, options, stop);
+      result = render_by(1 + (runs + 1) % 3, s, options, stop);
       EXPECT_EQ(folder.count_files(), 1u);
       if (!result.statistics.interrupted) break;
     }
@@ -138,6 +138,58 @@ TEST(Ranks, PutPicturesBeforeBackgroundsAndNameWhatIsSeen) {
   ASSERT_EQ(alone.picture.layers.size(), together.picture.layers.size());
   for (std::size_t i = 0; i < alone.picture.layers.size(); ++i)
     EXPECT_TRUE(alone.picture.layers[i].values == together.picture.layers[i].values) << i;
+}
+
+TEST(Ranks, MayBeMoreThanTilesAndRows) {
+  const scene::Scene s = room();
+  RenderOptions options = picture_of(Integrator::path);
+  options.reconstruct = true;
+  Renderer renderer(s, options);
+  const Result alone{renderer.render(), renderer.statistics()};
+  expect_same(render_by(9, s, options), alone);
+}
+
+TEST(Ranks, ReturnToTheSameGoodStateAfterDivergence) {
+  const scene::Scene s = room();
+  RenderOptions options = picture_of(Integrator::nrc);
+  options.cache.candidates = 1;
+  options.cache.train_steps = 64;
+  options.cache.training.adam.learning_rate = 30.0f;
+  std::string expected, told;
+  Result alone;
+  try {
+    Renderer renderer(s, options);
+    alone = {renderer.render(), renderer.statistics()};
+    expected = alone.statistics.cache.diverged;
+  } catch (const TrainingDiverged& error) {
+    expected = error.what();
+  }
+  EXPECT_NE(expected, "");
+  try {
+    const Result together = render_by(2, s, options);
+    told = together.statistics.cache.diverged;
+    expect_same(together, alone);
+  } catch (const TrainingDiverged& error) {
+    told = error.what();
+  }
+  EXPECT_EQ(told, expected);
+}
+
+TEST(Ranks, EndByATimeLimitTogether) {
+  const scene::Scene s = room();
+  for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
+    RenderOptions options = picture_of(integrator);
+    options.spp = 1000000;
+    options.reconstruct = true;
+    options.aovs.clear();
+    options.cache.train_steps = 100000;
+    options.cache.candidates = 1;
+    options.time_limit_seconds = 1.0;
+    const Result result = render_by(3, s, options);
+    EXPECT_EQ(result.statistics.ended_by, EndedBy::time_limit);
+    EXPECT_GE(result.statistics.spp, 1);
+    EXPECT_FALSE(result.picture.layers.empty());
+  }
 }
 
 TEST(Ranks, MakeNoSeries) {
