@@ -50,7 +50,7 @@ class Program:
         output, _ = process.communicate(timeout=300)
         return process.returncode, output
 
-    def processes(self, launched, ranks, seconds=20):
+    def processes(self, launched, ranks, seconds=60):
         """The ranks' process numbers, in the order of their start, when all are there."""
         end = time.time() + seconds
         while time.time() < end:
