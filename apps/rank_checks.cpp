@@ -58,8 +58,8 @@ int rank_of_isa(const std::string& name) {
 
 }  // namespace
 
-std::string RankGroup::name_of(int rank) const {
-  return fmt::format("rank {} of {} ({})", rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);
+std::string name_of_rank(int rank, int count, const std::string& host) {
+  return fmt::format("rank {} of {} ({})", rank, count, host);
 }
 
 void share_machines(RenderSettings& settings, const RankGroup& group) {

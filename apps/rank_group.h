@@ -8,13 +8,17 @@
 
 namespace gatelight::apps {
 
+/// "rank 1 of 3 (host)".
+std::string name_of_rank(int rank, int count, const std::string& host);
+
 struct RankGroup {
   renderer::Ranks& ranks;
   int local_count = 1;             ///< ranks of this machine
   std::vector<std::string> hosts;  ///< of each rank; empty for a process alone
 
-  /// "rank 1 of 3 (host)".
-  std::string name_of(int rank) const;
+  std::string name_of(int rank) const {
+    return name_of_rank(rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);
+  }
 };
 
 }  // namespace gatelight::apps

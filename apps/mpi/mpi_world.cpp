@@ -1,9 +1,9 @@
 #include "apps/mpi/mpi_world.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <stdexcept>
+
+#include "apps/rank_group.h"
 
 namespace gatelight::apps {
 namespace {
@@ -72,7 +72,7 @@ void MpiWorld::finalize() {
 }
 
 std::string name_of(const MpiWorld& world, int rank) {
-  return fmt::format("rank {} of {} ({})", rank, world.count, world.hosts[static_cast<std::size_t>(rank)]);
+  return name_of_rank(rank, world.count, world.hosts[static_cast<std::size_t>(rank)]);
 }
 
 }  // namespace gatelight::apps

@@ -50,16 +50,22 @@ void join_rows(FinishedPicture& mine, int height, Ranks& ranks) {
   mine.picture.height = height;
 }
 
+/// The sum of a number of each pixel of these tiles.
+template <class Number>
+std::uint64_t sum_over(const TileGrid& tiles, Number number) {
+  std::uint64_t sum = 0;
+  std::vector<Pixel> pixels;
+  for (int tile = 0; tile < tiles.count(); ++tile) {
+    tiles.pixels(tile, pixels);
+    for (const Pixel& p : pixels) sum += number(p);
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::uint64_t Renderer::Implementation::samples_of_rank(const Film& film) const {
-  std::uint64_t sum = 0;
-  std::vector<Pixel> pixels;
-  for (int tile = 0; tile < own.count(); ++tile) {
-    own.pixels(tile, pixels);
-    for (const Pixel& p : pixels) sum += film.taken(p);
-  }
-  return sum;
+  return sum_over(own, [&](const Pixel& p) { return film.taken(p); });
 }
 
 void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Training& training) const {
@@ -67,7 +73,7 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
   struct Counts {
     RankStatistics of_rank;
     RayCounts rays;
-    std::uint64_t samples, nonfinite, clamped, queries, negative_answers, unstored_hits;
+    std::uint64_t nonfinite, clamped, queries, negative_answers, unstored_hits;
   };
   Ranks::Traffic traffic = ranks.traffic();
   traffic.bytes_sent -= traffic_before.bytes_sent;
@@ -81,7 +87,6 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
                                               .bytes_sent = traffic.bytes_sent,
                                               .waiting_seconds = traffic.waiting_seconds},
                                              sum.rays,
-                                             sum.samples,
                                              sum.nonfinite,
                                              sum.clamped,
                                              sum.cache.queries,
@@ -96,7 +101,7 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
     sum.ranks.push_back(counts.of_rank);
     sum.threads += counts.of_rank.threads;
     sum.rays.add(counts.rays);
-    sum.samples += counts.samples;
+    sum.samples += counts.of_rank.samples;
     sum.nonfinite += counts.nonfinite;
     sum.clamped += counts.clamped;
     sum.cache.queries += counts.queries;
@@ -109,12 +114,7 @@ void Renderer::Implementation::add_other_ranks(RenderStatistics& sum, const Trai
 
 double Renderer::Implementation::samples_per_pixel(const Film& film) const {
   if (ranks.alone()) return film.samples_per_pixel();
-  std::uint64_t sum = 0;
-  std::vector<Pixel> pixels;
-  for (int tile = 0; tile < own.count(); ++tile) {
-    own.pixels(tile, pixels);
-    for (const Pixel& p : pixels) sum += film.count(p);
-  }
+  const std::uint64_t sum = sum_over(own, [&](const Pixel& p) { return film.count(p); });
   return static_cast<double>(sum_of_all(ranks, sum)) / static_cast<double>(film.pixels());
 }
 
@@ -158,12 +158,11 @@ SharedRows Renderer::Implementation::share_rows(Film& film) {
     const int margin = begins[r] < begins[r + 1] ? kRowMargin : kRowUnit;
     return std::pair(std::max(begins[r] - margin, 0), std::min(begins[r + 1] + margin, rows.height));
   };
-  const int first_row = region.y0 / kTile * kTile - region.y0;  // of the grid
-  const int columns = (region.x1 + kTile - 1) / kTile - region.x0 / kTile;
+  std::vector<Pixel> pixels;
   exchange_tiles(film, tiles, shares, ranks, [&](int rank, int tile) {
     const auto [top, bottom] = wanted(rank);
-    const int row = first_row + tile / columns * kTile;
-    return top < bottom && row + kTile > top && row < bottom;
+    tiles.pixels(tile, pixels);  // the first one is in the top row, the last one in the bottom row
+    return pixels.front().y < region.y0 + bottom && pixels.back().y >= region.y0 + top;
   });
   const auto self = static_cast<std::size_t>(ranks.rank());
   rows.first = begins[self];
