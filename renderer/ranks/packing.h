@@ -4,7 +4,7 @@
 #include <cstring>
 #include <span>
 #include <stdexcept>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "renderer/ranks/ranks.h"
@@ -61,18 +61,24 @@ class Unpacker {
   std::span<const std::byte> rest_;
 };
 
+/// The values of all these bytes, one after the other.
+template <class T>
+std::vector<T> unpacked_one_after_another(const std::vector<Bytes>& all) {
+  std::vector<T> values;
+  for (const Bytes& bytes : all) {
+    const std::vector<T> of_one = Unpacker(bytes).rest<T>();
+    values.insert(values.end(), of_one.begin(), of_one.end());
+  }
+  return values;
+}
+
 /// The values of all ranks, one after the other.
 template <class T>
 std::vector<T> joined(Ranks& ranks, std::vector<T> mine) {
   if (ranks.alone()) return mine;
   Packer packer;
   packer.add_all(std::span(mine));
-  std::vector<T> all;
-  for (const Bytes& bytes : ranks.gather(packer.take())) {
-    const std::vector<T> values = Unpacker(bytes).rest<T>();
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  return all;
+  return unpacked_one_after_another<T>(ranks.gather(packer.take()));
 }
 
 /// The same for rank 0; the others get nothing.
@@ -83,12 +89,7 @@ std::vector<T> joined_at_first(Ranks& ranks, std::vector<T> mine) {
   packer.add_all(std::span(mine));
   std::vector<Bytes> outgoing(static_cast<std::size_t>(ranks.count()));
   outgoing[0] = packer.take();
-  std::vector<T> all;
-  for (const Bytes& bytes : ranks.exchange(std::move(outgoing))) {
-    const std::vector<T> values = Unpacker(bytes).rest<T>();
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  return all;
+  return unpacked_one_after_another<T>(ranks.exchange(std::move(outgoing)));
 }
 
 /// One value of each rank.
