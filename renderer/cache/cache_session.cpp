@@ -63,8 +63,7 @@ void check_memory(const scene::Scene& scene, const RenderOptions& options, const
 }
 
 bool counts_needed(const RenderOptions& options) {
-  return options.cache.candidates > 1 ||
-         std::find(options.aovs.begin(), options.aovs.end(), Aov::training_count) != options.aovs.end();
+  return options.cache.candidates > 1 || has(options.aovs, Aov::training_count);
 }
 
 /// Fills `answers`: as many floats for each point as the network has outputs. Outputs that are negative or

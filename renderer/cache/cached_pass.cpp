@@ -54,12 +54,10 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
       paths_(world, cached_paths_options(context.options), stored_),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
-      needs_error_(std::find(context.options.aovs.begin(), context.options.aovs.end(), Aov::cache_error) !=
-                   context.options.aovs.end()),
+      needs_error_(has(context.options.aovs, Aov::cache_error)),
       queries_(session.inputs()) {
   plan_.query_at = context.options.cache.query_at;
-  const std::vector<Aov> aovs = film_aovs(context.options);
-  plan_.guides = std::find(aovs.begin(), aovs.end(), Aov::cache_radiance) != aovs.end();
+  plan_.guides = has(film_aovs(context.options), Aov::cache_radiance);
   plan_.max_depth = context.options.max_depth;
   plan_.min_depth = context.options.min_depth;
   if (context.options.cache.view == CacheView::cache) {

@@ -13,10 +13,6 @@ bool from_first_hit(Aov aov) {
   return aov != Aov::sample_count && aov != Aov::variance && aov != Aov::raw && aov != Aov::error;
 }
 
-bool has(std::span<const Aov> aovs, Aov aov) {
-  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
-}
-
 /// Reconstruction reads some of the other layers.
 std::vector<Aov> with_what_they_need(std::span<const Aov> aovs) {
   std::vector<Aov> all(aovs.begin(), aovs.end());
@@ -277,26 +273,6 @@ void Film::unpack(std::span<const Pixel> pixels, Unpacker& unpacker) {
     const std::size_t groups = light_groups_.size();
     unpacker.read_all(std::span(parts_).subspan(i * groups, groups));
   }
-}
-
-Film Film::rows(int first, int end) const {
-  PixelRect rect = rect_;
-  rect.y0 = first;
-  rect.y1 = end;
-  Film part(rect, full_width_, full_height_, aovs_, light_groups_);
-  const auto begin = static_cast<std::ptrdiff_t>(rect_.index(rect.x0, rect.y0));
-  const auto copy = [&](const auto& from, auto& to, std::size_t each = 1) {
-    if (!from.empty())
-      std::copy_n(from.begin() + begin * static_cast<std::ptrdiff_t>(each), to.size(), to.begin());
-  };
-  copy(radiance_, part.radiance_);
-  for (const std::size_t h : {0u, 1u}) {
-    copy(halves_[h], part.halves_[h]);
-    copy(seen_[h], part.seen_[h]);
-  }
-  copy(first_, part.first_);
-  copy(parts_, part.parts_, light_groups_.size());
-  return part;
 }
 
 FilmState Film::export_state() const {

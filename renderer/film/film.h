@@ -74,12 +74,12 @@ class Film {
   void add_parts(const Pixel& p, std::span<const Color> parts, float scale);
 
   /// The means so far. A pixel without samples is black. Runs in the caller's arena.
-  Picture resolve() const;
+  Picture resolve() const { return resolve(rect_.y0, rect_.y1); }
+  /// The same of the rows first <= y < end.
+  Picture resolve(int first, int end) const;
 
   /// The layer of an output variable. Those of the primary hit need a film that keeps it.
-  Layer layer(Aov aov) const;
-  /// The mean alpha of a half's samples, of all where the half has none. The film must keep first hits.
-  std::vector<float> alpha_of_half(std::size_t half) const;
+  Layer layer(Aov aov) const { return layer(aov, {0, pixels()}); }
   /// Mean number of samples of a pixel that count.
   double samples_per_pixel() const;
 
@@ -95,8 +95,6 @@ class Film {
   void pack(std::span<const Pixel> pixels, Packer& packer) const;
   /// Replaces those of the same pixels.
   void unpack(std::span<const Pixel> pixels, Unpacker& unpacker);
-  /// A film of some rows with the same sums; no density.
-  Film rows(int first, int end) const;
   const std::optional<SampleDensity>& density() const { return density_; }
 
   static std::size_t bytes_per_pixel(std::span<const Aov> aovs, std::size_t light_groups = 0);
@@ -146,10 +144,16 @@ class Film {
   double mean(std::size_t pixel, std::size_t channel) const;
   double variance(std::size_t pixel, std::size_t channel) const;
   std::size_t at(const Pixel& p) const { return rect_.index(p.x, p.y); }
+  /// Pixels in rows from the top.
+  struct Range {
+    std::size_t begin;
+    std::size_t end;
+  };
+  Layer layer(Aov aov, Range range) const;
   /// The layers of Aov::reconstruction that are no output variables of their own.
-  void add_guides(std::vector<Layer>& layers) const;
-  void add_halves(std::vector<Layer>& layers, bool of_cache) const;
-  void add_light_groups(std::vector<Layer>& layers) const;
+  void add_guides(std::vector<Layer>& layers, Range range) const;
+  void add_halves(std::vector<Layer>& layers, Range range) const;
+  void add_light_groups(std::vector<Layer>& layers, Range range) const;
 
   PixelRect rect_;
   int full_width_;

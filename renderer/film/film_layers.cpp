@@ -14,30 +14,30 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Fills a layer by value(pixel, channel).
-template <class Value>
-void fill(Layer& layer, std::size_t pixels, Value value) {
+/// Fills a layer by value(pixel, channel), for the pixels begin <= pixel < end.
+template <class Range, class Value>
+void fill(Layer& layer, const Range& all, Value value) {
   const std::size_t channels = layer.channels.size();
-  layer.values.resize(pixels * channels);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 4096),
+  layer.values.resize((all.end - all.begin) * channels);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(all.begin, all.end, 4096),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t p = range.begin(); p < range.end(); ++p) {
                         for (std::size_t i = 0; i < channels; ++i)
-                          layer.values[p * channels + i] = finite_float(value(p, i));
+                          layer.values[(p - all.begin) * channels + i] = finite_float(value(p, i));
                       }
                     });
 }
 
 }  // namespace
 
-Layer Film::layer(Aov aov) const {
+Layer Film::layer(Aov aov, Range range) const {
   Layer layer;
   layer.name = aov == Aov::reconstruction ? "coverage" : word(aov);
   layer.full_precision =
       aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
   const auto fill_with = [&](std::vector<std::string> channels, auto&& value) {
     layer.channels = std::move(channels);
-    fill(layer, pixels(), value);
+    fill(layer, range, value);
   };
   // The means of first hits. The background counts as black where samples are counted, as in the beauty
   // layer, so edges stay soft.
@@ -116,43 +116,33 @@ Layer Film::layer(Aov aov) const {
   return layer;
 }
 
-std::vector<float> Film::alpha_of_half(std::size_t half) const {
-  Layer layer{.channels = {"A"}};
-  fill(layer, pixels(), [&](std::size_t p, std::size_t) {
-    const First& f = first_[p];
-    const std::uint32_t in_b = f.count - f.count_half, n = half == 0 ? f.count_half : in_b;
-    if (n == 0) return f.count > 0 ? f.alpha / f.count : 0.0;
-    return (half == 0 ? f.alpha_half : f.alpha - f.alpha_half) / n;
-  });
-  return std::move(layer.values);
-}
-
-void Film::add_guides(std::vector<Layer>& layers) const {
+void Film::add_guides(std::vector<Layer>& layers, Range range) const {
   const auto mean_over = [](double sum, std::uint32_t count) { return count > 0 ? sum / count : 0.0; };
   Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
-  fill(albedo, pixels(),
+  fill(albedo, range,
        [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_albedo[i], first_[p].count); });
   Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
-  fill(normal, pixels(),
+  fill(normal, range,
        [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_normal[i], first_[p].count); });
   Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
-  fill(depth, pixels(),
+  fill(depth, range,
        [&](std::size_t p, std::size_t) { return mean_over(first_[p].guide_depth, first_[p].guide_hits); });
   for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
 }
 
-void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
+void Film::add_halves(std::vector<Layer>& layers, Range range) const {
+  const bool of_cache = has(aovs_, Aov::cache_radiance), of_alpha = has(aovs_, Aov::alpha);
   for (const std::size_t h : {0u, 1u}) {
-    const auto layer_of = [&](const char* what) {
+    const auto layer_of = [&](const char* what, std::vector<std::string> channels = {"R", "G", "B"}) {
       const char half[] = {static_cast<char>('a' + h), '\0'};
-      return Layer{.name = std::string(what) + half, .channels = {"R", "G", "B"}, .full_precision = true};
+      return Layer{.name = std::string(what) + half, .channels = std::move(channels), .full_precision = true};
     };
     Layer color = layer_of("half-"), variance = layer_of("variance-");
-    fill(color, pixels(),
+    fill(color, range,
          [&](std::size_t p, std::size_t i) { return mean_of(halves_[h][p], i) + seen_mean(h, p, i); });
     Layer seen = layer_of("seen-");
-    fill(seen, pixels(), [&](std::size_t p, std::size_t i) { return seen_mean(h, p, i); });
-    fill(variance, pixels(), [&](std::size_t p, std::size_t i) {
+    fill(seen, range, [&](std::size_t p, std::size_t i) { return seen_mean(h, p, i); });
+    fill(variance, range, [&](std::size_t p, std::size_t i) {
       const Radiance &half = halves_[h][p], &all = radiance_[p];
       // A single sample does not tell how it varies; all of the pixel's do.
       return half.count == 1 ? all.count * variance_of_mean(all, i) : variance_of_mean(half, i);
@@ -160,9 +150,20 @@ void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
     layers.push_back(std::move(color));
     layers.push_back(std::move(variance));
     layers.push_back(std::move(seen));
+    if (of_alpha) {
+      Layer alpha = layer_of("alpha-", {"A"});
+      fill(alpha, range, [&](std::size_t p, std::size_t) {
+        const First& f = first_[p];
+        const std::uint32_t in_b = f.count - f.count_half, n = h == 0 ? f.count_half : in_b;
+        // A half without samples has the mean of all.
+        if (n == 0) return f.count > 0 ? f.alpha / f.count : 0.0;
+        return (h == 0 ? f.alpha_half : f.alpha - f.alpha_half) / n;
+      });
+      layers.push_back(std::move(alpha));
+    }
     if (!of_cache) continue;
     Layer cache = layer_of("cache-");
-    fill(cache, pixels(), [&](std::size_t p, std::size_t i) {
+    fill(cache, range, [&](std::size_t p, std::size_t i) {
       const First& first = first_[p];
       const std::uint32_t of_a = first.guided_half, of_b = first.guided - first.guided_half;
       // A single sample stands for both halves.
@@ -176,40 +177,43 @@ void Film::add_halves(std::vector<Layer>& layers, bool of_cache) const {
 
 // A group's share of the pixel's sum, times the mean: the layers add up to the mean also where that is not
 // the sum over the number of samples (uneven halves).
-void Film::add_light_groups(std::vector<Layer>& layers) const {
+void Film::add_light_groups(std::vector<Layer>& layers, Range pixels) const {
   const std::size_t groups = light_groups_.size(), first = layers.size();
   for (const std::string& name : light_groups_) {
     layers.push_back({.name = kLightLayer + name, .channels = {"R", "G", "B"}, .full_precision = true});
-    layers.back().values.resize(3 * pixels());
+    layers.back().values.resize(3 * (pixels.end - pixels.begin));
   }
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, pixels(), 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = 3 * range.begin(); i < 3 * range.end(); ++i) {
-          const std::size_t p = i / 3, channel = i % 3;
-          double all = 0.0;
-          for (std::size_t g = 0; g < groups; ++g) all += parts_[p * groups + g][channel];
-          const double mean_of_all = mean(p, channel);
-          for (std::size_t g = 0; g < groups && all != 0.0; ++g)
-            layers[first + g].values[i] = finite_float(mean_of_all * (parts_[p * groups + g][channel] / all));
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(pixels.begin, pixels.end, 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = 3 * range.begin(); i < 3 * range.end(); ++i) {
+                        const std::size_t p = i / 3, channel = i % 3;
+                        double all = 0.0;
+                        for (std::size_t g = 0; g < groups; ++g) all += parts_[p * groups + g][channel];
+                        const double mean_of_all = mean(p, channel);
+                        for (std::size_t g = 0; g < groups && all != 0.0; ++g)
+                          layers[first + g].values[i - 3 * pixels.begin] =
+                              finite_float(mean_of_all * (parts_[p * groups + g][channel] / all));
+                      }
+                    });
 }
 
-Picture Film::resolve() const {
+Picture Film::resolve(int first, int end) const {
+  const auto begin_of = [&](int y) { return rect_.index(rect_.x0, y); };
+  const Range range{begin_of(first), begin_of(end)};
   Picture picture{.width = rect_.width(),
-                  .height = rect_.height(),
+                  .height = end - first,
                   .x0 = rect_.x0,
-                  .y0 = rect_.y0,
+                  .y0 = first,
                   .full_width = full_width_,
                   .full_height = full_height_};
   Layer beauty{.channels = {"R", "G", "B"}};
-  fill(beauty, pixels(), [&](std::size_t p, std::size_t i) { return mean(p, i); });
+  fill(beauty, range, [&](std::size_t p, std::size_t i) { return mean(p, i); });
   picture.layers.push_back(std::move(beauty));
-  for (const Aov aov : aovs_) picture.layers.push_back(layer(aov));
-  add_light_groups(picture.layers);
+  for (const Aov aov : aovs_) picture.layers.push_back(layer(aov, range));
+  add_light_groups(picture.layers, range);
   if (halves_[0].empty()) return picture;
-  add_guides(picture.layers);
-  add_halves(picture.layers, std::find(aovs_.begin(), aovs_.end(), Aov::cache_radiance) != aovs_.end());
+  add_guides(picture.layers, range);
+  add_halves(picture.layers, range);
   return picture;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/film/film.h"
 #include "renderer/image/cryptomatte.h"
 #include "renderer/machine/errors.h"
@@ -43,7 +41,7 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   // The sums, and at the same time the resolved picture: 13 floats at most, 21 more for the layers that
   // reconstruction reads, and 38 more for what it reads and writes.
   const std::vector<Aov> aovs = film_aovs(options);
-  const bool halves = std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end();
+  const bool halves = has(aovs, Aov::reconstruction);
   const std::size_t density =
       options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
   const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;

@@ -1,5 +1,7 @@
 #include "renderer/film/tiles.h"
 
+#include <algorithm>
+
 namespace gatelight::renderer {
 namespace {
 
@@ -47,6 +49,15 @@ TileGrid TileGrid::part(int first, int end) const {
 
 int TileGrid::tile_at(const Pixel& pixel) const {
   return (pixel.y / kTile - first_row_) * columns_ + pixel.x / kTile - first_column_ - begin_;
+}
+
+std::pair<int, int> TileGrid::columns(int y) const {
+  const int first = (y / kTile - first_row_) * columns_;
+  const auto left_of = [&](int tile) {
+    const int column = std::clamp(tile - first, 0, columns_);
+    return std::clamp((first_column_ + column) * kTile, region_.x0, region_.x1);
+  };
+  return {left_of(begin_), left_of(end_)};
 }
 
 void TileGrid::pixels(int number, std::vector<Pixel>& result) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "renderer/image/pixel_rect.h"
@@ -43,6 +44,8 @@ class TileGrid {
   int count() const { return end_ - begin_; }
   /// The tile that holds a pixel of the region.
   int tile_at(const Pixel& pixel) const;
+  /// The pixels first <= x < end of a row of the picture that are in these tiles. They are in one piece.
+  std::pair<int, int> columns(int y) const;
   /// Sets `result` to the tile's pixels within the region, in Morton order, which keeps packets of 16 rays
   /// square.
   void pixels(int tile, std::vector<Pixel>& result) const;

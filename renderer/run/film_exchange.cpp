@@ -33,6 +33,64 @@ void exchange_tiles(Film& film, const TileGrid& tiles, const Shares& shares, Ran
   }
 }
 
+Picture exchange_rows(const Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks,
+                      const std::function<std::pair<int, int>(int rank)>& rows_of, tbb::task_arena& arena) {
+  const int self = ranks.rank();
+  const auto [top, bottom] = rows_of(self);
+  if (ranks.alone()) return arena.execute([&] { return film.resolve(top, bottom); });
+
+  std::vector<TileGrid> of_ranks;
+  for (int r = 0; r < ranks.count(); ++r) of_ranks.push_back(tiles.part(shares.begin(r), shares.end(r)));
+  // The rows where this rank has pixels.
+  const auto has_some = [&](int y) {
+    const auto [begin, end] = of_ranks[static_cast<std::size_t>(self)].columns(y);
+    return begin < end;
+  };
+  int first = film.rect().y0, end = film.rect().y1;
+  while (first < end && !has_some(first)) ++first;
+  while (first < end && !has_some(end - 1)) --end;
+  Picture mine = arena.execute([&] { return film.resolve(first, end); });
+
+  Picture result = mine;
+  result.y0 = top;
+  result.height = bottom - top;
+  for (Layer& layer : result.layers) {
+    layer.values.assign(
+        layer.channels.size() * static_cast<std::size_t>(mine.width) * static_cast<std::size_t>(bottom - top),
+        0.0f);
+  }
+  /// Visits what a rank has of the rows that another wants: the values of each layer, row after row.
+  const auto each_piece = [&](Picture& picture, int has, int wants, const auto& visit) {
+    const auto [from, to] = rows_of(wants);
+    for (int y = from; y < to; ++y) {
+      const auto [left, right] = of_ranks[static_cast<std::size_t>(has)].columns(y);
+      if (left == right) continue;
+      const auto begin = static_cast<std::size_t>(y - picture.y0) * static_cast<std::size_t>(picture.width) +
+                         static_cast<std::size_t>(left - picture.x0);
+      for (Layer& layer : picture.layers) {
+        const std::size_t channels = layer.channels.size();
+        visit(std::span(layer.values)
+                  .subspan(begin * channels, static_cast<std::size_t>(right - left) * channels));
+      }
+    }
+  };
+  std::vector<Bytes> outgoing;
+  for (int r = 0; r < ranks.count(); ++r) {
+    Packer packer;
+    each_piece(mine, self, r, [&](std::span<float> values) { packer.add_all(values); });
+    outgoing.push_back(packer.take());
+  }
+  mine = {};
+  Bytes own = std::exchange(outgoing[static_cast<std::size_t>(self)], {});
+  std::vector<Bytes> incoming = ranks.exchange(std::move(outgoing));
+  incoming[static_cast<std::size_t>(self)] = std::move(own);
+  for (int r = 0; r < ranks.count(); ++r) {
+    Unpacker unpacker(incoming[static_cast<std::size_t>(r)]);
+    each_piece(result, r, self, [&](std::span<float> values) { unpacker.read_all(values); });
+  }
+  return result;
+}
+
 void gather_film(Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks) {
   exchange_tiles(film, tiles, shares, ranks, [](int rank, int) { return rank == 0; });
 }

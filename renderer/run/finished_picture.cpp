@@ -1,6 +1,7 @@
 #include "renderer/run/finished_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "renderer/machine/clock.h"
@@ -14,7 +15,7 @@ namespace {
 
 /// The layers that reconstruction reads and nobody asked for.
 void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
-  if (std::find(aovs.begin(), aovs.end(), Aov::reconstruction) != aovs.end()) return;
+  if (has(aovs, Aov::reconstruction)) return;
   std::erase_if(picture.layers, [&](const Layer& layer) {
     return !layer.name.empty() && !layer.name.starts_with(kLightLayer) &&
            std::none_of(aovs.begin(), aovs.end(), [&](Aov aov) { return word(aov) == layer.name; });
@@ -73,36 +74,50 @@ void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& r
   }
 }
 
-/// A value for each pixel of the rows. Panes that stochastic rays pass are as noisy in it as in the colours,
-/// and it is finished in the same way. `samples`: those of the colours, where the picture is reconstructed.
-std::vector<float> finished_alpha(const Film& film, const SharedRows& rows, SampledPicture* samples,
-                                  const CaughtShadows& shadows) {
-  if (!samples) {
-    std::vector<float> alpha = film.layer(Aov::alpha).values;
-    for (std::size_t h = 0; shadows && h < 2; ++h) {
-      const std::vector<float> caught = shadows(film.rect(), h);
-      for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += 0.5f * caught[p];
-    }
-    return alpha;
+PixelRect rect_of(const Picture& picture) {
+  return {picture.x0, picture.y0, picture.x0 + picture.width, picture.y0 + picture.height};
+}
+
+/// The mean alpha of each half, with the shadows that it caught.
+std::array<std::vector<float>, 2> alpha_of_halves(const Picture& picture, const CaughtShadows& shadows) {
+  std::array<std::vector<float>, 2> alphas = {picture.find("alpha-a")->values,
+                                              picture.find("alpha-b")->values};
+  for (std::size_t h = 0; shadows && h < 2; ++h) {
+    const std::vector<float> caught = shadows(rect_of(picture), h);
+    for (std::size_t p = 0; p < caught.size(); ++p) alphas[h][p] += caught[p];
   }
-  for (std::size_t h = 0; h < 2; ++h) {
-    SampledPicture::Half& half = samples->halves[h];
-    std::vector<float> alpha = film.alpha_of_half(h);
-    if (shadows) {
-      const std::vector<float> caught = shadows(film.rect(), h);
-      for (std::size_t p = 0; p < alpha.size(); ++p) alpha[p] += caught[p];
-    }
+  return alphas;
+}
+
+/// The same of all samples.
+std::vector<float> mean_alpha(const Picture& picture, const CaughtShadows& shadows) {
+  std::vector<float> alpha = picture.find("alpha")->values;
+  for (std::size_t h = 0; shadows && h < 2; ++h) {
+    const std::vector<float> caught = shadows(rect_of(picture), h);
+    for (std::size_t p = 0; p < caught.size(); ++p) alpha[p] += 0.5f * caught[p];
+  }
+  return alpha;
+}
+
+/// Alpha takes the place of the colours. Panes that stochastic rays pass are as noisy in it, and it is
+/// finished in the same way.
+void replace_by_alpha(SampledPicture& samples, const std::array<std::vector<float>, 2>& alphas) {
+  for (const std::size_t h : {0u, 1u}) {
+    SampledPicture::Half& half = samples.halves[h];
     for (std::size_t i = 0; i < half.color.size(); ++i) {
-      const float a = std::clamp(alpha[i / 3], 0.0f, 1.0f);
+      const float a = std::clamp(alphas[h][i / 3], 0.0f, 1.0f);
       half.color[i] = a;
       // The variance of a share.
-      half.variance[i] = a * (1.0f - a) / std::max(0.5f * samples->counts[i / 3], 1.0f);
+      half.variance[i] = a * (1.0f - a) / std::max(0.5f * samples.counts[i / 3], 1.0f);
     }
     half.cache.clear();
     half.seen.clear();
   }
-  std::fill(samples->albedo.begin(), samples->albedo.end(), 1.0f);
-  const std::vector<float> color = reconstruct_rows(*samples, rows).color;
+  std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
+}
+
+/// The first of three channels, which are equal.
+std::vector<float> first_channel(const std::vector<float>& color) {
   std::vector<float> result(color.size() / 3);
   for (std::size_t p = 0; p < result.size(); ++p) result[p] = color[3 * p];
   return result;
@@ -124,27 +139,31 @@ void crop(Picture& picture, const SharedRows& rows) {
 
 }  // namespace
 
-Reconstruction finished_film(const Film& film, const SharedRows& rows, const RenderOptions& options) {
-  return reconstruct_rows(samples_of(film.resolve(), options), rows);
+Reconstruction reconstruction_of(const Picture& picture, const SharedRows& rows,
+                                 const RenderOptions& options) {
+  return reconstruct_rows(samples_of(picture, options), rows);
 }
 
-FinishedPicture finished_rows(const Film& film, const SharedRows& rows, const RenderOptions& options,
-                              tbb::task_arena& arena, const SeenLight& better, const CaughtShadows& shadows) {
+FinishedPicture finished_rows(Picture picture, const SharedRows& rows, const RenderOptions& options,
+                              const SeenLight& better, const CaughtShadows& shadows) {
+  SampledPicture samples = samples_of(picture, options);
+  if (better) improve(samples, rect_of(picture), rows, better);
+  std::array<std::vector<float>, 2> alphas;
+  if (options.background.apart()) alphas = alpha_of_halves(picture, shadows);
+  drop_unwanted(picture, options.aovs);
+  crop(picture, rows);
+
   FinishedPicture result;
-  Picture& picture = result.picture;
-  arena.execute([&] {
-    picture = film.resolve();
-    SampledPicture samples = samples_of(picture, options);
-    if (better) improve(samples, film.rect(), rows, better);
-    drop_unwanted(picture, options.aovs);
-    crop(picture, rows);
-    Reconstruction& finished = result.reconstruction = reconstruct_rows(samples, rows);
-    picture.layers.front().values = std::move(finished.color);
-    for (Layer& layer : picture.layers) {
-      if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
-    }
-    if (options.background.apart()) result.alpha = finished_alpha(film, rows, &samples, shadows);
-  });
+  Reconstruction& finished = result.reconstruction = reconstruct_rows(samples, rows);
+  picture.layers.front().values = std::move(finished.color);
+  for (Layer& layer : picture.layers) {
+    if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
+  }
+  result.picture = std::move(picture);
+  if (options.background.apart()) {
+    replace_by_alpha(samples, alphas);
+    result.alpha = first_channel(reconstruct_rows(samples, rows).color);
+  }
   return result;
 }
 
@@ -158,21 +177,23 @@ void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOpti
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
                                  const SeenLight& better, const CaughtShadows& shadows) {
   const Clock::time_point start = Clock::now();
-  const SharedRows all = SharedRows::all(film.rect().height());
   FinishedPicture result;
-  if (options.reconstruct) {
-    result = finished_rows(film, all, options, arena, better, shadows);
-    arena.execute([&] { complete(result, film.samples_per_pixel(), options); });
-    result.reconstruct_seconds = seconds_since(start);
-    return result;
-  }
   arena.execute([&] {
-    result.picture = film.resolve();
-    result.estimated_error = error_of(film, result.picture);
-    drop_unwanted(result.picture, options.aovs);
-    if (options.background.apart())
-      put_before(result.picture, finished_alpha(film, all, nullptr, shadows), options.background);
+    Picture picture = film.resolve();
+    if (options.reconstruct) {
+      result =
+          finished_rows(std::move(picture), SharedRows::all(film.rect().height()), options, better, shadows);
+      complete(result, film.samples_per_pixel(), options);
+      return;
+    }
+    result.estimated_error = error_of(film, picture);
+    std::vector<float> alpha;
+    if (options.background.apart()) alpha = mean_alpha(picture, shadows);
+    drop_unwanted(picture, options.aovs);
+    if (options.background.apart()) put_before(picture, alpha, options.background);
+    result.picture = std::move(picture);
   });
+  if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
   return result;
 }
 

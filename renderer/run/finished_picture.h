@@ -39,19 +39,20 @@ using CaughtShadows = std::function<std::vector<float>(const PixelRect& rect, st
 FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
                                  const SeenLight& better = {}, const CaughtShadows& shadows = {});
 
-/// The same for rows of a picture that several ranks have, with options.reconstruct. `film` has them with
-/// their margin. The result has picture, reconstruction and alpha of these rows alone; complete() makes the
-/// rest.
-FinishedPicture finished_rows(const Film& film, const SharedRows& rows, const RenderOptions& options,
-                              tbb::task_arena& arena, const SeenLight& better, const CaughtShadows& shadows);
+/// The same for rows of a picture that several ranks have, with options.reconstruct. `picture` is what
+/// Film::resolve() says of them and their margin. The result has picture, reconstruction and alpha of these
+/// rows alone; complete() makes the rest. Runs in the caller's arena.
+FinishedPicture finished_rows(Picture picture, const SharedRows& rows, const RenderOptions& options,
+                              const SeenLight& better, const CaughtShadows& shadows);
 
 /// Puts a picture whose rows are all there before its background, and estimates its error. Runs in the
 /// caller's arena. `samples_per_pixel`: Film::samples_per_pixel().
 void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOptions& options);
 
-/// The reconstruction of a film that keeps film_aovs(options), with its halves: of `rows`, of which the film
-/// has those at hand. Runs in the caller's arena.
-Reconstruction finished_film(const Film& film, const SharedRows& rows, const RenderOptions& options);
+/// The reconstruction alone, with its halves. `picture` is that of finished_rows(). Runs in the caller's
+/// arena.
+Reconstruction reconstruction_of(const Picture& picture, const SharedRows& rows,
+                                 const RenderOptions& options);
 
 /// Its estimated_error alone, without reconstruction.
 std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena);

@@ -86,8 +86,12 @@ struct Renderer::Implementation {
   std::vector<int> rows_of_ranks() const;
   /// Of the picture, that the rank with most rows finishes, with their margin.
   double share_of_rows() const;
-  /// The rows that this rank finishes. The film gets their margin too.
-  SharedRows share_rows(Film& film);
+  /// The rows that a rank needs to finish its own: first <= y < end, from the top of the region.
+  std::pair<int, int> rows_with_margin(int rank) const;
+  /// The rows that this rank finishes.
+  SharedRows shared_rows() const;
+  /// What all samples say of them and their margin.
+  Picture sampled_rows(const Film& film);
   /// The layers of options.cryptomattes; the statistics get the time.
   Cryptomattes cryptomattes();
   Film make_film() const;

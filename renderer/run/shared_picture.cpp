@@ -148,28 +148,32 @@ std::vector<int> Renderer::Implementation::rows_of_ranks() const {
   return begins;
 }
 
-SharedRows Renderer::Implementation::share_rows(Film& film) {
+std::pair<int, int> Renderer::Implementation::rows_with_margin(int rank) const {
+  const std::vector<int> begins = rows_of_ranks();
+  const auto r = static_cast<std::size_t>(rank);
+  // A rank without rows joins the others with a few.
+  const int margin = begins[r] < begins[r + 1] ? kRowMargin : kRowUnit;
+  return {std::max(begins[r] - margin, 0), std::min(begins[r + 1] + margin, region.height())};
+}
+
+SharedRows Renderer::Implementation::shared_rows() const {
   SharedRows rows = SharedRows::all(region.height());
   if (ranks.alone()) return rows;
   const std::vector<int> begins = rows_of_ranks();
-  const auto wanted = [&](int rank) {
-    const auto r = static_cast<std::size_t>(rank);
-    // A rank without rows joins the others with a few.
-    const int margin = begins[r] < begins[r + 1] ? kRowMargin : kRowUnit;
-    return std::pair(std::max(begins[r] - margin, 0), std::min(begins[r + 1] + margin, rows.height));
-  };
-  std::vector<Pixel> pixels;
-  exchange_tiles(film, tiles, shares, ranks, [&](int rank, int tile) {
-    const auto [top, bottom] = wanted(rank);
-    tiles.pixels(tile, pixels);  // the first one is in the top row, the last one in the bottom row
-    return pixels.front().y < region.y0 + bottom && pixels.back().y >= region.y0 + top;
-  });
   const auto self = static_cast<std::size_t>(ranks.rank());
   rows.first = begins[self];
   rows.end = begins[self + 1];
-  std::tie(rows.top, rows.bottom) = wanted(ranks.rank());
+  std::tie(rows.top, rows.bottom) = rows_with_margin(ranks.rank());
   rows.join = [this](std::vector<double> mine) { return joined(ranks, std::move(mine)); };
   return rows;
+}
+
+Picture Renderer::Implementation::sampled_rows(const Film& film) {
+  const auto rows_of = [&](int rank) {
+    const auto [top, bottom] = rows_with_margin(rank);
+    return std::pair(region.y0 + top, region.y0 + bottom);
+  };
+  return exchange_rows(film, tiles, shares, ranks, rows_of, arena);
 }
 
 Cryptomattes Renderer::Implementation::cryptomattes() {
@@ -197,10 +201,10 @@ FinishedPicture Renderer::Implementation::finish(Film& film) {
     gather(film);
     if (ranks.first()) finished = finished_picture(film, options, arena, better, shadows);
   } else {
-    const SharedRows rows = share_rows(film);
-    finished = finished_rows(film.rows(region.y0 + rows.top, region.y0 + rows.bottom), rows, options, arena,
-                             better, shadows);
-    join_rows(finished, rows.height, ranks);
+    Picture samples = sampled_rows(film);
+    arena.execute(
+        [&] { finished = finished_rows(std::move(samples), shared_rows(), options, better, shadows); });
+    join_rows(finished, region.height(), ranks);
     if (ranks.first()) arena.execute([&] { complete(finished, spp, options); });
     finished.reconstruct_seconds = seconds_since(start);
   }
@@ -212,13 +216,10 @@ double Renderer::Implementation::adapt_density(Film& film, const Reconstruction*
   const Clock::time_point start = Clock::now();
   FinishedPicture finished;
   if (!known) {
-    const SharedRows rows = share_rows(film);
-    finished.reconstruction = arena.execute([&] {
-      return ranks.alone()
-                 ? finished_film(film, rows, options)
-                 : finished_film(film.rows(region.y0 + rows.top, region.y0 + rows.bottom), rows, options);
-    });
-    if (!ranks.alone()) join_rows(finished, rows.height, ranks);
+    const Picture samples = sampled_rows(film);
+    finished.reconstruction =
+        arena.execute([&] { return reconstruction_of(samples, shared_rows(), options); });
+    if (!ranks.alone()) join_rows(finished, region.height(), ranks);
     known = &finished.reconstruction;
   }
   if (ranks.alone()) {

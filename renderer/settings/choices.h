@@ -1,7 +1,9 @@
 #pragma once
 // The enumerations of the options. words.h has their words.
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace gatelight::renderer {
 
@@ -53,6 +55,9 @@ enum class Aov : std::uint8_t {
   resolution,      ///< R of the instance's first level
   nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
 };
+inline bool has(std::span<const Aov> aovs, Aov aov) {
+  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+}
 
 /// Names of the scene that a Cryptomatte tells apart.
 enum class MatteKind : std::uint8_t { object, material };

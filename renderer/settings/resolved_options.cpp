@@ -16,11 +16,11 @@ float resolve_ao_distance(float option, const scene::Box& bounds) {
 
 std::vector<Aov> film_aovs(const RenderOptions& options) {
   std::vector<Aov> aovs = options.aovs;
-  const auto has = [&](Aov aov) { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); };
-  if (options.reconstruct && !has(Aov::reconstruction)) aovs.push_back(Aov::reconstruction);
-  if (has(Aov::reconstruction) && !has(Aov::cache_radiance) && options.integrator == Integrator::nrc)
+  if (options.reconstruct && !has(aovs, Aov::reconstruction)) aovs.push_back(Aov::reconstruction);
+  if (has(aovs, Aov::reconstruction) && !has(aovs, Aov::cache_radiance) &&
+      options.integrator == Integrator::nrc)
     aovs.push_back(Aov::cache_radiance);
-  if (options.background.apart() && !has(Aov::alpha)) aovs.push_back(Aov::alpha);
+  if (options.background.apart() && !has(aovs, Aov::alpha)) aovs.push_back(Aov::alpha);
   return aovs;
 }
 

@@ -61,5 +61,27 @@ TEST(Tiles, ARegionHasThoseOfTheWholePicture) {
   EXPECT_EQ(tiles_of(region), whole);
 }
 
+TEST(Tiles, PartsShareTheColumnsOfARow) {
+  const PixelRect region{20, 5, 70, 37};
+  const TileGrid grid(region);
+  for (const int middle : {0, 2, 5, grid.count()}) {
+    const TileGrid parts[] = {grid.part(0, middle), grid.part(middle, grid.count())};
+    for (const TileGrid& part : parts) {
+      std::vector<std::pair<int, int>> expected, found;
+      std::vector<Pixel> pixels;
+      for (int tile = 0; tile < part.count(); ++tile) {
+        part.pixels(tile, pixels);
+        for (const Pixel& p : pixels) expected.emplace_back(p.y, p.x);
+      }
+      std::sort(expected.begin(), expected.end());
+      for (int y = region.y0; y < region.y1; ++y) {
+        const auto [first, end] = part.columns(y);
+        for (int x = first; x < end; ++x) found.emplace_back(y, x);
+      }
+      EXPECT_EQ(found, expected) << middle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gatelight::renderer

@@ -88,7 +88,7 @@ Moments means_of_walls(const std::function<void(Film&, int)>& adapt) {
 }
 
 Reconstruction finished(const Film& film) {
-  return finished_film(film, SharedRows::all(film.rect().height()), adaptive_options());
+  return reconstruction_of(film.resolve(), SharedRows::all(film.rect().height()), adaptive_options());
 }
 
 TEST(AdaptiveSampling, KeepsTheMeanOfRareLight) {
