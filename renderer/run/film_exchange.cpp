@@ -1,5 +1,6 @@
 #include "renderer/run/film_exchange.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -51,13 +52,16 @@ Picture exchange_rows(const Film& film, const TileGrid& tiles, const Shares& sha
   while (first < end && !has_some(end - 1)) --end;
   Picture mine = arena.execute([&] { return film.resolve(first, end); });
 
-  Picture result = mine;
-  result.y0 = top;
-  result.height = bottom - top;
-  for (Layer& layer : result.layers) {
-    layer.values.assign(
-        layer.channels.size() * static_cast<std::size_t>(mine.width) * static_cast<std::size_t>(bottom - top),
-        0.0f);
+  Picture result{.width = mine.width,
+                 .height = bottom - top,
+                 .x0 = mine.x0,
+                 .y0 = top,
+                 .full_width = mine.full_width,
+                 .full_height = mine.full_height};
+  const auto pixels = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+  for (const Layer& layer : mine.layers) {
+    result.layers.push_back({layer.name, layer.channels, {}, layer.full_precision});
+    result.layers.back().values.resize(pixels * layer.channels.size());
   }
   /// Visits what a rank has of the rows that another wants: the values of each layer, row after row.
   const auto each_piece = [&](Picture& picture, int has, int wants, const auto& visit) {
@@ -74,17 +78,23 @@ Picture exchange_rows(const Film& film, const TileGrid& tiles, const Shares& sha
       }
     }
   };
-  std::vector<Bytes> outgoing;
+  std::vector<Bytes> outgoing(static_cast<std::size_t>(ranks.count()));
+  std::vector<std::span<float>> own;
+  each_piece(mine, self, self, [&](std::span<float> values) { own.push_back(values); });
+  auto piece = own.begin();
+  each_piece(result, self, self, [&](std::span<float> values) {
+    std::copy_n((piece++)->begin(), values.size(), values.begin());
+  });
   for (int r = 0; r < ranks.count(); ++r) {
+    if (r == self) continue;
     Packer packer;
     each_piece(mine, self, r, [&](std::span<float> values) { packer.add_all(values); });
-    outgoing.push_back(packer.take());
+    outgoing[static_cast<std::size_t>(r)] = packer.take();
   }
   mine = {};
-  Bytes own = std::exchange(outgoing[static_cast<std::size_t>(self)], {});
-  std::vector<Bytes> incoming = ranks.exchange(std::move(outgoing));
-  incoming[static_cast<std::size_t>(self)] = std::move(own);
+  const std::vector<Bytes> incoming = ranks.exchange(std::move(outgoing));
   for (int r = 0; r < ranks.count(); ++r) {
+    if (r == self) continue;
     Unpacker unpacker(incoming[static_cast<std::size_t>(r)]);
     each_piece(result, r, self, [&](std::span<float> values) { unpacker.read_all(values); });
   }
