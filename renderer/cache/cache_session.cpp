@@ -291,9 +291,10 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const bool ahead = ranks_ && options_.cache.candidates == 1;
   const auto give_up = [&] {
     const double limit = options_.cache.train_seconds;
-    bool over = limit > 0.0 && seconds_since(start) >= limit;
-    if (ranks_) over = agreed(ranks_->ranks, over);
-    return (watch.stop && watch.stop()) || over;
+    if (watch.stop && watch.stop()) return true;
+    if (limit <= 0.0) return false;
+    const bool over = seconds_since(start) >= limit;
+    return ranks_ ? agreed(ranks_->ranks, over) : over;
   };
   Group groups[2];
   Group *next = &groups[0], *last = ahead ? &groups[1] : next;
