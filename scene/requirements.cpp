@@ -27,9 +27,11 @@ void add_material(const Material& m, SceneRequirements& r) {
   r.base_color_textures |= static_cast<bool>(m.base_color_texture);
   r.metallic_roughness_textures |= static_cast<bool>(m.metallic_roughness_texture);
   r.emission_textures |= m.emits() && m.emission_texture;
-  r.other_textures |= m.specular_texture || m.specular_color_texture || m.glossiness_texture || m.transmission_texture ||
-                      m.clearcoat_texture || m.clearcoat_roughness_texture || m.clearcoat_normal_texture ||
-                      m.sheen_color_texture || m.sheen_roughness_texture;
+  r.other_textures |= m.specular_texture || m.specular_color_texture || m.glossiness_texture ||
+                      m.transmission_texture || m.diffuse_transmission_texture ||
+                      m.diffuse_transmission_color_texture || m.clearcoat_texture ||
+                      m.clearcoat_roughness_texture || m.clearcoat_normal_texture || m.sheen_color_texture ||
+                      m.sheen_roughness_texture;
   if (m.emits()) ++r.emissive_materials;
 }
 

@@ -85,14 +85,18 @@ struct Material {
   TextureSlot clearcoat_roughness_texture;  ///< G
   TextureSlot clearcoat_normal_texture;
   float clearcoat_normal_scale = 1.0f;
-  Color sheen_color{0.0f, 0.0f, 0.0f};  ///< KHR_materials_sheen
-  TextureSlot sheen_color_texture;      ///< RGB sRGB
+  float diffuse_transmission = 0.0f;         ///< KHR_materials_diffuse_transmission
+  TextureSlot diffuse_transmission_texture;  ///< A
+  Color diffuse_transmission_color{1.0f, 1.0f, 1.0f};
+  TextureSlot diffuse_transmission_color_texture;  ///< RGB sRGB
+  Color sheen_color{0.0f, 0.0f, 0.0f};             ///< KHR_materials_sheen
+  TextureSlot sheen_color_texture;                 ///< RGB sRGB
   float sheen_roughness = 0.0f;
   TextureSlot sheen_roughness_texture;  ///< A
 
   bool emits() const { return (emission > 0.0f).any(); }
-  bool transmits() const { return transmission > 0.0f; }
-  /// Whether light enters an absorbing interior rather than passing an infinitely thin sheet.
+  bool transmits() const { return transmission > 0.0f || diffuse_transmission > 0.0f; }
+  /// Whether light enters an interior rather than passing an infinitely thin sheet.
   bool has_volume() const { return transmits() && thickness > 0.0f; }
 };
 

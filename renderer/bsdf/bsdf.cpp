@@ -66,14 +66,15 @@ Bsdf::Bsdf(const SurfaceMaterial& material, const Vec3& ng, const Vec3& ns, cons
 }
 
 void Bsdf::normalize_chances() {
-  float* const probabilities[] = {&p_microfacet_,    &p_diffuse_, &p_clear_, &p_loss_reflect_,
-                                  &p_loss_transmit_, &p_coat_,    &p_sheen_};
+  float* const probabilities[] = {&p_microfacet_, &p_diffuse_,      &p_diffuse_through_,
+                                  &p_clear_,      &p_loss_reflect_, &p_loss_transmit_,
+                                  &p_coat_,       &p_sheen_};
   float total = 0.0f;
   for (const float* p : probabilities) total += *p;
   const float scale = total > 0.0f ? 1.0f / total : 0.0f;
   for (float* p : probabilities) *p *= scale;
-  is_delta_ = p_diffuse_ == 0.0f && p_sheen_ == 0.0f && (ggx_.delta || p_microfacet_ == 0.0f) &&
-              (p_coat_ == 0.0f || coat_.delta);
+  is_delta_ = p_diffuse_ == 0.0f && p_diffuse_through_ == 0.0f && p_sheen_ == 0.0f &&
+              (ggx_.delta || p_microfacet_ == 0.0f) && (p_coat_ == 0.0f || coat_.delta);
 }
 
 void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
@@ -92,6 +93,8 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     } else {
       const bool clear = roughness >= kDeltaRoughness && std::abs(ior - 1.0f) < kMinRoughIorStep;
       glass_ = clear ? Glass::clear : Glass::refracting;
+      eta_ = front ? ior : 1.0f / ior;
+      if (!clear) transmit_scale_ = 1.0f / (eta_ * eta_);
     }
   }
 
@@ -130,10 +133,22 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     coupling_[1] = (1.0f - part) * largest_f0;
     coupling_[2] = (1.0f - part) * (largest_f0 - specular);
     coupling_[3] = part * (largest_f0 - specular);
-    const Color diffuse_albedo = base * (opaque * passed(out));
-    diffuse_ = diffuse_albedo * (kInvPi / std::max(passed(mean), 1e-6f));
+    // Of the light that comes from all directions of a denser medium, 1 / eta^2 leaves it.
+    const float through =
+        std::clamp(material.diffuse_transmission, 0.0f, 1.0f) / std::max(transmit_scale_, 1.0f);
+    const float coupled = kInvPi / std::max(passed(mean), 1e-6f);
+    const Color diffuse_albedo = base * ((1.0f - through) * opaque * passed(out));
+    diffuse_ = diffuse_albedo * coupled;
     p_diffuse_ = scene::luminance(diffuse_albedo);
     albedo_ += diffuse_albedo;
+    if (through > 0.0f) {
+      lets_through_ = true;
+      const Color color = material.diffuse_transmission_color.max(0.0f).min(1.0f);
+      const Color transmitted = color * (through * opaque * passed(out));
+      diffuse_through_ = transmitted * (coupled * transmit_scale_);
+      p_diffuse_through_ = scene::luminance(transmitted);
+      albedo_ += transmitted;
+    }
   }
   if (glass_ == Glass::none) return;
 
@@ -141,7 +156,6 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
   glass_tint_ = glass * base;
   glass_f0_ = f0;
   glass_f90_ = specular;
-  eta_ = front ? ior : 1.0f / ior;
   if (glass_ == Glass::clear) {
     albedo_ += glass_tint_;
     p_clear_ = scene::luminance(glass_tint_);
@@ -227,6 +241,7 @@ void Bsdf::set_up_layers(const SurfaceMaterial& material) {
   }
   p_microfacet_ *= base_scale * coat_scale;
   p_diffuse_ *= base_scale * coat_scale;
+  p_diffuse_through_ *= base_scale * coat_scale;
   p_clear_ *= base_scale * coat_scale;
   p_loss_reflect_ *= base_scale * coat_scale;
   p_loss_transmit_ *= base_scale * coat_scale;

@@ -36,7 +36,9 @@ struct SurfaceMaterial {
   float specular = 1.0f;
   Color specular_color{1.0f, 1.0f, 1.0f};
   float transmission = 0.0f;
-  bool thin_walled = true;  ///< a thin sheet: transmission does not refract
+  bool thin_walled = true;            ///< a thin sheet: transmission does not refract
+  float diffuse_transmission = 0.0f;  ///< the share of the diffuse light that leaves on the other side
+  Color diffuse_transmission_color{1.0f, 1.0f, 1.0f};
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
   Color sheen_color{0.0f, 0.0f, 0.0f};
@@ -77,7 +79,7 @@ class Bsdf {
   /// of the tables. It contains reflection and transmission, without the radiance scale of refraction.
   const Color& albedo() const { return albedo_; }
   /// Whether light can arrive from behind the surface.
-  bool transmits() const { return glass_ != Glass::none; }
+  bool transmits() const { return glass_ != Glass::none || lets_through_; }
   /// The fraction of light that goes straight through, from -wo to wo: the delta transmission of a smooth
   /// thin-walled surface. Zero for all others. It equals sample() on average.
   Color straight_transmittance() const;
@@ -150,12 +152,14 @@ class Bsdf {
   Color f0_, multiple_f0_, multiple_f90_;
   float f90_ = 0.0f;
 
-  // The diffuse base under the dielectric, and the coefficients of passed(): 1 - the layer's albedo for wi is
-  // [0] + [1] loss + [2] b + [3] b_scaled.
-  Color diffuse_;
+  // The diffuse base under the dielectric, on both sides, and the coefficients of passed(): 1 - the layer's
+  // albedo for wi is [0] + [1] loss + [2] b + [3] b_scaled.
+  Color diffuse_, diffuse_through_;
   float coupling_[4];
 
   Glass glass_ = Glass::none;
+  float transmit_scale_ = 1.0f;  ///< BsdfSample::radiance_scale of what is transmitted
+  bool lets_through_ = false;  ///< has a diffuse base on the other side
   bool is_delta_ = false;
   bool has_layers_ = false;
 
@@ -181,6 +185,7 @@ class Bsdf {
   // The probabilities of the lobes. Their sum is one, or zero for a black surface.
   float p_microfacet_ = 0.0f;
   float p_diffuse_ = 0.0f;
+  float p_diffuse_through_ = 0.0f;
   float p_clear_ = 0.0f;
   float p_loss_reflect_ = 0.0f;
   float p_loss_transmit_ = 0.0f;

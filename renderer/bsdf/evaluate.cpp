@@ -95,7 +95,11 @@ void Bsdf::add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const 
 }
 
 void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const {
-  if (glass_ == Glass::clear || ggx_.delta || !(p_microfacet_ > 0.0f)) return;
+  if (p_diffuse_through_ > 0.0f) {
+    result.value += diffuse_through_ * (passed(row_.at(cos_i)) * cos_i);
+    result.pdf += p_diffuse_through_ * cos_i * kInvPi;
+  }
+  if (glass_ == Glass::none || glass_ == Glass::clear || ggx_.delta || !(p_microfacet_ > 0.0f)) return;
   if (glass_ == Glass::thin) {
     // The reflection lobe, mirrored to the other side of the sheet.
     const Vec3 h = wo_ + wi + 2.0f * cos_i * ns_;

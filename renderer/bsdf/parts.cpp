@@ -20,14 +20,17 @@ bool is_narrow(const GgxLobe& lobe, float roughness) {
 
 bool Bsdf::has(float roughness, bool narrow) const {
   const float microfacets = p_microfacet_ + p_loss_reflect_ + p_loss_transmit_;
-  return (narrow ? p_clear_ > 0.0f : p_diffuse_ > 0.0f || p_sheen_ > 0.0f) ||
+  return (narrow ? p_clear_ > 0.0f : p_diffuse_ > 0.0f || p_diffuse_through_ > 0.0f || p_sheen_ > 0.0f) ||
          (microfacets > 0.0f && is_narrow(ggx_, roughness) == narrow) ||
          (p_coat_ > 0.0f && is_narrow(coat_, roughness) == narrow);
 }
 
 Color Bsdf::diffuse_albedo() const {
-  if (!(p_diffuse_ > 0.0f)) return Color::Zero();
-  return diffuse_ * (kPi * std::max(passed(row_.mean()), 1e-6f) * base_scale_);
+  Color both = Color::Zero();
+  if (p_diffuse_ > 0.0f) both += diffuse_;
+  // The albedo leaves the radiance scale of refraction out.
+  if (p_diffuse_through_ > 0.0f) both += diffuse_through_ / transmit_scale_;
+  return both * (kPi * std::max(passed(row_.mean()), 1e-6f) * base_scale_);
 }
 
 Color Bsdf::sheen_albedo() const {
@@ -52,7 +55,8 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   Bsdf result = *this;
   if (!keeps_facets) result.p_microfacet_ = result.p_loss_reflect_ = result.p_loss_transmit_ = 0.0f;
   if (narrow) {
-    result.p_diffuse_ = result.p_sheen_ = 0.0f;
+    result.p_diffuse_ = result.p_diffuse_through_ = result.p_sheen_ = 0.0f;
+    result.lets_through_ = false;
   } else {
     result.p_clear_ = 0.0f;
   }

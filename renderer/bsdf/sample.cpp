@@ -47,6 +47,7 @@ BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
   if (rest < p_microfacet_) return sample_microfacet(rest / p_microfacet_, u);
   rest -= p_microfacet_;
   if (takes(p_diffuse_)) return finish(Basis(ns_).to_world(sample_cosine_hemisphere(u)), ns_, 1.0f);
+  if (takes(p_diffuse_through_)) return finish(-Basis(ns_).to_world(sample_cosine_hemisphere(u)), -ns_, 1.0f);
   if (takes(p_loss_reflect_)) return finish(Basis(ns_).to_world(loss_lobe_.sample(u)), ns_, 1.0f);
   if (takes(p_loss_transmit_)) return finish(-Basis(ns_).to_world(loss_lobe_.sample(u)), -ns_, 1.0f);
   if (takes(p_sheen_)) return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
@@ -95,9 +96,8 @@ BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
   const Vec3 wi = thin ? Vec3(-wo_) : refracted(wo_, ns_, ggx_.cos_o, half.cos_t, eta_);
   const float pdf = p_microfacet_ * (1.0f - half.probability_reflect);
   if (!(wi.dot(ng_) < 0.0f) || !(pdf > 0.0f)) return {};
-  const float scale = thin ? 1.0f : 1.0f / (eta_ * eta_);
-  BsdfSample sample = delta_sample(wi, half.transmitted * (base_scale_ * scale / pdf), pdf, true);
-  sample.radiance_scale = scale;
+  BsdfSample sample = delta_sample(wi, half.transmitted * (base_scale_ * transmit_scale_ / pdf), pdf, true);
+  sample.radiance_scale = transmit_scale_;
   return sample;
 }
 
@@ -112,7 +112,7 @@ BsdfSample Bsdf::finish(const Vec3& wi, const Vec3& normal, float spread) const 
   if (!(value.pdf > 0.0f)) return sample;
   sample.weight = value.value / value.pdf;
   sample.pdf = value.pdf;
-  if (sample.transmitted && glass_ == Glass::refracting) sample.radiance_scale = 1.0f / (eta_ * eta_);
+  if (sample.transmitted) sample.radiance_scale = transmit_scale_;
   sample.spread = spread;
   return sample;
 }

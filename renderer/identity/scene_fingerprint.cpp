@@ -79,18 +79,21 @@ void add_material(DigestRecord& record, const scene::Material& material) {
                specular_color, specular_color_texture, glossiness_texture, transmission, transmission_texture,
                thickness, attenuation_distance, attenuation_color, clearcoat, clearcoat_texture,
                clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
-               clearcoat_normal_scale, sheen_color, sheen_color_texture, sheen_roughness,
-               sheen_roughness_texture] = material;
-  for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color})
+               clearcoat_normal_scale, diffuse_transmission, diffuse_transmission_texture,
+               diffuse_transmission_color, diffuse_transmission_color_texture, sheen_color,
+               sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
+  for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color,
+                            &diffuse_transmission_color})
     add_numbers(record, *color);
-  for (const float value :
-       {base_alpha, metallic, roughness, normal_scale, alpha_cutoff, ior, specular, transmission, thickness,
-        attenuation_distance, clearcoat, clearcoat_roughness, clearcoat_normal_scale, sheen_roughness})
+  for (const float value : {base_alpha, metallic, roughness, normal_scale, alpha_cutoff, ior, specular,
+                            transmission, thickness, attenuation_distance, clearcoat, clearcoat_roughness,
+                            clearcoat_normal_scale, sheen_roughness, diffuse_transmission})
     record.add(value);
-  for (const auto* slot : {&base_color_texture, &metallic_roughness_texture, &normal_texture,
-                           &emission_texture, &specular_texture, &specular_color_texture, &glossiness_texture,
-                           &transmission_texture, &clearcoat_texture, &clearcoat_roughness_texture,
-                           &clearcoat_normal_texture, &sheen_color_texture, &sheen_roughness_texture})
+  for (const auto* slot :
+       {&base_color_texture, &metallic_roughness_texture, &normal_texture, &emission_texture,
+        &specular_texture, &specular_color_texture, &glossiness_texture, &transmission_texture,
+        &clearcoat_texture, &clearcoat_roughness_texture, &clearcoat_normal_texture, &sheen_color_texture,
+        &sheen_roughness_texture, &diffuse_transmission_texture, &diffuse_transmission_color_texture})
     add_slot(record, *slot);
   record.add(alpha_mode);
   record.add(double_sided);

@@ -178,13 +178,13 @@ struct LaneBsdf {
   GgxRow row;
   SheenLobe sheen;
   Float scale_o, f90, base_scale, coat_weight;
-  Float3 f0, multiple_f0, multiple_f90, diffuse, tint, glass_f0, sheen_color;
+  Float3 f0, multiple_f0, multiple_f90, diffuse, diffuse_through, tint, glass_f0, sheen_color;
   Float glass_f90;
   Float coupling[4];
   Float3 albedo;
-  Float p_microfacet, p_diffuse, p_coat, p_sheen;
-  Mask thin, coated, has_sheen;
-  bool any_thin, any_coat, any_sheen, tells_wide;
+  Float p_microfacet, p_diffuse, p_through, p_coat, p_sheen;
+  Mask thin, through, coated, has_sheen;  ///< through: a diffuse base on the other side
+  bool any_thin, any_through, any_coat, any_sheen, tells_wide;
   Mask is_delta;
   Mask wide_facets, wide_coat;  ///< where tells_wide
   Float3 wide_albedo;
@@ -201,14 +201,15 @@ struct LaneBsdf {
     if (tells_wide) tell_wide(tables, context.min_roughness);
     p_microfacet = max(p_microfacet, 1e-3f * f90 * base_scale);
     if (context.narrow_alone) keep_narrow();
-    const Float total = p_microfacet + p_diffuse + p_coat + p_sheen;
+    const Float total = p_microfacet + p_diffuse + p_through + p_coat + p_sheen;
     const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
     p_microfacet *= scale;
     p_diffuse *= scale;
+    p_through *= scale;
     p_coat *= scale;
     p_sheen *= scale;
-    is_delta = (p_diffuse == 0.0f) & (p_sheen == 0.0f) & (ggx.delta | (p_microfacet == 0.0f)) &
-               ((p_coat == 0.0f) | coat.delta);
+    is_delta = (p_diffuse == 0.0f) & (p_through == 0.0f) & (p_sheen == 0.0f) &
+               (ggx.delta | (p_microfacet == 0.0f)) & ((p_coat == 0.0f) | coat.delta);
   }
 
   GATELIGHT_INLINE void set_up_base(const ShadingBlock& block, const BsdfTables& tables, int at) {
@@ -252,10 +253,22 @@ struct LaneBsdf {
     coupling[1] = (1.0f - part) * most;
     coupling[2] = (1.0f - part) * (most - specular);
     coupling[3] = part * (most - specular);
-    const Float3 diffuse_albedo = base * (opaque * passed(out));
-    diffuse = diffuse_albedo * (kInvPi / max(passed(mean), 1e-6f));
+    const Float goes_through = clamp(load(block.diffuse_transmission + at), 0.0f, 1.0f);
+    const Float coupled = kInvPi / max(passed(mean), 1e-6f);
+    const Float3 diffuse_albedo = base * ((1.0f - goes_through) * opaque * passed(out));
+    diffuse = diffuse_albedo * coupled;
     p_diffuse = luminance(diffuse_albedo);
     albedo += diffuse_albedo;
+    p_through = 0.0f;
+    through = goes_through * opaque > 0.0f;
+    any_through = any(through);
+    if (any_through) {
+      const Float3 transmitted = clamp(load(block.diffuse_transmission_color, at), 0.0f, 1.0f) *
+                                 (goes_through * opaque * passed(out));
+      diffuse_through = transmitted * coupled;
+      p_through = luminance(transmitted);
+      albedo += transmitted;
+    }
 
     if (any_thin) {
       tint = base * glass;
@@ -299,6 +312,7 @@ struct LaneBsdf {
     }
     p_microfacet *= base_scale;
     p_diffuse *= base_scale;
+    p_through *= base_scale;
   }
 
   /// Bsdf::wide_part.
@@ -311,9 +325,10 @@ struct LaneBsdf {
     wide_coat = no_lanes();
     // The albedo of the lobes that are apart from the microfacets: wide beside narrow ones, or narrow beside
     // wide ones.
-    const Float coupled =
-        select_or_zero(p_diffuse > 0.0f, kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale);
-    Float3 apart = select_or_zero(~wide_facets, diffuse * coupled);
+    const Float coupled = kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale;
+    Float3 matte = select_or_zero(p_diffuse > 0.0f, diffuse * coupled);
+    if (any_through) matte += select_or_zero(p_through > 0.0f, diffuse_through * coupled);
+    Float3 apart = select_or_zero(~wide_facets, matte);
     if (any_sheen)
       apart += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
     if (any_coat) {
@@ -330,8 +345,8 @@ struct LaneBsdf {
     tells_wide = false;
     p_microfacet = select_or_zero(~wide_facets, p_microfacet);
     p_coat = select_or_zero(~wide_coat, p_coat);
-    p_diffuse = p_sheen = 0.0f;
-    diffuse = repeat(0.0f);
+    p_diffuse = p_through = p_sheen = 0.0f;
+    diffuse = diffuse_through = repeat(0.0f);
   }
 
   GATELIGHT_INLINE Float passed(const Albedo& a) const {
@@ -358,9 +373,9 @@ struct LaneBsdf {
     const Mask front = (side > 0.0f) & (cos_n > 0.0f);
     Mask behind = no_lanes();
     Float cos_i = cos_n;
-    Float3 above = wi;  // on a thin sheet the mirror image of what goes through
-    if (any_thin) {
-      behind = thin & (side < 0.0f) & (cos_n < 0.0f);
+    Float3 above = wi;  // on a sheet the mirror image of what goes through
+    if (any_thin | any_through) {
+      behind = (thin | through) & (side < 0.0f) & (cos_n < 0.0f);
       cos_i = absolute(cos_n);
       above = select(behind, wi - ns * (2.0f * cos_n), wi);
     }
@@ -381,20 +396,25 @@ struct LaneBsdf {
     result.pdf = select_or_zero(facets, chosen);
     if (any_thin) {
       const Facet half = facet(cos_h);
-      const Float through = scale_o * in.scale;
+      const Float balance = scale_o * in.scale;
       result.value =
-          select(behind, select_or_zero(facets, half.transmitted * (shape * through)), result.value);
+          select(behind, select_or_zero(facets, half.transmitted * (shape * balance)), result.value);
       result.pdf = result.pdf * select(behind, 1.0f - half.reflects, half.reflects);
+    } else if (any_through) {
+      result.value = select_or_zero(~behind, result.value);
+      result.pdf = select_or_zero(~behind, result.pdf);
     }
-    result.value += select_or_zero(front, diffuse * (passed(in) * cos_i));
+    Float3 matte = select_or_zero(front, diffuse * (passed(in) * cos_i));
     result.pdf += select_or_zero(front, p_diffuse * cos_i * kInvPi);
+    if (any_through) {
+      matte += select_or_zero(behind & through, diffuse_through * (passed(in) * cos_i));
+      result.pdf += select_or_zero(behind & through, p_through * cos_i * kInvPi);
+    }
+    result.value += matte;
     const Mask valid = front | behind;
     result.value = select_or_zero(valid, result.value * base_scale);
     result.pdf = select_or_zero(valid, result.pdf);
-    if (tells_wide) {
-      const Float3 matte = select_or_zero(front, diffuse * (passed(in) * cos_i * base_scale));
-      result.wide = select(wide_facets, result.value, matte);
-    }
+    if (tells_wide) result.wide = select(wide_facets, result.value, matte * base_scale);
     if (any_coat) {
       const Float cos_c = dot(wi, nc);
       const Mask here = (side > 0.0f) & (p_coat > 0.0f) & ~coat.delta & (cos_c > 0.0f) & (h2 > kMinHalf2);
@@ -418,11 +438,15 @@ struct LaneBsdf {
   GATELIGHT_INLINE LaneSample sample(Float u_lobe, Float2 u) const {
     // The lobes share the unit interval in this order. Rounding leaves a remainder at its end; the last lobe
     // with a share takes it.
-    const Float after_facets = p_microfacet, after_diffuse = after_facets + p_diffuse,
-                after_sheen = after_diffuse + p_sheen;
-    const Mask coat_has = p_coat > 0.0f, sheen_has = p_sheen > 0.0f, diffuse_has = p_diffuse > 0.0f;
+    const Float after_facets = p_microfacet, before_through = after_facets + p_diffuse,
+                after_diffuse = before_through + p_through, after_sheen = after_diffuse + p_sheen;
+    const Mask coat_has = p_coat > 0.0f, sheen_has = p_sheen > 0.0f,
+               diffuse_has = (p_diffuse > 0.0f) | (p_through > 0.0f);
     const Mask facets = (u_lobe < after_facets) | ~(coat_has | sheen_has | diffuse_has);
     const Mask in_diffuse = ~facets & diffuse_has & ((u_lobe < after_diffuse) | ~(coat_has | sheen_has));
+    // Of the diffuse directions, those on the other side.
+    const Mask in_through =
+        in_diffuse & (p_through > 0.0f) & (~(u_lobe < before_through) | ~(p_diffuse > 0.0f));
     const Mask in_sheen = ~facets & ~in_diffuse & sheen_has & ((u_lobe < after_sheen) | ~coat_has);
     const Mask in_coat = ~(facets | in_diffuse | in_sheen);
 
@@ -445,20 +469,22 @@ struct LaneBsdf {
     h = select(smooth, normal, h);
     s.wi = select(mirrored, mirror(wo, h), frame.to_world(local));
     s.spread = select(mirrored, select_or_zero(~smooth, alpha), 1.0f);
+    if (any_through) s.wi = select(in_through, s.wi * -1.0f, s.wi);
 
-    Mask through = no_lanes();
+    Mask in_pane = no_lanes();
     Facet half;
     if (any_thin) {
       const Float oh = select(smooth, ggx.cos_o, dot(wo, h));
       half = facet(oh);
-      through = facets & thin & ~(u_lobe / p_microfacet < half.reflects);
+      in_pane = facets & thin & ~(u_lobe / p_microfacet < half.reflects);
       const Float3 straight = s.wi - ns * (2.0f * dot(s.wi, ns));
-      s.wi = select(through, select(smooth, -wo, straight), s.wi);
+      s.wi = select(in_pane, select(smooth, -wo, straight), s.wi);
     }
     s.transmitted = dot(s.wi, ng) < 0.0f;
     const Float towards = dot(s.wi, normal);
+    const Mask passes = in_pane | in_through;
     const Mask right_side =
-        (through & s.transmitted & (towards < 0.0f)) | (~through & ~s.transmitted & (towards > 0.0f));
+        (passes & s.transmitted & (towards < 0.0f)) | (~passes & ~s.transmitted & (towards > 0.0f));
 
     const LaneValue value = evaluate(s.wi);
     s.pdf = value.pdf;
@@ -470,8 +496,8 @@ struct LaneBsdf {
       Float pdf = p_microfacet;
       Float3 weight = reflected;
       if (any_thin) {
-        pdf *= select(through, 1.0f - half.reflects, half.reflects);
-        weight = select(through, half.transmitted, weight);
+        pdf *= select(in_pane, 1.0f - half.reflects, half.reflects);
+        weight = select(in_pane, half.transmitted, weight);
       }
       weight *= base_scale;
       if (any_coat) {

@@ -255,7 +255,8 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
 
   Receiver r;
   r.p = load(block.position, at);
-  const Mask sheet = load(block.transmission + at) * (1.0f - load(block.metallic + at)) > 0.0f;
+  const Float transmission = max(load(block.transmission + at), load(block.diffuse_transmission + at));
+  const Mask sheet = transmission * (1.0f - load(block.metallic + at)) > 0.0f;
   r.n = select_or_zero(~sheet, load(block.shading_normal, at));
   r.free = select_or_zero(sheet, Float(1.0f));
 

@@ -1,6 +1,7 @@
 #pragma once
 // Shades blocks of up to 16 points: the kernels, and the scalar code for the lights that they leave open.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -16,9 +17,10 @@ namespace gatelight::renderer {
 /// which is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
 const ShadingKernels& choose_shading_kernels(const std::string& isa);
 
-/// Whether the kernels have all lobes of a surface. They do not refract.
+/// Whether the kernels have all lobes of a surface. They do not enter an inside.
 inline bool shades_wide(const Surface& surface) {
-  return surface.material.thin_walled || !(surface.material.transmission > 0.0f);
+  const SurfaceMaterial& m = surface.material;
+  return m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f);
 }
 
 /// Fills a lane's surface. `wo` is unit, away from the surface.
@@ -65,7 +67,8 @@ inline Vec3 lane_vector(const float (&a)[3][ShadingBlock::kWidth], int lane) {
 }
 /// The normal that next-event estimation uses: zero on a sheet, which light reaches from both sides.
 inline Vec3 light_normal(const ShadingBlock& block, int lane) {
-  const bool sheet = block.transmission[lane] * (1.0f - block.metallic[lane]) > 0.0f;
+  const float transmission = std::max(block.transmission[lane], block.diffuse_transmission[lane]);
+  const bool sheet = transmission * (1.0f - block.metallic[lane]) > 0.0f;
   return sheet ? Vec3(Vec3::Zero()) : lane_vector(block.shading_normal, lane);
 }
 inline Color lane_color(const float (&a)[3][ShadingBlock::kWidth], int lane) {

@@ -54,8 +54,8 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures, bool str
     const bool smooth =
         m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
-    if (m.transmits() && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
-    if (m.has_volume() && straight_glass) flags_[i] |= kStraightGlass;
+    if (m.transmission > 0.0f && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
+    if (m.transmission > 0.0f && m.has_volume() && straight_glass) flags_[i] |= kStraightGlass;
   }
 }
 

@@ -195,9 +195,17 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   if (m.specular_texture) s.material.specular *= read(m.specular_texture, Encoding::linear).w();
   if (m.specular_color_texture) s.material.specular_color *= read.color(m.specular_color_texture);
   if (m.transmits()) {
-    s.material.transmission = m.transmission;
     s.material.thin_walled = !m.has_volume();
+    s.material.transmission = m.transmission;
     if (m.transmission_texture) s.material.transmission *= read(m.transmission_texture, Encoding::linear).x();
+  }
+  if (m.diffuse_transmission > 0.0f) {
+    s.material.diffuse_transmission = m.diffuse_transmission;
+    s.material.diffuse_transmission_color = m.diffuse_transmission_color;
+    if (m.diffuse_transmission_texture)
+      s.material.diffuse_transmission *= read(m.diffuse_transmission_texture, Encoding::linear).w();
+    if (m.diffuse_transmission_color_texture)
+      s.material.diffuse_transmission_color *= read.color(m.diffuse_transmission_color_texture);
   }
   if ((m.sheen_color > 0.0f).any()) {
     s.material.sheen_color = m.sheen_color;

@@ -204,10 +204,11 @@ Textures::Textures(const scene::Scene& scene) {
     need(m.specular_color_texture, Encoding::srgb);
     need(m.glossiness_texture, Encoding::srgb);
     need(m.sheen_color_texture, Encoding::srgb);
+    need(m.diffuse_transmission_color_texture, Encoding::srgb);
     for (const scene::TextureSlot* slot :
          {&m.metallic_roughness_texture, &m.normal_texture, &m.specular_texture, &m.transmission_texture,
           &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,
-          &m.sheen_roughness_texture}) {
+          &m.sheen_roughness_texture, &m.diffuse_transmission_texture}) {
       need(*slot, Encoding::linear);
     }
   }

@@ -3,23 +3,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace gatelight::scene::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 16> kSupported = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_sheen",
-    "KHR_materials_specular",     "KHR_materials_transmission",
-    "KHR_materials_unlit",        "KHR_materials_variants",
-    "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform",      "KHR_materials_pbrSpecularGlossiness"};
+/// Of KHR_texture_basisu and MSFT_texture_dds the picture that a texture falls back to.
+constexpr std::string_view kSupported[] = {
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+    "MSFT_texture_dds",
+};
 
 bool is_supported(std::string_view name) {
-  return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+  return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
 }
 
 }  // namespace

@@ -7,28 +7,30 @@
 
 #include "scene/jpeg_read.h"
 #include "scene/png_read.h"
+#include "scene/webp_read.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
 constexpr int kMaxSide = 32768;
 /// Neither deflate (1032:1) nor a JPEG of one colour compresses more than this; a header that claims more is
-/// wrong.
+/// wrong. A WebP file of some bytes holds a colour of any size, and is believed up to 2048x2048.
 constexpr std::size_t kMaxRatio = 2048;
 constexpr std::size_t kSmall = std::size_t{1} << 20;
+constexpr std::size_t kSmallWebp = std::size_t{1} << 24;
 
-/// glTF allows two formats. The bytes decide, since MIME types and file names are often wrong.
+/// The bytes decide, since MIME types and file names are often wrong.
 bool starts_with(Bytes bytes, std::initializer_list<std::uint8_t> magic) {
   return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
 SceneError image_error(const Document& document, std::string_view where, std::string_view what) {
-  return make_error(document.file(), where, fmt::format("{}, expected a PNG or JPEG picture", what));
+  return make_error(document.file(), where, fmt::format("{}, expected a PNG, JPEG or WebP picture", what));
 }
 
 /// Throws SceneError for an implausible size.
 void check_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
-                int channels) {
+                int channels, std::size_t small) {
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
     throw image_error(
         document, where,
@@ -36,15 +38,16 @@ void check_size(const Document& document, Bytes bytes, std::string_view where, i
   }
   const std::size_t size =
       static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
-  if (size > kSmall && size / kMaxRatio > bytes.size()) {
+  if (size > small && size / kMaxRatio > bytes.size()) {
     throw image_error(document, where, fmt::format("{}x{} pixels in {} bytes", width, height, bytes.size()));
   }
 }
 
-/// Reader is PngReader or JpegReader.
+/// Reader is PngReader, JpegReader or WebpReader.
 template <class Reader>
-Image decode_by(Reader& reader, const Document& document, Bytes bytes, std::string_view where) {
-  check_size(document, bytes, where, reader.width(), reader.height(), reader.channels());
+Image decode_by(Reader& reader, const Document& document, Bytes bytes, std::string_view where,
+                std::size_t small = kSmall) {
+  check_size(document, bytes, where, reader.width(), reader.height(), reader.channels(), small);
   return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
 }
 
@@ -60,11 +63,33 @@ Image decode_jpeg(const Document& document, Bytes bytes, std::string_view where,
   return image;
 }
 
+Image decode_webp(const Document& document, Bytes bytes, std::string_view where) {
+  WebpReader reader({bytes.begin(), bytes.end()});
+  return decode_by(reader, document, bytes, where, kSmallWebp);
+}
+
+bool is_webp(Bytes bytes) {
+  return starts_with(bytes, {'R', 'I', 'F', 'F'}) && bytes.size() > 12 &&
+         starts_with(bytes.subspan(8), {'W', 'E', 'B', 'P'});
+}
+
+/// Formats of extensions that no library here reads: what they are, and what converts them.
+std::string_view known_format(Bytes bytes) {
+  if (starts_with(bytes, {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}))
+    return "a KTX2 picture without another to fall back to ('ktx extract IN.ktx2 OUT.png' of KTX-Software "
+           "converts it)";
+  if (starts_with(bytes, {'D', 'D', 'S', ' '}))
+    return "a DDS picture without another to fall back to ('convert IN.dds OUT.png' of ImageMagick converts "
+           "it)";
+  return "neither PNG, JPEG nor WebP data";
+}
+
 Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) try {
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}))
     return decode_png(document, bytes, where);
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
-  throw image_error(document, where, "neither PNG nor JPEG data");
+  if (is_webp(bytes)) return decode_webp(document, bytes, where);
+  throw image_error(document, where, known_format(bytes));
 } catch (const SceneError&) {
   throw;
 } catch (const std::runtime_error& error) {

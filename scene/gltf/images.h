@@ -1,5 +1,5 @@
 #pragma once
-// Decodes PNG (libpng) and JPEG (libjpeg) to 8-bit pixels.
+// Decodes PNG (libpng), JPEG (libjpeg) and WebP (libwebp) to 8-bit pixels.
 
 #include "scene/gltf/document.h"
 #include "scene/scene.h"

@@ -17,6 +17,20 @@ constexpr int kRepeat = 10497;
 constexpr int kClampToEdge = 33071;
 constexpr int kMirroredRepeat = 33648;
 
+/// The image of a texture: the first of these that it has; or -1. What cannot be read comes last, so that its
+/// bytes tell what they are.
+int image_of(const json& texture) {
+  const auto of = [&](const char* extension) {
+    const json* const found = find_extension(texture, extension);
+    return found ? found->value("source", -1) : -1;
+  };
+  for (const int image : {of("EXT_texture_webp"), texture.value("source", -1), of("KHR_texture_basisu"),
+                          of("MSFT_texture_dds")}) {
+    if (image >= 0) return image;
+  }
+  return -1;
+}
+
 class Converter {
  public:
   Converter(const Document& document, int index, Warnings& warnings)
@@ -92,6 +106,12 @@ class Converter {
       m.transmission = unit(*e, "transmissionFactor", 0.0);
       m.transmission_texture = slot(*e, "transmissionTexture");
     }
+    if (const json* e = find_extension(material, "KHR_materials_diffuse_transmission")) {
+      m.diffuse_transmission = unit(*e, "diffuseTransmissionFactor", 0.0);
+      m.diffuse_transmission_texture = slot(*e, "diffuseTransmissionTexture");
+      m.diffuse_transmission_color = unit_color(*e, "diffuseTransmissionColorFactor", 1.0f);
+      m.diffuse_transmission_color_texture = slot(*e, "diffuseTransmissionColorTexture");
+    }
     if (const json* e = find_extension(material, "KHR_materials_volume")) {
       // Only rasterisers need the value of the thickness; rays measure it. Its texture is not read.
       m.thickness = e->value("thicknessFactor", 0.0f);
@@ -125,7 +145,9 @@ class Converter {
          {&m.metallic_roughness_texture, &m.glossiness_texture, &m.normal_texture, &m.emission_texture});
     keep(m.emits(), {&m.emission_texture});
     keep(!m.unlit && m.specular > 0.0f, {&m.specular_texture, &m.specular_color_texture});
-    keep(!m.unlit && m.transmits(), {&m.transmission_texture});
+    keep(!m.unlit && m.transmission > 0.0f, {&m.transmission_texture});
+    keep(!m.unlit && m.diffuse_transmission > 0.0f,
+         {&m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture});
     keep(!m.unlit && m.clearcoat > 0.0f,
          {&m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture});
     keep(!m.unlit && (m.sheen_color > 0.0f).any(), {&m.sheen_color_texture, &m.sheen_roughness_texture});
@@ -170,7 +192,7 @@ class Converter {
           fmt::format("{}.{}: texCoord {} is not supported, the texture is ignored", where_, name, texcoord));
       return result;
     }
-    if (!document_.item("textures", index).contains("source")) {
+    if (image_of(document_.item("textures", index)) < 0) {
       warnings_.add(fmt::format("textures[{}]: has no image that can be read, it is ignored", index));
       return result;
     }
@@ -214,7 +236,7 @@ Material convert_material(const Document& document, int index, Warnings& warning
 Texture convert_texture(const Document& document, int index) {
   const json& source = document.item("textures", index);
   Texture texture;
-  texture.image = source["source"];
+  texture.image = image_of(source);
   if (source.contains("sampler")) {
     const json& sampler = document.item("samplers", source["sampler"]);
     texture.wrap_s = convert_wrap(sampler.value("wrapS", kRepeat));

@@ -26,6 +26,8 @@ void for_each_slot(M& m, const Visit& visit) {
   visit(m.specular_color_texture);
   visit(m.glossiness_texture);
   visit(m.transmission_texture);
+  visit(m.diffuse_transmission_texture);
+  visit(m.diffuse_transmission_color_texture);
   visit(m.clearcoat_texture);
   visit(m.clearcoat_roughness_texture);
   visit(m.clearcoat_normal_texture);

@@ -39,6 +39,12 @@ std::vector<int> children_of(const json& node) {
   return node.value("children", std::vector<int>());
 }
 
+/// Whether the node itself lets its meshes, its lights and its children be seen.
+bool is_visible(const json& node) {
+  const json* const visibility = find_extension(node, "KHR_node_visibility");
+  return !visibility || visibility->value("visible", true);
+}
+
 /// The parent of each node, or -1. Checks that each node has at most one parent and that there is no cycle.
 std::vector<int> find_parents(const Document& document) {
   const json& nodes = document.list("nodes");
@@ -76,6 +82,7 @@ class Walker {
     struct Entry {
       int node;
       Transform parent;
+      bool visible;
     };
     const std::vector<int> roots = document_.item("scenes", scene).value("nodes", std::vector<int>());
     std::vector<char> is_root(parents_.size(), 0);
@@ -88,15 +95,17 @@ class Walker {
       }
       if (is_root[root]) document_.fail(where, fmt::format("node {} is listed twice, expected once", root));
       is_root[root] = 1;
-      stack.push_back({roots[i], Transform::Identity()});
+      stack.push_back({roots[i], Transform::Identity(), true});
     }
     while (!stack.empty()) {
       const Entry entry = stack.back();
       stack.pop_back();
       const Transform world = entry.parent * local_transform(document_, entry.node);
-      visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)));
-      const std::vector<int> children = children_of(document_.item("nodes", entry.node));
-      for (std::size_t i = children.size(); i-- > 0;) stack.push_back({children[i], world});
+      const json& node = document_.item("nodes", entry.node);
+      const bool visible = entry.visible && is_visible(node);
+      visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), visible);
+      const std::vector<int> children = children_of(node);
+      for (std::size_t i = children.size(); i-- > 0;) stack.push_back({children[i], world, visible});
     }
     return std::move(graph_);
   }
@@ -109,14 +118,15 @@ class Walker {
     return t;
   }
 
-  void visit(int index, const Transform& world) {
+  /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility).
+  void visit(int index, const Transform& world, bool visible) {
     const json& node = document_.item("nodes", index);
-    if (node.contains("mesh")) place_mesh(index, node, world);
+    if (visible && node.contains("mesh")) place_mesh(index, node, world);
     if (node.contains("camera")) {
       graph_.cameras.push_back(make_camera(document_, index, world));
       graph_.camera_positions.push_back(world.translation());
     }
-    if (const json* light = find_extension(node, "KHR_lights_punctual")) {
+    if (const json* light = find_extension(node, "KHR_lights_punctual"); visible && light) {
       graph_.lights.push_back(make_light(document_, index, (*light)["light"], world));
       graph_.light_positions.push_back(world.translation());
     }

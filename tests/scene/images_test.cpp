@@ -38,6 +38,24 @@ const std::vector<std::uint8_t> kJpeg = {
     0, 8, 1, 1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9};
 constexpr std::size_t kJpegScan = 3;  ///< bytes at its end: the block, and the end of the image
 
+/// The pixels of kRgba as lossless WebP; 4x4 pixels of about (60, 120, 180), lossy; and an animation.
+const char* const kWebp =
+    "data:image/webp;base64,UklGRj4AAABXRUJQVlA4TDEAAAAvAUAAEB8gICFkgv8zjBWSIGDz/1erBAIUxQz/"
+    "j1kiECDanElzJpil5LqLG"
+    "zBE9D8CAA==";
+const char* const kLossyWebp =
+    "data:image/webp;base64,UklGRjgAAABXRUJQVlA4ICwAAADwAQCdASoEAAQAAUAmJaACdLoB+AAETAAA/upl//yz5/DZ1Of/"
+    "FnIxHZeAAA==";
+const char* const kMovingWebp =
+    "data:image/"
+    "webp;base64,UklGRsoAAABXRUJQVlA4WAoAAAACAAAAAQAAAQAAQU5JTQYAAAAAAAAAAABBTk1GSgAAAAAAAAAAAAEAAAEAAAoAAA"
+    "JWUDggMgAAADABAJ0BKgIAAgABQCYloAADcAD+8ut///mwP/bz/wR6Af//0uD//pcH//S4P/"
+    "SkAAAAQU5NRkwAAAAAAAAAAAABAAABAAAKAAAAVl"
+    "A4IDQAAAA0AQCdASoCAAIAAAAmJaAAA3AA/ukiH//3nz//ufP/+58/6M///yn7//I4//8jj/5QIAAA";
+/// The first bytes of KTX2 and DDS files.
+const char* const kKtx2 = "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAA==";
+const char* const kDds = "data:image/vnd-ms.dds;base64,RERTIHwAAAAHEAAA";
+
 GltfBuilder with_image(const json& image) {
   GltfBuilder file;
   file.add("images", image);
@@ -176,6 +194,61 @@ TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
   for (const json& image : broken) {
     with_image(image).expect_refused({"images[0]"});
     EXPECT_EQ(with_image(image).load({.missing_is_error = false}).images.at(0).width, 1);
+  }
+}
+
+TEST(Images, WebpIsReadLikePng) {
+  const Image png = with_image({{"uri", kRgba}}).load().images.at(0);
+  const Image webp = with_image({{"uri", kWebp}}).load().images.at(0);
+  EXPECT_EQ(webp.channels, 4);
+  EXPECT_EQ(webp.pixels, png.pixels) << "colours under an alpha of 0, too";
+  const Image lossy = with_image({{"uri", kLossyWebp}}).load().images.at(0);
+  EXPECT_EQ(lossy.channels, 3);
+  ASSERT_EQ(lossy.pixels.size(), 4u * 4u * 3u);
+  EXPECT_NEAR(lossy.pixels[0], 60, 3);
+  EXPECT_NEAR(lossy.pixels[2], 180, 3);
+}
+
+TEST(Images, DamagedWebpAndAnimationsAreRefused) {
+  const std::string whole = kWebp;
+  for (std::size_t length : {whole.size() - 24, whole.size() - 60})
+    with_image({{"uri", whole.substr(0, length)}}).expect_refused({"images[0]", "WebP"});
+  with_image({{"uri", kMovingWebp}}).expect_refused({"images[0]", "an animation"});
+}
+
+/// A texture with a PNG and another picture of an extension.
+GltfBuilder with_two(const char* extension, const char* uri) {
+  GltfBuilder file = with_image({{"uri", kRgba}});
+  file.root["textures"][0]["extensions"][extension]["source"] = file.add("images", {{"uri", uri}});
+  file.root["extensionsUsed"] = {extension};
+  return file;
+}
+
+TEST(Images, ATextureTakesItsWebpAndFallsBackFromWhatNobodyReads) {
+  const Scene webp = with_two("EXT_texture_webp", kLossyWebp).load();
+  ASSERT_EQ(webp.images.size(), 1u);
+  EXPECT_EQ(webp.images[0].width, 4);
+  EXPECT_THAT(webp.warnings, testing::IsEmpty());
+  for (const auto& [extension, uri] :
+       {std::pair("KHR_texture_basisu", kKtx2), std::pair("MSFT_texture_dds", kDds)}) {
+    const Scene scene = with_two(extension, uri).load();
+    ASSERT_EQ(scene.images.size(), 1u) << extension;
+    EXPECT_EQ(scene.images[0].width, 2) << extension;
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << extension;
+  }
+}
+
+TEST(Images, WithoutAFallbackAConverterIsNamed) {
+  struct Case {
+    const char *extension, *uri, *converter;
+  };
+  for (const Case& c :
+       {Case{"KHR_texture_basisu", kKtx2, "ktx extract"}, Case{"MSFT_texture_dds", kDds, "convert"}}) {
+    GltfBuilder file = with_two(c.extension, c.uri);
+    file.root["extensionsRequired"] = {c.extension};
+    file.root["textures"][0].erase("source");
+    file.expect_refused({"images[1]", c.converter});
+    EXPECT_EQ(file.load({.missing_is_error = false}).images.at(0).width, 1);
   }
 }
 

@@ -182,6 +182,25 @@ TEST(Materials, TransmissionAndVolume) {
   EXPECT_TRUE(m.attenuation_color.isApprox(Color(0.5f, 0.25f, 1)));
 }
 
+TEST(Materials, DiffuseTransmission) {
+  const Material plain = only_material(extension("KHR_materials_diffuse_transmission", json::object()));
+  EXPECT_EQ(plain.diffuse_transmission, 0.0f);
+  EXPECT_FALSE(plain.transmits());
+  json material =
+      extension("KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.25},
+                                                       {"diffuseTransmissionTexture", {{"index", 0}}},
+                                                       {"diffuseTransmissionColorFactor", {1, 0.9, 0.5}},
+                                                       {"diffuseTransmissionColorTexture", {{"index", 1}}}});
+  const Material cloth = only_material(material);
+  EXPECT_EQ(cloth.diffuse_transmission, 0.25f);
+  EXPECT_TRUE(cloth.diffuse_transmission_color.isApprox(Color(1, 0.9f, 0.5f)));
+  EXPECT_TRUE(cloth.transmits());
+  EXPECT_TRUE(cloth.diffuse_transmission_texture && cloth.diffuse_transmission_color_texture);
+  EXPECT_FALSE(cloth.has_volume());
+  material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1;
+  EXPECT_TRUE(only_material(material).has_volume());
+}
+
 TEST(Materials, ClearcoatAndSheen) {
   json material =
       extension("KHR_materials_clearcoat", {{"clearcoatFactor", 0.5},

@@ -125,6 +125,30 @@ TEST(Nodes, MeshesScaledToNothingAreLeftOut) {
   expect_messages(scene.warnings, {{"meshes"}});
 }
 
+TEST(Nodes, WhatIsNotVisibleShowsNeitherMeshesNorLights) {
+  GltfBuilder file;
+  file.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};
+  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  const auto visible = [](bool value) { return json{{"visible", value}}; };
+  const int mesh = file.mesh(file.triangle());
+  // A child that is visible, of a parent that is not: still hidden. Cameras are not affected.
+  const int child = file.add(
+      "nodes",
+      {{"mesh", mesh},
+       {"camera", 0},
+       {"extensions", {{"KHR_node_visibility", visible(true)}, {"KHR_lights_punctual", {{"light", 0}}}}}});
+  file.node(
+      {{"mesh", mesh}, {"children", {child}}, {"extensions", {{"KHR_node_visibility", visible(false)}}}});
+  file.node({{"mesh", mesh}, {"name", "seen"}, {"extensions", {{"KHR_node_visibility", json::object()}}}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.instances[0].name, "seen");
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.cameras.size(), 1u);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST(Nodes, TheSceneCanBeChosen) {
   GltfBuilder file;
   const int mesh = file.mesh(file.triangle());

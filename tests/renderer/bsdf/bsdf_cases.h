@@ -48,6 +48,26 @@ inline std::vector<BsdfCase> white_cases() {
   add("out of ior 3", false, false, glass(3.0f, 1.0f));
   add("clear", true, false, glass(1.0f, 1.0f));
   add("half glass", true, false, glass(1.5f, 0.5f));
+  add("cloth", true, false, [](SurfaceMaterial& m) { m.diffuse_transmission = 0.6f; });
+  add("paper, all through", true, false, [](SurfaceMaterial& m) {
+    m.diffuse_transmission = 1.0f;
+    m.ior = 2.0f;
+  });
+  add("cloth and sheet", true, false, [](SurfaceMaterial& m) {
+    m.diffuse_transmission = 0.5f;
+    m.transmission = 0.5f;
+  });
+  const auto milky = [&glass](SurfaceMaterial& m) {
+    glass(1.5f, 0.5f)(m);
+    m.diffuse_transmission = 0.7f;
+  };
+  add("into milky glass", true, false, milky);
+  add("out of milky glass", false, false, milky);
+  add("coat on cloth", true, true, [](SurfaceMaterial& m) {
+    m.diffuse_transmission = 0.5f;
+    m.clearcoat = 1.0f;
+    m.clearcoat_roughness = 0.3f;
+  });
   add("coat", true, true, [](SurfaceMaterial& m) {
     m.clearcoat = 1.0f;
     m.clearcoat_roughness = 0.4f;
@@ -75,6 +95,7 @@ inline std::vector<BsdfCase> colored_cases() {
   for (BsdfCase& c : cases) {
     c.material.base_color = Color(0.8f, 0.4f, 0.1f);
     c.material.specular_color = Color(0.9f, 1.0f, 0.5f);
+    c.material.diffuse_transmission_color = Color(0.3f, 0.9f, 0.6f);
     c.material.sheen_color *= Color(0.2f, 0.7f, 0.9f);
   }
   return cases;

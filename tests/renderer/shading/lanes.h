@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -32,7 +33,10 @@ struct LanePoint {
 
   static constexpr std::uint32_t dimension_base() { return 1; }
 
-  bool sheet() const { return surface.material.transmission * (1.0f - surface.material.metallic) > 0.0f; }
+  bool sheet() const {
+    const SurfaceMaterial& m = surface.material;
+    return std::max(m.transmission, m.diffuse_transmission) * (1.0f - m.metallic) > 0.0f;
+  }
   Vec3 light_normal() const { return sheet() ? Vec3(Vec3::Zero()) : surface.shading_normal; }
   Bsdf bsdf() const {
     return {surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
@@ -180,6 +184,10 @@ inline LanePoint random_point(Random& random) {
   m.specular = random_factor(random);
   m.specular_color = random_color(random);
   if (random.uniform_float() < 0.3f) m.transmission = random_factor(random);
+  if (random.uniform_float() < 0.3f) {
+    m.diffuse_transmission = random_factor(random);
+    m.diffuse_transmission_color = random_color(random);
+  }
   if (random.uniform_float() < 0.3f) {
     m.clearcoat = random_factor(random);
     m.clearcoat_roughness = random_factor(random);

@@ -143,11 +143,13 @@ TEST(LightLanes, PointsAndSpotsAndSunsAreSampledAsByTheScalarCode) {
   scene.lights.push_back(punctual(scene::LightType::spot, Vec3(-6, 8, 0), Vec3(0.5f, -1, 0)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(0.2f, -1, 0.3f)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(-1, -0.1f, 0)));
-  expect_agreement(compare(LitScene(scene), 7));
-  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true));
+  // Near the edge of a cone the difference of two cosines has few digits.
+  constexpr double kWorst = 5e-2;
+  expect_agreement(compare(LitScene(scene), 7), kWorst);
+  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true), kWorst);
   scene::Scene only;
   only.lights = scene.lights;
-  expect_agreement(compare(LitScene(std::move(only)), 8));
+  expect_agreement(compare(LitScene(std::move(only)), 8), kWorst);
   scene::Scene suns;
   suns.lights = {scene.lights[2]};
   expect_agreement(compare(LitScene(suns), 9));
