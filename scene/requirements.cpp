@@ -9,7 +9,7 @@ namespace {
 /// not reflect.
 bool is_view_dependent(const Material& m) {
   if (m.unlit) return false;
-  const bool reflects = m.specular > 0.0f && m.ior != 1.0f;
+  const bool reflects = (m.specular > 0.0f && m.ior != 1.0f) || m.iridescence > 0.0f;
   return m.metallic > 0.0f || reflects || m.transmits() || m.clearcoat > 0.0f || (m.sheen_color > 0.0f).any();
 }
 
@@ -20,6 +20,10 @@ void add_material(const Material& m, SceneRequirements& r) {
   r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
   r.transmission |= m.transmits();
   r.volumes |= m.has_volume();
+  r.diffuse_transmission |= m.diffuse_transmission > 0.0f;
+  r.dispersion |= m.disperses();
+  r.iridescence |= m.iridescence > 0.0f;
+  r.anisotropy |= m.anisotropy > 0.0f;
   r.clearcoat |= m.clearcoat > 0.0f;
   r.sheen |= (m.sheen_color > 0.0f).any();
   r.unlit |= m.unlit;
@@ -28,7 +32,8 @@ void add_material(const Material& m, SceneRequirements& r) {
   r.metallic_roughness_textures |= static_cast<bool>(m.metallic_roughness_texture);
   r.emission_textures |= m.emits() && m.emission_texture;
   r.other_textures |= m.specular_texture || m.specular_color_texture || m.glossiness_texture ||
-                      m.transmission_texture || m.diffuse_transmission_texture ||
+                      m.transmission_texture || m.anisotropy_texture || m.iridescence_texture ||
+                      m.film_thickness_texture || m.diffuse_transmission_texture ||
                       m.diffuse_transmission_color_texture || m.clearcoat_texture ||
                       m.clearcoat_roughness_texture || m.clearcoat_normal_texture || m.sheen_color_texture ||
                       m.sheen_roughness_texture;
@@ -53,6 +58,7 @@ SceneRequirements compute_requirements(const Scene& scene) {
     if (used[i]) add_material(scene.materials[i], r);
   }
   r.delta_lights = !scene.lights.empty();
+  r.image_light = scene.image_light.has_value();
   r.directional_lights =
       std::any_of(scene.lights.begin(), scene.lights.end(),
                   [](const PunctualLight& light) { return light.type == LightType::directional; });

@@ -16,6 +16,10 @@ struct SceneRequirements {
   bool alpha_blend = false;
   bool transmission = false;
   bool volumes = false;  ///< transmission into an interior with absorption
+  bool diffuse_transmission = false;
+  bool dispersion = false;
+  bool iridescence = false;
+  bool anisotropy = false;
   bool clearcoat = false;
   bool sheen = false;
   bool unlit = false;
@@ -27,6 +31,7 @@ struct SceneRequirements {
   bool other_textures = false;  ///< textures of material extensions
   bool instances = false;       ///< some mesh is an Embree instance
   bool delta_lights = false;    ///< punctual lights of any kind
+  bool image_light = false;     ///< an environment of its own
   bool directional_lights = false;
   std::size_t emissive_triangles = 0;  ///< counted once per instance
   std::size_t emissive_materials = 0;

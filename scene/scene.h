@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,8 +80,18 @@ struct Material {
   float thickness = 0.0f;                     ///< KHR_materials_volume; 0 is thin-walled
   float attenuation_distance = kInfinity;     ///< KHR_materials_volume, metres
   Color attenuation_color{1.0f, 1.0f, 1.0f};  ///< KHR_materials_volume
-  float clearcoat = 0.0f;                     ///< KHR_materials_clearcoat
-  TextureSlot clearcoat_texture;              ///< R
+  float dispersion = 0.0f;                    ///< KHR_materials_dispersion: 20 over the Abbe number
+  float anisotropy = 0.0f;                    ///< KHR_materials_anisotropy
+  float anisotropy_rotation = 0.0f;           ///< radians, counter-clockwise from the tangent
+  TextureSlot anisotropy_texture;             ///< RG the direction, B multiplies the strength
+  float iridescence = 0.0f;                   ///< KHR_materials_iridescence
+  TextureSlot iridescence_texture;            ///< R
+  float film_ior = 1.3f;
+  float film_thickness_minimum = 100.0f;  ///< nanometres; with a texture alone
+  float film_thickness_maximum = 400.0f;
+  TextureSlot film_thickness_texture;  ///< G, from the minimum to the maximum
+  float clearcoat = 0.0f;              ///< KHR_materials_clearcoat
+  TextureSlot clearcoat_texture;       ///< R
   float clearcoat_roughness = 0.0f;
   TextureSlot clearcoat_roughness_texture;  ///< G
   TextureSlot clearcoat_normal_texture;
@@ -98,6 +109,8 @@ struct Material {
   bool transmits() const { return transmission > 0.0f || diffuse_transmission > 0.0f; }
   /// Whether light enters an interior rather than passing an infinitely thin sheet.
   bool has_volume() const { return transmits() && thickness > 0.0f; }
+  /// Whether it refracts colours by different angles. A thin sheet does not refract.
+  bool disperses() const { return dispersion > 0.0f && transmission > 0.0f && thickness > 0.0f; }
 };
 
 /// A triangle list with one material, from one glTF primitive. Optional arrays are empty if the file has none
@@ -107,9 +120,9 @@ struct Mesh {
   std::string name;
   int material = -1;  ///< index into Scene::materials, always valid after loading
   PaddedVector<Vec3> positions;
-  std::vector<Vec3> normals;  ///< unit; empty means flat: the geometric normal of each triangle
-  std::vector<Vec4>
-      tangents;  ///< xyz unit, w the handedness (+1 or -1); present when a normal map needs them
+  std::vector<Vec3> normals;   ///< unit; empty means flat: the geometric normal of each triangle
+  std::vector<Vec4> tangents;  ///< xyz unit, w the handedness (+1 or -1); present when a normal map or
+                               ///< anisotropy needs them
   std::vector<Vec2> uv0;
   std::vector<Vec2> uv1;
   std::vector<Vec4> colors;  ///< COLOR_0, linear RGBA, multiplies the base colour
@@ -145,6 +158,16 @@ struct PunctualLight {
   Vec3 side{1.0f, 0.0f, 0.0f};
 };
 
+/// EXT_lights_image_based: light from infinitely far away, as the six sides of a cube.
+struct ImageBasedLight {
+  std::string name;
+  /// +x, -x, +y, -y, +z, -z of the cube, as they are seen from inside it: up is +y, but -z for +y and +z for
+  /// -y. sRGB; where there is an A, linear colours are divided by it (RGBD).
+  std::array<Image, 6> faces;
+  float intensity = 1.0f;                                  ///< multiplies the faces
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< from the cube to the world
+};
+
 /// A camera that looks along -z of its transform, with y up.
 struct Camera {
   std::string name;  ///< of the camera, else of its node
@@ -165,6 +188,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
+  std::optional<ImageBasedLight> image_light;
   std::vector<std::string> dark_lights;  ///< names of emissive materials that adjust_lights() made black
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants

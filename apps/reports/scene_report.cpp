@@ -29,6 +29,10 @@ constexpr Requirement kRequirements[] = {
     {"alpha_blend", &SceneRequirements::alpha_blend},
     {"transmission", &SceneRequirements::transmission},
     {"volumes", &SceneRequirements::volumes},
+    {"diffuse_transmission", &SceneRequirements::diffuse_transmission},
+    {"dispersion", &SceneRequirements::dispersion},
+    {"iridescence", &SceneRequirements::iridescence},
+    {"anisotropy", &SceneRequirements::anisotropy},
     {"clearcoat", &SceneRequirements::clearcoat},
     {"sheen", &SceneRequirements::sheen},
     {"unlit", &SceneRequirements::unlit},
@@ -41,6 +45,7 @@ constexpr Requirement kRequirements[] = {
     {"instances", &SceneRequirements::instances},
     {"delta_lights", &SceneRequirements::delta_lights},
     {"directional_lights", &SceneRequirements::directional_lights},
+    {"image_light", &SceneRequirements::image_light},
 };
 
 constexpr renderer::Choice<scene::LightType> kLightTypes[] = {{"directional", scene::LightType::directional},
@@ -83,6 +88,11 @@ std::vector<std::string> describe_lights(const scene::Scene& scene, const SceneR
                                 light.intensity.y(), light.intensity.z(), unit_of(light)));
   }
   if (!scene.lights.empty()) lines.emplace_back("(the file's numbers, not converted from candela and lux)");
+  if (scene.image_light) {
+    const scene::ImageBasedLight& light = *scene.image_light;
+    lines.push_back(fmt::format("environment '{}', faces of {}x{}, intensity {:.4g}", light.name,
+                                light.faces[0].width, light.faces[0].height, light.intensity));
+  }
   if (requirements.emissive_triangles > 0) {
     lines.push_back(fmt::format("{} emissive triangles of {} materials",
                                 format_integer(requirements.emissive_triangles),
@@ -230,6 +240,11 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
     json["lights"].push_back(light_json(light, scene.origin));
+  }
+  if (scene.image_light) {
+    const scene::ImageBasedLight& light = *scene.image_light;
+    json["image_light"] = {
+        {"name", light.name}, {"face_size", light.faces[0].width}, {"intensity", shortest(light.intensity)}};
   }
   json["emissive_materials"] = ordered_json::array();
   for (const scene::Material& material : scene.materials) {

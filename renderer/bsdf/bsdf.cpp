@@ -99,9 +99,19 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
   }
 
   ggx_ = GgxLobe(roughness * roughness, std::max(wo_.dot(ns_), kMinCosine));
-  if (!ggx_.delta) row_ = GgxTables::get().row(roughness);
-  const GgxAlbedo out = row_.at(ggx_.cos_o);
-  const GgxAlbedo& mean = row_.mean();
+  const float anisotropy = glass_ == Glass::refracting ? 0.0f : std::clamp(material.anisotropy, 0.0f, 1.0f);
+  if (anisotropy > 0.0f) {
+    brushed_.emplace(roughness, anisotropy, material.brushed, ns_);
+    // The narrower side of the lobe tells whether it is narrow.
+    ggx_ = GgxLobe(brushed_->alpha_y, ggx_.cos_o);
+    ggx_.delta = false;
+    ggx_.root_o = brushed_->root(wo_);
+    ggx_.pdf_scale = 0.5f / (ggx_.cos_o + ggx_.root_o);
+  } else if (!ggx_.delta) {
+    row_ = GgxTables::get().row(roughness);
+  }
+  const GgxAlbedo out = facets_albedo(wo_, ggx_.cos_o);
+  const GgxAlbedo& mean = mean_albedo();
   scale_o_ = out.scale;
 
   // KHR_materials_specular: the colour scales f0, the factor scales f0 and f90.
@@ -122,9 +132,19 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     multiple_f0_ += metal_part * base;
     multiple_f90_ += metal_part;
   }
+  if (material.iridescence > 0.0f) {
+    film_ = {{std::min(material.iridescence, 1.0f), std::max(material.film_ior, 1.0f),
+              std::max(material.film_thickness, 0.0f), material.clearcoat > 0.0f ? kCoatIor : 1.0f},
+             base,
+             f0,
+             specular,
+             metallic,
+             opaque + thin};
+  }
   const float a = 1.0f - out.loss - out.b;
   albedo_ = f0_ * a + f90_ * out.b + multiple_f0_ * (1.0f - out.b_scaled - a) +
             multiple_f90_ * (out.b_scaled - out.b);
+  if (film_) albedo_ = (albedo_ + film_change(ggx_.cos_o) * (1.0f - out.loss)).max(0.0f);
   p_microfacet_ = scene::luminance(albedo_);
 
   // The diffuse base receives and emits only what the dielectric transmits.
@@ -136,15 +156,26 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     // Of the light that comes from all directions of a denser medium, 1 / eta^2 leaves it.
     const float through =
         std::clamp(material.diffuse_transmission, 0.0f, 1.0f) / std::max(transmit_scale_, 1.0f);
-    const float coupled = kInvPi / std::max(passed(mean), 1e-6f);
-    const Color diffuse_albedo = base * ((1.0f - through) * opaque * passed(out));
+    mean_passed_ = std::max(passed(mean), 1e-6f);
+    if (film_) {
+      mean_passed_ = 1e-6f;
+      constexpr int kSteps = 8;
+      for (int i = 0; i < kSteps; ++i) {
+        const float x = (static_cast<float>(i) + 0.5f) / kSteps, cosine = x * x;
+        const GgxAlbedo albedo = brushed_ ? brushed_->row.at(cosine, 0.5f) : row_.at(cosine);
+        mean_passed_ += passed(albedo, cosine) * (4.0f * x * x * x / kSteps);
+      }
+    }
+    const float coupled = kInvPi / mean_passed_;
+    const float passed_out = passed(out, ggx_.cos_o);
+    const Color diffuse_albedo = base * ((1.0f - through) * opaque * passed_out);
     diffuse_ = diffuse_albedo * coupled;
     p_diffuse_ = scene::luminance(diffuse_albedo);
     albedo_ += diffuse_albedo;
     if (through > 0.0f) {
       lets_through_ = true;
       const Color color = material.diffuse_transmission_color.max(0.0f).min(1.0f);
-      const Color transmitted = color * (through * opaque * passed(out));
+      const Color transmitted = color * (through * opaque * passed_out);
       diffuse_through_ = transmitted * (coupled * transmit_scale_);
       p_diffuse_through_ = scene::luminance(transmitted);
       albedo_ += transmitted;
@@ -161,7 +192,8 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     p_clear_ = scene::luminance(glass_tint_);
   } else if (glass_ == Glass::thin) {
     eta_ = 1.0f;
-    const Color transmitted = glass_tint_ * (1.0f - f0 * (1.0f - out.b_scaled) - specular * out.b_scaled);
+    Color transmitted = glass_tint_ * (1.0f - f0 * (1.0f - out.b_scaled) - specular * out.b_scaled);
+    if (film_) transmitted = (transmitted - glass_tint_ * film_on_dielectric(ggx_.cos_o)).max(0.0f);
     albedo_ += transmitted;
     p_microfacet_ += scene::luminance(transmitted);
   } else {

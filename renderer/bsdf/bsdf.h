@@ -14,11 +14,14 @@
 // sources.
 
 #include <cstdint>
+#include <optional>
 
+#include "renderer/bsdf/brushed.h"
 #include "renderer/bsdf/ggx.h"
 #include "renderer/bsdf/glass_tables.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
+#include "renderer/bsdf/thin_film.h"
 #include "scene/math.h"
 
 namespace gatelight::renderer {
@@ -36,9 +39,18 @@ struct SurfaceMaterial {
   float specular = 1.0f;
   Color specular_color{1.0f, 1.0f, 1.0f};
   float transmission = 0.0f;
-  bool thin_walled = true;            ///< a thin sheet: transmission does not refract
+  bool thin_walled = true;  ///< a thin sheet: transmission does not refract
+  float dispersion = 0.0f;  ///< of `ior`, for the path that chooses a wavelength (sampling/wavelength.h)
   float diffuse_transmission = 0.0f;  ///< the share of the diffuse light that leaves on the other side
   Color diffuse_transmission_color{1.0f, 1.0f, 1.0f};
+  /// KHR_materials_iridescence: how much of it, and the film's index and thickness in nanometres.
+  float iridescence = 0.0f;
+  float film_ior = 1.3f;
+  float film_thickness = 400.0f;
+  /// In [0, 1]: GGX alpha grows with its square from that of the roughness to 1 along `brushed`, a unit
+  /// vector in world space across the normal. Refraction does not follow it.
+  float anisotropy = 0.0f;
+  Vec3 brushed = Vec3::UnitX();
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
   Color sheen_color{0.0f, 0.0f, 0.0f};
@@ -126,11 +138,31 @@ class Bsdf {
   Color diffuse_albedo() const;
   Color sheen_albedo() const;
 
+  /// Albedos of the microfacets for a direction of this cosine.
+  GgxAlbedo facets_albedo(const Vec3& w, float cosine) const {
+    return brushed_ ? brushed_->albedo(w, cosine) : row_.at(cosine);
+  }
+  const GgxAlbedo& mean_albedo() const { return brushed_ ? brushed_->row.mean : row_.mean(); }
+  GgxLobe::Terms facets_terms(const Vec3& h, float h2, const Vec3& wi, float cos_i) const {
+    return brushed_ ? brushed_->terms(h, h2, ggx_.cos_o, ggx_.root_o, wi, cos_i)
+                    : ggx_.terms(ns_, h, h2, cos_i);
+  }
+
   /// The power that the dielectric layer transmits.
   float passed(const GgxAlbedo& albedo) const {
     return std::max(0.0f, coupling_[0] + coupling_[1] * albedo.loss + coupling_[2] * albedo.b +
                               coupling_[3] * albedo.b_scaled);
   }
+  /// The same for a direction of this cosine, with what a film changes.
+  float passed(const GgxAlbedo& albedo, float cosine) const {
+    return film_ ? film_passed(albedo, cosine) : passed(albedo);
+  }
+  float film_passed(const GgxAlbedo& albedo, float cosine) const;
+  /// What a film changes of the reflectance of the dielectric, and of metal and dielectric as they are mixed.
+  Color film_on_dielectric(float cosine) const {
+    return film_->film.change(cosine, film_->dielectric_f0, film_->dielectric_f90);
+  }
+  Color film_change(float cosine) const;
   Facet facet(float cos_h) const;
   void add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const;
   void add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const;
@@ -148,6 +180,7 @@ class Bsdf {
   // of the scales over one.
   GgxLobe ggx_;
   GgxTables::Row row_;
+  std::optional<BrushedLobe> brushed_;  ///< in place of the distribution of ggx_ and of row_
   float scale_o_ = 1.0f;
   Color f0_, multiple_f0_, multiple_f90_;
   float f90_ = 0.0f;
@@ -159,9 +192,17 @@ class Bsdf {
 
   Glass glass_ = Glass::none;
   float transmit_scale_ = 1.0f;  ///< BsdfSample::radiance_scale of what is transmitted
-  bool lets_through_ = false;  ///< has a diffuse base on the other side
+  bool lets_through_ = false;    ///< has a diffuse base on the other side
   bool is_delta_ = false;
   bool has_layers_ = false;
+
+  struct FilmOnBase {
+    ThinFilm film;
+    Color metal_f0, dielectric_f0;
+    float dielectric_f90, metallic, dielectric;  ///< and the shares of both in the reflection lobe
+  };
+  std::optional<FilmOnBase> film_;
+  float mean_passed_ = 1.0f;  ///< passed(), over the hemisphere
 
   // Set only for glass.
   Color glass_f0_, glass_tint_;

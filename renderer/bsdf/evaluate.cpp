@@ -19,13 +19,17 @@ Bsdf::Facet Bsdf::facet(float cos_h) const {
   result.schlick = schlick_weight(cos_h);
   if (glass_ == Glass::thin) {
     result.transmitted = glass_tint_ * (1.0f - glass_f0_ - (glass_f90_ - glass_f0_) * result.schlick);
+    if (film_) result.transmitted = (result.transmitted - glass_tint_ * film_on_dielectric(cos_h)).max(0.0f);
   } else if (glass_ == Glass::refracting) {
     // The exact curve from f0 to f90 replaces Schlick's (1 - c)^5. At total internal reflection nothing is
     // transmitted, for any specular factor.
     const float exact = fresnel_dielectric(cos_h, eta_, result.cos_t);
     if (result.cos_t > 0.0f) {
       const float curve = std::max(0.0f, (exact - fresnel_base_) / (1.0f - fresnel_base_));
-      const Color reflected = glass_f0_ + (glass_f90_ - glass_f0_) * curve;
+      Color reflected = glass_f0_ + (glass_f90_ - glass_f0_) * curve;
+      // The angle outside, on whichever side wo is.
+      if (film_)
+        reflected = (reflected + film_on_dielectric(eta_ > 1.0f ? cos_h : result.cos_t)).max(0.0f).min(1.0f);
       result.reflected = glass_weight_ * reflected;
       result.transmitted = glass_tint_ * (1.0f - reflected);
     } else {
@@ -34,10 +38,24 @@ Bsdf::Facet Bsdf::facet(float cos_h) const {
   } else {
     return result;
   }
-  const float r = scene::luminance(f0_ + (f90_ - f0_) * result.schlick + result.reflected);
+  Color reflected = f0_ + (f90_ - f0_) * result.schlick + result.reflected;
+  if (film_) reflected = (reflected + film_change(cos_h)).max(0.0f);
+  const float r = scene::luminance(reflected);
   const float t = scene::luminance(result.transmitted);
   result.probability_reflect = t > 0.0f ? r / (r + t) : 1.0f;
   return result;
+}
+
+Color Bsdf::film_change(float cosine) const {
+  const FilmOnBase& f = *film_;
+  Color change = Color::Zero();
+  if (f.metallic > 0.0f) change += f.metallic * f.film.change(cosine, f.metal_f0, 1.0f);
+  if (f.dielectric > 0.0f) change += f.dielectric * film_on_dielectric(cosine);
+  return change;
+}
+
+float Bsdf::film_passed(const GgxAlbedo& albedo, float cosine) const {
+  return std::max(0.0f, passed(albedo) - film_on_dielectric(cosine).maxCoeff() * (1.0f - albedo.loss));
 }
 
 Color Bsdf::straight_transmittance() const {
@@ -63,17 +81,18 @@ BsdfValue Bsdf::evaluate(const Vec3& wi) const {
 }
 
 void Bsdf::add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const {
-  const GgxAlbedo in = row_.at(cos_i);
+  const GgxAlbedo in = facets_albedo(wi, cos_i);
   if (!ggx_.delta && p_microfacet_ > 0.0f) {
     const Vec3 h = wo_ + wi;
     const float h2 = h.squaredNorm();
     if (h2 > kMinHalf2) {
-      const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
+      const GgxLobe::Terms terms = facets_terms(h, h2, wi, cos_i);
       const float cos_h = 0.5f * std::sqrt(h2);
       const float excess = scale_o_ * in.scale - 1.0f;
       const float schlick = schlick_weight(cos_h);
       Color reflected =
           f0_ + (f90_ - f0_) * schlick + excess * (multiple_f0_ + (multiple_f90_ - multiple_f0_) * schlick);
+      if (film_) reflected = (reflected + film_change(cos_h)).max(0.0f);
       float pdf = p_microfacet_ * terms.d * ggx_.pdf_scale;
       if (glass_ == Glass::thin || glass_ == Glass::refracting) {
         const Facet half = facet(cos_h);
@@ -89,25 +108,26 @@ void Bsdf::add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const 
     result.pdf += p_loss_reflect_ * loss_lobe_.pdf(cos_i);
   }
   if (p_diffuse_ > 0.0f) {
-    result.value += diffuse_ * (passed(in) * cos_i);
+    result.value += diffuse_ * (passed(in, cos_i) * cos_i);
     result.pdf += p_diffuse_ * cos_i * kInvPi;
   }
 }
 
 void Bsdf::add_transmission(const Vec3& wi, float cos_i, BsdfValue& result) const {
   if (p_diffuse_through_ > 0.0f) {
-    result.value += diffuse_through_ * (passed(row_.at(cos_i)) * cos_i);
+    result.value += diffuse_through_ * (passed(facets_albedo(wi, cos_i), cos_i) * cos_i);
     result.pdf += p_diffuse_through_ * cos_i * kInvPi;
   }
   if (glass_ == Glass::none || glass_ == Glass::clear || ggx_.delta || !(p_microfacet_ > 0.0f)) return;
   if (glass_ == Glass::thin) {
     // The reflection lobe, mirrored to the other side of the sheet.
-    const Vec3 h = wo_ + wi + 2.0f * cos_i * ns_;
+    const Vec3 mirrored = wi + 2.0f * cos_i * ns_;
+    const Vec3 h = wo_ + mirrored;
     const float h2 = h.squaredNorm();
     if (!(h2 > kMinHalf2)) return;
-    const GgxLobe::Terms terms = ggx_.terms(ns_, h, h2, cos_i);
+    const GgxLobe::Terms terms = facets_terms(h, h2, mirrored, cos_i);
     const Facet half = facet(0.5f * std::sqrt(h2));
-    const float scale = scale_o_ * row_.at(cos_i).scale;
+    const float scale = scale_o_ * facets_albedo(wi, cos_i).scale;
     result.value += half.transmitted * (terms.d * terms.visibility * cos_i * scale);
     result.pdf += p_microfacet_ * terms.d * ggx_.pdf_scale * (1.0f - half.probability_reflect);
     return;

@@ -33,7 +33,7 @@ inline float fresnel_dielectric(float cos_i, float eta, float& cos_t) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// Clearcoat has ior 1.5.
+inline constexpr float kCoatIor = 1.5f;  ///< of clearcoat
 inline constexpr float kCoatF0 = 0.04f;
 inline float coat_fresnel(float cos_theta) {
   return kCoatF0 + (1.0f - kCoatF0) * schlick_weight(cos_theta);

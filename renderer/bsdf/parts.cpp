@@ -30,7 +30,7 @@ Color Bsdf::diffuse_albedo() const {
   if (p_diffuse_ > 0.0f) both += diffuse_;
   // The albedo leaves the radiance scale of refraction out.
   if (p_diffuse_through_ > 0.0f) both += diffuse_through_ / transmit_scale_;
-  return both * (kPi * std::max(passed(row_.mean()), 1e-6f) * base_scale_);
+  return both * (kPi * mean_passed_ * base_scale_);
 }
 
 Color Bsdf::sheen_albedo() const {

@@ -7,20 +7,21 @@
 
 namespace gatelight::renderer {
 
-/// Calls f(h, weight) for visible normals of wo = (sin, 0, cosine) on one side of the plane y = 0; the other
-/// side is symmetric. The points are a Fibonacci lattice of `count` points; `previous` is the Fibonacci
-/// number before `count`. A smooth step v^2 (3 - 2 v) maps both coordinates. It puts more points into the
+struct LatticePoint {
+  Vec2 u;
+  float weight;
+};
+
+/// Points of the unit square for sample_visible_normal(), on one side of the plane of wo, whose other side is
+/// alike: u.x is in [0, 0.5]. A Fibonacci lattice of `count` points; `previous` is the Fibonacci number
+/// before `count`. A smooth step v^2 (3 - 2 v) maps both coordinates. It puts more points into the
 /// corners of the square, where the integrand is singular at grazing incidence, and makes the integrand
 /// periodic, which suits lattices. The kink at total reflection does no harm; a product rule with as many
 /// points has an error of 2 % there.
-template <int count, int previous, class F>
-void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
-  struct Point {
-    Vec2 u;
-    float weight;
-  };
-  static const std::array<Point, count> points = [] {
-    std::array<Point, count> result;
+template <int count, int previous>
+const std::array<LatticePoint, count>& half_lattice() {
+  static const std::array<LatticePoint, count> points = [] {
+    std::array<LatticePoint, count> result;
     double sum = 0.0;
     for (int i = 0; i < count; ++i) {
       const double x = (i + 0.5) / count;
@@ -30,10 +31,18 @@ void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
       result[i].weight = static_cast<float>(x * (1.0 - x) * y * (1.0 - y));
       sum += x * (1.0 - x) * y * (1.0 - y);
     }
-    for (Point& point : result) point.weight /= static_cast<float>(sum);
+    for (LatticePoint& point : result) point.weight /= static_cast<float>(sum);
     return result;
   }();
-  for (const Point& point : points) f(sample_visible_normal(alpha, wo, point.u), point.weight);
+  return points;
+}
+
+/// Calls f(h, weight) for visible normals of wo = (sin, 0, cosine) on one side of the plane y = 0; the other
+/// side is symmetric.
+template <int count, int previous, class F>
+void for_visible_normals(float alpha, const Vec3& wo, F&& f) {
+  for (const LatticePoint& point : half_lattice<count, previous>())
+    f(sample_visible_normal(alpha, wo, point.u), point.weight);
 }
 
 /// The cosine for the coordinate u in [0, 1] of the albedo tables: the inverse of u = cosine (1 + alpha) /

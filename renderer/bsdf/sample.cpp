@@ -70,8 +70,8 @@ BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
     const Facet half = facet(ggx_.cos_o);
     return sample_delta(u_lobe >= half.probability_reflect, half);
   }
-  const Vec3 h = sample_half(ggx_, ns_, wo_, u);
-  const float spread = std::sqrt(ggx_.alpha2);
+  const Vec3 h = brushed_ ? brushed_->sample_half(wo_, ggx_.cos_o, u) : sample_half(ggx_, ns_, wo_, u);
+  const float spread = brushed_ ? std::sqrt(brushed_->alpha_x * brushed_->alpha_y) : std::sqrt(ggx_.alpha2);
   if (glass_ == Glass::none || glass_ == Glass::clear) return finish(mirror(wo_, h), ns_, spread);
   const float oh = wo_.dot(h);
   if (!(oh > 0.0f)) return {};
@@ -89,7 +89,8 @@ BsdfSample Bsdf::sample_delta(bool transmitted, const Facet& half) const {
     const Vec3 wi = mirror(wo_, ns_);
     if (!(wi.dot(ng_) > 0.0f)) return {};
     const float pdf = p_microfacet_ * half.probability_reflect;
-    const Color reflected = f0_ + (f90_ - f0_) * half.schlick + half.reflected;
+    Color reflected = f0_ + (f90_ - f0_) * half.schlick + half.reflected;
+    if (film_) reflected = (reflected + film_change(ggx_.cos_o)).max(0.0f);
     return delta_sample(wi, reflected * (base_scale_ / pdf), pdf, false);
   }
   const bool thin = glass_ == Glass::thin;

@@ -83,6 +83,7 @@ struct SampleResult {
 namespace dimension {
 inline constexpr std::uint32_t kFilm = 0;
 inline constexpr std::uint32_t kLens = 0x80000000u;  ///< beyond those of all vertices
+inline constexpr std::uint32_t kWavelength = kLens + 1;
 inline constexpr std::uint32_t kFirstVertex = 1;
 inline constexpr std::uint32_t kPerVertex = 4;
 inline constexpr std::uint32_t kBsdfLobe = 0;

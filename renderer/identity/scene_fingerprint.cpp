@@ -77,23 +77,45 @@ void add_material(DigestRecord& record, const scene::Material& material) {
                metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
                alpha_mode, alpha_cutoff, double_sided, culled, unlit, ior, specular, specular_texture,
                specular_color, specular_color_texture, glossiness_texture, transmission, transmission_texture,
-               thickness, attenuation_distance, attenuation_color, clearcoat, clearcoat_texture,
-               clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
+               thickness, attenuation_distance, attenuation_color, dispersion, anisotropy,
+               anisotropy_rotation, anisotropy_texture, iridescence, iridescence_texture, film_ior,
+               film_thickness_minimum, film_thickness_maximum, film_thickness_texture, clearcoat,
+               clearcoat_texture, clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
                clearcoat_normal_scale, diffuse_transmission, diffuse_transmission_texture,
                diffuse_transmission_color, diffuse_transmission_color_texture, sheen_color,
                sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
   for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color,
                             &diffuse_transmission_color})
     add_numbers(record, *color);
-  for (const float value : {base_alpha, metallic, roughness, normal_scale, alpha_cutoff, ior, specular,
-                            transmission, thickness, attenuation_distance, clearcoat, clearcoat_roughness,
-                            clearcoat_normal_scale, sheen_roughness, diffuse_transmission})
+  for (const float value : {base_alpha,
+                            metallic,
+                            roughness,
+                            normal_scale,
+                            alpha_cutoff,
+                            ior,
+                            specular,
+                            transmission,
+                            thickness,
+                            attenuation_distance,
+                            clearcoat,
+                            clearcoat_roughness,
+                            clearcoat_normal_scale,
+                            sheen_roughness,
+                            diffuse_transmission,
+                            anisotropy,
+                            anisotropy_rotation,
+                            dispersion,
+                            iridescence,
+                            film_ior,
+                            film_thickness_minimum,
+                            film_thickness_maximum})
     record.add(value);
   for (const auto* slot :
        {&base_color_texture, &metallic_roughness_texture, &normal_texture, &emission_texture,
         &specular_texture, &specular_color_texture, &glossiness_texture, &transmission_texture,
         &clearcoat_texture, &clearcoat_roughness_texture, &clearcoat_normal_texture, &sheen_color_texture,
-        &sheen_roughness_texture, &diffuse_transmission_texture, &diffuse_transmission_color_texture})
+        &sheen_roughness_texture, &diffuse_transmission_texture, &diffuse_transmission_color_texture,
+        &anisotropy_texture, &iridescence_texture, &film_thickness_texture})
     add_slot(record, *slot);
   record.add(alpha_mode);
   record.add(double_sided);
@@ -185,6 +207,15 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
     materials.add(pixels[i]);
   }
   for (const scene::PunctualLight& light : scene.lights) add_light(lights, light);
+  if (scene.image_light) {
+    const auto& [name, faces, intensity, rotation] = *scene.image_light;
+    for (const scene::Image& face : faces) {
+      for (const int value : {face.width, face.height, face.channels}) lights.add(value);
+      lights.add(digest_of_array(face.pixels));
+    }
+    lights.add(intensity);
+    add_numbers(lights, rotation);
+  }
 
   return {{"geometry", hexadecimal(geometry.digest())},
           {"attributes", hexadecimal(attributes.digest())},

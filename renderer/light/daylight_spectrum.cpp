@@ -2,35 +2,20 @@
 
 #include <cmath>
 
+#include "renderer/sampling/color_matching.h"
+
 namespace gatelight::renderer {
 namespace {
-
-/// A Gaussian with a width for each side.
-double two_sided_gaussian(double x, double height, double centre, double left, double right) {
-  const double z = (x - centre) / (x < centre ? left : right);
-  return height * std::exp(-0.5 * z * z);
-}
-
-Eigen::Vector3d color_matching(double nm) {
-  return {
-      two_sided_gaussian(nm, 1.056, 599.8, 37.9, 31.0) + two_sided_gaussian(nm, 0.362, 442.0, 16.0, 26.7) +
-          two_sided_gaussian(nm, -0.065, 501.1, 20.4, 26.2),
-      two_sided_gaussian(nm, 0.821, 568.8, 46.9, 40.5) + two_sided_gaussian(nm, 0.286, 530.9, 16.3, 31.1),
-      two_sided_gaussian(nm, 1.217, 437.0, 11.8, 36.0) + two_sided_gaussian(nm, 0.681, 459.0, 26.0, 13.8)};
-}
 
 using ColorWeights = Eigen::Matrix<float, 3, kWavelengths>;
 
 ColorWeights make_weights() {
   constexpr double kLumensPerWatt = 683.0;
   constexpr double kUnit = 100000.0 / M_PI;  // candela per square metre
-  Eigen::Matrix3d rec709;                    // from XYZ (IEC 61966-2-1)
-  rec709 << 3.2404542, -1.5371385, -0.4985314, -0.9692660, 1.8760108, 0.0415560, 0.0556434, -0.2040259,
-      1.0572252;
   ColorWeights weights;
   for (int i = 0; i < kWavelengths; ++i) {
     const Eigen::Vector3d xyz = color_matching(kFirstWavelength + kWavelengthStep * i);
-    const Eigen::Vector3d rgb = rec709 * xyz * (kWavelengthStep * kLumensPerWatt / kUnit);
+    const Eigen::Vector3d rgb = rec709_from_xyz() * xyz * (kWavelengthStep * kLumensPerWatt / kUnit);
     weights.col(i) = rgb.cast<float>();
   }
   return weights;

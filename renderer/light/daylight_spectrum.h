@@ -30,10 +30,9 @@ const Spectrum& solar_irradiance();
 /// Spectral Distribution of Solar Radiation at the Earth's Surface".
 const Spectrum& ozone_absorption();
 
-/// From radiance in W/(m2 sr nm) to linear Rec. 709 with the white D65, by the CIE 1931 colour matching
-/// functions as Wyman, Sloan and Shirley 2013 fit them ("Simple Analytic Approximations to the CIE XYZ Color
-/// Matching Functions", equation 4). A luminance of 100 000 lux / pi, that of a white surface in full
-/// daylight, becomes 1. The same for irradiance: 100 000 lux become pi. Channels may be negative.
+/// From radiance in W/(m2 sr nm) to linear Rec. 709 with the white D65 (sampling/color_matching.h). A
+/// luminance of 100 000 lux / pi, that of a white surface in full daylight, becomes 1. The same for
+/// irradiance: 100 000 lux become pi. Channels may be negative.
 Eigen::Array3f daylight_color(const Spectrum& spectrum);
 
 }  // namespace gatelight::renderer

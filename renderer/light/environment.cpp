@@ -12,18 +12,16 @@
 #include "renderer/image/color_channels.h"
 #include "renderer/image/image_read.h"
 #include "renderer/light/clear_sky.h"
+#include "renderer/light/cube_picture.h"
 #include "renderer/light/soft_sky.h"
 #include "renderer/sampling/warp.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Larger radiance is clamped, so that sums of a whole picture and products with a throughput stay finite.
-constexpr float kLargest = 1e30f;
-
 /// Negative values and NaN become 0.
 float usable(double value) {
-  return value > 0.0 ? static_cast<float>(std::min(value, static_cast<double>(kLargest))) : 0.0f;
+  return value > 0.0 ? static_cast<float>(std::min(value, static_cast<double>(kLargestRadiance))) : 0.0f;
 }
 
 float scaled(float value, float scale) {
@@ -103,7 +101,7 @@ EnvironmentPicture load(const EnvironmentOptions& options, std::string& warning)
 
 }  // namespace
 
-Environment::Environment(const EnvironmentOptions& options) {
+Environment::Environment(const EnvironmentOptions& options, const scene::ImageBasedLight* of_scene) {
   if (!(options.scale >= 0.0f) || !std::isfinite(options.scale)) {
     throw std::runtime_error(
         fmt::format("the environment's scale is {}; it must be finite and not negative", options.scale));
@@ -134,7 +132,7 @@ Environment::Environment(const EnvironmentOptions& options) {
       distant_sun_ = {to_world(sky->to_sun), sky->sun_irradiance};
     }
   } else if (options.automatic) {
-    picture_ = make_soft_sky(options.scale);
+    picture_ = of_scene ? make_cube_picture(*of_scene, options.scale) : make_soft_sky(options.scale);
     mean_ = picture_->mean();
   } else if (options.file.empty()) {
     for (Eigen::Index c = 0; c < 3; ++c) mean_[c] = scaled(options.constant[c], options.scale);

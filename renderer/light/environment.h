@@ -8,6 +8,7 @@
 #include "renderer/light/environment_picture.h"
 #include "renderer/light/sun_disc.h"
 #include "renderer/settings/environment_options.h"
+#include "scene/scene.h"
 
 namespace gatelight::renderer {
 
@@ -17,7 +18,8 @@ namespace gatelight::renderer {
 class Environment {
  public:
   /// Throws std::runtime_error that names the file when it cannot be read.
-  explicit Environment(const EnvironmentOptions& options);
+  /// of_scene: an automatic environment is this one; without it, the soft sky.
+  explicit Environment(const EnvironmentOptions& options, const scene::ImageBasedLight* of_scene = nullptr);
 
   /// Filtered for a ray cone with this full angle in radians; 0 means no filter.
   Color radiance(const Vec3& direction, float cone_angle = 0.0f) const;

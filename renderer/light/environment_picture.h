@@ -25,6 +25,9 @@ struct EnvironmentSample {
   float pdf = 0.0f;  ///< per solid angle; 0 means no sample
 };
 
+/// Larger radiance is clamped, so that sums of a whole picture and products with a throughput stay finite.
+inline constexpr float kLargestRadiance = 1e30f;
+
 class EnvironmentPicture {
  public:
   /// The first row is the top. Values are finite and not negative. Directions are in the picture's own frame.

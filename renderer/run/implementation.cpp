@@ -58,14 +58,14 @@ bool shows_light(Integrator integrator) {
 
 /// The options with what an automatic environment stands for in this scene.
 RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
-  options.environment.automatic &=
-      !options.environment.sky && shows_light(options.integrator) && needs_light(scene);
+  options.environment.automatic &= !options.environment.sky && shows_light(options.integrator) &&
+                                   (scene.image_light || needs_light(scene));
   return options;
 }
 
 /// Says what a scene without light gets. `options` are those of with_sky().
 std::string sky_warning(const scene::Scene& scene, const RenderOptions& options) {
-  if (options.environment.automatic) {
+  if (options.environment.automatic && !scene.image_light) {
     return fmt::format("{} has no light: a soft sky lights it; --environment none, r,g,b or FILE replaces it",
                        scene.path);
   }

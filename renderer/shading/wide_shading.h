@@ -17,10 +17,12 @@ namespace gatelight::renderer {
 /// which is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
 const ShadingKernels& choose_shading_kernels(const std::string& isa);
 
-/// Whether the kernels have all lobes of a surface. They do not enter an inside.
+/// Whether the kernels have all lobes of a surface. They do not enter an inside, nor know brushed
+/// metal and thin films.
 inline bool shades_wide(const Surface& surface) {
   const SurfaceMaterial& m = surface.material;
-  return m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f);
+  return !(m.anisotropy > 0.0f) && !(m.iridescence > 0.0f) &&
+         (m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f));
 }
 
 /// Fills a lane's surface. `wo` is unit, away from the surface.

@@ -2,6 +2,7 @@
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/surface/interpolate.h"
+#include "renderer/surface/read_film.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -41,6 +42,7 @@ void straighten(SurfaceMaterial& material) {
   material.thin_walled = true;
   material.roughness = 0.0f;
   material.clearcoat = 0.0f;
+  material.anisotropy = 0.0f;
   material.sheen_color.setZero();
 }
 
@@ -53,7 +55,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures, bool str
     if (m.culled) flags_[i] |= kCulled;
     const bool smooth =
         m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
-    const bool plain = m.clearcoat == 0.0f && (m.sheen_color == 0.0f).all();
+    const bool plain = m.clearcoat == 0.0f && m.anisotropy == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmission > 0.0f && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
     if (m.transmission > 0.0f && m.has_volume() && straight_glass) flags_[i] |= kStraightGlass;
   }
@@ -87,6 +89,7 @@ Passage Coverage::pass(const Hit& hit, const Vec3& direction) const {
   s.ior = m.ior;
   s.specular = m.specular;
   s.specular_color = m.specular_color;
+  read_film(m, read, s);
   s.metallic = m.metallic * read(m.metallic_roughness_texture, Encoding::linear).z();
   s.transmission = m.transmission * read(m.transmission_texture, Encoding::linear).x();
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);

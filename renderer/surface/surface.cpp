@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/surface/interpolate.h"
+#include "renderer/surface/read_film.h"
 #include "renderer/surface/shadow_terminator.h"
 #include "scene/triangle_normal.h"
 
@@ -63,6 +64,21 @@ Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& ta
   const float squared = mapped.squaredNorm();
   if (!(squared > 1e-12f)) return n;
   return mapped / std::sqrt(squared);
+}
+
+/// The direction of greater roughness in world space, from its components along tangent and bitangent and a
+/// rotation in radians; zero where there is none.
+Vec3 brushed_direction(const Vec2& components, float rotation, const Vec3& n, const Vec4& tangent_w,
+                       bool flip_tangent) {
+  Vec3 t = tangent_w.head<3>();
+  t -= n * n.dot(t);
+  const float length = t.squaredNorm();
+  if (!(length > 1e-12f && components.squaredNorm() > 1e-6f)) return Vec3::Zero();
+  t /= std::sqrt(length);
+  const Vec3 bitangent = n.cross(t) * (flip_tangent ? -tangent_w.w() : tangent_w.w());
+  const float c = std::cos(rotation), s = std::sin(rotation);
+  const Vec2 turned(c * components.x() - s * components.y(), s * components.x() + c * components.y());
+  return (t * turned.x() + bitangent * turned.y()).normalized();
 }
 
 /// Moves a point of a flat triangle onto the round surface that the normals of its corners describe.
@@ -196,9 +212,11 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   if (m.specular_color_texture) s.material.specular_color *= read.color(m.specular_color_texture);
   if (m.transmits()) {
     s.material.thin_walled = !m.has_volume();
+    if (m.disperses()) s.material.dispersion = m.dispersion;
     s.material.transmission = m.transmission;
     if (m.transmission_texture) s.material.transmission *= read(m.transmission_texture, Encoding::linear).x();
   }
+  read_film(m, read, s.material);
   if (m.diffuse_transmission > 0.0f) {
     s.material.diffuse_transmission = m.diffuse_transmission;
     s.material.diffuse_transmission_color = m.diffuse_transmission_color;
@@ -216,7 +234,8 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   }
 
   const bool coat = m.clearcoat > 0.0f;
-  if (!mesh.tangents.empty() && (m.normal_texture || (coat && m.clearcoat_normal_texture))) {
+  if (!mesh.tangents.empty() &&
+      (m.normal_texture || m.anisotropy > 0.0f || (coat && m.clearcoat_normal_texture))) {
     Vec4 tangent = interpolate(mesh.tangents, corners, b);
     tangent.w() = mesh.tangents[corners[0]].w();
     if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
@@ -225,6 +244,16 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     if (m.normal_texture) {
       s.shading_normal = mapped_normal(read(m.normal_texture, Encoding::linear), m.normal_scale,
                                        s.smooth_normal, tangent, flip);
+    }
+    if (m.anisotropy > 0.0f) {
+      Vec3 texel(1.0f, 0.0f, 1.0f);
+      if (m.anisotropy_texture) {
+        texel = read(m.anisotropy_texture, Encoding::linear).head<3>();
+        texel.head<2>() = 2.0f * texel.head<2>() - Vec2::Ones();
+      }
+      s.material.brushed =
+          brushed_direction(texel.head<2>(), m.anisotropy_rotation, s.smooth_normal, tangent, flip);
+      if (!s.material.brushed.isZero(0.0f)) s.material.anisotropy = m.anisotropy * texel.z();
     }
     if (coat && m.clearcoat_normal_texture) {
       s.coat_normal = mapped_normal(read(m.clearcoat_normal_texture, Encoding::linear),

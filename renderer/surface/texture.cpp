@@ -208,7 +208,8 @@ Textures::Textures(const scene::Scene& scene) {
     for (const scene::TextureSlot* slot :
          {&m.metallic_roughness_texture, &m.normal_texture, &m.specular_texture, &m.transmission_texture,
           &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,
-          &m.sheen_roughness_texture, &m.diffuse_transmission_texture}) {
+          &m.sheen_roughness_texture, &m.diffuse_transmission_texture, &m.anisotropy_texture,
+          &m.iridescence_texture, &m.film_thickness_texture}) {
       need(*slot, Encoding::linear);
     }
   }

@@ -11,8 +11,8 @@ namespace gatelight::renderer {
 inline bool is_mirror_or_clear(const SurfaceMaterial& m) {
   constexpr float kSmooth = 0.1f;    // perceptual roughness
   constexpr float kDiffuse = 0.05f;  // share of what is scattered
-  return m.roughness <= kSmooth && (1.0f - m.metallic) * (1.0f - m.transmission) <= kDiffuse &&
-         !(m.sheen_color > 0.0f).any();
+  return m.roughness * m.roughness + m.anisotropy * m.anisotropy <= kSmooth * kSmooth &&
+         (1.0f - m.metallic) * (1.0f - m.transmission) <= kDiffuse && !(m.sheen_color > 0.0f).any();
 }
 
 /// A path has met a surface; first_hit() is known. Where all before were mirrors or clear, it guides in their

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "renderer/film/camera_sample.h"
+#include "renderer/sampling/wavelength.h"
 #include "renderer/transport/scattering.h"
 
 namespace gatelight::renderer {
@@ -47,10 +48,11 @@ struct Meeting {
   Ray& ray;  ///< the arriving ray; advance() replaces it by the next one
   const Hit& hit;
   Surface surface;
-  Vec3 wo;                         ///< unit, back along the ray
-  float cone_width;                ///< metres
-  Color passed{1.0f, 1.0f, 1.0f};  ///< transmittance of the medium before the surface
-  bool straight = false;           ///< glass with an inside that does not bend this ray
+  Vec3 wo;           ///< unit, back along the ray
+  float cone_width;  ///< metres
+  /// Transmittance of the medium before the surface, times the colour of a wavelength that is chosen here.
+  Color passed{1.0f, 1.0f, 1.0f};
+  bool straight = false;  ///< glass with an inside that does not bend this ray
   Emission emission;
   bool ends = false;                 ///< the path ends here
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
@@ -107,6 +109,7 @@ struct Walker {
   double radiance_scale = 1.0;
   Sampler sampler;
   std::uint32_t index = 0;  ///< into the starts
+  float wavelength = 0.0f;  ///< nanometres; 0: all, until a surface disperses them
   float faint = 0.0f;       ///< CameraSample::faint
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
@@ -162,6 +165,7 @@ struct Walker {
       straighten(surface.material);
       surface.shading_normal = surface.geometric_normal;
     }
+    if (surface.material.dispersion > 0.0f && !m.straight) disperse(m);
     m.emission.radiance = surface.emission;
     if (m.emission.any())
       m.emission.weight = emission_weight(walk.world, walk.mis, departure, hit, surface, ray.direction);
@@ -274,6 +278,18 @@ struct Walker {
   static bool refracts_alone(const Walk& walk, const Surface& surface) {
     return walk.world.coverage.straight_glass() && !surface.material.thin_walled &&
            surface.material.transmission > 0.0f;
+  }
+
+  /// The path goes on with one wavelength.
+  void disperse(Meeting& m) {
+    if (wavelength == 0.0f) {
+      const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
+      wavelength = chosen.nm;
+      m.passed *= chosen.color;
+      throughput *= chosen.color;
+    }
+    SurfaceMaterial& material = m.surface.material;
+    material.ior = dispersed_ior(material.ior, material.dispersion, wavelength);
   }
 
   /// `alone`: no light sample competes with the next ray.

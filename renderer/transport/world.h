@@ -27,7 +27,7 @@ struct World {
       : scene(scene_in),
         requirements(scene::compute_requirements(scene)),
         textures(scene),
-        environment(sky),
+        environment(sky, scene.image_light ? &*scene.image_light : nullptr),
         coverage(scene, textures, glass == GlassShadows::straight),
         surfaces(scene, textures),
         accel(scene, coverage, acceleration),

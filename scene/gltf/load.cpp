@@ -13,6 +13,7 @@
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/extensions.h"
+#include "scene/gltf/image_light.h"
 #include "scene/gltf/images.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/nodes.h"
@@ -65,6 +66,10 @@ class Loader {
     choose_origin(graph);
     place(graph.placements);
     load_images();
+    if (!document_.list("scenes").empty()) {
+      const int shown = options_.scene >= 0 ? options_.scene : document_.root().value("scene", 0);
+      scene_.image_light = load_image_light(document_, shown, options_.missing_is_error, warnings_);
+    }
     if (options_.bake_transforms) bake_transforms(scene_);
     scene_.bounds = compute_bounds(scene_);
     check_bounds();

@@ -118,6 +118,23 @@ class Converter {
       m.attenuation_distance = e->value("attenuationDistance", kInfinity);
       m.attenuation_color = unit_color(*e, "attenuationColor", 1.0f);
     }
+    if (const json* e = find_extension(material, "KHR_materials_dispersion"))
+      m.dispersion = e->value("dispersion", 0.0f);
+    if (const json* e = find_extension(material, "KHR_materials_iridescence")) {
+      m.iridescence = unit(*e, "iridescenceFactor", 0.0);
+      m.iridescence_texture = slot(*e, "iridescenceTexture");
+      const float ior = e->value("iridescenceIor", 1.3f);
+      m.film_ior = std::max(ior, 1.0f);
+      if (m.film_ior != ior) warnings_.add(where_ + ".iridescenceIor: below 1, taken as 1");
+      m.film_thickness_minimum = e->value("iridescenceThicknessMinimum", 100.0f);
+      m.film_thickness_maximum = e->value("iridescenceThicknessMaximum", 400.0f);
+      m.film_thickness_texture = slot(*e, "iridescenceThicknessTexture");
+    }
+    if (const json* e = find_extension(material, "KHR_materials_anisotropy")) {
+      m.anisotropy = unit(*e, "anisotropyStrength", 0.0);
+      m.anisotropy_rotation = e->value("anisotropyRotation", 0.0f);
+      m.anisotropy_texture = slot(*e, "anisotropyTexture");
+    }
     if (const json* e = find_extension(material, "KHR_materials_clearcoat")) {
       m.clearcoat = unit(*e, "clearcoatFactor", 0.0);
       m.clearcoat_texture = slot(*e, "clearcoatTexture");
@@ -145,6 +162,8 @@ class Converter {
          {&m.metallic_roughness_texture, &m.glossiness_texture, &m.normal_texture, &m.emission_texture});
     keep(m.emits(), {&m.emission_texture});
     keep(!m.unlit && m.specular > 0.0f, {&m.specular_texture, &m.specular_color_texture});
+    keep(!m.unlit && m.iridescence > 0.0f, {&m.iridescence_texture, &m.film_thickness_texture});
+    keep(!m.unlit && m.anisotropy > 0.0f, {&m.anisotropy_texture});
     keep(!m.unlit && m.transmission > 0.0f, {&m.transmission_texture});
     keep(!m.unlit && m.diffuse_transmission > 0.0f,
          {&m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture});

@@ -25,6 +25,9 @@ void for_each_slot(M& m, const Visit& visit) {
   visit(m.specular_texture);
   visit(m.specular_color_texture);
   visit(m.glossiness_texture);
+  visit(m.iridescence_texture);
+  visit(m.film_thickness_texture);
+  visit(m.anisotropy_texture);
   visit(m.transmission_texture);
   visit(m.diffuse_transmission_texture);
   visit(m.diffuse_transmission_color_texture);

@@ -18,7 +18,7 @@ namespace {
 
 struct Needs {
   bool uv[2] = {false, false};
-  const TextureSlot* tangents = nullptr;  ///< the normal map whose frame is needed
+  const TextureSlot* tangents = nullptr;  ///< the slot whose frame is needed
 };
 
 Needs needs_of(const Material& material) {
@@ -26,6 +26,7 @@ Needs needs_of(const Material& material) {
   for_each_slot(material, [&](const TextureSlot& slot) {
     if (slot) needs.uv[slot.texcoord] = true;
   });
+  if (material.anisotropy > 0.0f) needs.tangents = &material.anisotropy_texture;
   if (material.clearcoat_normal_texture) needs.tangents = &material.clearcoat_normal_texture;
   if (material.normal_texture) needs.tangents = &material.normal_texture;
   return needs;
@@ -164,7 +165,19 @@ Mesh load_primitive(const Document& document, int mesh_index, int primitive_inde
   if (mesh.triangles.empty()) return mesh;
   const std::vector<std::uint32_t> selection = compact(mesh.triangles, vertices.count());
 
-  const Needs needs = needs_of(material);
+  Needs needs = needs_of(material);
+  // An anisotropic material without textures takes its directions from the file's tangents, else from the
+  // texture coordinates.
+  const bool own_tangents = vertices.has("TANGENT") && vertices.has("NORMAL");
+  if (needs.tangents && !*needs.tangents) {
+    needs.uv[0] |= !own_tangents && vertices.has("TEXCOORD_0");
+    if (!own_tangents && !needs.uv[0]) {
+      warnings.add(
+          "an anisotropic mesh has neither tangents nor texture coordinates: it reflects alike in all "
+          "directions");
+      needs.tangents = nullptr;
+    }
+  }
   read_rows(vertices, "POSITION", selection, mesh.positions);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (mesh.positions[i].allFinite()) continue;

@@ -89,6 +89,13 @@ class Checker {
         }
         for (std::size_t i = 0; i < value.size(); ++i) check_value(value[i], rule, {&path, {}, i});
         return;
+      case Shape::lists: {
+        if (!value.is_array()) fail(path, value, "an array");
+        Rule each = rule;
+        each.shape = Shape::list;
+        for (std::size_t i = 0; i < value.size(); ++i) check_member(value[i], each, {&path, {}, i});
+        return;
+      }
       case Shape::dictionary:
         if (!value.is_object()) fail(path, value, "an object");
         for (auto& [name, entry] : value.items()) check_value(entry, rule, {&path, name});
@@ -146,13 +153,13 @@ class Checker {
   std::size_t size_of(std::string_view list) const {
     const json* owner = &root_;
     std::string_view member = list;
-    if (list.starts_with("KHR_")) {
+    if (list.starts_with("KHR_") || list.starts_with("EXT_")) {
       const auto extensions = root_.find("extensions");
       if (extensions == root_.end() || !extensions->is_object()) return 0;
       const auto extension = extensions->find(list);
       if (extension == extensions->end() || !extension->is_object()) return 0;
       owner = &*extension;
-      member = list == "KHR_lights_punctual" ? "lights" : "variants";
+      member = list == "KHR_materials_variants" ? "variants" : "lights";
     }
     const auto found = owner->find(member);
     return found != owner->end() && found->is_array() ? found->size() : 0;

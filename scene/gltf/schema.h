@@ -11,7 +11,12 @@
 namespace gatelight::scene::gltf {
 
 enum class Kind : unsigned char { boolean, integer, number, string, index, object };
-enum class Shape : unsigned char { single, list, dictionary };
+enum class Shape : unsigned char {
+  single,
+  list,
+  lists,  ///< a list of lists, each of Rule::length
+  dictionary
+};
 
 /// One property of one kind of object.
 struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order in which the table's rows

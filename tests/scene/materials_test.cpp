@@ -182,6 +182,29 @@ TEST(Materials, TransmissionAndVolume) {
   EXPECT_TRUE(m.attenuation_color.isApprox(Color(0.5f, 0.25f, 1)));
 }
 
+TEST(Materials, Iridescence) {
+  const Material m = only_material(
+      extension("KHR_materials_iridescence", {{"iridescenceFactor", 0.5},
+                                              {"iridescenceIor", 1.8},
+                                              {"iridescenceThicknessMaximum", 800},
+                                              {"iridescenceThicknessTexture", {{"index", 0}}}}));
+  EXPECT_EQ(m.iridescence, 0.5f);
+  EXPECT_FLOAT_EQ(m.film_ior, 1.8f);
+  EXPECT_EQ(m.film_thickness_minimum, 100.0f) << "the extension's default";
+  EXPECT_EQ(m.film_thickness_maximum, 800.0f);
+  EXPECT_TRUE(m.film_thickness_texture);
+  EXPECT_FALSE(m.iridescence_texture);
+}
+
+TEST(Materials, OnlyAnInsideDisperses) {
+  json material = extension("KHR_materials_dispersion", {{"dispersion", 0.36}});
+  EXPECT_FLOAT_EQ(only_material(material).dispersion, 0.36f);
+  material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1;
+  EXPECT_FALSE(only_material(material).disperses()) << "a sheet does not refract";
+  material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1;
+  EXPECT_TRUE(only_material(material).disperses());
+}
+
 TEST(Materials, DiffuseTransmission) {
   const Material plain = only_material(extension("KHR_materials_diffuse_transmission", json::object()));
   EXPECT_EQ(plain.diffuse_transmission, 0.0f);
@@ -199,6 +222,35 @@ TEST(Materials, DiffuseTransmission) {
   EXPECT_FALSE(cloth.has_volume());
   material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1;
   EXPECT_TRUE(only_material(material).has_volume());
+}
+
+TEST(Materials, Anisotropy) {
+  const json brushed = extension(
+      "KHR_materials_anisotropy",
+      {{"anisotropyStrength", 0.6}, {"anisotropyRotation", -1.5}, {"anisotropyTexture", {{"index", 0}}}});
+  const Material m = only_material(brushed);
+  EXPECT_FLOAT_EQ(m.anisotropy, 0.6f);
+  EXPECT_FLOAT_EQ(m.anisotropy_rotation, -1.5f);
+  EXPECT_TRUE(m.anisotropy_texture);
+  EXPECT_FALSE(only_material(extension("KHR_materials_anisotropy", {{"anisotropyTexture", {{"index", 0}}}}))
+                   .anisotropy_texture)
+      << "its factor is zero";
+}
+
+TEST(Materials, ABrushedMeshTakesTangentsFromItsTextureCoordinates) {
+  const json brushed = extension("KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}});
+  const Scene scene = load_material(brushed);
+  ASSERT_EQ(scene.meshes.at(0).tangents.size(), 3u);
+  EXPECT_TRUE(scene.meshes[0].tangents[0].isApprox(Vec4(1, 0, 0, 1))) << "along u";
+  EXPECT_TRUE(scene.warnings.empty());
+  GltfBuilder bare;
+  json primitive = bare.triangle();
+  primitive["attributes"].erase("TEXCOORD_0");
+  primitive["material"] = bare.add("materials", brushed);
+  bare.node({{"mesh", bare.mesh(primitive)}});
+  const Scene without = bare.load();
+  EXPECT_TRUE(without.meshes.at(0).tangents.empty());
+  expect_messages(without.warnings, {{"anisotropic mesh"}});
 }
 
 TEST(Materials, ClearcoatAndSheen) {

@@ -250,6 +250,54 @@ TEST(Lights, AnEmptyConeIsRefused) {
   file.expect_refused({"lights[0].spot", "innerConeAngle", "0.6"});
 }
 
+/// A scene with a light of six images of one pixel.
+GltfBuilder with_image_light() {
+  GltfBuilder file;
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  json faces = json::array();
+  for (int f = 0; f < 6; ++f)
+    faces.push_back(file.add(
+        "images",
+        {{"uri",
+          "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAGklEQVR42mP4z8Dwn+EEQwMDl4"
+          "gcAyMTswMALzMDycBfC3YAAAAASUVORK5CYII="}}));
+  file.root["extensionsUsed"] = {"EXT_lights_image_based"};
+  file.root["extensions"]["EXT_lights_image_based"]["lights"] = {
+      {{"name", "studio"}, {"intensity", 2}, {"rotation", {0, 2, 0, 2}}, {"specularImages", {faces}}}};
+  file.root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+  return file;
+}
+
+TEST(ImageLight, ComesWithItsFacesAndItsRotation) {
+  const Scene scene = with_image_light().load();
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_TRUE(scene.image_light);
+  const ImageBasedLight& light = *scene.image_light;
+  EXPECT_EQ(light.name, "studio");
+  EXPECT_EQ(light.intensity, 2.0f);
+  for (const Image& face : light.faces) EXPECT_EQ(face.width, 2);
+  EXPECT_TRUE((light.rotation * Vec3::UnitZ()).isApprox(Vec3::UnitX(), 1e-6f)) << "a quarter turn about y";
+  GltfBuilder other = with_image_light();
+  other.root["scenes"][0].erase("extensions");
+  EXPECT_FALSE(other.load().image_light);
+}
+
+TEST(ImageLight, WrongFacesAreRefused) {
+  GltfBuilder file = with_image_light();
+  json& light = file.root["extensions"]["EXT_lights_image_based"]["lights"][0];
+  light["specularImages"][0].push_back(0);
+  file.expect_refused({"specularImages[0]", "an array of 7", "an array of 6"});
+  light["specularImages"] = json::array();
+  file.expect_refused({"specularImages", "empty"});
+  light["specularImages"] = {{0, 1, 2, 3, 4, 6}};
+  file.expect_refused({"specularImages[0][5]", "6", "6 there"});
+  light["specularImages"] = {{0, 1, 2, 3, 4, 5}};
+  light["rotation"] = {0, 0, 0, 0};
+  file.expect_refused({"rotation", "unit quaternion"});
+  file.root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
+  file.expect_refused({"scenes[0]", "1 there"});
+}
+
 TEST(Instancing, PlacesTheMeshInEachTransform) {
   GltfBuilder file;
   const int t = file.accessor(std::vector<float>{0, 0, 0, 10, 0, 0}, kFloat, "VEC3", 2);

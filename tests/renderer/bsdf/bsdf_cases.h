@@ -15,6 +15,11 @@ struct BsdfCase {
   SurfaceMaterial material;
   bool front = true;
   bool layered = false;  ///< clearcoat or sheen
+
+  /// About the xz plane.
+  bool symmetric() const {
+    return material.anisotropy == 0.0f || std::abs(material.brushed.x() * material.brushed.y()) < 1e-3f;
+  }
 };
 
 /// White materials: a furnace shows one.
@@ -67,6 +72,51 @@ inline std::vector<BsdfCase> white_cases() {
     m.diffuse_transmission = 0.5f;
     m.clearcoat = 1.0f;
     m.clearcoat_roughness = 0.3f;
+  });
+  const auto film = [](float film_ior, float thickness) {
+    return [=](SurfaceMaterial& m) {
+      m.iridescence = 1.0f;
+      m.film_ior = film_ior;
+      m.film_thickness = thickness;
+    };
+  };
+  add("film on plastic", true, false, film(1.3f, 400.0f));
+  add("soap bubble", true, false, [&film](SurfaceMaterial& m) {
+    film(1.33f, 520.0f)(m);
+    m.transmission = 1.0f;
+    m.ior = 1.0f;
+  });
+  add("film on sheet", true, false, [&film](SurfaceMaterial& m) {
+    film(1.8f, 300.0f)(m);
+    m.transmission = 1.0f;
+  });
+  add("film on glass", true, false, [&film, &glass](SurfaceMaterial& m) {
+    glass(1.5f, 1.0f)(m);
+    film(1.3f, 250.0f)(m);
+  });
+  add("out of glass with a film", false, false, [&film, &glass](SurfaceMaterial& m) {
+    glass(1.5f, 1.0f)(m);
+    film(1.3f, 250.0f)(m);
+  });
+  const auto brushed = [](float strength, float turn) {
+    return [=](SurfaceMaterial& m) {
+      m.metallic = 1.0f;
+      m.anisotropy = strength;
+      m.brushed = Vec3(std::cos(turn), std::sin(turn), 0.0f);
+    };
+  };
+  add("brushed along", true, false, brushed(0.7f, 0.0f));
+  add("brushed across", true, false, brushed(0.7f, 1.5708f));
+  add("brushed askew", true, false, brushed(0.45f, 0.6f));
+  add("fully brushed", true, false, brushed(1.0f, 2.5f));
+  add("brushed plastic", true, false, [](SurfaceMaterial& m) {
+    m.anisotropy = 0.6f;
+    m.ior = 2.0f;
+  });
+  add("brushed sheet", true, false, [&brushed](SurfaceMaterial& m) {
+    brushed(0.5f, 0.9f)(m);
+    m.metallic = 0.0f;
+    m.transmission = 1.0f;
   });
   add("coat", true, true, [](SurfaceMaterial& m) {
     m.clearcoat = 1.0f;

@@ -58,15 +58,15 @@ inline std::size_t cell_of(const Vec3& wi) {
 
 /// The density integrated over the cells; a plane of symmetry through wo saves half of the work. Grazing
 /// lobes are narrow opposite to wo and just above and below the horizon, so those cells get more steps.
-inline std::vector<double> integrate_cells(const Bsdf& bsdf, int steps) {
+inline std::vector<double> integrate_cells(const Bsdf& bsdf, int steps, bool symmetric) {
   std::vector<double> cells(kThetas * kPhis);
   for (int i = 0; i < kThetas; ++i) {
-    for (int j = 0; j < kPhis / 2; ++j) {
+    for (int j = 0; j < (symmetric ? kPhis / 2 : kPhis); ++j) {
       const double theta = kTurn / 2.0 / kThetas;
       const double phi = kTurn / kPhis;
       const bool horizon = i == kThetas / 2 - 1 || i == kThetas / 2;
       const int theta_steps = horizon ? 6 * steps : steps;
-      const int phi_steps = j == kPhis / 2 - 1 ? 12 * steps : steps;
+      const int phi_steps = j == kPhis / 2 - 1 || j == kPhis / 2 ? 12 * steps : steps;
       const double mass = testing::integrate(
           [&](double t) {
             const double sine = std::sin(t);
@@ -81,17 +81,18 @@ inline std::vector<double> integrate_cells(const Bsdf& bsdf, int steps) {
           },
           theta * i, theta * (i + 1), theta_steps);
       cells[i * kPhis + j] = mass;
-      cells[i * kPhis + kPhis - 1 - j] = mass;
+      if (symmetric) cells[i * kPhis + kPhis - 1 - j] = mass;
     }
   }
   return cells;
 }
 
 /// Pearson's test of samples in cells over the sphere; wo is in the xz plane. `steps` of the quadrature: more
-/// for narrow lobes. draw() returns the next BsdfSample.
+/// for narrow lobes. `symmetric`: about that plane. draw() returns the next BsdfSample.
 template <class Draw>
-testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples, Draw draw) {
-  std::vector<double> expected = integrate_cells(bsdf, steps);
+testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples, bool symmetric,
+                                                 Draw draw) {
+  std::vector<double> expected = integrate_cells(bsdf, steps, symmetric);
   std::vector<double> observed(expected.size() + 1);
   double sum = 0.0;
   for (double& mass : expected) {
@@ -110,8 +111,8 @@ testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, in
   return testing::chi_square_test(observed, expected);
 }
 inline testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, int samples,
-                                                        testing::Random& random) {
-  return samples_against_density(bsdf, steps, samples, [&] {
+                                                        bool symmetric, testing::Random& random) {
+  return samples_against_density(bsdf, steps, samples, symmetric, [&] {
     return bsdf.sample(random.uniform_float(), {random.uniform_float(), random.uniform_float()});
   });
 }

@@ -57,6 +57,18 @@ std::vector<Defect> defects() {
        [](Scene& s, RenderOptions&) { material(s, "red lacquer").clearcoat = 0.0f; }},
       {"SkyTurnedByTenDegrees", "material-grid",
        [](Scene&, RenderOptions& o) { o.environment.rotation_degrees = 10.0f; }},
+      {"GroovesMissing", "turntable",
+       [](Scene& s, RenderOptions&) {
+         for (const char* name : {"record", "platter"}) material(s, name).anisotropy = 0.0f;
+       }},
+      {"ClothKeepsTheLightIn", "turntable",
+       [](Scene& s, RenderOptions&) { material(s, "lampshade").diffuse_transmission = 0.0f; }},
+      {"FilmMissing", "turntable",
+       [](Scene& s, RenderOptions&) {
+         for (const char* name : {"soap bubble", "beetle"}) material(s, name).iridescence = 0.0f;
+       }},
+      {"WindowElsewhere", "turntable",
+       [](Scene& s, RenderOptions&) { s.image_light->rotation.setIdentity(); }},
       {"OcclusionDistanceFifthLonger", "teapot-ao", [](Scene&, RenderOptions& o) { o.ao_distance *= 1.2f; }},
   };
 }

@@ -81,6 +81,7 @@ std::vector<GoldenCase> golden_cases() {
   add("hall", "teapot-stadium", 64, 36, 64).camera.name = "hall";
   add("material-grid", "material-grid", 80, 45, 128);
   cases.back().sky = true;
+  add("turntable", "turntable", 96, 54, 128).environment.automatic = true;
   add("cornell-box-ao", "cornell-box", 48, 48, 512).integrator = Integrator::ao;
   add("living-room-ao", "living-room", 64, 36, 256).integrator = Integrator::ao;
   add("teapot-ao", "teapot-stadium", 64, 36, 512).camera.name = "teapot";

@@ -148,6 +148,8 @@ scene::Material rich_material() {
   m.clearcoat_roughness = 0.3f;
   m.sheen_color = Color(0.25f, 0.2f, 0.15f);
   m.sheen_roughness = 0.85f;
+  m.diffuse_transmission = 0.35f;
+  m.diffuse_transmission_color = Color(0.9f, 0.4f, 0.3f);
   return m;
 }
 
@@ -164,6 +166,8 @@ struct Factors {
   float clearcoat_roughness = 1.0f;
   Color sheen_color = Color::Ones();
   float sheen_roughness = 1.0f;
+  float diffuse_transmission = 1.0f;
+  Color diffuse_transmission_color = Color::Ones();
 };
 
 void expect_product(const Surface& s, const scene::Material& m, const Factors& f) {
@@ -181,6 +185,9 @@ void expect_product(const Surface& s, const scene::Material& m, const Factors& f
   EXPECT_NEAR(seen.clearcoat_roughness, m.clearcoat_roughness * f.clearcoat_roughness, 1e-5f);
   EXPECT_TRUE(same(seen.sheen_color, m.sheen_color * f.sheen_color));
   EXPECT_NEAR(seen.sheen_roughness, m.sheen_roughness * f.sheen_roughness, 1e-5f);
+  EXPECT_NEAR(seen.diffuse_transmission, m.diffuse_transmission * f.diffuse_transmission, 1e-5f);
+  EXPECT_TRUE(
+      same(seen.diffuse_transmission_color, m.diffuse_transmission_color * f.diffuse_transmission_color));
 }
 
 TEST(Surfaces, HaveTheFactorsOfTheirMaterial) {
@@ -208,7 +215,8 @@ TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
     for (scene::TextureSlot* slot :
          {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.specular_texture,
           &m.specular_color_texture, &m.transmission_texture, &m.clearcoat_texture,
-          &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture}) {
+          &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
+          &m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture}) {
       slot->texture = 0;
       slot->texcoord = set;
     }
@@ -227,8 +235,36 @@ TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
                     .clearcoat = linear(0),
                     .clearcoat_roughness = linear(1),
                     .sheen_color = color,
-                    .sheen_roughness = linear(3)});
+                    .sheen_roughness = linear(3),
+                    .diffuse_transmission = linear(3),
+                    .diffuse_transmission_color = color});
   }
+}
+
+TEST(Surfaces, BrushedOnesAreRoughAlongTheirTangentTurnedByAngleAndTexture) {
+  scene::Material m;
+  m.anisotropy = 0.5f;
+  const auto brushed = [&](float rotation, bool texture, float handedness = 1.0f) {
+    m.anisotropy_rotation = rotation;
+    m.anisotropy_texture.texture = texture ? 0 : -1;
+    scene::Scene scene = painted(m);
+    // Halfway up from the direction of the tangent, and half of the strength.
+    for (std::size_t i = 0; i < scene.images[0].pixels.size(); i += 4) {
+      const std::uint8_t texel[] = {255, 255, 51, 255};
+      std::copy_n(texel, 4, &scene.images[0].pixels[i]);
+    }
+    scene.meshes[0].tangents.assign(scene.meshes[0].positions.size(), Vec4(1, 0, 0, handedness));
+    return front_of(scene).material;
+  };
+  const auto turned = [](float angle) { return Vec3(std::cos(angle), std::sin(angle), 0.0f); };
+  EXPECT_EQ(brushed(0.0f, false).anisotropy, 0.5f);
+  EXPECT_TRUE(brushed(0.0f, false).brushed.isApprox(turned(0.0f), 1e-5f));
+  EXPECT_TRUE(brushed(0.7f, false).brushed.isApprox(turned(0.7f), 1e-5f));
+  EXPECT_TRUE(brushed(0.7f, false, -1.0f).brushed.isApprox(turned(-0.7f), 1e-5f)) << "a mirrored frame";
+  EXPECT_TRUE(brushed(0.7f, true).brushed.isApprox(turned(0.7f + 0.25f * scene::kPi), 1e-4f));
+  EXPECT_NEAR(brushed(0.0f, true).anisotropy, 0.5f * 0.2f, 1e-4f);
+  m.anisotropy = 0.0f;
+  EXPECT_EQ(brushed(0.0f, true).anisotropy, 0.0f);
 }
 
 TEST(Surfaces, VertexColoursMultiplyTheBaseColour) {

@@ -1,0 +1,50 @@
+#include "renderer/sampling/wavelength.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gatelight::renderer {
+namespace {
+
+TEST(Wavelengths, StayWhiteOnAverage) {
+  Eigen::Array3d mean = Eigen::Array3d::Zero();
+  constexpr int kSamples = 1 << 16;
+  float before = 390.0f;
+  for (int i = 0; i < kSamples; ++i) {
+    const Wavelength w = sample_wavelength((static_cast<float>(i) + 0.5f) / kSamples);
+    EXPECT_GE(w.nm, before) << i;
+    EXPECT_LE(w.nm, 710.0f);
+    EXPECT_TRUE((w.color >= 0.0f).all());
+    EXPECT_NEAR(w.color.sum(), 3.0f, 1e-4f);
+    before = w.nm;
+    mean += w.color.cast<double>() / kSamples;
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], 1.0, 2e-4);
+}
+
+TEST(Wavelengths, HaveTheColoursOfTheSpectrum) {
+  const auto at = [](float nm) {
+    float u = 0.0f;
+    while (u < 1.0f && sample_wavelength(u).nm < nm) u += 1.0f / 4096.0f;
+    return sample_wavelength(u).color;
+  };
+  EXPECT_GT(at(450.0f).z(), 2.0f) << "blue";
+  EXPECT_GT(at(530.0f).y(), 2.0f) << "green";
+  EXPECT_GT(at(630.0f).x(), 2.0f) << "red";
+  EXPECT_GT(at(575.0f).head<2>().minCoeff(), 1.0f) << "yellow";
+}
+
+TEST(Wavelengths, TheIndexIsThatOfTheAbbeNumber) {
+  // Crown glass: V = (n_d - 1) / (n_F - n_C).
+  const float n = 1.52f, abbe = 59.0f, dispersion = 20.0f / abbe;
+  EXPECT_NEAR(dispersed_ior(n, dispersion, 587.6f), n, 1e-5f);
+  const float spread = dispersed_ior(n, dispersion, 486.1f) - dispersed_ior(n, dispersion, 656.3f);
+  EXPECT_NEAR((n - 1.0f) / spread, abbe, 0.05f);
+  EXPECT_EQ(dispersed_ior(n, 0.0f, 450.0f), n);
+  EXPECT_EQ(dispersed_ior(1.2f, 100.0f, 700.0f), 1.0f) << "never below one";
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
