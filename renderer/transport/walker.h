@@ -110,7 +110,9 @@ struct Walker {
   Sampler sampler;
   std::uint32_t index = 0;  ///< into the starts
   float wavelength = 0.0f;  ///< nanometres; 0: all, until a surface disperses them
-  float faint = 0.0f;       ///< CameraSample::faint
+  /// The colour of the wavelength. Roulette and guides leave it out: it is one on average.
+  Color spectrum{1.0f, 1.0f, 1.0f};
+  float faint = 0.0f;  ///< CameraSample::faint
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
   std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
@@ -130,7 +132,7 @@ struct Walker {
   /// Factor from radiance at the path's position to radiance at its start, without losses of power.
   float scale() const { return static_cast<float>(radiance_scale); }
   /// The same with the losses.
-  Color carried() const { return throughput * scale(); }
+  Color carried() const { return throughput * spectrum * scale(); }
 
   /// Whether the hit is as good as none: the camera looks through a shadow catcher.
   bool looks_through(const Walk& walk, const Hit& hit) const {
@@ -286,7 +288,7 @@ struct Walker {
       const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
       wavelength = chosen.nm;
       m.passed *= chosen.color;
-      throughput *= chosen.color;
+      spectrum = chosen.color;
     }
     SurfaceMaterial& material = m.surface.material;
     material.ior = dispersed_ior(material.ior, material.dispersion, wavelength);

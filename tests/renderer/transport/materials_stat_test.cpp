@@ -55,6 +55,20 @@ std::vector<Case> cases() {
   all.push_back({"HalfTransmitting",
                  [](Material& m) { m.roughness = 0.4f, m.transmission = 0.5f, m.thickness = 1.0f; }});
   all.push_back({"Diamond", [](Material& m) { m.transmission = 1.0f, m.thickness = 1.0f, m.ior = 2.4f; }});
+  all.push_back({"DispersingGlass", [](Material& m) {
+                   m.transmission = 1.0f, m.thickness = 1.0f, m.ior = 1.7f, m.dispersion = 2.0f;
+                 }});
+  all.push_back({"SoapBubble", [](Material& m) {
+                   m.transmission = 1.0f, m.double_sided = true, m.iridescence = 1.0f,
+                   m.film_thickness_maximum = 480.0f;
+                 }});
+  all.push_back({"Cloth", [](Material& m) {
+                   m.roughness = 0.6f, m.diffuse_transmission = 0.5f, m.double_sided = true;
+                 }});
+  all.push_back({"MilkyGlass", [](Material& m) {
+                   m.roughness = 0.3f, m.transmission = 0.5f, m.diffuse_transmission = 0.5f,
+                   m.thickness = 1.0f;
+                 }});
   all.push_back({"SmoothCoatOnMatte", [](Material& m) { m.roughness = 1.0f, m.clearcoat = 1.0f; }});
   all.push_back({"RoughCoatOnMetal", [](Material& m) {
                    m.metallic = 1.0f, m.roughness = 0.3f, m.clearcoat = 1.0f, m.clearcoat_roughness = 0.4f;
