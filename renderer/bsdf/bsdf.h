@@ -40,17 +40,18 @@ struct SurfaceMaterial {
   Color specular_color{1.0f, 1.0f, 1.0f};
   float transmission = 0.0f;
   bool thin_walled = true;  ///< a thin sheet: transmission does not refract
+  // Of what few surfaces have. What a factor of zero switches off is not set: every surface would pay for it.
   float dispersion = 0.0f;  ///< of `ior`, for the path that chooses a wavelength (sampling/wavelength.h)
   float diffuse_transmission = 0.0f;  ///< the share of the diffuse light that leaves on the other side
-  Color diffuse_transmission_color{1.0f, 1.0f, 1.0f};
-  /// KHR_materials_iridescence: how much of it, and the film's index and thickness in nanometres.
-  float iridescence = 0.0f;
-  float film_ior = 1.3f;
-  float film_thickness = 400.0f;
+  Color diffuse_transmission_color;
+  float iridescence = 0.0f;  ///< KHR_materials_iridescence: how much of it
+  float film_ior;
+  float film_thickness;  ///< nanometres
   /// In [0, 1]: GGX alpha grows with its square from that of the roughness to 1 along `brushed`, a unit
   /// vector in world space across the normal. Refraction does not follow it.
   float anisotropy = 0.0f;
-  Vec3 brushed = Vec3::UnitX();
+  Vec3 brushed;
+
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
   Color sheen_color{0.0f, 0.0f, 0.0f};

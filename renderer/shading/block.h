@@ -29,7 +29,7 @@ struct alignas(64) ShadingBlock {
   // The surface: those of Surface and SurfaceMaterial. Transmission is that of a thin sheet.
   alignas(64) Floats position[3], geometric_normal[3], shading_normal[3], coat_normal[3], wo[3], offset;
   Floats base_color[3], metallic, roughness, ior, specular, specular_color[3], transmission;
-  Floats diffuse_transmission, diffuse_transmission_color[3];
+  Floats diffuse_transmission, diffuse_transmission_color[3];  // the colour where there is some
   Floats clearcoat, clearcoat_roughness, sheen_color[3], sheen_roughness;
   // The path.
   Words sampler_key, sampler_index;

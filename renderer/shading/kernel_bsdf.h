@@ -263,8 +263,9 @@ struct LaneBsdf {
     through = goes_through * opaque > 0.0f;
     any_through = any(through);
     if (any_through) {
-      const Float3 transmitted = clamp(load(block.diffuse_transmission_color, at), 0.0f, 1.0f) *
-                                 (goes_through * opaque * passed(out));
+      const Float3 color =
+          select_or_zero(through, clamp(load(block.diffuse_transmission_color, at), 0.0f, 1.0f));
+      const Float3 transmitted = color * (goes_through * opaque * passed(out));
       diffuse_through = transmitted * coupled;
       p_through = luminance(transmitted);
       albedo += transmitted;

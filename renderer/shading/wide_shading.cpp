@@ -43,7 +43,8 @@ void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Ve
   put(block.specular_color, lane, m.specular_color);
   block.transmission[lane] = m.transmission;
   block.diffuse_transmission[lane] = m.diffuse_transmission;
-  put(block.diffuse_transmission_color, lane, m.diffuse_transmission_color);
+  if (m.diffuse_transmission > 0.0f)
+    put(block.diffuse_transmission_color, lane, m.diffuse_transmission_color);
   block.clearcoat[lane] = m.clearcoat;
   block.clearcoat_roughness[lane] = m.clearcoat_roughness;
   put(block.sheen_color, lane, m.sheen_color);

@@ -283,7 +283,7 @@ struct Walker {
   }
 
   /// The path goes on with one wavelength.
-  void disperse(Meeting& m) {
+  [[gnu::noinline, gnu::cold]] void disperse(Meeting& m) {
     if (wavelength == 0.0f) {
       const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
       wavelength = chosen.nm;

@@ -27,6 +27,8 @@ inline std::vector<BsdfCase> white_cases() {
   std::vector<BsdfCase> cases;
   const auto add = [&](const char* name, bool front, bool layered, auto&& change) {
     SurfaceMaterial material;
+    material.diffuse_transmission_color.setOnes();
+    material.brushed = Vec3::UnitX();
     change(material);
     cases.push_back({name, material, front, layered});
   };
