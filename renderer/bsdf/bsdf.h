@@ -40,18 +40,17 @@ struct SurfaceMaterial {
   Color specular_color{1.0f, 1.0f, 1.0f};
   float transmission = 0.0f;
   bool thin_walled = true;  ///< a thin sheet: transmission does not refract
-  // Of what few surfaces have. What a factor of zero switches off is not set: every surface would pay for it.
+  // From here on zeros, which are set at once: every surface has them, and few have more.
   float dispersion = 0.0f;  ///< of `ior`, for the path that chooses a wavelength (sampling/wavelength.h)
   float diffuse_transmission = 0.0f;  ///< the share of the diffuse light that leaves on the other side
-  Color diffuse_transmission_color;
-  float iridescence = 0.0f;  ///< KHR_materials_iridescence: how much of it
-  float film_ior;
-  float film_thickness;  ///< nanometres
+  Color diffuse_transmission_color{0.0f, 0.0f, 0.0f};
+  float iridescence = 0.0f;     ///< KHR_materials_iridescence: how much of it
+  float film_ior = 0.0f;        ///< where there is a film
+  float film_thickness = 0.0f;  ///< nanometres
   /// In [0, 1]: GGX alpha grows with its square from that of the roughness to 1 along `brushed`, a unit
   /// vector in world space across the normal. Refraction does not follow it.
   float anisotropy = 0.0f;
-  Vec3 brushed;
-
+  Vec3 brushed{0.0f, 0.0f, 0.0f};
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
   Color sheen_color{0.0f, 0.0f, 0.0f};
