@@ -98,7 +98,7 @@ void BrushedTables::fill(Slice& slice, float alpha_x, float alpha_y) const {
         const float oh = wo.dot(h);
         const Vec3 wi = 2.0f * oh * h - wo;
         if (!(wi.z() > 0.0f)) continue;
-        const float kept = wi.z() * (wo.z() + root_o) / (wi.z() * root_o + wo.z() * root(wi));
+        const float kept = smith_ratio(wo.z(), root_o, wi.z(), root(wi));
         const float across2 = wi.x() * wi.x() + wi.y() * wi.y();
         const Place to(a, std::min(wi.z(), 1.0f), across2 > 0.0f ? wi.x() * wi.x() / across2 : 0.0f);
         all.add(node, to, 0.5f * point.weight * kept);
@@ -106,14 +106,9 @@ void BrushedTables::fill(Slice& slice, float alpha_x, float alpha_y) const {
       }
     }
   }
-  std::array<float, kNodes> ones, scale;
+  const std::array<float, kNodes> scale = balance<kNodes>(all);
+  std::array<float, kNodes> ones;
   ones.fill(1.0f);
-  scale = ones;
-  for (int step = 0; step < kBalanceSteps; ++step) {
-    std::array<float, kNodes> next;
-    for (int i = 0; i < kNodes; ++i) next[i] = std::sqrt(scale[i] / all.row_sum(i, scale));
-    scale = next;
-  }
   for (int i = 0; i < kNodes; ++i) {
     const float schlick = schlick_weight(Node(a, i / kTurn, i % kTurn).cosine);
     const float kept = all.row_sum(i, ones);

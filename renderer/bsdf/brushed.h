@@ -11,17 +11,6 @@
 
 namespace gatelight::renderer {
 
-/// A microfacet normal h seen from wo, as sample_visible_normal() of ggx.h, with one alpha along x and one
-/// along y.
-inline Vec3 sample_visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const Vec2& u) {
-  const Vec3 stretched = Vec3(alpha_x * wo.x(), alpha_y * wo.y(), wo.z()).normalized();
-  const Vec2 phi = cos_sin_turn(u.x());
-  const float z = (1.0f - u.y()) * (1.0f + stretched.z()) - stretched.z();
-  const float sine = std::sqrt(std::max(0.0f, 1.0f - z * z));
-  const Vec3 half(sine * phi.x() + stretched.x(), sine * phi.y() + stretched.y(), z + stretched.z());
-  return Vec3(alpha_x * half.x(), alpha_y * half.y(), std::max(half.z(), 1e-7f)).normalized();
-}
-
 /// Albedos of brushed lobes, by roughness, strength, cosine and direction around the normal. Built at first
 /// use, equal on every machine. Any thread may call it.
 class BrushedTables {

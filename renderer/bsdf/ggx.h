@@ -23,24 +23,29 @@ inline float smith_root(float alpha2, float cosine) {
   return std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine);
 }
 
-/// G2 / G1(wo), the weight of a sampled visible normal: (1 + L_o) / (1 + L_o + L_i).
+/// G2 / G1(wo), the weight of a sampled visible normal: (1 + L_o) / (1 + L_o + L_i), from the cosines and
+/// their roots.
+inline float smith_ratio(float cos_o, float root_o, float cos_i, float root_i) {
+  return cos_i * (cos_o + root_o) / (cos_i * root_o + cos_o * root_i);
+}
 inline float smith_ratio(float alpha2, float cos_o, float cos_i) {
-  const float o = cos_i * (cos_o + smith_root(alpha2, cos_o));
-  const float i = cos_o * smith_root(alpha2, cos_i);
-  return o / (cos_i * smith_root(alpha2, cos_o) + i);
+  return smith_ratio(cos_o, smith_root(alpha2, cos_o), cos_i, smith_root(alpha2, cos_i));
 }
 
-/// A microfacet normal h seen from wo, with the pdf G1(wo) max(0, wo.h) D(h) / wo.z. Both are in the frame of
-/// the shading normal, with wo.z > 0. Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical
-/// caps".
-inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
-  const Vec3 stretched = Vec3(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
+/// A microfacet normal h seen from wo, with the pdf G1(wo) max(0, wo.h) D(h) / wo.z, for an alpha along x and
+/// one along y. Both vectors are in the frame of the shading normal, with wo.z > 0. Dupuy and Benyoub 2023,
+/// "Sampling visible GGX normals with spherical caps".
+inline Vec3 sample_visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const Vec2& u) {
+  const Vec3 stretched = Vec3(alpha_x * wo.x(), alpha_y * wo.y(), wo.z()).normalized();
   const Vec2 phi = cos_sin_turn(u.x());
   const float z = (1.0f - u.y()) * (1.0f + stretched.z()) - stretched.z();
   const float sine = std::sqrt(std::max(0.0f, 1.0f - z * z));
   const Vec3 half(sine * phi.x() + stretched.x(), sine * phi.y() + stretched.y(), z + stretched.z());
   // Without the limit, rounding at the horizon can make z negative or the vector zero.
-  return Vec3(alpha * half.x(), alpha * half.y(), std::max(half.z(), 1e-7f)).normalized();
+  return Vec3(alpha_x * half.x(), alpha_y * half.y(), std::max(half.z(), 1e-7f)).normalized();
+}
+inline Vec3 sample_visible_normal(float alpha, const Vec3& wo, const Vec2& u) {
+  return sample_visible_normal(alpha, alpha, wo, u);
 }
 
 /// Directions distributed like the light that a rough lobe loses: proportional to cos / (cos^2 + a^2). This

@@ -76,6 +76,20 @@ class CosineMatrix {
 /// Iterations of Sinkhorn's balance. The change is below 1e-6 after half of them.
 inline constexpr int kBalanceSteps = 24;
 
+/// The scale s with s_i sum_j kernel_ij s_j = 1 of a symmetric kernel, by Sinkhorn's balance. `kernel` is a
+/// CosineMatrix or has the same row_sum().
+template <int count, class Kernel>
+std::array<float, count> balance(const Kernel& kernel) {
+  std::array<float, count> scale;
+  scale.fill(1.0f);
+  for (int step = 0; step < kBalanceSteps; ++step) {
+    std::array<float, count> next;
+    for (int i = 0; i < count; ++i) next[i] = std::sqrt(scale[i] / kernel.row_sum(i, scale));
+    scale = next;
+  }
+  return scale;
+}
+
 /// Calls f(cosine, weight) for the cosine-weighted mean over the hemisphere. The steps get finer towards the
 /// horizon. The weights add up to one.
 template <class F>

@@ -26,15 +26,9 @@ GgxTables::GgxTables() {
       });
     }
 
-    // The scale s with s_i sum_j all_ij s_j = 1: Sinkhorn's balance of a symmetric kernel.
-    std::array<float, kCosine> ones, scale;
+    const std::array<float, kCosine> scale = balance<kCosine>(all);
+    std::array<float, kCosine> ones;
     ones.fill(1.0f);
-    scale = ones;
-    for (int iteration = 0; iteration < kBalanceSteps; ++iteration) {
-      std::array<float, kCosine> next;
-      for (int i = 0; i < kCosine; ++i) next[i] = std::sqrt(scale[i] / all.row_sum(i, scale));
-      scale = next;
-    }
     for (int i = 0; i < kCosine; ++i) {
       const float schlick = schlick_weight(table_cosine(static_cast<float>(i) / (kCosine - 1), alpha));
       const float kept = all.row_sum(i, ones);

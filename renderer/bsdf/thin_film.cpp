@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/bsdf/fresnel.h"
+#include "renderer/sampling/color_matching.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -32,9 +33,8 @@ Color sensitivity(float difference_nm, const Color& shift) {
   xyz.x() += 9.7470e-14f * std::sqrt(2.0f * kPi * 4.5282e+09f) * std::cos(2.2399e+06f * phase + shift.x()) *
              std::exp(-4.5282e+09f * phase * phase);
   xyz /= 1.0685e-7f;
-  return {3.2404542f * xyz.x() - 1.5371385f * xyz.y() - 0.4985314f * xyz.z(),
-          -0.9692660f * xyz.x() + 1.8760108f * xyz.y() + 0.0415560f * xyz.z(),
-          0.0556434f * xyz.x() - 0.2040259f * xyz.y() + 1.0572252f * xyz.z()};
+  static const Eigen::Matrix3f to_rec709 = rec709_from_xyz().cast<float>();
+  return (to_rec709 * xyz.matrix()).array();
 }
 
 }  // namespace
