@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "scene/nested_volumes.h"
+#include "scene/texture_slots.h"
+
 namespace gatelight::scene {
 namespace {
 
@@ -31,12 +34,11 @@ void add_material(const Material& m, SceneRequirements& r) {
   r.base_color_textures |= static_cast<bool>(m.base_color_texture);
   r.metallic_roughness_textures |= static_cast<bool>(m.metallic_roughness_texture);
   r.emission_textures |= m.emits() && m.emission_texture;
-  r.other_textures |= m.specular_texture || m.specular_color_texture || m.glossiness_texture ||
-                      m.transmission_texture || m.anisotropy_texture || m.iridescence_texture ||
-                      m.film_thickness_texture || m.diffuse_transmission_texture ||
-                      m.diffuse_transmission_color_texture || m.clearcoat_texture ||
-                      m.clearcoat_roughness_texture || m.clearcoat_normal_texture || m.sheen_color_texture ||
-                      m.sheen_roughness_texture;
+  for_each_slot(m, [&](const TextureSlot& slot, bool) {
+    const bool of_the_core = &slot == &m.base_color_texture || &slot == &m.metallic_roughness_texture ||
+                             &slot == &m.normal_texture || &slot == &m.emission_texture;
+    r.other_textures |= slot && !of_the_core;
+  });
   if (m.emits()) ++r.emissive_materials;
 }
 
@@ -57,6 +59,7 @@ SceneRequirements compute_requirements(const Scene& scene) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) add_material(scene.materials[i], r);
   }
+  r.nested_volumes = r.transmission && !find_nested_volumes(scene).empty();
   r.delta_lights = !scene.lights.empty();
   r.image_light = scene.image_light.has_value();
   r.directional_lights =

@@ -15,7 +15,8 @@ struct SceneRequirements {
   bool alpha_mask = false;
   bool alpha_blend = false;
   bool transmission = false;
-  bool volumes = false;  ///< transmission into an interior with absorption
+  bool volumes = false;         ///< transmission into an interior with absorption
+  bool nested_volumes = false;  ///< volumes overlap, or lie inside one another (nested_volumes.h)
   bool diffuse_transmission = false;
   bool dispersion = false;
   bool iridescence = false;

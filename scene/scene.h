@@ -137,6 +137,11 @@ struct Instance {
   Affine transform = Affine::Identity();  ///< mesh to world
   bool baked = false;                     ///< the mesh is in world space and no other instance uses it
   bool mirrors = false;                   ///< determinant < 0: front faces are clockwise in the mesh
+  /// The instances of one placed glTF mesh, one for each of its primitives, have the same number. Numbers
+  /// grow along the walk through the nodes.
+  int placement = -1;
+  /// Where bodies of glass or liquid overlap, that of the largest fills the space (scene/nested_volumes.h).
+  float dielectric_priority = 0.0f;
 };
 
 enum class LightType : std::uint8_t { directional, point, spot };

@@ -11,6 +11,7 @@
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/settings/values.h"
+#include "scene/nested_volumes.h"
 
 namespace gatelight::apps {
 namespace {
@@ -29,6 +30,7 @@ constexpr Requirement kRequirements[] = {
     {"alpha_blend", &SceneRequirements::alpha_blend},
     {"transmission", &SceneRequirements::transmission},
     {"volumes", &SceneRequirements::volumes},
+    {"nested_volumes", &SceneRequirements::nested_volumes},
     {"diffuse_transmission", &SceneRequirements::diffuse_transmission},
     {"dispersion", &SceneRequirements::dispersion},
     {"iridescence", &SceneRequirements::iridescence},
@@ -117,6 +119,31 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
         camera.node.empty() || camera.node == camera.name ? "" : fmt::format(", node '{}'", camera.node);
     lines.push_back(fmt::format("{} '{}'{}, {}, {}", i, camera.name, node, name_of_type(camera), lens));
   }
+  return lines;
+}
+
+/// The bodies of glass and liquid that overlap, the strongest first.
+std::vector<const scene::Instance*> nested_media(const scene::Scene& scene,
+                                                 const SceneRequirements& requirements) {
+  std::vector<const scene::Instance*> media;
+  if (!requirements.nested_volumes) return media;
+  for (const std::uint32_t instance : scene::find_nested_volumes(scene).instances)
+    media.push_back(&scene.instances[instance]);
+  return media;
+}
+
+std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRequirements& requirements) {
+  constexpr std::size_t kMostLines = 20;
+  std::vector<std::string> lines;
+  for (const scene::Instance* instance : nested_media(scene, requirements)) {
+    if (lines.size() == kMostLines) {
+      lines.emplace_back("...");
+      break;
+    }
+    lines.push_back(fmt::format("'{}', ior {:.4g}, priority {:.4g}", instance->name,
+                                scene.material_of(*instance).ior, instance->dielectric_priority));
+  }
+  if (!lines.empty()) lines.emplace_back("(bodies that overlap, the one that fills the space first)");
   return lines;
 }
 
@@ -215,6 +242,7 @@ std::string scene_report_text(const scene::Scene& scene, const SceneRequirements
   rows.add_list("lights", describe_lights(scene, requirements));
   rows.add_list("cameras", describe_cameras(scene));
   rows.add_list("variants", scene.variants);
+  if (requirements.nested_volumes) rows.add_list("nested media", describe_media(scene, requirements));
   rows.add("bounds", describe_bounds(file_bounds(scene)));
   rows.add("requires", describe_requirements(requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
@@ -250,6 +278,12 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   for (const scene::Material& material : scene.materials) {
     if (material.emits())
       json["emissive_materials"].push_back({{"name", material.name}, {"emission", rgb(material.emission)}});
+  }
+  json["nested_media"] = ordered_json::array();
+  for (const scene::Instance* instance : nested_media(scene, requirements)) {
+    json["nested_media"].push_back({{"name", instance->name},
+                                    {"ior", shortest(scene.material_of(*instance).ior)},
+                                    {"priority", shortest(instance->dielectric_priority)}});
   }
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {

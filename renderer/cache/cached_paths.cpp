@@ -393,7 +393,7 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
   scratch.paths.resize(starts.size());
   scratch.rays.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    scratch.paths[i] = Path(starts[i], i);
+    scratch.paths[i] = Path(walk_.world, starts[i], i);
     scratch.rays[i] = starts[i].sample.ray();
     if (!first_hits.empty()) first_hits[i] = {};
   }

@@ -169,8 +169,8 @@ struct CachedPaths::Path : Walker {
   bool to_its_end = false;
 
   Path() = default;
-  Path(const PathStart& start, std::size_t which)
-      : Walker(start.sample, which), to_its_end(start.to_its_end) {}
+  Path(const World& world, const PathStart& start, std::size_t which)
+      : Walker(world, start.sample, which), to_its_end(start.to_its_end) {}
 };
 
 /// A light sample of a vertex whose shadow ray has not been traced yet.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "neural/file/digest.h"
+#include "scene/texture_slots.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -62,6 +63,8 @@ void add_instance(DigestRecord& record, const scene::Instance& instance) {
   add_numbers(record, instance.transform.matrix());
   record.add(instance.baked);
   record.add(instance.mirrors);
+  record.add(instance.placement);
+  record.add(instance.dielectric_priority);
 }
 
 void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
@@ -110,13 +113,7 @@ void add_material(DigestRecord& record, const scene::Material& material) {
                             film_thickness_minimum,
                             film_thickness_maximum})
     record.add(value);
-  for (const auto* slot :
-       {&base_color_texture, &metallic_roughness_texture, &normal_texture, &emission_texture,
-        &specular_texture, &specular_color_texture, &glossiness_texture, &transmission_texture,
-        &clearcoat_texture, &clearcoat_roughness_texture, &clearcoat_normal_texture, &sheen_color_texture,
-        &sheen_roughness_texture, &diffuse_transmission_texture, &diffuse_transmission_color_texture,
-        &anisotropy_texture, &iridescence_texture, &film_thickness_texture})
-    add_slot(record, *slot);
+  scene::for_each_slot(material, [&](const scene::TextureSlot& slot, bool) { add_slot(record, slot); });
   record.add(alpha_mode);
   record.add(double_sided);
   record.add(culled);

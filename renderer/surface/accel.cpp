@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "neural/simd/isa.h"
@@ -17,6 +18,16 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr unsigned kPacket = 16;
+
+/// Where a ray enters or leaves a volume of Media. Not initialised: a lane has many.
+struct Boundary {
+  float t, u, v;
+  std::uint32_t instance, primitive, volume;
+  bool front;
+
+  Hit hit() const { return {t, u, v, instance, primitive}; }
+};
+
 struct Lane {
   std::uint32_t seed = 0;
   Vec3 direction = Vec3::Zero();  ///< in world space; Embree's is in the space of the instance
@@ -27,7 +38,9 @@ struct Lane {
   Color inside{0.0f, 0.0f, 0.0f};
   bool absorbed = false;  ///< whether one of them absorbs
   int panes = 0;
+  int boundaries = 0;                    ///< of volumes of Media, among the panes
   std::uint64_t seen[Accel::kMaxPanes];  ///< the first `panes`: spatial splits repeat a triangle
+  Boundary boundary[Accel::kMaxPanes];   ///< the first `boundaries`, in any order
 
   void pass(const Passage& passage, float t) {
     transmittance *= passage.transmittance;
@@ -38,11 +51,39 @@ struct Lane {
   }
   /// The light that is left. A medium without an end in this distance absorbs all along it, but none of the
   /// light of a sky: walkers do the same.
-  Color passed(float distance) const {
-    if (!absorbed) return transmittance;
+  Color passed(const Coverage& coverage, float distance) {
+    const Color nested = boundaries > 0 ? through_boundaries(coverage, distance) : Color(Color::Ones());
+    if (!absorbed) return transmittance * nested;
     Color all = depth;
     if (distance < scene::kInfinity) all += inside.max(0.0f) * distance;
-    return transmittance * (-all.max(0.0f)).exp();
+    return transmittance * nested * (-all.max(0.0f)).exp();
+  }
+
+ private:
+  /// What is met of a volume depends on where the ray is, so its boundaries are passed in their order.
+  [[gnu::noinline, gnu::cold]] Color through_boundaries(const Coverage& coverage, float distance) {
+    const std::span<Boundary> all(boundary, static_cast<std::size_t>(boundaries));
+    std::sort(all.begin(), all.end(), [](const Boundary& a, const Boundary& b) {
+      return std::tuple(a.t, a.instance, a.primitive) < std::tuple(b.t, b.instance, b.primitive);
+    });
+    // What the ray leaves first it was in from the start.
+    Interior in;
+    for (auto b = all.begin(); b != all.end(); ++b) {
+      const bool first =
+          std::none_of(all.begin(), b, [&](const Boundary& a) { return a.volume == b->volume; });
+      if (first && !b->front) in.enter(b->volume);
+    }
+    const Media& media = coverage.media();
+    Color light = Color::Ones(), absorption = Color::Zero();
+    float at = 0.0f;
+    for (const Boundary& b : all) {
+      absorption += media.of(in.strongest()).absorption * (b.t - at);
+      at = b.t;
+      light *= coverage.pass(b.hit(), direction, in).transmittance;
+      in.cross(b.volume, b.front);
+    }
+    if (distance < scene::kInfinity) absorption += media.of(in.strongest()).absorption * (distance - at);
+    return light * (-absorption).exp();
   }
 };
 
@@ -109,7 +150,13 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
     if (std::find(lane.seen, lane.seen + lane.panes, id) == lane.seen + lane.panes) {
       if (lane.panes == Accel::kMaxPanes) continue;
       lane.seen[lane.panes++] = id;
-      lane.pass(passage, hit.t);
+      const std::uint32_t volume = context.coverage->media().volume_of(hit.instance);
+      if (volume == scene::kNoVolume) {
+        lane.pass(passage, hit.t);
+      } else {
+        lane.boundary[lane.boundaries++] = {hit.t,         hit.u,  hit.v,        hit.instance,
+                                            hit.primitive, volume, passage.front};
+      }
     }
     args->valid[i] = 0;
   }
@@ -334,14 +381,14 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
       lane.inside.setZero();
       lane.absorbed = false;
     }
-    lane.panes = 0;
+    lane.panes = lane.boundaries = 0;
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
     rtcOccluded16(valid, state_->top, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
       result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)
-                          : state_->any_filter ? context.lanes[i].passed(rays[first + i].t_max)
+                          : state_->any_filter ? context.lanes[i].passed(coverage_, rays[first + i].t_max)
                                                : Color(1.0f, 1.0f, 1.0f);
     }
   });

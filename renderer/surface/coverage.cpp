@@ -32,12 +32,6 @@ struct FinestLevel {
 
 }  // namespace
 
-Color absorption_of(const scene::Material& m) {
-  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
-  // Finite, so that no distance makes it NaN.
-  return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
-}
-
 void straighten(SurfaceMaterial& material) {
   material.thin_walled = true;
   material.roughness = 0.0f;
@@ -46,8 +40,9 @@ void straighten(SurfaceMaterial& material) {
   material.sheen_color.setZero();
 }
 
-Coverage::Coverage(const scene::Scene& scene, const Textures& textures, bool straight_glass)
-    : scene_(scene), textures_(textures), straight_glass_(straight_glass) {
+Coverage::Coverage(const scene::Scene& scene, const Textures& textures, const Media& media,
+                   bool straight_glass)
+    : scene_(scene), textures_(textures), media_(media), straight_glass_(straight_glass) {
   flags_.resize(scene.instances.size(), 0);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& m = scene.material_of(scene.instances[i]);
@@ -76,7 +71,7 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
   return alpha_number(seed, surface) < a;
 }
 
-Passage Coverage::pass(const Hit& hit, const Vec3& direction) const {
+Passage Coverage::pass(const Hit& hit, const Vec3& direction, const Interior& around) const {
   Passage passage;
   if (!(flags_[hit.instance] & (kPane | kStraightGlass))) return passage;
   const scene::Instance& instance = scene_.instances[hit.instance];
@@ -93,10 +88,12 @@ Passage Coverage::pass(const Hit& hit, const Vec3& direction) const {
   s.metallic = m.metallic * read(m.metallic_roughness_texture, Encoding::linear).z();
   s.transmission = m.transmission * read(m.transmission_texture, Encoding::linear).x();
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);
-  const bool front = n.dot(direction) < 0.0f;
+  const bool front = passage.front = n.dot(direction) < 0.0f;
   if (is_straight_glass(hit.instance)) {
+    const std::uint32_t volume = media_.volume_of(hit.instance);
+    media_.bound(volume, around, s);
     straighten(s);
-    passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
+    if (volume == scene::kNoVolume) passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
   }
   const Vec3 facing = front ? n : Vec3(-n);
   passage.transmittance = Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();

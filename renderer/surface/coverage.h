@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/bsdf/bsdf.h"
+#include "renderer/surface/media.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
@@ -15,13 +16,11 @@ namespace gatelight::renderer {
 /// A shadow ray through a surface.
 struct Passage {
   Color transmittance{0.0f, 0.0f, 0.0f};  ///< zero: blocked
-  /// Per metre, of the medium that begins at the surface; negative where it ends.
+  /// Per metre, of the medium that begins at the surface; negative where it ends. Of a volume of Media it is
+  /// left out.
   Color absorption{0.0f, 0.0f, 0.0f};
+  bool front = true;  ///< the ray meets the front
 };
-
-/// Absorption per metre inside a material. Light has the colour c = exp(-absorption d) after the distance d.
-/// A black channel absorbs within a thousandth of the distance.
-Color absorption_of(const scene::Material& m);
 
 /// Makes of glass with an inside what light that is not bent meets: a smooth bare sheet.
 void straighten(SurfaceMaterial& material);
@@ -30,7 +29,10 @@ void straighten(SurfaceMaterial& material);
 class Coverage {
  public:
   /// `straight_glass`: GlassShadows::straight.
-  Coverage(const scene::Scene& scene, const Textures& textures, bool straight_glass = false);
+  Coverage(const scene::Scene& scene, const Textures& textures, const Media& media,
+           bool straight_glass = false);
+
+  const Media& media() const { return media_; }
 
   /// Whether rays may pass through this instance because it has an alpha test.
   bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }
@@ -51,8 +53,8 @@ class Coverage {
   bool is_straight_glass(std::uint32_t instance) const { return flags_[instance] & kStraightGlass; }
 
   /// What a shadow ray keeps behind the surface. Smooth thin-walled transmission and straight glass let light
-  /// go straight on; every other surface blocks it.
-  Passage pass(const Hit& hit, const Vec3& direction) const;
+  /// go straight on; every other surface blocks it. `around`: the volumes that the ray is in.
+  Passage pass(const Hit& hit, const Vec3& direction, const Interior& around = {}) const;
 
  private:
   static constexpr std::uint8_t kAlpha = 1;
@@ -64,6 +66,7 @@ class Coverage {
 
   const scene::Scene& scene_;
   const Textures& textures_;
+  const Media& media_;
   bool straight_glass_;
   std::vector<std::uint8_t> flags_;  ///< by instance
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "renderer/image/srgb.h"
+#include "scene/texture_slots.h"
 
 namespace gatelight::renderer {
 
@@ -199,19 +200,9 @@ Textures::Textures(const scene::Scene& scene) {
     if (!pyramid && source.width > 0 && source.height > 0) pyramid = std::make_unique<Pyramid>();
   };
   for (const scene::Material& m : scene.materials) {
-    need(m.base_color_texture, Encoding::srgb);
-    need(m.emission_texture, Encoding::srgb);
-    need(m.specular_color_texture, Encoding::srgb);
-    need(m.glossiness_texture, Encoding::srgb);
-    need(m.sheen_color_texture, Encoding::srgb);
-    need(m.diffuse_transmission_color_texture, Encoding::srgb);
-    for (const scene::TextureSlot* slot :
-         {&m.metallic_roughness_texture, &m.normal_texture, &m.specular_texture, &m.transmission_texture,
-          &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture,
-          &m.sheen_roughness_texture, &m.diffuse_transmission_texture, &m.anisotropy_texture,
-          &m.iridescence_texture, &m.film_thickness_texture}) {
-      need(*slot, Encoding::linear);
-    }
+    scene::for_each_slot(m, [&](const scene::TextureSlot& slot, bool is_color) {
+      need(slot, is_color ? Encoding::srgb : Encoding::linear);
+    });
   }
 
   tbb::parallel_for(std::size_t{0}, 2 * pyramids_.size(), [&](std::size_t i) {

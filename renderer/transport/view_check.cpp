@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
@@ -55,6 +56,26 @@ float distance_in_the_middle(const World& world, const Camera& camera, int width
   if (world.scene.bounds.isEmpty()) return 1.0f;
   const float along = (world.scene.bounds.center() - ray.origin).dot(ray.direction);
   return along > 0.0f ? along : world.scene.bounds.diagonal().norm();
+}
+
+Interior volumes_around(const World& world, const Vec3& point) {
+  Interior around;
+  if (world.media.empty()) return around;
+  Ray ray;
+  ray.origin = point;
+  ray.direction = Vec3(0.48f, 0.64f, 0.6f);
+  std::vector<char> met(world.scene.instances.size(), 0);  // by volume, of which there are no more
+  constexpr int kMostSurfaces = 4096;
+  for (int i = 0; i < kMostSurfaces; ++i) {
+    Hit hit;
+    world.accel.intersect({&ray, 1}, {&hit, 1}, false);
+    if (!hit) break;
+    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f);
+    const std::uint32_t volume = world.media.volume_of(hit.instance);
+    if (volume != scene::kNoVolume && !std::exchange(met[volume], 1) && !surface.front) around.enter(volume);
+    ray.origin = surface.spawn(ray.direction);
+  }
+  return around;
 }
 
 }  // namespace gatelight::renderer

@@ -52,7 +52,9 @@ struct Meeting {
   float cone_width;  ///< metres
   /// Transmittance of the medium before the surface, times the colour of a wavelength that is chosen here.
   Color passed{1.0f, 1.0f, 1.0f};
-  bool straight = false;  ///< glass with an inside that does not bend this ray
+  bool straight = false;                    ///< glass with an inside that does not bend this ray
+  std::uint32_t volume = scene::kNoVolume;  ///< of World::media, where light can enter or leave one
+  bool same_medium = false;                 ///< a stronger volume is on both sides: light passes
   Emission emission;
   bool ends = false;                 ///< the path ends here
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
@@ -103,6 +105,7 @@ struct Walker {
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};  ///< without radiance_scale
   Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
+  Interior interior;                   ///< the volumes of World::media that it travels in
   Departure departure;
   /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
   /// media it leaves the range of single precision before it returns to 1.
@@ -120,8 +123,10 @@ struct Walker {
   bool emission_only = false;  ///< from here on the path only passes panes and counts emission
 
   Walker() = default;
-  Walker(const CameraSample& start, std::size_t which)
+  Walker(const World& world, const CameraSample& start, std::size_t which)
       : cone(start.camera_ray.cone),
+        absorption(world.media.of(world.around_camera.strongest()).absorption),
+        interior(world.around_camera),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
         faint(start.faint),
@@ -164,9 +169,10 @@ struct Walker {
     // Rays that light samples compete with go where shadow rays go.
     if (!departure.delta && walk.world.coverage.is_straight_glass(hit.instance)) {
       m.straight = true;
-      straighten(surface.material);
       surface.shading_normal = surface.geometric_normal;
     }
+    if (!walk.world.media.empty()) meet_volume(walk.world.media, m);
+    if (m.straight) straighten(surface.material);
     if (surface.material.dispersion > 0.0f && !m.straight) disperse(m);
     m.emission.radiance = surface.emission;
     if (m.emission.any())
@@ -180,7 +186,7 @@ struct Walker {
 
   /// Whether the kernels can shade what comes next: light_at, draw, survives and advance in one.
   bool shades_wide(const Meeting& m) const {
-    return !emission_only && !m.straight && renderer::shades_wide(m.surface);
+    return !emission_only && !m.straight && !m.same_medium && renderer::shades_wide(m.surface);
   }
 
   /// Adds the path to a block that is not full. `which` is the caller's number of the path.
@@ -257,11 +263,10 @@ struct Walker {
 
   /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
   bool advance(const Walk& walk, const Meeting& m, const Drawn& drawn) {
-    if (drawn.transmitted && (m.straight || !m.surface.material.thin_walled)) {
-      absorption = m.surface.front ? absorption_of(walk.world.surfaces.material(m.hit.instance))
-                                   : Color(0.0f, 0.0f, 0.0f);
-    }
-    const bool alone = drawn.transmitted && refracts_alone(walk, m.surface);
+    if (drawn.transmitted && (m.straight || m.same_medium || !m.surface.material.thin_walled))
+      cross(walk.world, m);
+    const bool alone = (m.same_medium && !m.straight && drawn.through_pane) ||
+                       (drawn.transmitted && refracts_alone(walk, m.surface));
     return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
                    m.surface.spawn(drawn.wi), m.ray, alone);
   }
@@ -282,24 +287,56 @@ struct Walker {
            surface.material.transmission > 0.0f;
   }
 
-  /// The path goes on with one wavelength.
-  [[gnu::noinline, gnu::cold]] void disperse(Meeting& m) {
-    if (wavelength == 0.0f) {
-      const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
-      wavelength = chosen.nm;
-      m.passed *= chosen.color;
-      spectrum = chosen.color;
+  /// A surface in a scene of nested volumes. The boundary of a volume is there if the volume is the strongest
+  /// of those around, and bends light by its index over that of the strongest of the others.
+  [[gnu::noinline, gnu::cold]] void meet_volume(const Media& media, Meeting& m) {
+    SurfaceMaterial& material = m.surface.material;
+    if (material.thin_walled || !(material.transmission > 0.0f || material.diffuse_transmission > 0.0f))
+      return;
+    m.volume = media.volume_of(m.hit.instance);
+    const Medium& outside = media.of(interior.strongest_but(m.volume));
+    if (!m.straight) {
+      if (outside.dispersion > 0.0f) choose_wavelength(m);
+      if (material.dispersion > 0.0f) disperse(m);
+      material.dispersion = 0.0f;
     }
+    m.same_medium = !media.bound(m.volume, interior, material);
+    if (outside.dispersion > 0.0f && !m.straight && !m.same_medium)
+      material.ior *= outside.ior / dispersed_ior(outside.ior, outside.dispersion, wavelength);
+  }
+
+  /// The path goes through a surface with an inside.
+  void cross(const World& world, const Meeting& m) {
+    if (m.volume == scene::kNoVolume && m.surface.front) {
+      absorption = absorption_of(world.surfaces.material(m.hit.instance));
+      return;
+    }
+    if (m.volume != scene::kNoVolume) interior.cross(m.volume, m.surface.front);
+    absorption = world.media.of(interior.strongest()).absorption;
+  }
+
+  /// The path goes on with one wavelength.
+  void choose_wavelength(Meeting& m) {
+    if (wavelength != 0.0f) return;
+    const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
+    wavelength = chosen.nm;
+    m.passed *= chosen.color;
+    spectrum = chosen.color;
+  }
+
+  [[gnu::noinline, gnu::cold]] void disperse(Meeting& m) {
+    choose_wavelength(m);
     SurfaceMaterial& material = m.surface.material;
     material.ior = dispersed_ior(material.ior, material.dispersion, wavelength);
   }
 
-  /// `alone`: no light sample competes with the next ray.
+  /// `alone`: no light sample competes with what the next ray finds.
   bool advance(const Drawn& drawn, const Vec3& position, const Vec3& light_normal, float t, float cone_width,
                const Vec3& origin, Ray& ray, bool alone = false) {
     if (drawn.through_pane) {
       departure.travelled += t;
       departure.panes += 1;
+      departure.delta |= alone;
     } else {
       depth += 1;
       departure = {position, light_normal, 0.0f, drawn.pdf, drawn.delta || alone};

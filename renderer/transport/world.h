@@ -11,6 +11,7 @@
 #include "renderer/shading/wide_shading.h"
 #include "renderer/surface/accel.h"
 #include "renderer/surface/coverage.h"
+#include "renderer/surface/media.h"
 #include "renderer/surface/surface.h"
 #include "renderer/surface/texture.h"
 #include "scene/requirements.h"
@@ -27,8 +28,9 @@ struct World {
       : scene(scene_in),
         requirements(scene::compute_requirements(scene)),
         textures(scene),
+        media(scene, requirements.nested_volumes),
         environment(sky, scene.image_light ? &*scene.image_light : nullptr),
-        coverage(scene, textures, glass == GlassShadows::straight),
+        coverage(scene, textures, media, glass == GlassShadows::straight),
         surfaces(scene, textures),
         accel(scene, coverage, acceleration),
         lights(scene, textures, environment, selection),
@@ -40,6 +42,7 @@ struct World {
   const scene::Scene& scene;
   scene::SceneRequirements requirements;
   Textures textures;
+  Media media;
   Environment environment;
   Coverage coverage;
   Surfaces surfaces;
@@ -47,6 +50,7 @@ struct World {
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
+  Interior around_camera;         ///< the volumes that the camera is in
   LightGroups light_groups;       ///< empty: nobody asks for the parts of a picture
   bool background_apart = false;  ///< the environment lights, and the camera does not see it
   /// 1 for instances that catch shadows and are not seen themselves; empty without any.

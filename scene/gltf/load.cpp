@@ -21,6 +21,7 @@
 #include "scene/gltf/triangles.h"
 #include "scene/nearest_word.h"
 #include "scene/parallel.h"
+#include "scene/texture_slots.h"
 
 namespace gatelight::scene {
 namespace gltf {
@@ -141,7 +142,7 @@ class Loader {
     }
     for (const int original : materials.order()) {
       Material material = convert_material(document_, original, warnings_);
-      for_each_slot(material, [&](TextureSlot& slot) {
+      for_each_slot(material, [&](TextureSlot& slot, bool) {
         if (slot) slot.texture = textures.number_of(slot.texture);
       });
       const bool one_sided = !material.double_sided && !material.transmits();
@@ -267,6 +268,8 @@ class Loader {
         instance.transform.translation() = from_origin(placement.translation);
         // Computed in double: the product of three small scales would underflow in single precision.
         instance.mirrors = placement.transform.linear().cast<double>().determinant() < 0.0;
+        instance.placement = static_cast<int>(&placement - placements.data());
+        instance.dielectric_priority = placement.dielectric_priority;
         scene_.instances.push_back(std::move(instance));
       });
     }

@@ -146,18 +146,19 @@ class Walker {
     }
     std::string name = name_of(node, mesh);
     if (name.empty()) name = fmt::format("node {}", index);
+    const float priority = dielectric_priority(index, node);
     if (const json* instancing = find_extension(node, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       claim_instances(*instancing, mesh, where);
       if ((*instancing)["attributes"].empty()) {
         warnings_.add(where + ": no attributes that tell how many; drawn once");
-        add(mesh_index, name, base);
+        add(mesh_index, name, base, priority);
       }
       for (const Transform& t : read_instances(document_, *instancing, where)) {
-        add(mesh_index, name, checked(base * t, where));
+        add(mesh_index, name, checked(base * t, where), priority);
       }
     } else {
-      add(mesh_index, name, base);
+      add(mesh_index, name, base, priority);
     }
   }
 
@@ -185,8 +186,23 @@ class Walker {
     return joint;
   }
 
-  void add(int mesh, const std::string& name, const Transform& t) {
-    Placement placement{mesh, name, Affine::Identity(), t.translation()};
+  /// An application's own number, which modelling programs write as a custom property of the object.
+  float dielectric_priority(int index, const json& node) const {
+    constexpr const char* kName = "dielectric_priority";
+    const auto extras = node.find("extras");
+    if (extras == node.end() || !extras->is_object() || !extras->contains(kName)) return 0.0f;
+    const json& value = (*extras)[kName];
+    const float priority = value.is_number() ? value.get<float>() : kInfinity;
+    if (!std::isfinite(priority)) {
+      document_.fail(
+          fmt::format("nodes[{}].extras.{}", index, kName),
+          fmt::format("{}, expected a number", value.dump(-1, ' ', true, json::error_handler_t::replace)));
+    }
+    return priority;
+  }
+
+  void add(int mesh, const std::string& name, const Transform& t, float dielectric_priority) {
+    Placement placement{mesh, name, Affine::Identity(), t.translation(), dielectric_priority};
     placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
     // Some files hide meshes by scaling them to a line or a point. Such a mesh is invisible, and no ray can
     // be transformed into its space.

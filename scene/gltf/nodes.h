@@ -15,6 +15,7 @@ struct Placement {
   std::string name;  ///< Instance::name
   Affine transform = Affine::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
+  float dielectric_priority = 0.0f;                       ///< Instance::dielectric_priority
 };
 
 struct Graph {

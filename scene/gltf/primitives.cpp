@@ -11,6 +11,7 @@
 #include "scene/gltf/materials.h"
 #include "scene/gltf/triangles.h"
 #include "scene/tangents.h"
+#include "scene/texture_slots.h"
 #include "scene/vertex_repair.h"
 
 namespace gatelight::scene::gltf {
@@ -23,7 +24,7 @@ struct Needs {
 
 Needs needs_of(const Material& material) {
   Needs needs;
-  for_each_slot(material, [&](const TextureSlot& slot) {
+  for_each_slot(material, [&](const TextureSlot& slot, bool) {
     if (slot) needs.uv[slot.texcoord] = true;
   });
   if (material.anisotropy > 0.0f) needs.tangents = &material.anisotropy_texture;

@@ -3,7 +3,9 @@
 blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
 
 Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
-JSON with the prefix "cycles: ". "out" may hold a path for the last picture (.exr in 32-bit float, or .png in sRGB without a view transform)."""
+JSON with the prefix "cycles: ". "out" may hold a path for the last picture (.exr in 32-bit float, or .png in sRGB without a view transform).
+"environment" is a colour or the path of a picture, "materials" what shaders get that the importer does not know, "hidden" the
+names of objects to leave out."""
 
 import json
 import sys
@@ -22,6 +24,10 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     # COMPAT: the intensity of a sun is not divided by 683.
     bpy.ops.import_scene.gltf(filepath=job["scene"], convert_lighting_mode="COMPAT")
+    for name in job.get("hidden", []):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    for name, change in job.get("materials", {}).items():
+        set_material(bpy.data.materials[name].node_tree, change)
     scene = bpy.context.scene
     set_camera(scene, job.get("camera"))
     set_sky(scene, job.get("environment"))
@@ -46,11 +52,37 @@ def set_camera(scene, name):
     scene.camera = cameras[name] if name else next(iter(cameras.values()))
 
 
-def set_sky(scene, radiance):
+def set_material(tree, change):
+    """Brushes a shader along the first UVs, or mixes it with light that comes through."""
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    if "anisotropic" in change:
+        tangent = tree.nodes.new("ShaderNodeTangent")
+        tangent.direction_type = "UV_MAP"
+        tree.links.new(tangent.outputs["Tangent"], shader.inputs["Tangent"])
+        for name, key in (("Roughness", "roughness"), ("Anisotropic", "anisotropic"), ("Anisotropic Rotation", "rotation")):
+            for link in list(shader.inputs[name].links):
+                tree.links.remove(link)
+            shader.inputs[name].default_value = change[key]
+    if "through" in change:
+        behind, mix = tree.nodes.new("ShaderNodeBsdfTranslucent"), tree.nodes.new("ShaderNodeMixShader")
+        behind.inputs["Color"].default_value = (*change["color"], 1.0)
+        mix.inputs[0].default_value = change["through"]
+        output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+        tree.links.new(shader.outputs[0], mix.inputs[1])
+        tree.links.new(behind.outputs[0], mix.inputs[2])
+        tree.links.new(mix.outputs[0], output.inputs["Surface"])
+
+
+def set_sky(scene, environment):
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
     background = world.node_tree.nodes["Background"]
-    background.inputs["Color"].default_value = (*(radiance or (0.0, 0.0, 0.0)), 1.0)
+    if isinstance(environment, str):
+        picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+        picture.image = bpy.data.images.load(environment)
+        world.node_tree.links.new(picture.outputs["Color"], background.inputs["Color"])
+    else:
+        background.inputs["Color"].default_value = (*(environment or (0.0, 0.0, 0.0)), 1.0)
     background.inputs["Strength"].default_value = 1.0
     scene.world = world
 

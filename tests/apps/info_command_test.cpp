@@ -64,6 +64,21 @@ class InfoCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(InfoCommand, TellsWhichOfOverlappingBodiesFillsTheSpace) {
+  const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/iced-water.glb";
+  const json media = json::parse(run_gatelight({"info", scene, "--json", "-"}).out)["nested_media"];
+  std::vector<std::string> names;
+  for (const json& medium : media) names.push_back(medium["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"glass", "bubble 0", "bubble 1", "bubble 2", "ice 0", "ice 1",
+                                             "ice 2", "water"}));
+  EXPECT_EQ(media[0]["priority"], 1.0);
+  EXPECT_EQ(media[7]["ior"], 1.333);
+  EXPECT_THAT(run_gatelight({"info", scene}).out,
+              AllOf(HasSubstr("nested media"), HasSubstr("'ice 1', ior 1.31")));
+  EXPECT_EQ(json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out)["nested_media"],
+            json::array());
+}
+
 TEST_F(InfoCommand, JsonHasLightsWithTheirUnitsAndPlaces) {
   const json info = json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out);
   const json& lights = info["lights"];

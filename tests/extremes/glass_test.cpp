@@ -11,19 +11,6 @@ namespace {
 
 using namespace testing;
 
-RenderOptions white_sky(int spp, int depth) {
-  RenderOptions options;
-  options.width = 16;
-  options.height = 16;
-  options.spp = spp;
-  options.max_depth = depth;
-  options.environment.constant = Color::Ones();
-  options.filter = PixelFilter::box;
-  options.camera.look_at = LookAt{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
-  options.camera.fov_degrees = 16.0f;
-  return options;
-}
-
 scene::Material glass(float ior, float roughness) {
   scene::Material m;
   m.metallic = 0.0f;
@@ -140,11 +127,13 @@ TEST(Glass, BallsInsideEachOtherAddNoLight) {
   EXPECT_LT(air, 1e-5);
   EXPECT_LT(brightest, 1.01);
   tell_extreme(
-      "balls of glass inside each other", "300, smooth and faceted, ior 1, 1.5 and 3, in a white sky",
+      "balls of glass inside each other, as one object",
+      "300, smooth and faceted, ior 1, 1.5 and 3, in a white sky",
       fmt::format("ior 1: invisible to {:.1e} (bound 1e-5); else finite, no pixel above {:.3f} (bound 1.01)",
                   air, brightest),
-      "media do not nest: each ball refracts as from air, so that deep inside light is reflected totally "
-      "and ends at --max-depth");
+      "shells of one object are no media of their own: each refracts as from air, so that deep inside light "
+      "is "
+      "reflected totally and ends at --max-depth");
 }
 
 /// Panes before a wall; how much of the light of a lamp on the other side arrives.

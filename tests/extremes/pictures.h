@@ -49,6 +49,19 @@ inline renderer::RenderOptions room_picture(renderer::Integrator integrator, int
   return options;
 }
 
+/// Whatever stands at the origin, about a metre large, under a sky of radiance 1.
+inline renderer::RenderOptions white_sky(int spp, int depth) {
+  renderer::RenderOptions options;
+  options.width = options.height = 16;
+  options.spp = spp;
+  options.max_depth = depth;
+  options.environment.constant = scene::Color::Ones();
+  options.filter = renderer::PixelFilter::box;
+  options.camera.look_at = renderer::LookAt{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
+  options.camera.fov_degrees = 16.0f;
+  return options;
+}
+
 inline Rendered render(const scene::Scene& scene, const renderer::RenderOptions& options) {
   renderer::Renderer renderer(scene, options);
   Rendered result;

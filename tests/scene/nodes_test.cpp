@@ -125,6 +125,25 @@ TEST(Nodes, MeshesScaledToNothingAreLeftOut) {
   expect_messages(scene.warnings, {{"meshes"}});
 }
 
+TEST(Nodes, TellThePriorityOfAMediumInTheirExtras) {
+  GltfBuilder file;
+  const int mesh = file.mesh(file.triangle());
+  file.node({{"mesh", mesh}});
+  file.node({{"mesh", mesh}, {"extras", {{"dielectric_priority", -2.5}, {"other", "text"}}}});
+  file.node({{"mesh", mesh}, {"extras", "any JSON is allowed"}});
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.instances.size(), 3u);
+  EXPECT_EQ(scene.instances[0].dielectric_priority, 0.0f);
+  EXPECT_EQ(scene.instances[1].dielectric_priority, -2.5f);
+  EXPECT_EQ(scene.instances[2].dielectric_priority, 0.0f);
+  EXPECT_LT(scene.instances[0].placement, scene.instances[1].placement);
+  for (const json& wrong : {json("high"), json(1e300), json(nullptr)}) {
+    GltfBuilder broken;
+    broken.node({{"mesh", broken.mesh(broken.triangle())}, {"extras", {{"dielectric_priority", wrong}}}});
+    broken.expect_refused({"nodes[0].extras.dielectric_priority", wrong.dump(), "a number"});
+  }
+}
+
 TEST(Nodes, WhatIsNotVisibleShowsNeitherMeshesNorLights) {
   GltfBuilder file;
   file.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};

@@ -69,6 +69,17 @@ std::vector<Defect> defects() {
        }},
       {"WindowElsewhere", "turntable",
        [](Scene& s, RenderOptions&) { s.image_light->rotation.setIdentity(); }},
+      {"PrismKeepsColoursTogether", "turntable-prism",
+       [](Scene& s, RenderOptions&) { material(s, "prism").dispersion = 0.0f; }},
+      {"IceInWaterIsIceInAir", "iced-water",
+       [](Scene& s, RenderOptions&) {
+         for (scene::Instance& instance : s.instances) instance.placement = -1;
+       }},
+      {"WaterIsStrongerThanTheGlass", "iced-water",
+       [](Scene& s, RenderOptions&) {
+         for (scene::Instance& instance : s.instances)
+           instance.dielectric_priority = instance.name == "water" ? 2.0f : 0.0f;
+       }},
       {"OcclusionDistanceFifthLonger", "teapot-ao", [](Scene&, RenderOptions& o) { o.ao_distance *= 1.2f; }},
   };
 }

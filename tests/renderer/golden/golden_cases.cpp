@@ -82,6 +82,13 @@ std::vector<GoldenCase> golden_cases() {
   add("material-grid", "material-grid", 80, 45, 128);
   cases.back().sky = true;
   add("turntable", "turntable", 96, 54, 128).environment.automatic = true;
+  {
+    RenderOptions& prism = add("turntable-prism", "turntable", 48, 48, 256);
+    prism.environment.automatic = true;
+    prism.camera.look_at = renderer::LookAt{{1.5f, 0.5f, 1.9f}, {0.95f, 0.2f, 0.55f}, {0, 1, 0}};
+    prism.camera.fov_degrees = 22.0f;
+  }
+  add("iced-water", "iced-water", 64, 64, 256);
   add("cornell-box-ao", "cornell-box", 48, 48, 512).integrator = Integrator::ao;
   add("living-room-ao", "living-room", 64, 36, 256).integrator = Integrator::ao;
   add("teapot-ao", "teapot-stadium", 64, 36, 512).camera.name = "teapot";

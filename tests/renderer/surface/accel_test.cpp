@@ -17,7 +17,7 @@ using testing::SceneBuilder;
 
 struct Tracer {
   explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
-      : textures(s), coverage(s, textures), surfaces(s, textures), accel(s, coverage, options) {}
+      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
 
   Hit hit(const Vec3& origin, const Vec3& direction, float t_max = scene::kInfinity) const {
     Ray ray;
@@ -40,6 +40,7 @@ struct Tracer {
   }
 
   Textures textures;
+  Media media;
   Coverage coverage;
   Surfaces surfaces;
   Accel accel;

@@ -18,7 +18,8 @@ using scene::Vec4;
 /// Straight down through the middle of a pane's first triangle.
 Color through(const scene::Scene& scene) {
   const Textures textures(scene);
-  const Coverage coverage(scene, textures);
+  const Media media;
+  const Coverage coverage(scene, textures, media);
   Hit hit;
   hit.instance = 0;
   hit.primitive = 0;
@@ -111,6 +112,7 @@ TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
   pane.transmission = 0.7f;
   const scene::Scene scene = pane_of(pane);
   const Textures textures(scene);
+  const Media media;
   Hit hit;
   hit.instance = 0;
   hit.primitive = 0;
@@ -120,7 +122,7 @@ TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
     const Surface s = Surfaces(scene, textures).at(hit, direction, 0.0f, 0.0f);
     const Bsdf bsdf(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, -direction, s.front);
     const Color expected = bsdf.straight_transmittance();
-    const Color seen = Coverage(scene, textures).pass(hit, direction).transmittance;
+    const Color seen = Coverage(scene, textures, media).pass(hit, direction).transmittance;
     EXPECT_GT(expected.minCoeff(), 0.0f);
     EXPECT_TRUE(seen.isApprox(expected, 1e-5f)) << seen.transpose() << " and " << expected.transpose();
   }

@@ -19,7 +19,7 @@ using testing::SceneBuilder;
 
 struct World {
   explicit World(const scene::Scene& s)
-      : textures(s), coverage(s, textures), surfaces(s, textures), accel(s, coverage, {}) {}
+      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, {}) {}
 
   Hit hit(const Ray& ray) const {
     Hit hit;
@@ -33,6 +33,7 @@ struct World {
   }
 
   Textures textures;
+  Media media;
   Coverage coverage;
   Surfaces surfaces;
   Accel accel;

@@ -1,0 +1,73 @@
+#pragma once
+// What fills the space around a path, where bodies of glass and liquid overlap or lie inside one another
+// (scene/nested_volumes.h).
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/bsdf/bsdf.h"
+#include "scene/nested_volumes.h"
+
+namespace gatelight::renderer {
+
+/// The volumes around a point, by their numbers: the smallest one is the strongest and fills the space. Of
+/// more than kMost the weakest are forgotten; who leaves them later was in them nevertheless.
+class Interior {
+ public:
+  static constexpr int kMost = 8;
+
+  std::uint32_t strongest() const { return count_ > 0 ? volumes_[0] : scene::kNoVolume; }
+  /// The strongest of the others.
+  std::uint32_t strongest_but(std::uint32_t volume) const {
+    const std::uint8_t first = strongest() == volume ? 1 : 0;
+    return first < count_ ? volumes_[first] : scene::kNoVolume;
+  }
+  void enter(std::uint32_t volume);
+  void leave(std::uint32_t volume);
+  void cross(std::uint32_t volume, bool enters) { enters ? enter(volume) : leave(volume); }
+
+ private:
+  std::array<std::uint32_t, kMost> volumes_{};
+  std::uint8_t count_ = 0;
+};
+
+/// Absorption per metre inside a material. Light has the colour c = exp(-absorption d) after the distance d.
+/// A black channel absorbs within a thousandth of the distance.
+Color absorption_of(const scene::Material& m);
+
+struct Medium {
+  float ior = 1.0f;
+  float dispersion = 0.0f;
+  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre
+};
+
+class Media {
+ public:
+  Media() = default;
+  /// `needed`: SceneRequirements::nested_volumes. Otherwise there are none, and nothing is searched.
+  Media(const scene::Scene& scene, bool needed);
+
+  bool empty() const { return media_.empty(); }
+  /// The volume that the surfaces of an instance bound, or kNoVolume.
+  std::uint32_t volume_of(std::uint32_t instance) const {
+    return empty() ? scene::kNoVolume : of_instance_[instance];
+  }
+  /// Makes of a surface of glass what it is as the boundary of `volume`, or of none that is listed, for who
+  /// is in `around` on either side: it bends light by its index over that of the strongest other volume.
+  /// False: that one is stronger, and fills the space on both sides; the surface vanishes.
+  bool bound(std::uint32_t volume, const Interior& around, SurfaceMaterial& material) const;
+  /// Around the volumes is air.
+  const Medium& of(std::uint32_t volume) const { return volume == scene::kNoVolume ? air_ : media_[volume]; }
+
+ private:
+  std::vector<std::uint32_t> of_instance_;
+  std::vector<Medium> media_;  ///< by volume
+  Medium air_;
+};
+
+/// Makes of a boundary what it is where the same medium is on both sides: glass that nobody sees. What of the
+/// surface is no glass stays.
+void vanish(SurfaceMaterial& material);
+
+}  // namespace gatelight::renderer

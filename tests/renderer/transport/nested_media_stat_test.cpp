@@ -1,0 +1,187 @@
+// Bodies of glass and water that overlap or lie inside one another: closed forms of what passes them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/render.h"
+#include "renderer/transport/view_check.h"
+#include "renderer/transport/world.h"
+#include "tests/support/scene_builder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using scene::Color;
+using scene::Vec3;
+using testing::SceneBuilder;
+
+constexpr float kWater = 1.33f, kGlass = 1.5f;
+
+/// Slabs across the z axis, before a lamp of radiance 1.
+struct Stack : SceneBuilder {
+  RenderOptions options;
+
+  Stack() {
+    scene::Material lamp = lambert(Color::Zero(), Color::Ones());
+    quad(material(lamp), Vec3(-50, -50, -1), Vec3(100, 0, 0), Vec3(0, 100, 0));
+    options.width = options.height = 1;
+    options.spp = 40000;
+    options.max_depth = options.min_depth = 100;
+    options.camera.look_at =
+        LookAt{.eye = Vec3(0.1f, 0.2f, 10), .target = Vec3(0.1f, 0.2f, 0), .up = Vec3(0, 1, 0)};
+    options.camera.fov_degrees = 0.2f;
+  }
+  scene::Instance& slab(float ior, float low, float high, const Color& absorption = Color::Zero()) {
+    scene::Material m = clear_glass();
+    m.thickness = 1.0f;
+    m.ior = ior;
+    m.attenuation_distance = 1.0f;
+    m.attenuation_color = (-absorption).exp();
+    // Wide ones: light that leaves by the sides is lost.
+    box(material(m), Vec3(-40, -40, low), Vec3(40, 40, high));
+    scene::Instance& instance = scene().instances.back();
+    instance.placement = static_cast<int>(scene().instances.size());
+    return instance;
+  }
+  Color render() {
+    const Picture picture = Renderer(scene(), options).render();
+    const std::vector<float>& v = picture.layers[0].values;
+    return {v[0], v[1], v[2]};
+  }
+};
+
+/// Fresnel's reflectance at normal incidence, over the transmittance. These add up in a stack of plates whose
+/// light does not interfere: the transmittance is 1 / (1 + sum) (Stokes 1862).
+double plate(float a, float b) {
+  const double r = std::pow((static_cast<double>(a) - b) / (static_cast<double>(a) + b), 2.0);
+  return r / (1.0 - r);
+}
+
+TEST(NestedMedia, ABlockInWaterHasTheIndexOfBoth) {
+  Stack stack;
+  stack.slab(kWater, 0, 3);
+  stack.slab(kGlass, 1, 2);
+  const double expected = 1.0 / (1.0 + 2.0 * plate(1, kWater) + 2.0 * plate(kWater, kGlass));
+  EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.004);
+}
+
+TEST(NestedMedia, TheSameMediumInsideIsNotSeen) {
+  Stack stack;
+  stack.slab(kWater, 0, 3);
+  stack.slab(kWater, 1, 2);
+  EXPECT_NEAR(static_cast<double>(stack.render()[1]), 1.0 / (1.0 + 2.0 * plate(1, kWater)), 0.003);
+}
+
+TEST(NestedMedia, OverlappingBlocksHaveOneBoundaryBetweenThem) {
+  const double expected = 1.0 / (1.0 + plate(1, kWater) + plate(kWater, kGlass) + plate(kGlass, 1));
+  for (const float priority : {0.0f, 1.0f}) {
+    Stack stack;
+    stack.slab(kWater, 0, 3).dielectric_priority = priority;
+    stack.slab(kGlass, 2, 4);
+    EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.004) << priority;
+  }
+}
+
+TEST(NestedMedia, TheStrongerOneAbsorbsWhereBothAre) {
+  const Color red(0.5f, 0.0f, 0.0f), green(0.0f, 0.5f, 0.0f);
+  for (const float priority : {0.0f, 1.0f}) {
+    Stack stack;
+    stack.options.spp = 4;
+    stack.slab(1.0f, 0, 2, red);
+    stack.slab(1.0f, 1, 3, green).dielectric_priority = priority;
+    const Color passed = stack.render();
+    EXPECT_NEAR(passed[0], std::exp(-0.5f * (2.0f - priority)), 1e-4f) << priority;
+    EXPECT_NEAR(passed[1], std::exp(-0.5f * (1.0f + priority)), 1e-4f) << priority;
+    EXPECT_NEAR(passed[2], 1.0f, 1e-4f);
+  }
+}
+
+TEST(NestedMedia, LeavingTheInnerOneIsNotLeavingTheOuterOne) {
+  Stack stack;
+  stack.options.spp = 4;
+  stack.slab(1.0f, 0, 3, Color(0.5f, 0.0f, 0.0f));
+  stack.slab(1.0f, 1, 2, Color(0.0f, 0.5f, 0.0f));
+  const Color passed = stack.render();
+  EXPECT_NEAR(passed[0], std::exp(-1.0f), 1e-4f);
+  EXPECT_NEAR(passed[1], std::exp(-0.5f), 1e-4f);
+}
+
+TEST(NestedMedia, ACameraInTheWaterKnowsIt) {
+  Stack stack;
+  stack.slab(kWater, 0, 20);
+  stack.slab(kGlass, 1, 2);
+  // What comes from the lamp through three boundaries, and what the surface behind the camera sends back of
+  // the rest.
+  const double passed = 1.0 / (1.0 + 2.0 * plate(kWater, kGlass) + plate(kWater, 1));
+  const double behind = 1.0 - 1.0 / (1.0 + plate(1, kWater));
+  const double expected = static_cast<double>(kWater * kWater) * passed / (1.0 - (1.0 - passed) * behind);
+  EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.005);
+
+  const World world(stack.scene());
+  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 10)).strongest(), 1u);
+  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 1.5f)).strongest(), 0u);
+  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 1.5f)).strongest_but(0), 1u);
+  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 30)).strongest(), scene::kNoVolume);
+}
+
+TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
+  Stack stack;
+  stack.slab(kWater, 0, 3, Color(0.2f, 0.0f, 0.0f));
+  stack.slab(kGlass, 1, 2, Color(0.0f, 0.3f, 0.0f));
+  stack.slab(kWater, 1.2f, 1.6f, Color(0.0f, 0.0f, 5.0f)).dielectric_priority = -1.0f;
+  const World world(stack.scene(), {}, LightSelection::tree, {}, GlassShadows::straight);
+  const auto passed = [&](float z, float length) {
+    Ray ray;
+    ray.origin = Vec3(0.1f, 0.2f, z);
+    ray.direction = Vec3(0, 0, -1);
+    ray.t_max = length;
+    Color result;
+    world.accel.transmittance({&ray, 1}, {&result, 1});
+    return result;
+  };
+  const auto through = [](double a, double b) { return static_cast<float>(1.0 / (1.0 + plate(a, b))); };
+  const float water = through(1, kWater), glass = through(kWater, kGlass);
+  // The weakest slab is not seen at all.
+  const Color all(water * water * glass * glass * std::exp(-0.4f),
+                  water * water * glass * glass * std::exp(-0.3f), water * water * glass * glass);
+  EXPECT_TRUE(passed(10.0f, 10.5f).isApprox(all, 1e-4f)) << passed(10.0f, 10.5f);
+  const Color from_inside(water * glass * std::exp(-0.2f), water * glass * std::exp(-0.15f), water * glass);
+  EXPECT_TRUE(passed(1.5f, 2.0f).isApprox(from_inside, 1e-4f)) << passed(1.5f, 2.0f);
+  const Color to_inside(water * glass * std::exp(-0.2f), water * glass * std::exp(-0.15f), water * glass);
+  EXPECT_TRUE(passed(10.0f, 8.5f).isApprox(to_inside, 1e-4f)) << passed(10.0f, 8.5f);
+}
+
+/// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so nothing is seen.
+TEST(NestedMedia, AWhiteFurnaceShowsNothing) {
+  for (const float roughness : {0.0f, 0.3f}) {
+    SceneBuilder builder;
+    const auto ball = [&](float ior, const Vec3& center, float radius) {
+      scene::Material m = SceneBuilder::clear_glass();
+      m.roughness = roughness;
+      m.thickness = 1.0f;
+      m.ior = ior;
+      builder.sphere(builder.material(m), center, radius, 48, true);
+      builder.scene().instances.back().placement = static_cast<int>(builder.scene().instances.size());
+    };
+    ball(kWater, Vec3(0, 0, 0), 1.0f);
+    ball(kGlass, Vec3(0.7f, 0, 0), 0.6f);
+    ball(1.0f, Vec3(-0.4f, 0.2f, 0), 0.3f);
+    ball(1.31f, Vec3(-0.1f, -0.4f, 0.2f), 0.4f);
+    RenderOptions options;
+    options.width = options.height = 16;
+    options.spp = 256;
+    options.max_depth = options.min_depth = 500;
+    options.environment.constant = Color::Ones();
+    options.camera.look_at = LookAt{.eye = Vec3(0, 0.5f, 4), .target = Vec3::Zero(), .up = Vec3(0, 1, 0)};
+    const Picture picture = Renderer(builder.scene(), options).render();
+    double sum = 0.0;
+    for (const float v : picture.layers[0].values) sum += static_cast<double>(v);
+    EXPECT_NEAR(sum / static_cast<double>(picture.layers[0].values.size()), 1.0,
+                roughness == 0.0f ? 1e-3 : 1e-2)
+        << roughness;
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,119 @@
+#include "scene/nested_volumes.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/requirements.h"
+#include "tests/support/scene_builder.h"
+
+namespace gatelight::scene {
+namespace {
+
+using testing::SceneBuilder;
+
+Material glass() {
+  Material m = SceneBuilder::clear_glass();
+  m.thickness = 1.0f;
+  return m;
+}
+
+/// Boxes of glass, each a placement of its own.
+struct Boxes : SceneBuilder {
+  int of_glass = material(glass());
+
+  Instance& add(const Vec3& low, const Vec3& high, bool inwards = false) {
+    box(of_glass, low, high, inwards);
+    scene().instances.back().placement = static_cast<int>(scene().instances.size()) - 1;
+    return scene().instances.back();
+  }
+  std::vector<std::uint32_t> numbers() { return find_nested_volumes(scene()).of_instance; }
+};
+
+using Numbers = std::vector<std::uint32_t>;
+
+TEST(NestedVolumes, BoxesApartAreNotListed) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {1, 1, 1});
+  boxes.add({2, 0, 0}, {3, 1, 1});
+  EXPECT_TRUE(find_nested_volumes(boxes.scene()).empty());
+  EXPECT_FALSE(compute_requirements(boxes.scene()).nested_volumes);
+}
+
+TEST(NestedVolumes, WhatLiesInsideIsStronger) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {9, 9, 9});
+  boxes.add({2, 2, 2}, {3, 3, 3});
+  boxes.add({1, 1, 1}, {8, 8, 8});
+  boxes.add({20, 0, 0}, {21, 1, 1});
+  EXPECT_EQ(boxes.numbers(), (Numbers{2, 0, 1, kNoVolume}));
+  EXPECT_EQ(find_nested_volumes(boxes.scene()).instances, (Numbers{1, 2, 0}));
+  EXPECT_TRUE(compute_requirements(boxes.scene()).nested_volumes);
+}
+
+TEST(NestedVolumes, PrioritiesDecideBeforeSizesAndTheOrderOfTheFileAfterThem) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {2, 2, 2});
+  boxes.add({1, 0, 0}, {3, 2, 2});
+  EXPECT_EQ(boxes.numbers(), (Numbers{0, 1}));
+  boxes.scene().instances[1].dielectric_priority = 0.5f;
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
+  boxes.scene().instances[0].dielectric_priority = 2.0f;
+  EXPECT_EQ(boxes.numbers(), (Numbers{0, 1}));
+  boxes.scene().instances[0].dielectric_priority = -1.0f;
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
+}
+
+TEST(NestedVolumes, OpenAndInvertedSurfacesHaveNoVolume) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {9, 9, 9});
+  boxes.add({1, 1, 1}, {2, 2, 2}, true);
+  boxes.add({3, 3, 3}, {4, 4, 4});
+  boxes.scene().meshes[2].triangles.pop_back();
+  EXPECT_TRUE(boxes.numbers().empty());
+}
+
+TEST(NestedVolumes, PrimitivesOfOnePlacementCloseOneVolume) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {9, 9, 9});
+  boxes.add({1, 1, 1}, {2, 2, 2});
+  // The second box in two primitives; the other one is a lid of metal.
+  Scene& scene = boxes.scene();
+  Mesh& open = scene.meshes[1];
+  Mesh lid = open;
+  lid.triangles = {open.triangles.back()};
+  lid.material = boxes.material(Material{});
+  open.triangles.pop_back();
+  scene.meshes.push_back(lid);
+  Instance instance = scene.instances[1];
+  instance.mesh = 2;
+  scene.instances.push_back(instance);
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 0, kNoVolume}));
+  scene.instances[2].placement = 2;
+  EXPECT_TRUE(boxes.numbers().empty());
+}
+
+TEST(NestedVolumes, SeamsAndPolesAreNoHoles) {
+  Boxes boxes;
+  for (int i = 0; i < 2; ++i) {
+    boxes.sphere(boxes.of_glass, Vec3(0.3f, 100.0f, -7.0f), i == 0 ? 1.0f : 0.4f, 32, true);
+    boxes.scene().instances.back().placement = i;
+  }
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
+}
+
+TEST(NestedVolumes, SharedMeshesCountAsTheyArePlaced) {
+  Boxes boxes;
+  boxes.add({-1, -1, -1}, {1, 1, 1});
+  Scene& scene = boxes.scene();
+  scene.instances[0].baked = false;
+  for (const float scale : {3.0f, -0.5f}) {
+    Instance copy = scene.instances[0];
+    copy.transform.scale(scale);
+    copy.mirrors = scale < 0.0f;
+    copy.placement = static_cast<int>(scene.instances.size());
+    scene.instances.push_back(copy);
+  }
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 2, 0}));
+}
+
+}  // namespace
+}  // namespace gatelight::scene
