@@ -141,12 +141,12 @@ TEST(Materials, MediaInsideEachOtherLoseNoLight) {
       builder.sphere(builder.material(m), Vec3::Zero(), radius, 24, true);
       builder.scene().instances.back().placement = i;
     }
-    RenderOptions options = white_sky(16, 4000);
-    options.min_depth = 4000;
+    RenderOptions options = white_sky(4, 1000);
+    options.min_depth = 1000;
     return look(builder.scene(), options);
   };
   double worst = 0.0;
-  for (const int count : {2, 5, Interior::kMost}) {
+  for (const int count : {2, Interior::kMost}) {
     for (const float step : {0.0f, 0.3f}) {
       const Seen seen = balls(count, step);
       EXPECT_LT(seen.off, 0.01) << count << " " << step;
@@ -156,7 +156,7 @@ TEST(Materials, MediaInsideEachOtherLoseNoLight) {
   const double brightest = balls(100, 0.3f).brightest;
   EXPECT_LT(brightest, 10.0);
   tell_extreme(
-      "balls of three indices inside each other, as objects", "2, 5, 8 and 100, in a white sky",
+      "balls of three indices inside each other, as objects", "2, 8 and 100, in a white sky",
       fmt::format("up to 8: mean off by {:.1e} (bound 0.01); 100: finite, no pixel above {:.2f} (bound 10)",
                   worst, brightest),
       "of more than 8 bodies around a point the outermost are forgotten: beyond them light leaves into air");
