@@ -3,114 +3,128 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <span>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace gatelight::scene {
 namespace {
 
-/// A placed mesh with some surface that has an inside.
+using Indices = std::vector<std::uint32_t>;
+
+/// The surfaces with an inside, of one material, of one placed mesh; or several materials of it that close
+/// together.
 struct Body {
-  std::vector<std::uint32_t> instances;  ///< all of the placement
-  std::vector<std::uint32_t> bounding;   ///< those with an inside
-  Box bounds;                            ///< of the latter
-  double volume = 0.0;                   ///< cubic metres
+  Indices instances;
+  Box bounds;
+  double volume = 0.0;  ///< cubic metres
+
+  int placement(const Scene& scene) const { return scene.instances[instances.front()].placement; }
 };
+
+/// What rays always meet bounds something.
+bool can_close(const Material& m) {
+  return m.alpha_mode == AlphaMode::opaque && !m.culled;
+}
 
 std::vector<Body> find_bodies(const Scene& scene) {
   std::vector<Body> bodies;
+  std::map<std::pair<int, int>, std::size_t> numbers;  // by placement and material
   std::vector<Box> boxes(scene.meshes.size());
-  for (std::uint32_t first = 0, end = 0; first < scene.instances.size(); first = end) {
-    Body body;
-    const int placement = scene.instances[first].placement;
-    for (end = first; end < scene.instances.size() && scene.instances[end].placement == placement; ++end) {
-      const Instance& instance = scene.instances[end];
-      body.instances.push_back(end);
-      if (placement < 0 || !scene.material_of(instance).has_volume()) continue;
-      body.bounding.push_back(end);
-      Box& box = boxes[static_cast<std::size_t>(instance.mesh)];
-      if (box.isEmpty()) {
-        for (const Vec3& p : scene.mesh_of(instance).positions) box.extend(p);
-      }
-      for (int corner = 0; corner < 8; ++corner)
-        body.bounds.extend(instance.transform * box.corner(static_cast<Box::CornerType>(corner)));
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.mesh_of(instance);
+    const Material& material = scene.material_of(instance);
+    if (instance.placement < 0 || mesh.triangles.empty() || !material.has_volume() || !can_close(material))
+      continue;
+    const auto [number, is_new] = numbers.try_emplace({instance.placement, mesh.material}, bodies.size());
+    if (is_new) bodies.emplace_back();
+    Body& body = bodies[number->second];
+    body.instances.push_back(i);
+    Box& box = boxes[static_cast<std::size_t>(instance.mesh)];
+    if (box.isEmpty()) {
+      for (const Vec3& p : mesh.positions) box.extend(p);
     }
-    if (!body.bounding.empty()) bodies.push_back(std::move(body));
+    for (int corner = 0; corner < 8; ++corner)
+      body.bounds.extend(instance.transform * box.corner(static_cast<Box::CornerType>(corner)));
   }
   return bodies;
 }
 
-/// Leaves the bodies whose bounding boxes touch another's.
+/// Leaves the bodies whose bounding boxes touch another's. They are swept along the axis on which they are
+/// spread most. Of very many bodies some more may stay: that costs their paths a little time, and nothing
+/// else.
 void keep_those_that_touch(std::vector<Body>& bodies) {
-  std::sort(bodies.begin(), bodies.end(),
-            [](const Body& a, const Body& b) { return a.bounds.min().x() < b.bounds.min().x(); });
+  constexpr std::size_t kMostTests = 20'000'000;
+  Box all;
+  for (const Body& body : bodies) all.extend(body.bounds);
+  Eigen::Index axis = 0;
+  if (!all.isEmpty()) all.sizes().maxCoeff(&axis);
+  std::stable_sort(bodies.begin(), bodies.end(), [axis](const Body& a, const Body& b) {
+    return a.bounds.min()[axis] < b.bounds.min()[axis];
+  });
   std::vector<char> touches(bodies.size(), 0);
+  std::size_t tests = 0;
   for (std::size_t a = 0; a < bodies.size(); ++a) {
-    const float end = bodies[a].bounds.max().x();
-    for (std::size_t b = a + 1; b < bodies.size() && bodies[b].bounds.min().x() <= end; ++b) {
+    const float end = bodies[a].bounds.max()[axis];
+    for (std::size_t b = a + 1; b < bodies.size() && bodies[b].bounds.min()[axis] <= end; ++b) {
+      if (++tests > kMostTests) return;
       if (bodies[a].bounds.intersects(bodies[b].bounds)) touches[a] = touches[b] = 1;
     }
   }
-  std::size_t kept = 0;
+  std::vector<Body> kept;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (touches[i]) std::swap(bodies[kept++], bodies[i]);
+    if (touches[i]) kept.push_back(std::move(bodies[i]));
   }
-  bodies.resize(kept);
+  bodies = std::move(kept);
 }
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-using Place = std::array<long long, 3>;
+/// The triangles of some instances, with vertices of their own.
+struct Surfaces {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
 
-/// Of the diagonal of what surfaces enclose.
-constexpr double kSamePlace = 1e-6;
-
-/// The volume that surfaces of one placement enclose; 0 where they have a hole, or their front faces look
-/// inwards. Vertices at the same place, up to rounding, are one: meshes are cut along the borders of their
-/// textures.
-double enclosed_volume(const Scene& scene, std::span<const std::uint32_t> instances) {
-  std::vector<std::array<Vec3, 3>> triangles;
-  std::vector<Place> places;
-  Box bounds;
-  for (const std::uint32_t index : instances) {
-    const Instance& instance = scene.instances[index];
-    const auto count = static_cast<std::uint32_t>(scene.mesh_of(instance).triangles.size());
-    for (std::uint32_t t = 0; t < count; ++t) {
-      std::array<Vec3, 3> corners = world_triangle(scene, instance, t);
-      if (instance.mirrors) std::swap(corners[1], corners[2]);
-      for (const Vec3& p : corners) bounds.extend(p);
-      triangles.push_back(corners);
+/// Numbers of points, the same for points at the same place. Meshes are cut along the borders of their
+/// textures, and the two sides of a cut need not be rounded alike: with a `step` points that are half of it
+/// apart are the same, and those that are farther apart than twice the step are not.
+Indices weld(const std::vector<Eigen::Vector3d>& points, double step) {
+  Indices parent(points.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  using Place = std::array<double, 3>;
+  std::vector<std::pair<Place, std::uint32_t>> places(points.size());
+  // Neighbours that one grid parts are in one cell of another.
+  const int grids = step > 0.0 ? 8 : 1;
+  for (int grid = 0; grid < grids; ++grid) {
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      Place& place = places[i].first;
+      places[i].second = i;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = points[i][static_cast<Eigen::Index>(k)];
+        place[k] = step > 0.0 ? std::floor(x / step + ((grid >> k & 1) != 0 ? 0.5 : 0.0)) : x + 0.0;
+      }
+    }
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      if (places[i].first == places[i - 1].first) parent[root(places[i].second)] = root(places[i - 1].second);
     }
   }
-  if (triangles.empty()) return 0.0;
-  const Eigen::Vector3d center = bounds.center().cast<double>();
-  const double step = kSamePlace * bounds.diagonal().cast<double>().norm();
-  const auto place_of = [&](const Vec3& p) {
-    const Eigen::Vector3d steps = (p.cast<double>() - center) / step;
-    return Place{std::llround(steps.x()), std::llround(steps.y()), std::llround(steps.z())};
-  };
-  for (const std::array<Vec3, 3>& corners : triangles) {
-    for (const Vec3& p : corners) places.push_back(place_of(p));
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  const auto number = [&](const Vec3& p) {
-    return static_cast<std::uint32_t>(std::lower_bound(places.begin(), places.end(), place_of(p)) -
-                                      places.begin());
-  };
-  std::vector<Edge> edges, reversed;
-  double six_volumes = 0.0;
-  for (const std::array<Vec3, 3>& corners : triangles) {
-    std::array<std::uint32_t, 3> numbers;
-    std::array<Eigen::Vector3d, 3> from_center;
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+  return parent;
+}
+
+/// Whether each edge has a triangle on either side.
+bool is_closed(const Surfaces& surfaces, const Indices& numbers) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, reversed;
+  for (const auto& triangle : surfaces.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      numbers[k] = number(corners[k]);
-      from_center[k] = corners[k].cast<double>() - center;
-    }
-    six_volumes += from_center[0].dot(from_center[1].cross(from_center[2]));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = numbers[k], b = numbers[(k + 1) % 3];
+      const std::uint32_t a = numbers[triangle[k]], b = numbers[triangle[(k + 1) % 3]];
       if (a == b) continue;
       edges.emplace_back(a, b);
       reversed.emplace_back(b, a);
@@ -118,50 +132,118 @@ double enclosed_volume(const Scene& scene, std::span<const std::uint32_t> instan
   }
   std::sort(edges.begin(), edges.end());
   std::sort(reversed.begin(), reversed.end());
-  return edges == reversed ? std::max(0.0, six_volumes / 6.0) : 0.0;
+  return !edges.empty() && edges == reversed;
 }
 
-/// Asks for the volumes of placements that share their meshes once.
+/// The volume that surfaces enclose; 0 where they have a hole, or their front faces look inwards.
+double enclosed_volume(const Surfaces& surfaces) {
+  constexpr double kSamePlace = 1e-6;  // of the diagonal
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& p : surfaces.points) bounds.extend(p);
+  if (surfaces.triangles.empty() || !(bounds.diagonal().norm() > 0.0)) return 0.0;
+  if (!is_closed(surfaces, weld(surfaces.points, 0.0)) &&
+      !is_closed(surfaces, weld(surfaces.points, kSamePlace * bounds.diagonal().norm())))
+    return 0.0;
+  double six_volumes = 0.0;
+  const Eigen::Vector3d center = bounds.center();
+  for (const auto& [a, b, c] : surfaces.triangles) {
+    six_volumes +=
+        (surfaces.points[a] - center).dot((surfaces.points[b] - center).cross(surfaces.points[c] - center));
+  }
+  return std::max(0.0, six_volumes / 6.0);
+}
+
+/// The volumes that instances of one placement enclose. Placements that share all their meshes are measured
+/// once.
 class EnclosedVolumes {
  public:
   explicit EnclosedVolumes(const Scene& scene) : scene_(scene) {}
 
-  double operator()(std::span<const std::uint32_t> instances) {
+  double operator()(const Indices& instances) {
     std::vector<int> meshes;
     bool shared = true;
     for (const std::uint32_t i : instances) {
       meshes.push_back(scene_.instances[i].mesh);
       shared = shared && !scene_.instances[i].baked;
     }
-    if (!shared) return enclosed_volume(scene_, instances);
-    const double scale =
-        std::abs(scene_.instances[instances.front()].transform.linear().cast<double>().determinant());
+    if (!shared) return enclosed_volume(surfaces_of(instances, true));
     const auto [known, is_new] = known_.try_emplace(meshes, 0.0);
-    if (is_new) known->second = enclosed_volume(scene_, instances) / scale;
-    return known->second * scale;
+    if (is_new) known->second = enclosed_volume(surfaces_of(instances, false));
+    const Affine& transform = scene_.instances[instances.front()].transform;
+    return known->second * std::abs(transform.linear().cast<double>().determinant());
   }
 
  private:
+  Surfaces surfaces_of(const Indices& instances, bool in_world) const {
+    Surfaces surfaces;
+    for (const std::uint32_t index : instances) {
+      const Instance& instance = scene_.instances[index];
+      const Mesh& mesh = scene_.mesh_of(instance);
+      const auto first = static_cast<std::uint32_t>(surfaces.points.size());
+      for (const Vec3& p : mesh.positions)
+        surfaces.points.push_back((in_world ? Vec3(instance.transform * p) : p).cast<double>());
+      for (const auto& [a, b, c] : mesh.triangles) {
+        surfaces.triangles.push_back({first + a, first + b, first + c});
+        if (in_world && instance.mirrors)
+          std::swap(surfaces.triangles.back()[1], surfaces.triangles.back()[2]);
+      }
+    }
+    return surfaces;
+  }
+
   const Scene& scene_;
   std::map<std::vector<int>, double> known_;  ///< by meshes, before they are placed
 };
+
+/// Bodies that do not close alone are one if those of their placement close together, or with what is opaque
+/// there.
+std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
+  EnclosedVolumes enclosed(scene);
+  std::vector<Body> closed;
+  std::map<int, Body> open;  // by placement
+  for (Body& body : bodies) {
+    body.volume = enclosed(body.instances);
+    if (body.volume > 0.0) {
+      closed.push_back(std::move(body));
+      continue;
+    }
+    Body& rest = open[body.placement(scene)];
+    rest.instances.insert(rest.instances.end(), body.instances.begin(), body.instances.end());
+    rest.bounds.extend(body.bounds);
+  }
+  if (open.empty()) return closed;
+  std::map<int, Indices> opaque;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Material& material = scene.material_of(instance);
+    if (open.contains(instance.placement) && !material.has_volume() && can_close(material))
+      opaque[instance.placement].push_back(i);
+  }
+  for (auto& [placement, body] : open) {
+    std::sort(body.instances.begin(), body.instances.end());
+    body.volume = enclosed(body.instances);
+    if (body.volume == 0.0 && opaque.contains(placement)) {
+      Indices all = body.instances;
+      std::copy(opaque[placement].begin(), opaque[placement].end(), std::back_inserter(all));
+      body.volume = enclosed(all);
+    }
+    if (body.volume > 0.0) closed.push_back(std::move(body));
+  }
+  return closed;
+}
 
 }  // namespace
 
 NestedVolumes find_nested_volumes(const Scene& scene) {
   std::vector<Body> bodies = find_bodies(scene);
   keep_those_that_touch(bodies);
-  EnclosedVolumes enclosed(scene);
-  for (Body& body : bodies) {
-    body.volume = enclosed(body.bounding);
-    if (body.volume == 0.0 && body.bounding.size() < body.instances.size())
-      body.volume = enclosed(body.instances);
-  }
-  std::erase_if(bodies, [](const Body& body) { return !(body.volume > 0.0); });
+  bodies = closed_bodies(scene, std::move(bodies));
   keep_those_that_touch(bodies);
   const auto strength = [&](const Body& body) {
-    const Instance& instance = scene.instances[body.bounding.front()];
-    return std::tuple(-instance.dielectric_priority, body.volume, instance.placement);
+    const std::uint32_t first = body.instances.front();
+    // Volumes that differ by rounding are the same.
+    return std::tuple(-scene.instances[first].dielectric_priority, std::llround(1e4 * std::log(body.volume)),
+                      body.placement(scene), first);
   };
   std::sort(bodies.begin(), bodies.end(),
             [&](const Body& a, const Body& b) { return strength(a) < strength(b); });
@@ -169,9 +251,9 @@ NestedVolumes find_nested_volumes(const Scene& scene) {
   if (bodies.empty()) return nested;
   nested.of_instance.assign(scene.instances.size(), kNoVolume);
   for (const Body& body : bodies) {
-    for (const std::uint32_t instance : body.bounding)
+    for (const std::uint32_t instance : body.instances)
       nested.of_instance[instance] = static_cast<std::uint32_t>(nested.instances.size());
-    nested.instances.push_back(body.bounding.front());
+    nested.instances.push_back(body.instances.front());
   }
   return nested;
 }

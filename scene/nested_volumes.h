@@ -12,9 +12,10 @@ namespace gatelight::scene {
 /// No volume.
 inline constexpr std::uint32_t kNoVolume = 0xffffffffu;
 
-/// A volume is what the surfaces with an inside (Material::has_volume) of one placed mesh close, alone or
-/// with the mesh's other surfaces. It has no holes, and its front faces look outwards. Only volumes whose
-/// bounding boxes touch another's are listed: nobody has to know where a ray is in all others.
+/// A volume is what the surfaces with an inside (Material::has_volume) of one material of a placed mesh
+/// close, alone or with other surfaces of the mesh. It has no holes, nor alpha, and its front faces look
+/// outwards. Only volumes whose bounding boxes touch another's are listed: nobody has to know where a ray is
+/// in all others.
 struct NestedVolumes {
   /// By instance: the number of the volume that it bounds, or kNoVolume. Empty if no volumes overlap. Of the
   /// volumes around a point that with the smallest number fills it. Numbers follow the larger priority, then

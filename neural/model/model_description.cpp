@@ -9,9 +9,10 @@
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
-#include <ranges>
 #include <span>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "neural/base/random.h"
 
@@ -54,18 +55,27 @@ const char* name(FeaturePrecision precision) {
   return word(precision, {"fp32", "fp16_masters", "fp16"});
 }
 
+/// The texts of items, with commas between them. (Clang 14 cannot compile the views of this standard
+/// library.)
+template <class Items, class Text>
+std::string joined(const Items& items, const Text& text) {
+  std::vector<std::string> texts;
+  for (const auto& item : items) texts.push_back(text(item));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 /// "direction one_blob 4, albedo identity"
 std::string inputs_text(std::span<const AuxiliaryInput> inputs) {
   const auto text = [](const AuxiliaryInput& input) {
     const std::string words = fmt::format("{} {}", name(input.source), name(input.encoding));
     return input.encoding == InputEncoding::identity ? words : fmt::format("{} {}", words, input.size);
   };
-  return fmt::format("{}", fmt::join(inputs | std::views::transform(text), ", "));
+  return joined(inputs, text);
 }
 
 /// "adaptive, adaptive/4, 1"
 std::string stack_text(std::span<const std::uint32_t> stack) {
-  return fmt::format("{}", fmt::join(stack | std::views::transform(level_text), ", "));
+  return joined(stack, level_text);
 }
 
 class Digest {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <ranges>
 #include <string>
 
 #include "neural/base/errors.h"
@@ -42,7 +41,9 @@ bool has_avx512() {
 }
 
 std::string list(std::span<const Isa> isas) {
-  return fmt::format("{}", fmt::join(isas | std::views::transform(isa_name), ", "));
+  std::vector<std::string_view> names;
+  for (const Isa isa : isas) names.push_back(isa_name(isa));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace

@@ -91,10 +91,10 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
     if (material.thin_walled || ior == 0.0f) {
       glass_ = Glass::thin;
     } else {
-      const bool clear = roughness >= kDeltaRoughness && std::abs(ior - 1.0f) < kMinRoughIorStep;
-      glass_ = clear ? Glass::clear : Glass::refracting;
+      const bool bends = roughness < kDeltaRoughness || std::abs(ior - 1.0f) >= kMinRoughIorStep;
+      glass_ = bends ? Glass::refracting : Glass::clear;
       eta_ = front ? ior : 1.0f / ior;
-      if (!clear) transmit_scale_ = 1.0f / (eta_ * eta_);
+      transmit_scale_ = 1.0f / (eta_ * eta_);
     }
   }
 

@@ -51,7 +51,12 @@ BsdfSample Bsdf::sample(float u_lobe, const Vec2& u) const {
   if (takes(p_loss_reflect_)) return finish(Basis(ns_).to_world(loss_lobe_.sample(u)), ns_, 1.0f);
   if (takes(p_loss_transmit_)) return finish(-Basis(ns_).to_world(loss_lobe_.sample(u)), -ns_, 1.0f);
   if (takes(p_sheen_)) return finish(Basis(ns_).to_world(sample_uniform_hemisphere(u)), ns_, 1.0f);
-  if (takes(p_clear_)) return delta_sample(-wo_, glass_tint_ * (base_scale_ / p_clear_), p_clear_, true);
+  if (takes(p_clear_)) {
+    BsdfSample sample =
+        delta_sample(-wo_, glass_tint_ * (base_scale_ * transmit_scale_ / p_clear_), p_clear_, true);
+    sample.radiance_scale = transmit_scale_;
+    return sample;
+  }
   if (p_coat_ > 0.0f) {
     if (!coat_.delta) {
       return finish(mirror(wo_, sample_half(coat_, nc_, wo_, u)), nc_, std::sqrt(coat_.alpha2));

@@ -51,6 +51,7 @@ struct PathPlan {
 struct PathStart {
   CameraSample sample;
   bool to_its_end = false;  ///< regardless of end_after_records
+  bool on_surface = false;  ///< not at the camera
 };
 
 /// The options that these paths read.
@@ -170,7 +171,8 @@ struct CachedPaths::Path : Walker {
 
   Path() = default;
   Path(const World& world, const PathStart& start, std::size_t which)
-      : Walker(world, start.sample, which), to_its_end(start.to_its_end) {}
+      : Walker(world, start.sample, which, start.on_surface ? Interior() : world.around_camera),
+        to_its_end(start.to_its_end) {}
 };
 
 /// A light sample of a vertex whose shadow ray has not been traced yet.

@@ -171,6 +171,7 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t index) {
     PathStart& start = result.starts[index];
     key(options_, seed, index, start);
+    start.on_surface = true;
     const Sampler& sampler = start.sample.sampler;
     const double u = (static_cast<double>(index) + static_cast<double>(sampler.get_1d(kSurfaceChoice))) /
                      static_cast<double>(count);

@@ -172,7 +172,9 @@ void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   view = chosen_view(chosen);
   options.camera = chosen;
   camera = Camera(view, options.width, options.height);
-  world->around_camera = volumes_around(*world, view.transform.translation());
+  // Rays of an orthographic camera begin at many places.
+  world->around_camera =
+      view.orthographic ? Interior() : volumes_around(*world, view.transform.translation());
   std::string focus;
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
     view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned kPacket = 16;
 
-/// Where a ray enters or leaves a volume of Media. Not initialised: a lane has many.
+/// Where a ray enters or leaves glass with an inside. Not initialised: a lane has many.
 struct Boundary {
   float t, u, v;
   std::uint32_t instance, primitive, volume;
@@ -71,18 +71,23 @@ struct Lane {
     for (auto b = all.begin(); b != all.end(); ++b) {
       const bool first =
           std::none_of(all.begin(), b, [&](const Boundary& a) { return a.volume == b->volume; });
-      if (first && !b->front) in.enter(b->volume);
+      if (first && !b->front && b->volume != scene::kNoVolume) in.enter(b->volume);
     }
+    // As Walker::cross().
     const Media& media = coverage.media();
-    Color light = Color::Ones(), absorption = Color::Zero();
+    Color light = Color::Ones(), absorption = Color::Zero(), here = media.of(in.strongest()).absorption;
     float at = 0.0f;
     for (const Boundary& b : all) {
-      absorption += media.of(in.strongest()).absorption * (b.t - at);
+      const Passage passage = coverage.pass(b.hit(), direction, in);
+      const bool listed = b.volume != scene::kNoVolume;
+      if (at == 0.0f && !listed && !b.front) here = -passage.absorption;
+      absorption += here * (b.t - at);
       at = b.t;
-      light *= coverage.pass(b.hit(), direction, in).transmittance;
-      in.cross(b.volume, b.front);
+      light *= passage.transmittance;
+      if (listed) in.cross(b.volume, b.front);
+      here = listed || !b.front ? media.of(in.strongest()).absorption : passage.absorption;
     }
-    if (distance < scene::kInfinity) absorption += media.of(in.strongest()).absorption * (distance - at);
+    if (distance < scene::kInfinity) absorption += here * (distance - at);
     return light * (-absorption).exp();
   }
 };
@@ -150,10 +155,10 @@ void shadow_filter(const RTCFilterFunctionNArguments* args) {
     if (std::find(lane.seen, lane.seen + lane.panes, id) == lane.seen + lane.panes) {
       if (lane.panes == Accel::kMaxPanes) continue;
       lane.seen[lane.panes++] = id;
-      const std::uint32_t volume = context.coverage->media().volume_of(hit.instance);
-      if (volume == scene::kNoVolume) {
+      if (!context.coverage->orders(hit.instance)) {
         lane.pass(passage, hit.t);
       } else {
+        const std::uint32_t volume = context.coverage->media().volume_of(hit.instance);
         lane.boundary[lane.boundaries++] = {hit.t,         hit.u,  hit.v,        hit.instance,
                                             hit.primitive, volume, passage.front};
       }

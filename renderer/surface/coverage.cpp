@@ -91,7 +91,11 @@ Passage Coverage::pass(const Hit& hit, const Vec3& direction, const Interior& ar
   const bool front = passage.front = n.dot(direction) < 0.0f;
   if (is_straight_glass(hit.instance)) {
     const std::uint32_t volume = media_.volume_of(hit.instance);
-    media_.bound(volume, around, s);
+    if (!media_.is_there(volume, around)) {
+      passage.transmittance.setConstant(glass_share(s));
+      return passage;
+    }
+    s.ior /= media_.beyond(volume, around).ior;
     straighten(s);
     if (volume == scene::kNoVolume) passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
   }

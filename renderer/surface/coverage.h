@@ -52,6 +52,9 @@ class Coverage {
   bool straight_glass() const { return straight_glass_; }
   bool is_straight_glass(std::uint32_t instance) const { return flags_[instance] & kStraightGlass; }
 
+  /// Whether what a shadow ray keeps depends on the glass that it met before.
+  bool orders(std::uint32_t instance) const { return !media_.empty() && is_straight_glass(instance); }
+
   /// What a shadow ray keeps behind the surface. Smooth thin-walled transmission and straight glass let light
   /// go straight on; every other surface blocks it. `around`: the volumes that the ray is in.
   Passage pass(const Hit& hit, const Vec3& direction, const Interior& around = {}) const;

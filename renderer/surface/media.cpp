@@ -37,24 +37,15 @@ Media::Media(const scene::Scene& scene, bool needed) {
   }
 }
 
-bool Media::bound(std::uint32_t volume, const Interior& around, SurfaceMaterial& material) const {
-  const std::uint32_t other = around.strongest_but(volume);
-  if (volume != scene::kNoVolume && other < volume) {
-    vanish(material);
-    return false;
-  }
-  material.ior /= of(other).ior;
-  return true;
-}
-
-void vanish(SurfaceMaterial& material) {
-  if (material.transmission >= 1.0f && material.metallic <= 0.0f) {
+bool vanish(SurfaceMaterial& material, float u) {
+  const float glass = glass_share(material);
+  if (u < glass) {
     material = {.roughness = 0.0f, .ior = 1.0f, .specular = 0.0f, .transmission = 1.0f};
-    return;
+    return true;
   }
-  material.ior = 1.0f;
-  material.dispersion = material.iridescence = material.clearcoat = 0.0f;
-  material.sheen_color.setZero();
+  material.metallic /= 1.0f - glass;
+  material.transmission = 0.0f;
+  return false;
 }
 
 }  // namespace gatelight::renderer

@@ -53,10 +53,15 @@ class Media {
   std::uint32_t volume_of(std::uint32_t instance) const {
     return empty() ? scene::kNoVolume : of_instance_[instance];
   }
-  /// Makes of a surface of glass what it is as the boundary of `volume`, or of none that is listed, for who
-  /// is in `around` on either side: it bends light by its index over that of the strongest other volume.
-  /// False: that one is stronger, and fills the space on both sides; the surface vanishes.
-  bool bound(std::uint32_t volume, const Interior& around, SurfaceMaterial& material) const;
+  /// Whether the boundary of `volume`, or of glass that is no volume, is there for who is in `around` on
+  /// either side of it. Otherwise a stronger volume fills the space on both sides.
+  bool is_there(std::uint32_t volume, const Interior& around) const {
+    return volume == scene::kNoVolume || volume < around.strongest_but(volume);
+  }
+  /// The strongest volume on the other side of such a boundary.
+  const Medium& beyond(std::uint32_t volume, const Interior& around) const {
+    return of(around.strongest_but(volume));
+  }
   /// Around the volumes is air.
   const Medium& of(std::uint32_t volume) const { return volume == scene::kNoVolume ? air_ : media_[volume]; }
 
@@ -66,8 +71,13 @@ class Media {
   Medium air_;
 };
 
-/// Makes of a boundary what it is where the same medium is on both sides: glass that nobody sees. What of the
-/// surface is no glass stays.
-void vanish(SurfaceMaterial& material);
+/// The share of a surface that is glass.
+inline float glass_share(const SurfaceMaterial& m) {
+  return (1.0f - m.metallic) * m.transmission;
+}
+
+/// Makes of a boundary that is not there what `u` in [0, 1) chooses: nothing but a clear pane as often as the
+/// surface is glass, else what of it is no glass. True: a pane.
+bool vanish(SurfaceMaterial& material, float u);
 
 }  // namespace gatelight::renderer

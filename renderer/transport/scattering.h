@@ -51,10 +51,11 @@ struct Departure {
   /// The direction came from the camera, a delta lobe or refraction beside straight glass: no light sample
   /// competes.
   bool delta = true;
-  int panes = 0;  ///< between `position` and the ray's origin
+  int panes = 0;       ///< between `position` and the ray's origin
+  bool alone = false;  ///< one of them stops shadow rays
 
   /// Whether a light sample from `position` could have found the same light.
-  bool competes() const { return !delta && panes <= Accel::kMaxPanes; }
+  bool competes() const { return !delta && !alone && panes <= Accel::kMaxPanes; }
 };
 
 /// MIS weight of the emission of a surface that a ray in `direction` hit.
@@ -104,6 +105,9 @@ inline float texture_level_number(std::uint32_t seed) {
 }
 inline float shadow_roulette_number(std::uint32_t seed) {
   return sampling::to_unit_float(hash(seed ^ 0x1b873593u));
+}
+inline float boundary_number(std::uint32_t seed) {
+  return sampling::to_unit_float(hash(seed ^ 0x7f4a7c15u));
 }
 inline std::uint32_t next_seed(std::uint32_t seed) {
   return hash(seed + 0x9e3779b9u);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -70,10 +72,13 @@ Interior volumes_around(const World& world, const Vec3& point) {
     Hit hit;
     world.accel.intersect({&ray, 1}, {&hit, 1}, false);
     if (!hit) break;
-    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f);
     const std::uint32_t volume = world.media.volume_of(hit.instance);
-    if (volume != scene::kNoVolume && !std::exchange(met[volume], 1) && !surface.front) around.enter(volume);
-    ray.origin = surface.spawn(ray.direction);
+    const Vec3 normal = scene::world_normal(world.scene, world.scene.instances[hit.instance], hit.primitive);
+    const float cosine = normal.dot(ray.direction);
+    if (volume != scene::kNoVolume && !std::exchange(met[volume], 1) && cosine > 0.0f) around.enter(volume);
+    // Along the ray: smooth surfaces are raised for shading.
+    const float offset = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f).offset;
+    ray.origin += ray.direction * (hit.t + 2.0f * offset / std::max(std::abs(cosine), 1e-2f));
   }
   return around;
 }

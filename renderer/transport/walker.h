@@ -54,7 +54,7 @@ struct Meeting {
   Color passed{1.0f, 1.0f, 1.0f};
   bool straight = false;                    ///< glass with an inside that does not bend this ray
   std::uint32_t volume = scene::kNoVolume;  ///< of World::media, where light can enter or leave one
-  bool same_medium = false;                 ///< a stronger volume is on both sides: light passes
+  bool same_medium = false;                 ///< a stronger volume is on both sides: a clear pane
   Emission emission;
   bool ends = false;                 ///< the path ends here
   std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
@@ -123,10 +123,11 @@ struct Walker {
   bool emission_only = false;  ///< from here on the path only passes panes and counts emission
 
   Walker() = default;
-  Walker(const World& world, const CameraSample& start, std::size_t which)
+  /// `around`: the volumes that the start is in.
+  Walker(const World& world, const CameraSample& start, std::size_t which, const Interior& around)
       : cone(start.camera_ray.cone),
-        absorption(world.media.of(world.around_camera.strongest()).absorption),
-        interior(world.around_camera),
+        absorption(world.media.of(around.strongest()).absorption),
+        interior(around),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
         faint(start.faint),
@@ -265,8 +266,8 @@ struct Walker {
   bool advance(const Walk& walk, const Meeting& m, const Drawn& drawn) {
     if (drawn.transmitted && (m.straight || m.same_medium || !m.surface.material.thin_walled))
       cross(walk.world, m);
-    const bool alone = (m.same_medium && !m.straight && drawn.through_pane) ||
-                       (drawn.transmitted && refracts_alone(walk, m.surface));
+    const bool alone =
+        (m.same_medium && !m.straight) || (drawn.transmitted && refracts_alone(walk, m.surface));
     return advance(drawn, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
                    m.surface.spawn(drawn.wi), m.ray, alone);
   }
@@ -294,15 +295,20 @@ struct Walker {
     if (material.thin_walled || !(material.transmission > 0.0f || material.diffuse_transmission > 0.0f))
       return;
     m.volume = media.volume_of(m.hit.instance);
-    const Medium& outside = media.of(interior.strongest_but(m.volume));
-    if (!m.straight) {
-      if (outside.dispersion > 0.0f) choose_wavelength(m);
-      if (material.dispersion > 0.0f) disperse(m);
-      material.dispersion = 0.0f;
+    if (!media.is_there(m.volume, interior)) {
+      m.same_medium = vanish(material, boundary_number(seed));
+      return;
     }
-    m.same_medium = !media.bound(m.volume, interior, material);
-    if (outside.dispersion > 0.0f && !m.straight && !m.same_medium)
-      material.ior *= outside.ior / dispersed_ior(outside.ior, outside.dispersion, wavelength);
+    const Medium& outside = media.beyond(m.volume, interior);
+    if (m.straight || outside.dispersion == 0.0f) {
+      if (!m.straight && material.dispersion > 0.0f) disperse(m);
+      material.ior /= outside.ior;
+    } else {
+      choose_wavelength(m);
+      if (material.dispersion > 0.0f) disperse(m);
+      material.ior /= dispersed_ior(outside.ior, outside.dispersion, wavelength);
+    }
+    material.dispersion = 0.0f;
   }
 
   /// The path goes through a surface with an inside.
@@ -336,7 +342,7 @@ struct Walker {
     if (drawn.through_pane) {
       departure.travelled += t;
       departure.panes += 1;
-      departure.delta |= alone;
+      departure.alone |= alone;
     } else {
       depth += 1;
       departure = {position, light_normal, 0.0f, drawn.pdf, drawn.delta || alone};

@@ -193,12 +193,10 @@ class Walker {
     if (extras == node.end() || !extras->is_object() || !extras->contains(kName)) return 0.0f;
     const json& value = (*extras)[kName];
     const float priority = value.is_number() ? value.get<float>() : kInfinity;
-    if (!std::isfinite(priority)) {
-      document_.fail(
-          fmt::format("nodes[{}].extras.{}", index, kName),
-          fmt::format("{}, expected a number", value.dump(-1, ' ', true, json::error_handler_t::replace)));
-    }
-    return priority;
+    if (std::isfinite(priority)) return priority;
+    warnings_.add(fmt::format("nodes[{}].extras.{}: {}, expected a finite number, taken as 0", index, kName,
+                              value.dump(-1, ' ', true, json::error_handler_t::replace)));
+    return 0.0f;
   }
 
   void add(int mesh, const std::string& name, const Transform& t, float dielectric_priority) {

@@ -91,6 +91,63 @@ TEST(NestedVolumes, PrimitivesOfOnePlacementCloseOneVolume) {
   EXPECT_TRUE(boxes.numbers().empty());
 }
 
+TEST(NestedVolumes, MaterialsThatCloseAloneAreBodiesOfTheirOwn) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {9, 9, 9});
+  boxes.add({1, 1, 1}, {2, 2, 2});
+  Scene& scene = boxes.scene();
+  scene.instances[1].placement = scene.instances[0].placement;
+  // Two shells of one material are one volume, which touches nothing.
+  EXPECT_TRUE(boxes.numbers().empty());
+  scene.meshes[1].material = boxes.material(glass());
+  EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
+}
+
+TEST(NestedVolumes, WhatRaysPassAtRandomBoundsNothing) {
+  for (const bool masked : {false, true}) {
+    Boxes boxes;
+    boxes.add({0, 0, 0}, {9, 9, 9});
+    boxes.add({1, 1, 1}, {2, 2, 2});
+    Material see_through = glass();
+    if (masked) see_through.alpha_mode = AlphaMode::mask;
+    boxes.scene().meshes[1].material = boxes.material(see_through);
+    EXPECT_EQ(boxes.numbers().empty(), masked);
+  }
+}
+
+TEST(NestedVolumes, VerticesApartByRoundingAreOne) {
+  for (const float gap : {1e-6f, 1e-3f}) {
+    Boxes boxes;
+    boxes.add({0, 0, 0}, {9, 9, 9});
+    // Each triangle with vertices of its own, wherever a grid may part them.
+    Mesh cut;
+    boxes.add({1.1f, 1.2f, 1.3f}, {2.7f, 2.9f, 3.1f});
+    const Mesh whole = boxes.scene().meshes[1];
+    cut.material = whole.material;
+    std::uint32_t number = 0;
+    for (const auto& triangle : whole.triangles) {
+      for (const std::uint32_t corner : triangle)
+        cut.positions.push_back(whole.positions[corner] +
+                                Vec3::Constant(gap * static_cast<float>(number++ % 3)));
+      cut.triangles.push_back({number - 3, number - 2, number - 1});
+    }
+    boxes.scene().meshes[1] = cut;
+    EXPECT_EQ(boxes.numbers().empty(), gap > 1e-4f) << gap;
+  }
+}
+
+TEST(NestedVolumes, ManyBodiesAtOnePlaceTakeNoTime) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {1, 1, 1}).baked = false;
+  Scene& scene = boxes.scene();
+  constexpr int kBodies = 1 << 18;
+  scene.instances.resize(kBodies, scene.instances[0]);
+  for (int i = 0; i < kBodies; ++i) scene.instances[static_cast<std::size_t>(i)].placement = i;
+  const NestedVolumes nested = find_nested_volumes(scene);
+  EXPECT_EQ(nested.instances.size(), static_cast<std::size_t>(kBodies));
+  EXPECT_EQ(nested.of_instance[7], 7u);
+}
+
 TEST(NestedVolumes, SeamsAndPolesAreNoHoles) {
   Boxes boxes;
   for (int i = 0; i < 2; ++i) {

@@ -42,19 +42,19 @@ TEST(Interior, ForgetsTheWeakestOfTooMany) {
 }
 
 TEST(Vanish, GlassLetsAllLightPassAndWhatIsOpaqueStays) {
-  SurfaceMaterial glass{
-      .base_color = Color(0.2f, 0.5f, 0.9f), .roughness = 0.4f, .transmission = 1.0f, .thin_walled = false};
-  glass.clearcoat = 1.0f;
-  vanish(glass);
-  const Vec3 up(0, 0, 1), wo = Vec3(0.6f, 0, 0.8f);
-  EXPECT_TRUE((Bsdf(glass, up, up, up, wo, true).straight_transmittance() == 1.0f).all());
-
   SurfaceMaterial label{
-      .base_color = Color(0.2f, 0.5f, 0.9f), .roughness = 0.4f, .transmission = 0.5f, .thin_walled = false};
-  vanish(label);
-  const Bsdf bsdf(label, up, up, up, wo, true);
-  EXPECT_TRUE(bsdf.albedo().isApprox(label.base_color, 1e-3f)) << "half of it is paint, half clear";
-  EXPECT_GT(bsdf.evaluate(up).value.minCoeff(), 0.0f);
+      .base_color = Color(0.2f, 0.5f, 0.9f), .metallic = 0.2f, .roughness = 0.4f, .transmission = 0.5f};
+  label.thin_walled = false;
+  label.clearcoat = 1.0f;
+  EXPECT_FLOAT_EQ(glass_share(label), 0.4f);
+  const Vec3 up(0, 0, 1), wo = Vec3(0.6f, 0, 0.8f);
+  SurfaceMaterial glass = label, rest = label;
+  EXPECT_TRUE(vanish(glass, 0.39f));
+  EXPECT_TRUE((Bsdf(glass, up, up, up, wo, true).straight_transmittance() == 1.0f).all());
+  EXPECT_FALSE(vanish(rest, 0.41f));
+  EXPECT_EQ(rest.transmission, 0.0f);
+  // Of what is left, 0.2 of 0.6 was metal.
+  EXPECT_FLOAT_EQ(rest.metallic, 1.0f / 3.0f);
 }
 
 }  // namespace

@@ -118,6 +118,9 @@ TEST(NestedMedia, ACameraInTheWaterKnowsIt) {
   const double expected = static_cast<double>(kWater * kWater) * passed / (1.0 - (1.0 - passed) * behind);
   EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.005);
 
+  // A smooth ball in the way of the ray that looks for the water's surface.
+  stack.sphere(stack.material(SceneBuilder::lambert(Color::Ones())),
+               Vec3(0, 0, 10) + 3.0f * Vec3(0.48f, 0.64f, 0.6f), 1.0f, 96, true);
   const World world(stack.scene());
   EXPECT_EQ(volumes_around(world, Vec3(0, 0, 10)).strongest(), 1u);
   EXPECT_EQ(volumes_around(world, Vec3(0, 0, 1.5f)).strongest(), 0u);
@@ -150,6 +153,32 @@ TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
   EXPECT_TRUE(passed(1.5f, 2.0f).isApprox(from_inside, 1e-4f)) << passed(1.5f, 2.0f);
   const Color to_inside(water * glass * std::exp(-0.2f), water * glass * std::exp(-0.15f), water * glass);
   EXPECT_TRUE(passed(10.0f, 8.5f).isApprox(to_inside, 1e-4f)) << passed(10.0f, 8.5f);
+}
+
+TEST(NestedMedia, RoughIceKeepsTheLightThatFloatsOutOfTheWater) {
+  // Its index is so near to that of water that nothing is bent between them; in a white furnace each path
+  // brings 1.
+  Stack stack;
+  stack.slab(1.333f, 0, 3);
+  stack.slab(1.31f, 2, 4);
+  for (std::size_t i = 1; i < 3; ++i) stack.scene().materials[i].roughness = 0.1f;
+  stack.scene().materials[0].emission.setZero();
+  stack.scene().materials[0].base_color.setOnes();
+  stack.options.environment.constant = Color::Ones();
+  stack.options.spp = 4000;
+  EXPECT_NEAR(static_cast<double>(stack.render()[1]), 1.0, 5e-3);
+}
+
+TEST(NestedMedia, AMediumThatDispersesColoursWhatIsInIt) {
+  // A block of air in dispersing glass, as a prism would: seen straight on it only loses what its boundaries
+  // reflect.
+  Stack stack;
+  stack.slab(kGlass, 0, 3);
+  stack.slab(1.0f, 1, 2);
+  stack.scene().materials[1].dispersion = 1.0f;
+  const Color light = stack.render();
+  const double expected = 1.0 / (1.0 + 4.0 * plate(1, kGlass));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(static_cast<double>(light[c]), expected, 0.015) << c;
 }
 
 /// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so nothing is seen.

@@ -93,11 +93,23 @@ TEST(StraightGlass, TheSunReachesTheGroundUnderABlock) {
 }
 
 /// Means of pictures with seeds of their own: a floor under a ball of glass and a lamp, in a faint sky.
-Moments means(const scene::Material& glass, DirectLight direct) {
+/// `filled`: a ball of water, its floor and a sheet of glass are in it.
+Moments means(const scene::Material& glass, DirectLight direct, bool filled = false) {
   SceneBuilder builder;
   builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.6f))), Vec3(-3, 0, 3), Vec3(6, 0, 0),
                Vec3(0, 0, -6));
   builder.sphere(builder.material(glass), Vec3(0, 0.8f, 0), 0.5f, 24, true);
+  if (filled) {
+    builder.scene().instances.back().placement = 0;
+    scene::Material water = glass;
+    water.ior = 1.33f;
+    water.attenuation_color = Color(0.9f, 0.5f, 0.3f);
+    builder.sphere(builder.material(water), Vec3(0.1f, 0.75f, 0), 0.35f, 24, true);
+    builder.scene().instances.back().placement = 1;
+    builder.quad(builder.material(glass), Vec3(-0.2f, 0.8f, 0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, -0.4f));
+    builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.6f))), Vec3(-0.2f, 0.6f, 0.2f),
+                 Vec3(0.4f, 0, 0), Vec3(0, 0, -0.4f));
+  }
   builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
                Vec3(-0.7f, 2.2f, -0.7f), Vec3(1.4f, 0, 0), Vec3(0, 0, 1.4f));
   RenderOptions options;
@@ -130,6 +142,17 @@ TEST(StraightGlass, LightSamplesBouncesAndBothAgree) {
       EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
           << roughness << ": " << both.mean() << " and " << other.mean() << ", error " << error;
     }
+  }
+}
+
+TEST(StraightGlass, TheyAgreeInGlassThatIsFilledWithWater) {
+  const Moments both = means(green_glass(), DirectLight::mis, true);
+  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
+    const Moments other = means(green_glass(), direct, true);
+    const double error = std::hypot(both.standard_error(), other.standard_error());
+    EXPECT_LT(error, 0.02 * both.mean());
+    EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
+        << both.mean() << " and " << other.mean() << ", error " << error;
   }
 }
 
