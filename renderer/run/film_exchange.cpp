@@ -37,7 +37,8 @@ void exchange_tiles(Film& film, const TileGrid& tiles, const Shares& shares, Ran
 Picture exchange_rows(const Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks,
                       const std::function<std::pair<int, int>(int rank)>& rows_of, tbb::task_arena& arena) {
   const int self = ranks.rank();
-  const auto [top, bottom] = rows_of(self);
+  const std::pair<int, int> rows = rows_of(self);
+  const int top = rows.first, bottom = rows.second;
   if (ranks.alone()) return arena.execute([&] { return film.resolve(top, bottom); });
 
   std::vector<TileGrid> of_ranks;

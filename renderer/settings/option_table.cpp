@@ -201,7 +201,7 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
           "focus", focus, "METRES|NODE",
           "With --aperture: distance along the view, or an object (default: what the middle of the picture "
           "sees, told)"))
-      .value = [&focus] { return focus.empty() ? OptionValue() : focus; };
+      .value = [&lens] { return lens.focus.empty() ? OptionValue() : lens.focus; };
   add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"));
 }
 
@@ -228,7 +228,7 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true}, "METRES",
                 "What an orthographic picture shows from bottom to top"));
   add_lens_options(view, lens);
-  auto& [automatic, file, constant, sky, rotation_degrees, scale] =
+  [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale] =
       environment;  // one flag sets the first three
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
@@ -245,11 +245,13 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
                "intensity=1; or date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2 instead of "
                "the sun; "
                "a white surface in full daylight has a radiance of 1",
-       .value = [&sky]() -> OptionValue { return sky ? text_of(*sky) : "none"; },
+       .value = [&environment]() -> OptionValue {
+         return environment.sky ? text_of(*environment.sky) : "none";
+       },
        .read =
-           [&sky](const std::string& text) {
-             sky.reset();
-             if (text != "none") sky = read_sky("--sky", text);
+           [&environment](const std::string& text) {
+             environment.sky.reset();
+             if (text != "none") environment.sky = read_sky("--sky", text);
            }});
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
