@@ -344,7 +344,8 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
 
 void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
                             std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const {
-  const Color direct = lane_color(p.direct, lane) * path.scale();
+  const Color passed = path.transmittance(walk_, p.shadow_length[lane]) * path.scale();
+  const Color direct = lane_color(p.direct, lane) * passed;
   const float weight =
       plan.faint > 0.0f
           ? path.shadow_weight(
@@ -353,7 +354,7 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
           : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
   if (!(weight > 0.0f)) return;
   const bool delta = p.light_is_delta[lane] != 0, holds = options_.held.light_sample(delta);
-  const Color wide = lane_color(p.wide_direct, lane) * (path.scale() * weight);
+  const Color wide = lane_color(p.wide_direct, lane) * passed * weight;
   const Color none = Color::Zero();
   scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
   scratch.pending.push_back(

@@ -64,7 +64,8 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     const std::uint32_t number = block.path[lane];
     Walker& path = scratch.paths[scratch.path_of[number]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
-    const Color contribution = path.carried() * lane_color(points.direct, lane);
+    const Color contribution = path.carried() * lane_color(points.direct, lane) *
+                               path.transmittance(walk_, points.shadow_length[lane]);
     add_light(
         path, contribution, points.light[lane], [&] { return shadow_ray_at(points, lane); }, scratch);
     if (!points.alive[lane]) continue;

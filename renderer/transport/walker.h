@@ -220,9 +220,18 @@ struct Walker {
                    : lights.sample(m.surface.position, m.light_normal, choice, point);
     if (!(at.light.pdf > 0.0f) || (kinds == LightKinds::shapes && at.light.delta)) return at;
     if (refracts_alone(walk, m.surface) && at.light.wi.dot(m.surface.geometric_normal) < 0.0f) return at;
+    at.light.radiance *= transmittance(walk, at.light.distance);
     at.value = bsdf.evaluate(at.light.wi);
     at.weight = (at.light.delta ? 1.0f : walk.mis.light_weight(at.light.pdf, at.value.pdf)) / at.light.pdf;
     return at;
+  }
+
+  /// What the medium around the path leaves of a light sample from this distance. Shadow rays that pass glass
+  /// with an inside find that themselves, where they leave the medium.
+  Color transmittance(const Walk& walk, float distance) const {
+    if (!(absorption > 0.0f).any() || !(distance < scene::kInfinity) || walk.world.coverage.straight_glass())
+      return Color::Ones();
+    return (-absorption * distance).exp();
   }
 
   /// Russian roulette of a light sample whose contribution has this largest channel: the factor to its

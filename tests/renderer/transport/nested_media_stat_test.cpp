@@ -155,6 +155,45 @@ TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
   EXPECT_TRUE(passed(10.0f, 8.5f).isApprox(to_inside, 1e-4f)) << passed(10.0f, 8.5f);
 }
 
+TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
+  // A lamp and a sheet in tinted water, seen from there: light samples and bounces say the same.
+  const auto seen = [](DirectLight direct) {
+    SceneBuilder builder;
+    scene::Material water = SceneBuilder::clear_glass();
+    water.thickness = 1.0f;
+    water.ior = kWater;
+    water.attenuation_distance = 1.0f;
+    water.attenuation_color = Color(0.3f, 0.6f, 0.9f);
+    const auto body = [&](const Vec3& low, const Vec3& high) {
+      builder.box(builder.material(water), low, high);
+      builder.scene().instances.back().placement = static_cast<int>(builder.scene().instances.size());
+    };
+    body(Vec3(-9, -9, -9), Vec3(9, 9, 9));
+    body(Vec3(8, 8, 8), Vec3(10, 10, 10));  // so that they are listed
+    builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.8f))), Vec3(-1, -1, -1),
+                 Vec3(2, 0, 0), Vec3(0, 2, 0));
+    builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(9.0f))),
+                 Vec3(2, -1, -1), Vec3(0, 0, 1), Vec3(0, 2, 0));
+    builder.scene().materials.back().double_sided = true;
+    RenderOptions options;
+    options.width = options.height = 8;
+    options.spp = 4096;
+    options.max_depth = 1;
+    options.direct = direct;
+    options.camera.look_at = LookAt{.eye = Vec3(0, 0, 2), .target = Vec3::Zero(), .up = Vec3(0, 1, 0)};
+    options.camera.fov_degrees = 20.0f;
+    const Picture picture = Renderer(builder.scene(), options).render();
+    Color sum = Color::Zero();
+    const std::vector<float>& v = picture.layers[0].values;
+    for (std::size_t i = 0; i < v.size(); i += 3) sum += Color(v[i], v[i + 1], v[i + 2]);
+    return Color(sum / 64.0f);
+  };
+  const Color samples = seen(DirectLight::nee), bounces = seen(DirectLight::bsdf);
+  EXPECT_GT(samples[0], 1e-4f);
+  EXPECT_LT(samples[0], 0.3f * samples[2]) << "the water is blue";
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(samples[c] / bounces[c], 1.0f, 0.03f) << c;
+}
+
 TEST(NestedMedia, RoughIceKeepsTheLightThatFloatsOutOfTheWater) {
   // Its index is so near to that of water that nothing is bent between them; in a white furnace each path
   // brings 1.
