@@ -1,5 +1,4 @@
-// Films, brushed metal, cloth, dispersing glass and nested media at the ends of their ranges, in a white sky:
-// nothing absorbs, so nothing should be seen.
+// Films, brushed metal, cloth, dispersing glass and nested media at the ends of their ranges.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +14,8 @@ namespace {
 using namespace testing;
 using scene::Material;
 
-/// The largest pixel, the mean, and how far that is from 1.
+/// In a white sky nothing that does not absorb should be seen: the largest pixel, the mean, and how far that
+/// is from 1.
 struct Seen {
   double brightest = 0.0;
   double mean = 0.0;
