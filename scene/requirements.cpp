@@ -59,7 +59,7 @@ SceneRequirements compute_requirements(const Scene& scene) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i]) add_material(scene.materials[i], r);
   }
-  r.nested_volumes = r.transmission && !find_nested_volumes(scene).empty();
+  r.nested_volumes = r.volumes && !find_nested_volumes(scene).empty();
   r.delta_lights = !scene.lights.empty();
   r.image_light = scene.image_light.has_value();
   r.directional_lights =

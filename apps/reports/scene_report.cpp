@@ -143,7 +143,7 @@ std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRe
     lines.push_back(fmt::format("'{}', ior {:.4g}, priority {:.4g}", instance->name,
                                 scene.material_of(*instance).ior, instance->dielectric_priority));
   }
-  if (!lines.empty()) lines.emplace_back("(bodies that overlap, the one that fills the space first)");
+  lines.emplace_back("(bodies that overlap, the one that fills the space first)");
   return lines;
 }
 

@@ -8,6 +8,7 @@
 #include "renderer/transport/view_check.h"
 #include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/shadow_rays.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -134,15 +135,7 @@ TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
   stack.slab(kGlass, 1, 2, Color(0.0f, 0.3f, 0.0f));
   stack.slab(kWater, 1.2f, 1.6f, Color(0.0f, 0.0f, 5.0f)).dielectric_priority = -1.0f;
   const World world(stack.scene(), {}, LightSelection::tree, {}, GlassShadows::straight);
-  const auto passed = [&](float z, float length) {
-    Ray ray;
-    ray.origin = Vec3(0.1f, 0.2f, z);
-    ray.direction = Vec3(0, 0, -1);
-    ray.t_max = length;
-    Color result;
-    world.accel.transmittance({&ray, 1}, {&result, 1});
-    return result;
-  };
+  const auto passed = [&](float z, float length) { return testing::passed_down(world, z, length); };
   const auto through = [](double a, double b) { return static_cast<float>(1.0 / (1.0 + plate(a, b))); };
   const float water = through(1, kWater), glass = through(kWater, kGlass);
   // The weakest slab is not seen at all.

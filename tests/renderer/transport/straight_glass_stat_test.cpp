@@ -9,6 +9,7 @@
 #include "renderer/render.h"
 #include "renderer/transport/world.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/shadow_rays.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -48,13 +49,7 @@ Color absorbed(float distance) {
 Color passed(float z, float length, GlassShadows glass = GlassShadows::straight) {
   SceneBuilder builder = block_of_glass();
   const World world(builder.scene(), {}, LightSelection::tree, {}, glass);
-  Ray ray;
-  ray.origin = Vec3(0.1f, 0.2f, z);
-  ray.direction = Vec3(0, 0, -1);
-  ray.t_max = length;
-  Color result;
-  world.accel.transmittance({&ray, 1}, {&result, 1});
-  return result;
+  return testing::passed_down(world, z, length);
 }
 
 TEST(StraightGlass, ShadowRaysKeepWhatBoundariesAndInsideLetThrough) {
@@ -130,30 +125,29 @@ Moments means(const scene::Material& glass, DirectLight direct, bool filled = fa
   return moments;
 }
 
+void expect_agreement(const Moments& both, const Moments& other) {
+  const double error = std::hypot(both.standard_error(), other.standard_error());
+  EXPECT_LT(error, 0.02 * both.mean());
+  EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
+      << both.mean() << " and " << other.mean() << ", error " << error;
+}
+
 TEST(StraightGlass, LightSamplesBouncesAndBothAgree) {
   for (const float roughness : {0.0f, 0.4f}) {
     const Moments both = means(green_glass(roughness), DirectLight::mis);
     for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
       // nee leaves out lamps that are seen by refraction alone, so rough glass is compared for bounces alone.
       if (direct == DirectLight::nee && roughness > 0.0f) continue;
-      const Moments other = means(green_glass(roughness), direct);
-      const double error = std::hypot(both.standard_error(), other.standard_error());
-      EXPECT_LT(error, 0.02 * both.mean());
-      EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
-          << roughness << ": " << both.mean() << " and " << other.mean() << ", error " << error;
+      SCOPED_TRACE(roughness);
+      expect_agreement(both, means(green_glass(roughness), direct));
     }
   }
 }
 
 TEST(StraightGlass, TheyAgreeInGlassThatIsFilledWithWater) {
   const Moments both = means(green_glass(), DirectLight::mis, true);
-  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
-    const Moments other = means(green_glass(), direct, true);
-    const double error = std::hypot(both.standard_error(), other.standard_error());
-    EXPECT_LT(error, 0.02 * both.mean());
-    EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
-        << both.mean() << " and " << other.mean() << ", error " << error;
-  }
+  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf})
+    expect_agreement(both, means(green_glass(), direct, true));
 }
 
 TEST(StraightGlass, AWhiteBallInAFurnaceStaysWhite) {
