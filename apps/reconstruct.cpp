@@ -51,7 +51,7 @@ renderer::Picture finish(renderer::Picture picture, const std::string& name) {
   expect_no_background(picture, name);
   renderer::Reconstruction finished;
   try {
-    finished = reconstruct(renderer::sampled_picture(picture));
+    finished = reconstruct(renderer::take_samples(picture));
   } catch (const renderer::ImageError& error) {
     throw InputError(fmt::format("'{}' {}", name, error.what()));
   }

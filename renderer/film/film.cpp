@@ -9,8 +9,13 @@ namespace gatelight::renderer {
 
 namespace {
 
+bool from_guide(Aov aov) {
+  return aov == Aov::reconstruction || aov == Aov::cache_radiance || aov == Aov::alpha;
+}
+
 bool from_first_hit(Aov aov) {
-  return aov != Aov::sample_count && aov != Aov::variance && aov != Aov::raw && aov != Aov::error;
+  return !from_guide(aov) && aov != Aov::sample_count && aov != Aov::variance && aov != Aov::raw &&
+         aov != Aov::error;
 }
 
 /// Reconstruction reads some of the other layers.
@@ -35,17 +40,22 @@ void each_of_radiance(Radiance& p, Take&& take) {
   take.count(p.taken);
 }
 
-template <class First, class Take>
-void each_of_first(First& p, Take&& take) {
-  for (auto* array : {&p.albedo, &p.normal, &p.guide_albedo, &p.guide_normal, &p.position, &p.cache_radiance,
-                      &p.cache_half, &p.answer, &p.node}) {
+template <class Guide, class Take>
+void each_of_guide(Guide& p, Take&& take) {
+  for (auto* array : {&p.albedo, &p.normal, &p.cache, &p.cache_half}) {
     for (auto& value : *array) take.sum(value);
   }
-  for (auto* value :
-       {&p.alpha, &p.alpha_half, &p.depth, &p.guide_depth, &p.error, &p.training_count, &p.resolution})
-    take.sum(*value);
-  for (auto* value : {&p.count, &p.count_half, &p.asked, &p.hits, &p.guide_hits, &p.guided, &p.guided_half})
-    take.count(*value);
+  for (auto* value : {&p.depth, &p.alpha, &p.alpha_half}) take.sum(*value);
+  for (auto* value : {&p.count, &p.count_half, &p.hits, &p.cached, &p.cached_half}) take.count(*value);
+}
+
+template <class First, class Take>
+void each_of_first(First& p, Take&& take) {
+  for (auto* array : {&p.albedo, &p.normal, &p.position, &p.answer, &p.node}) {
+    for (auto& value : *array) take.sum(value);
+  }
+  for (auto* value : {&p.depth, &p.error, &p.training_count, &p.resolution}) take.sum(*value);
+  for (auto* value : {&p.count, &p.asked, &p.hits}) take.count(*value);
   for (auto* value : {&p.instance, &p.primitive}) take.id(*value);
 }
 
@@ -82,15 +92,18 @@ Film::Film(PixelRect rect, int full_width, int full_height, std::span<const Aov>
     for (auto& half : halves_) half.resize(pixels);
     for (auto& half : seen_) half.resize(pixels);
   }
+  if (std::any_of(aovs_.begin(), aovs_.end(), from_guide)) guides_.resize(pixels);
   if (std::any_of(aovs_.begin(), aovs_.end(), from_first_hit)) first_.resize(pixels);
   parts_.resize(pixels * light_groups_.size());
 }
 
 std::size_t Film::bytes_per_pixel(std::span<const Aov> aovs, std::size_t light_groups) {
+  const bool guide = std::any_of(aovs.begin(), aovs.end(), from_guide);
   const bool first = std::any_of(aovs.begin(), aovs.end(), from_first_hit);
   const std::size_t sums = has(aovs, Aov::reconstruction) ? 3 : 1;
   return sums * sizeof(Radiance) + (sums > 1 ? 2 * sizeof(std::array<double, 3>) : 0) +
-         (first ? sizeof(First) : 0) + light_groups * sizeof(std::array<double, 3>);
+         (guide ? sizeof(Guide) : 0) + (first ? sizeof(First) : 0) +
+         light_groups * sizeof(std::array<double, 3>);
 }
 
 PixelSample Film::take(const Pixel& p) {
@@ -142,29 +155,38 @@ void Film::add(const PixelSample& sample, const Color& radiance, const Color& se
 }
 
 void Film::add(const PixelSample& sample, const FirstHit& first) {
-  First& p = first_[at(sample.pixel)];
-  if (p.count++ == 0 && first.hit) {
-    p.instance = static_cast<float>(first.instance);
-    p.primitive = static_cast<float>(first.primitive);
-  }
+  const std::size_t pixel = at(sample.pixel);
+  if (!guides_.empty()) add_guide(guides_[pixel], first, sample.half() == 0);
+  if (!first_.empty()) add_first(first_[pixel], first);
+}
+
+void Film::add_guide(Guide& p, const FirstHit& first, bool first_half) {
+  ++p.count;
   p.alpha += static_cast<double>(first.alpha);
-  if (sample.half() == 0) {
+  if (first_half) {
     ++p.count_half;
     p.alpha_half += static_cast<double>(first.alpha);
   }
   if (first.guided && first.cache_radiance.isFinite().all()) {
-    ++p.guided;
-    if (sample.half() == 0) {
-      ++p.guided_half;
+    ++p.cached;
+    if (first_half) {
+      ++p.cached_half;
       accumulate(p.cache_half, first.cache_radiance.matrix());
     }
-    accumulate(p.cache_radiance, first.cache_radiance.matrix());
+    accumulate(p.cache, first.cache_radiance.matrix());
   }
   if (first.guide.hit) {
-    ++p.guide_hits;
-    accumulate(p.guide_albedo, first.guide.albedo.matrix());
-    accumulate(p.guide_normal, first.guide.normal);
-    p.guide_depth += static_cast<double>(first.guide.depth);
+    ++p.hits;
+    accumulate(p.albedo, first.guide.albedo.matrix());
+    accumulate(p.normal, first.guide.normal);
+    p.depth += static_cast<double>(first.guide.depth);
+  }
+}
+
+void Film::add_first(First& p, const FirstHit& first) {
+  if (p.count++ == 0 && first.hit) {
+    p.instance = static_cast<float>(first.instance);
+    p.primitive = static_cast<float>(first.primitive);
   }
   if (!first.hit) return;
   accumulate(p.albedo, first.albedo.matrix());
@@ -254,6 +276,7 @@ void Film::pack(std::span<const Pixel> pixels, Packer& packer) const {
       packer.add(halves_[h][i]);
       packer.add(seen_[h][i]);
     }
+    if (!guides_.empty()) packer.add(guides_[i]);
     if (!first_.empty()) packer.add(first_[i]);
     const std::size_t groups = light_groups_.size();
     packer.add_all(std::span(parts_).subspan(i * groups, groups));
@@ -269,6 +292,7 @@ void Film::unpack(std::span<const Pixel> pixels, Unpacker& unpacker) {
       halves_[h][i] = unpacker.read<Radiance>();
       seen_[h][i] = unpacker.read<std::array<double, 3>>();
     }
+    if (!guides_.empty()) guides_[i] = unpacker.read<Guide>();
     if (!first_.empty()) first_[i] = unpacker.read<First>();
     const std::size_t groups = light_groups_.size();
     unpacker.read_all(std::span(parts_).subspan(i * groups, groups));
@@ -280,8 +304,10 @@ FilmState Film::export_state() const {
   const std::size_t sums = radiance_.size() + 2 * halves_[0].size();
   state.radiance.reserve(sums * 6 + 6 * seen_[0].size());
   state.radiance_counts.reserve(2 * sums);
-  state.first.reserve(first_.size() * 32);
-  state.first_counts.reserve(first_.size() * 6);
+  state.guides.reserve(guides_.size() * 15);
+  state.guide_counts.reserve(guides_.size() * 5);
+  state.first.reserve(first_.size() * 19);
+  state.first_counts.reserve(first_.size() * 3);
   state.first_ids.reserve(first_.size() * 2);
   Exporter radiance{state.radiance, state.radiance_counts};
   for (const auto* all : {&radiance_, &halves_[0], &halves_[1]}) {
@@ -291,6 +317,8 @@ FilmState Film::export_state() const {
     for (const auto& sums_of : half)
       state.radiance.insert(state.radiance.end(), sums_of.begin(), sums_of.end());
   }
+  Exporter guides{state.guides, state.guide_counts};
+  for (const Guide& p : guides_) each_of_guide(p, guides);
   Exporter first{state.first, state.first_counts, &state.first_ids};
   for (const First& p : first_) each_of_first(p, first);
   for (const auto& sums_of : parts_) state.parts.insert(state.parts.end(), sums_of.begin(), sums_of.end());
@@ -304,7 +332,8 @@ FilmState Film::export_state() const {
 
 void Film::import_state(const FilmState& state) {
   assert(state.radiance_counts.size() == 2 * (radiance_.size() + 2 * halves_[0].size()) &&
-         state.first_ids.size() == 2 * first_.size() && state.parts.size() == 3 * parts_.size());
+         state.guide_counts.size() == 5 * guides_.size() && state.first_ids.size() == 2 * first_.size() &&
+         state.parts.size() == 3 * parts_.size());
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
   for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {
     for (Radiance& p : *sums) each_of_radiance(p, radiance);
@@ -314,6 +343,8 @@ void Film::import_state(const FilmState& state) {
       for (double& value : sums_of) radiance.sum(value);
     }
   }
+  Importer guides{state.guides.begin(), state.guide_counts.begin(), {}};
+  for (Guide& p : guides_) each_of_guide(p, guides);
   Importer first{state.first.begin(), state.first_counts.begin(), state.first_ids.begin()};
   for (First& p : first_) each_of_first(p, first);
   for (std::size_t i = 0; i < state.parts.size(); ++i) parts_[i / 3][i % 3] = state.parts[i];

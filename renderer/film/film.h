@@ -19,10 +19,12 @@
 namespace gatelight::renderer {
 
 /// The exact sums of a film, pixel after pixel: all samples, then those of both halves where the film keeps
-/// them. The `first` members are empty if the film keeps no first hits.
+/// them. The `guide` and `first` members are empty if the film keeps nothing of first hits.
 struct FilmState {
   std::vector<double> radiance;
   std::vector<std::uint32_t> radiance_counts;
+  std::vector<double> guides;
+  std::vector<std::uint32_t> guide_counts;
   std::vector<double> first;
   std::vector<std::uint32_t> first_counts;
   std::vector<float> first_ids;
@@ -44,7 +46,7 @@ class Film {
   const PixelRect& rect() const { return rect_; }
   std::size_t pixels() const { return radiance_.size(); }
   /// Whether some requested output variable comes from the primary hit.
-  bool needs_first_hits() const { return !first_.empty(); }
+  bool needs_first_hits() const { return !guides_.empty() || !first_.empty(); }
   const std::vector<std::string>& light_groups() const { return light_groups_; }
 
   /// Samples of a pixel so far, those that were dropped among them.
@@ -106,33 +108,40 @@ class Film {
     std::uint32_t count = 0;
     std::uint32_t taken = 0;  ///< with those that were dropped
   };
+  /// What reconstruction reads of first hits. The `half` members are of the first half.
+  struct Guide {
+    std::array<double, 3> albedo{};
+    std::array<double, 3> normal{};
+    std::array<double, 3> cache{};
+    std::array<double, 3> cache_half{};
+    double depth = 0.0;
+    double alpha = 0.0;
+    double alpha_half = 0.0;
+    std::uint32_t count = 0;  ///< number of samples
+    std::uint32_t count_half = 0;
+    std::uint32_t hits = 0;
+    std::uint32_t cached = 0;
+    std::uint32_t cached_half = 0;
+  };
+  /// What other output variables show of them.
   struct First {
     std::array<double, 3> albedo{};
     std::array<double, 3> normal{};
-    std::array<double, 3> guide_albedo{};
-    std::array<double, 3> guide_normal{};
     std::array<double, 3> position{};
-    std::array<double, 3> cache_radiance{};
-    std::array<double, 3> cache_half{};  ///< of cache_radiance: the first half
     std::array<double, 3> answer{};
     std::array<double, 3> node{};
-    double alpha = 0.0;
-    double alpha_half = 0.0;  ///< the first half
     double depth = 0.0;
-    double guide_depth = 0.0;
     double error = 0.0;
     double training_count = 0.0;
     double resolution = 0.0;
     std::uint32_t count = 0;  ///< number of samples
     std::uint32_t asked = 0;
-    std::uint32_t count_half = 0;  ///< of `count`, the first half
     std::uint32_t hits = 0;
-    std::uint32_t guide_hits = 0;
-    std::uint32_t guided = 0;
-    std::uint32_t guided_half = 0;
     float instance = -1.0f;
     float primitive = -1.0f;
   };
+  static void add_guide(Guide& p, const FirstHit& first, bool first_half);
+  static void add_first(First& p, const FirstHit& first);
   static double mean_of(const Radiance& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
   static double variance_of_mean(const Radiance& p, std::size_t channel);
@@ -163,7 +172,8 @@ class Film {
   /// Samples in turn, without what the camera sees itself; empty where nobody asks.
   std::array<std::vector<Radiance>, 2> halves_;
   std::array<std::vector<std::array<double, 3>>, 2> seen_;  ///< sums of that, as long as halves_
-  std::vector<First> first_;
+  std::vector<Guide> guides_;                               ///< empty where nobody asks
+  std::vector<First> first_;                                ///< the same
   std::vector<std::string> light_groups_;
   std::vector<std::array<double, 3>> parts_;  ///< sums of all groups of a pixel, then those of the next
   std::optional<SampleDensity> density_;

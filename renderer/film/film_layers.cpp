@@ -28,6 +28,11 @@ void fill(Layer& layer, const Range& all, Value value) {
                     });
 }
 
+/// The mean of so many, or 0.
+double over(double sum, std::uint32_t count) {
+  return count > 0 ? sum / count : 0.0;
+}
+
 }  // namespace
 
 Layer Film::layer(Aov aov, Range range) const {
@@ -44,15 +49,12 @@ Layer Film::layer(Aov aov, Range range) const {
   const auto fill_vector = [&](std::vector<std::string> channels, std::array<double, 3> First::*sum,
                                std::uint32_t First::*count) {
     fill_with(std::move(channels), [&, sum, count](std::size_t p, std::size_t i) {
-      const First& first = first_[p];
-      return first.*count > 0 ? (first.*sum)[i] / first.*count : 0.0;
+      return over((first_[p].*sum)[i], first_[p].*count);
     });
   };
   const auto fill_number = [&](const char* channel, double First::*sum, std::uint32_t First::*count) {
-    fill_with({channel}, [&, sum, count](std::size_t p, std::size_t) {
-      const First& first = first_[p];
-      return first.*count > 0 ? first.*sum / first.*count : 0.0;
-    });
+    fill_with({channel},
+              [&, sum, count](std::size_t p, std::size_t) { return over(first_[p].*sum, first_[p].*count); });
   };
   switch (aov) {
     case Aov::albedo:
@@ -74,7 +76,8 @@ Layer Film::layer(Aov aov, Range range) const {
       fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].instance; });
       break;
     case Aov::cache_radiance:
-      fill_vector({"R", "G", "B"}, &First::cache_radiance, &First::guided);
+      fill_with({"R", "G", "B"},
+                [&](std::size_t p, std::size_t i) { return over(guides_[p].cache[i], guides_[p].cached); });
       break;
     case Aov::cache_answer:
       fill_vector({"R", "G", "B"}, &First::answer, &First::count);
@@ -92,7 +95,7 @@ Layer Film::layer(Aov aov, Range range) const {
       fill_number("R", &First::resolution, &First::asked);
       break;
     case Aov::alpha:
-      fill_number("A", &First::alpha, &First::count);
+      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(guides_[p].alpha, guides_[p].count); });
       break;
     case Aov::sample_count:
       fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance_[p].count; });
@@ -107,26 +110,22 @@ Layer Film::layer(Aov aov, Range range) const {
       fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return std::sqrt(variance(p, i)); });
       break;
     case Aov::reconstruction:
-      fill_with({"coverage"}, [&](std::size_t p, std::size_t) {
-        const First& first = first_[p];
-        return first.count > 0 ? static_cast<double>(first.guide_hits) / first.count : 0.0;
-      });
+      fill_with({"coverage"},
+                [&](std::size_t p, std::size_t) { return over(guides_[p].hits, guides_[p].count); });
       break;
   }
   return layer;
 }
 
 void Film::add_guides(std::vector<Layer>& layers, Range range) const {
-  const auto mean_over = [](double sum, std::uint32_t count) { return count > 0 ? sum / count : 0.0; };
   Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
   fill(albedo, range,
-       [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_albedo[i], first_[p].count); });
+       [&](std::size_t p, std::size_t i) { return over(guides_[p].albedo[i], guides_[p].count); });
   Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
   fill(normal, range,
-       [&](std::size_t p, std::size_t i) { return mean_over(first_[p].guide_normal[i], first_[p].count); });
+       [&](std::size_t p, std::size_t i) { return over(guides_[p].normal[i], guides_[p].count); });
   Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
-  fill(depth, range,
-       [&](std::size_t p, std::size_t) { return mean_over(first_[p].guide_depth, first_[p].guide_hits); });
+  fill(depth, range, [&](std::size_t p, std::size_t) { return over(guides_[p].depth, guides_[p].hits); });
   for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
 }
 
@@ -153,7 +152,7 @@ void Film::add_halves(std::vector<Layer>& layers, Range range) const {
     if (of_alpha) {
       Layer alpha = layer_of("alpha-", {"A"});
       fill(alpha, range, [&](std::size_t p, std::size_t) {
-        const First& f = first_[p];
+        const Guide& f = guides_[p];
         const std::uint32_t in_b = f.count - f.count_half, n = h == 0 ? f.count_half : in_b;
         // A half without samples has the mean of all.
         if (n == 0) return f.count > 0 ? f.alpha / f.count : 0.0;
@@ -164,11 +163,11 @@ void Film::add_halves(std::vector<Layer>& layers, Range range) const {
     if (!of_cache) continue;
     Layer cache = layer_of("cache-");
     fill(cache, range, [&](std::size_t p, std::size_t i) {
-      const First& first = first_[p];
-      const std::uint32_t of_a = first.guided_half, of_b = first.guided - first.guided_half;
+      const Guide& guide = guides_[p];
+      const std::uint32_t of_a = guide.cached_half, of_b = guide.cached - guide.cached_half;
       // A single sample stands for both halves.
       const bool second = of_b > 0 && (h == 1 || of_a == 0);
-      const double sum = second ? first.cache_radiance[i] - first.cache_half[i] : first.cache_half[i];
+      const double sum = second ? guide.cache[i] - guide.cache_half[i] : guide.cache_half[i];
       return sum / std::max(second ? of_b : of_a, 1u);
     });
     layers.push_back(std::move(cache));

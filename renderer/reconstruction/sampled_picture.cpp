@@ -12,31 +12,51 @@
 namespace gatelight::renderer {
 namespace {
 
-const Layer& expect_layer(const Picture& picture, const char* name, std::size_t channels) {
-  const Layer* const layer = picture.find(name);
-  if (!layer)
+std::vector<float>& expect_layer(Picture& picture, const char* name, std::size_t channels) {
+  const auto layer = std::find_if(picture.layers.begin(), picture.layers.end(),
+                                  [&](const Layer& l) { return l.name == name; });
+  if (layer == picture.layers.end())
     throw ImageError(fmt::format("has no layer '{}', expected the layers of --aov reconstruction", name));
   if (layer->channels.size() != channels) {
     throw ImageError(fmt::format("has {} channels in its layer '{}', expected {}", layer->channels.size(),
                                  name, channels));
   }
-  return *layer;
+  return layer->values;
 }
 
-std::vector<float> finite_values(const Picture& picture, const char* name, std::size_t channels) {
-  const std::vector<float>& from = expect_layer(picture, name, channels).values;
-  std::vector<float> values(from.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 65536),
+template <class Function>
+void for_each(std::size_t count, Function function) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 65536),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        values[i] = std::isfinite(from[i]) ? from[i] : 0.0f;
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) function(i);
                     });
+}
+
+std::vector<float> finite_values(Picture& picture, const char* name, std::size_t channels) {
+  std::vector<float> values = std::move(expect_layer(picture, name, channels));
+  for_each(values.size(), [&](std::size_t i) {
+    if (!std::isfinite(values[i])) values[i] = 0.0f;
+  });
   return values;
+}
+
+/// No samples where a colour is not finite.
+void drop_nonfinite(Picture& picture) {
+  std::vector<float>& counts = expect_layer(picture, "samples", 1);
+  for (const char* name : {"half-a", "half-b"}) {
+    const std::vector<float>& values = expect_layer(picture, name, 3);
+    for_each(counts.size(), [&](std::size_t p) {
+      for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
+        if (!std::isfinite(values[i])) counts[p] = 0.0f;
+      }
+    });
+  }
 }
 
 }  // namespace
 
-SampledPicture sampled_picture(const Picture& picture) {
+SampledPicture take_samples(Picture& picture) {
+  drop_nonfinite(picture);
   SampledPicture s{.width = picture.width,
                    .height = picture.height,
                    .halves = {{finite_values(picture, "half-a", 3), finite_values(picture, "variance-a", 3)},
@@ -55,15 +75,9 @@ SampledPicture sampled_picture(const Picture& picture) {
     s.halves[1].seen = finite_values(picture, "seen-b", 3);
     for (SampledPicture::Half& half : s.halves) {
       for (std::vector<float>* values : {&half.color, &half.cache}) {
-        for (std::size_t i = 0; i < values->size(); ++i)
-          (*values)[i] = std::max((*values)[i] - half.seen[i], 0.0f);
+        for_each(values->size(),
+                 [&](std::size_t i) { (*values)[i] = std::max((*values)[i] - half.seen[i], 0.0f); });
       }
-    }
-  }
-  for (const char* name : {"half-a", "half-b"}) {
-    const std::vector<float>& values = picture.find(name)->values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!std::isfinite(values[i])) s.counts[i / 3] = 0.0f;
     }
   }
   return s;

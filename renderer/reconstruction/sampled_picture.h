@@ -31,8 +31,9 @@ struct SampledPicture {
   std::vector<float> depth;  ///< in metres, over the samples that hit
 };
 
-/// Reads the layers that --aov reconstruction writes. Values that are not finite count as 0, and a pixel with
-/// such a colour as one without samples. Throws ImageError, which names the layer that is missing.
-SampledPicture sampled_picture(const Picture& picture);
+/// Takes the values of the layers that --aov reconstruction writes out of a picture, where they are empty
+/// afterwards. Values that are not finite count as 0, and a pixel with such a colour as one without samples.
+/// Throws ImageError, which names the layer that is missing.
+SampledPicture take_samples(Picture& picture);
 
 }  // namespace gatelight::renderer

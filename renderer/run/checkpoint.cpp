@@ -24,7 +24,7 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 8;
+constexpr int kVersion = 9;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
@@ -75,6 +75,8 @@ template <class State, class Visit>
 void each_array(State& film, Visit&& visit) {
   visit("film.radiance", TensorType::f64, film.radiance);
   visit("film.radiance_counts", TensorType::u32, film.radiance_counts);
+  visit("film.guides", TensorType::f64, film.guides);
+  visit("film.guide_counts", TensorType::u32, film.guide_counts);
   visit("film.first", TensorType::f64, film.first);
   visit("film.first_counts", TensorType::u32, film.first_counts);
   visit("film.first_ids", TensorType::f32, film.first_ids);

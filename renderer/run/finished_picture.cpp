@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "renderer/machine/clock.h"
@@ -13,13 +14,10 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The layers that reconstruction reads and nobody asked for.
-void drop_unwanted(Picture& picture, const std::vector<Aov>& aovs) {
-  if (has(aovs, Aov::reconstruction)) return;
-  std::erase_if(picture.layers, [&](const Layer& layer) {
-    return !layer.name.empty() && !layer.name.starts_with(kLightLayer) &&
-           std::none_of(aovs.begin(), aovs.end(), [&](Aov aov) { return word(aov) == layer.name; });
-  });
+/// Not a layer that reconstruction reads and nobody asked for.
+bool is_wanted(const Layer& layer, const std::vector<Aov>& aovs) {
+  return has(aovs, Aov::reconstruction) || layer.name.empty() || layer.name.starts_with(kLightLayer) ||
+         std::any_of(aovs.begin(), aovs.end(), [&](Aov aov) { return word(aov) == layer.name; });
 }
 
 /// The samples' own brightness is taken from so many pixels around each, in each direction.
@@ -51,8 +49,8 @@ double error_of(const Picture& picture, const Reconstruction& finished) {
   return estimated_error(picture, darker, errors, kHalfSmoothing);
 }
 
-SampledPicture samples_of(const Picture& picture, const RenderOptions& options) {
-  SampledPicture samples = sampled_picture(picture);
+SampledPicture samples_of(Picture& picture, const RenderOptions& options) {
+  SampledPicture samples = take_samples(picture);
   // Occlusion does not depend on what a surface reflects.
   if (options.integrator == Integrator::ao || options.integrator == Integrator::nao)
     std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
@@ -139,18 +137,20 @@ void crop(Picture& picture, const SharedRows& rows) {
 
 }  // namespace
 
-Reconstruction reconstruction_of(const Picture& picture, const SharedRows& rows,
-                                 const RenderOptions& options) {
+Reconstruction reconstruction_of(Picture picture, const SharedRows& rows, const RenderOptions& options) {
   return reconstruct_rows(samples_of(picture, options), rows);
 }
 
 FinishedPicture finished_rows(Picture picture, const SharedRows& rows, const RenderOptions& options,
                               const SeenLight& better, const CaughtShadows& shadows) {
-  SampledPicture samples = samples_of(picture, options);
-  if (better) improve(samples, rect_of(picture), rows, better);
   std::array<std::vector<float>, 2> alphas;
   if (options.background.apart()) alphas = alpha_of_halves(picture, shadows);
-  drop_unwanted(picture, options.aovs);
+  std::vector<Layer> wanted;
+  std::copy_if(picture.layers.begin(), picture.layers.end(), std::back_inserter(wanted),
+               [&](const Layer& layer) { return is_wanted(layer, options.aovs); });
+  SampledPicture samples = samples_of(picture, options);
+  if (better) improve(samples, rect_of(picture), rows, better);
+  picture.layers = std::move(wanted);
   crop(picture, rows);
 
   FinishedPicture result;
@@ -189,7 +189,7 @@ FinishedPicture finished_picture(const Film& film, const RenderOptions& options,
     result.estimated_error = error_of(film, picture);
     std::vector<float> alpha;
     if (options.background.apart()) alpha = mean_alpha(picture, shadows);
-    drop_unwanted(picture, options.aovs);
+    std::erase_if(picture.layers, [&](const Layer& layer) { return !is_wanted(layer, options.aovs); });
     if (options.background.apart()) put_before(picture, alpha, options.background);
     result.picture = std::move(picture);
   });

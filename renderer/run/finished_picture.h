@@ -51,8 +51,7 @@ void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOpti
 
 /// The reconstruction alone, with its halves. `picture` is that of finished_rows(). Runs in the caller's
 /// arena.
-Reconstruction reconstruction_of(const Picture& picture, const SharedRows& rows,
-                                 const RenderOptions& options);
+Reconstruction reconstruction_of(Picture picture, const SharedRows& rows, const RenderOptions& options);
 
 /// Its estimated_error alone, without reconstruction.
 std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena);

@@ -216,9 +216,9 @@ double Renderer::Implementation::adapt_density(Film& film, const Reconstruction*
   const Clock::time_point start = Clock::now();
   FinishedPicture finished;
   if (!known) {
-    const Picture samples = sampled_rows(film);
+    Picture samples = sampled_rows(film);
     finished.reconstruction =
-        arena.execute([&] { return reconstruction_of(samples, shared_rows(), options); });
+        arena.execute([&] { return reconstruction_of(std::move(samples), shared_rows(), options); });
     if (!ranks.alone()) join_rows(finished, region.height(), ranks);
     known = &finished.reconstruction;
   }

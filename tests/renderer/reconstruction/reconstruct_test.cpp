@@ -183,7 +183,7 @@ TEST(SampledPictures, ReadTheirLayersAndNameTheOneThatIsMissing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   picture.layers[2].values[4] = nan;  // of half-b
   picture.layers.back().values[0] = std::numeric_limits<float>::infinity();
-  const SampledPicture samples = sampled_picture(picture);
+  const SampledPicture samples = take_samples(picture);
   EXPECT_TRUE(samples.halves[0].cache.empty());
   EXPECT_EQ(samples.counts, (std::vector<float>{1.0f, 0.0f}));
   EXPECT_EQ(samples.depth, (std::vector<float>{0.0f, 1.0f}));
@@ -192,14 +192,15 @@ TEST(SampledPictures, ReadTheirLayersAndNameTheOneThatIsMissing) {
     std::vector<std::string> others = all;
     std::erase(others, name);
     try {
-      sampled_picture(picture_with(others));
+      Picture incomplete = picture_with(others);
+      take_samples(incomplete);
       FAIL() << name;
     } catch (const ImageError& error) {
       EXPECT_NE(std::string(error.what()).find("'" + name + "'"), std::string::npos) << error.what();
     }
   }
   picture.layers.back().channels = {"R", "G"};
-  EXPECT_THROW(sampled_picture(picture), ImageError);
+  EXPECT_THROW(take_samples(picture), ImageError);
 }
 
 }  // namespace

@@ -48,8 +48,10 @@ void add_sample(Film& film, std::uint64_t seed) {
       film.add_parts({x, y}, std::vector{Color(next(), next(), next()), Color(next(), next(), next())}, 1.0f);
       FirstHit hit;
       hit.hit = x != 2;
-      hit.asked = y != 2;
-      for (Color* color : {&hit.albedo, &hit.answer, &hit.node}) *color = Color(next(), next(), next());
+      hit.asked = hit.guided = y != 2;
+      hit.guide = {hit.hit, 0, Color(next(), next(), next()), hit.albedo, hit.normal, next()};
+      for (Color* color : {&hit.albedo, &hit.answer, &hit.node, &hit.cache_radiance})
+        *color = Color(next(), next(), next());
       for (scene::Vec3* vector : {&hit.normal, &hit.position}) *vector = scene::Vec3(next(), next(), next());
       for (float* value : {&hit.depth, &hit.error}) *value = next();
       hit.instance = static_cast<decltype(hit.instance)>(x);
@@ -62,8 +64,9 @@ void add_sample(Film& film, std::uint64_t seed) {
 }
 
 bool same(const FilmState& a, const FilmState& b) {
-  return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.first == b.first &&
-         a.first_counts == b.first_counts && a.first_ids == b.first_ids && a.parts == b.parts;
+  return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.guides == b.guides &&
+         a.guide_counts == b.guide_counts && a.first == b.first && a.first_counts == b.first_counts &&
+         a.first_ids == b.first_ids && a.parts == b.parts;
 }
 
 TEST(FilmState, AFilmGoesOnToTheBit) {

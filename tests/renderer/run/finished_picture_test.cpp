@@ -35,7 +35,8 @@ class FinishedPicture : public ::testing::TestWithParam<Integrator> {
   }
 
   Reconstruction reconstruct_samples() {
-    SampledPicture samples = sampled_picture(render(false, {Aov::reconstruction}));
+    Picture picture = render(false, {Aov::reconstruction});
+    SampledPicture samples = take_samples(picture);
     if (GetParam() == Integrator::ao || GetParam() == Integrator::nao)
       std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
     return reconstruct(samples);
