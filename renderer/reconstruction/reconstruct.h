@@ -12,7 +12,7 @@ namespace gatelight::renderer {
 
 struct ReconstructionOptions {
   std::string isa = "auto";  ///< of the kernels: auto, scalar, avx2, avx512; all give the same bits
-  int rows_at_once = 1024;   ///< memory is needed for so many rows; every number gives the same bits
+  int rows_at_once = 576;    ///< memory is needed for so many rows; every number gives the same bits
 };
 
 struct Reconstruction {

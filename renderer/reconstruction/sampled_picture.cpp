@@ -42,15 +42,13 @@ std::vector<float> finite_values(Picture& picture, const char* name, std::size_t
 
 /// No samples where a colour is not finite.
 void drop_nonfinite(Picture& picture) {
+  const std::vector<float>&a = expect_layer(picture, "half-a", 3), &b = expect_layer(picture, "half-b", 3);
   std::vector<float>& counts = expect_layer(picture, "samples", 1);
-  for (const char* name : {"half-a", "half-b"}) {
-    const std::vector<float>& values = expect_layer(picture, name, 3);
-    for_each(counts.size(), [&](std::size_t p) {
-      for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
-        if (!std::isfinite(values[i])) counts[p] = 0.0f;
-      }
-    });
-  }
+  for_each(counts.size(), [&](std::size_t p) {
+    for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
+      if (!std::isfinite(a[i]) || !std::isfinite(b[i])) counts[p] = 0.0f;
+    }
+  });
 }
 
 }  // namespace
