@@ -134,14 +134,7 @@ void CachedPass::finish_paths(Tile& tile) const {
   tile.radiance.resize(tile.samples.size());
   const std::span<const float> answers =
       std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
-  if (plan_.guides && !tile.first_hits.empty()) {
-    tile.guides.resize(tile.samples.size());
-    tile.paths.guide_colors(answers, tile.guides);
-    for (std::size_t i = 0; i < tile.guides.size(); ++i) {
-      tile.first_hits[i].guided = true;
-      tile.first_hits[i].cache_radiance = tile.guides[i];
-    }
-  }
+  if (plan_.guides && !tile.first_hits.empty()) tile.paths.tell_guides(answers, tile.first_hits);
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {
     // Paths without a record or an answer are black.

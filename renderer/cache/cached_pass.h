@@ -35,7 +35,6 @@ class CachedPass : public WorkerPass<CachedWorker> {
     std::vector<SampleResult> results;
     std::vector<FirstHit> first_hits;
     std::vector<Color> radiance;
-    std::vector<Color> guides;
     PathBatch paths;
     std::size_t first_query = 0;
   };

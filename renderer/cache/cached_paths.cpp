@@ -221,6 +221,7 @@ void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool st
                             PathBatch& batch) const {
   PathGuide& guide = batch.guides[path.index];
   guide.vertex = vertex;
+  guide.surface = path.surfaces;
   if (!stored || !worth_caching(point.albedo)) return;
   guide.reflectance = cache_reflectance(point.albedo) * path.scale();
   const std::int32_t asked = batch.vertices[static_cast<std::size_t>(vertex)].query;

@@ -25,8 +25,7 @@ void PathBatch::begin(std::size_t paths) {
   unstored_hits = 0;
 }
 
-void PathBatch::guide_colors(std::span<const float> answers, std::span<Color> colors) const {
-  std::copy(emission.begin(), emission.end(), colors.begin());
+void PathBatch::tell_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const {
   // Emission that mirrors and glass before the surface show, or without such a surface all that they show.
   std::vector<std::int32_t> last(paths(), kNone);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -50,7 +49,10 @@ void PathBatch::guide_colors(std::span<const float> answers, std::span<Color> co
       light = v.link * (v.known + light);
       at = v.previous;
     }
-    colors[p] += light;
+    FirstHit& first = first_hits[p];
+    first.guided = true;
+    first.cache_radiance = emission[p] + light;
+    first.behind_guide = guide.vertex == kNone || guide.surface > first.guide.surface;
   }
 }
 

@@ -36,6 +36,7 @@ static_assert(sizeof(PathVertex) == 64);
 struct PathGuide {
   std::int32_t vertex = kNone;
   std::int32_t query = kNone;  ///< into PathBatch::queries; kNone: the surface has no storage
+  std::int32_t surface = 0;    ///< its number on the path, as GuideSurface::surface
   Color reflectance = Color::Zero();
   Color apart = Color::Zero();  ///< light samples of the wide lobes that the cache does not hold
 };
@@ -66,9 +67,9 @@ struct PathBatch {
     return Eigen::Map<Color>(&targets[3 * static_cast<std::size_t>(record)]);
   }
 
-  /// The light of the paths as the cache knows it at the first wide surface: emission up to there, and what
-  /// that surface reflects, by its answer. One for each path. Call it before resolve().
-  void guide_colors(std::span<const float> answers, std::span<Color> colors) const;
+  /// Tells the first hits of the paths their light as the cache knows it at the first wide surface: emission
+  /// up to there, and what that surface reflects, by its answer. Call it before resolve().
+  void tell_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const;
 
   /// Sums up from the ends. Call it once. answers: 3 floats for each query, radiance over reflectance.
   /// radiance: one for each path, or empty. Completes `targets`.

@@ -105,14 +105,8 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
     if (samples) {
       const std::size_t first = batch.starts.offsets[b];
       radiance = std::span(batch.radiance).subspan(first, batch.paths[b].paths());
-      if (guides_) {
-        std::vector<Color> guides(radiance.size());
-        batch.paths[b].guide_colors(answers, guides);
-        for (std::size_t i = 0; i < guides.size(); ++i) {
-          batch.first_hits[first + i].guided = true;
-          batch.first_hits[first + i].cache_radiance = guides[i];
-        }
-      }
+      if (guides_)
+        batch.paths[b].tell_guides(answers, std::span(batch.first_hits).subspan(first, radiance.size()));
     }
     batch.paths[b].resolve(answers, radiance);
     const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);

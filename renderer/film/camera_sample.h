@@ -52,6 +52,7 @@ struct FirstHit {
   GuideSurface guide;
   bool guided = false;                     ///< cache_radiance is known
   Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, as the cache alone gives it
+  bool behind_guide = false;               ///< what the cache gives was found behind the guide's surface
   // These come from the first cache query of the path.
   bool asked = false;
   Color answer{0.0f, 0.0f, 0.0f};

@@ -46,7 +46,8 @@ void each_of_guide(Guide& p, Take&& take) {
     for (auto& value : *array) take.sum(value);
   }
   for (auto* value : {&p.depth, &p.alpha, &p.alpha_half}) take.sum(*value);
-  for (auto* value : {&p.count, &p.count_half, &p.hits, &p.cached, &p.cached_half}) take.count(*value);
+  for (auto* value : {&p.count, &p.count_half, &p.hits, &p.cached, &p.cached_half, &p.behind})
+    take.count(*value);
 }
 
 template <class First, class Take>
@@ -169,6 +170,7 @@ void Film::add_guide(Guide& p, const FirstHit& first, bool first_half) {
   }
   if (first.guided && first.cache_radiance.isFinite().all()) {
     ++p.cached;
+    if (first.behind_guide) ++p.behind;
     if (first_half) {
       ++p.cached_half;
       accumulate(p.cache_half, first.cache_radiance.matrix());
@@ -305,7 +307,7 @@ FilmState Film::export_state() const {
   state.radiance.reserve(sums * 6 + 6 * seen_[0].size());
   state.radiance_counts.reserve(2 * sums);
   state.guides.reserve(guides_.size() * 15);
-  state.guide_counts.reserve(guides_.size() * 5);
+  state.guide_counts.reserve(guides_.size() * 6);
   state.first.reserve(first_.size() * 19);
   state.first_counts.reserve(first_.size() * 3);
   state.first_ids.reserve(first_.size() * 2);
@@ -332,7 +334,7 @@ FilmState Film::export_state() const {
 
 void Film::import_state(const FilmState& state) {
   assert(state.radiance_counts.size() == 2 * (radiance_.size() + 2 * halves_[0].size()) &&
-         state.guide_counts.size() == 5 * guides_.size() && state.first_ids.size() == 2 * first_.size() &&
+         state.guide_counts.size() == 6 * guides_.size() && state.first_ids.size() == 2 * first_.size() &&
          state.parts.size() == 3 * parts_.size());
   Importer radiance{state.radiance.begin(), state.radiance_counts.begin(), {}};
   for (auto* sums : {&radiance_, &halves_[0], &halves_[1]}) {

@@ -122,6 +122,7 @@ class Film {
     std::uint32_t hits = 0;
     std::uint32_t cached = 0;
     std::uint32_t cached_half = 0;
+    std::uint32_t behind = 0;  ///< of `cached`, those that the cache knows behind the guide's surface
   };
   /// What other output variables show of them.
   struct First {

@@ -126,6 +126,12 @@ void Film::add_guides(std::vector<Layer>& layers, Range range) const {
        [&](std::size_t p, std::size_t i) { return over(guides_[p].normal[i], guides_[p].count); });
   Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
   fill(depth, range, [&](std::size_t p, std::size_t) { return over(guides_[p].depth, guides_[p].hits); });
+  if (has(aovs_, Aov::cache_radiance)) {
+    Layer behind{.name = "cache-behind", .channels = {"share"}};
+    fill(behind, range,
+         [&](std::size_t p, std::size_t) { return over(guides_[p].behind, guides_[p].cached); });
+    layers.push_back(std::move(behind));
+  }
   for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
 }
 

@@ -69,7 +69,9 @@ void Region::read(const SampledPicture& s, int top) {
   each([&](Plane& plane) { plane.resize(pixels()); });
   const bool cached = !s.halves[0].cache.empty();
   if (cached) {
-    for (Plane& plane : cache_) plane.resize(pixels());
+    for (auto& half : cache_) {
+      for (Plane& plane : half) plane.resize(pixels());
+    }
     cache_noise_.resize(pixels());
   }
   const std::size_t offset = static_cast<std::size_t>(first_ - top) * static_cast<std::size_t>(width_);
@@ -89,7 +91,9 @@ void Region::read(const SampledPicture& s, int top) {
         if (cached) {
           const float a = saturated(static_cast<double>(s.halves[0].cache[3 * from + c]) * over);
           const float b = saturated(static_cast<double>(s.halves[1].cache[3 * from + c]) * over);
-          cache_[c][p] = 0.5f * (a + b);
+          const float other = s.behind.empty() ? 0.5f : 0.5f + 0.5f * s.behind[from];
+          cache_[0][c][p] = a + other * (b - a);
+          cache_[1][c][p] = b + other * (a - b);
           cache_noise_[p] += (a - b) * (a - b) / 12.0f;
         }
         for (int h = 0; h < 2; ++h) {
@@ -196,7 +200,9 @@ Plane Region::edge_noise() const {
 /// to texel of its features.
 Plane Region::cache_variance() const {
   Plane usual(pixels()), variance(cache_noise_);
-  for (std::size_t p = 0; p < pixels(); ++p) usual[p] = (cache_[0][p] + cache_[1][p] + cache_[2][p]) / 3.0f;
+  for (std::size_t p = 0; p < pixels(); ++p) {
+    for (const auto& half : cache_) usual[p] += (half[0][p] + half[1][p] + half[2][p]) / 6.0f;
+  }
   box_filter(usual, width_, height_, 3);
   box_filter(variance, width_, height_, 3);
   for (std::size_t p = 0; p < pixels(); ++p) {
@@ -241,12 +247,9 @@ void Region::fit(const ReconstructionKernels& kernels, int from_row, int to_row)
   };
   for (int c = 0; c < 3; ++c) set_guide(c, normal_[c], [](float) { return 1e-3f; });
   set_guide(3, depth_, [](float z) { return 1e-4f * z * z + 1e-12f; });
-  if (!cache_[0].empty()) {
+  if (!cache_noise_.empty()) {
     const float* const variance = keep(layout.deal_clamped(cache_variance()));
-    for (int c = 0; c < 3; ++c) {
-      band.guides[4 + c] = keep(layout.deal_clamped(cache_[c]));
-      band.guide_variance[4 + c] = variance;
-    }
+    for (int c = 0; c < 3; ++c) band.guide_variance[4 + c] = variance;
     band.guide_count = kMostGuides;
   }
   for (int c = 0; c < 3; ++c) {
@@ -257,6 +260,11 @@ void Region::fit(const ReconstructionKernels& kernels, int from_row, int to_row)
   band.edge_noise = keep(layout.deal_clamped(edge_noise()));
 
   for (int h = 0; h < 2; ++h) {
+    Plane cache[3];
+    for (int c = 0; c < 3 && !cache_noise_.empty(); ++c) {
+      cache[c] = layout.deal_clamped(cache_[h][c]);
+      band.guides[4 + c] = cache[c].data();
+    }
     std::vector<Plane> sums(5, Plane(layout.size(), 0.0f));
     const FitView out{{sums[0].data(), sums[1].data(), sums[2].data()}, sums[3].data(), sums[4].data()};
     const int first_pair = from / (2 * kBandWindows), end_pair = (to - 1) / (2 * kBandWindows) + 1;

@@ -64,7 +64,7 @@ class Region {
   Plane divisor_[3];  ///< of colours: what the surface reflects
   Plane normal_[3];
   Plane depth_;
-  Plane cache_[3];     ///< over the divisor; empty without a cache
+  Plane cache_[2][3];  ///< the cache's picture over the divisor, for the fit of each half; empty without one
   Plane cache_noise_;  ///< squared, of a channel's mean
   Plane color_[3];     ///< finished
   Plane error_;        ///< squared, of a channel's mean

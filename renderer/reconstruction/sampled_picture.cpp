@@ -67,6 +67,7 @@ SampledPicture take_samples(Picture& picture) {
   if (picture.find("cache-a")) {
     s.halves[0].cache = finite_values(picture, "cache-a", 3);
     s.halves[1].cache = finite_values(picture, "cache-b", 3);
+    if (picture.find("cache-behind")) s.behind = finite_values(picture, "cache-behind", 1);
   }
   if (picture.find("seen-a")) {
     s.halves[0].seen = finite_values(picture, "seen-a", 3);

@@ -24,6 +24,7 @@ struct SampledPicture {
   Half halves[2];
   std::vector<float> counts;    ///< samples a pixel; pixels without any are filled
   std::vector<float> coverage;  ///< share of the samples that hit a surface
+  std::vector<float> behind;    ///< share that the cache knows behind the guides' surface; empty: none
   // Means over a pixel's samples, at the first surface that is neither a mirror nor clear; zero where nothing
   // was hit.
   std::vector<float> albedo;

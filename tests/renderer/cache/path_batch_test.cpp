@@ -67,7 +67,7 @@ TEST(PathBatch, LightComesBackThroughPanesAnswersAndRecords) {
   EXPECT_TRUE((radiance[1] == Color(0.5f, 1.0f, 2.0f)).all()) << radiance[1].transpose();
 }
 
-TEST(PathBatch, GuidesShowWhatTheCacheKnowsOfEachPath) {
+TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
   PathBatch batch;
   batch.begin(3);
   batch.guides.resize(3);
@@ -89,16 +89,24 @@ TEST(PathBatch, GuidesShowWhatTheCacheKnowsOfEachPath) {
   glass.known = Color(4.0f, 8.0f, 2.0f);
   glass.link = Color(0.25f, 0.5f, 1.0f);
   batch.vertices = {mirror, wall, beyond, glass};
-  batch.guides[0] = {1, 0, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
+  batch.guides[0] = {1, 0, 1, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
   push_point(batch.queries, 9);
 
   const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
-  std::array<Color, 3> colors;
-  batch.guide_colors(answers, colors);
+  std::vector<FirstHit> hits(3);
+  batch.tell_guides(answers, hits);
+  const auto is = [&](std::size_t path, const Color& color) {
+    return hits[path].guided && (hits[path].cache_radiance == color).all();
+  };
   // The wall: (.5,.75,1)(10,20,30) + (1,2,4) = (6,17,34). The mirror: (3,5,9) + (.5,1,.25)(6,17,34).
-  EXPECT_TRUE((colors[0] == Color(8.0f + 3.0f, 5.5f, 16.0f + 17.5f)).all()) << colors[0].transpose();
-  EXPECT_TRUE((colors[1] == Color(0.5f, 1.0f, 2.0f)).all()) << colors[1].transpose();
-  EXPECT_TRUE((colors[2] == Color(1.0f, 4.0f, 2.0f)).all()) << colors[2].transpose();
+  EXPECT_TRUE(is(0, Color(8.0f + 3.0f, 5.5f, 16.0f + 17.5f))) << hits[0].cache_radiance.transpose();
+  EXPECT_TRUE(is(1, Color(0.5f, 1.0f, 2.0f))) << hits[1].cache_radiance.transpose();
+  EXPECT_TRUE(is(2, Color(1.0f, 4.0f, 2.0f))) << hits[2].cache_radiance.transpose();
+  // The mirror is no guide of reconstruction, or it is one.
+  EXPECT_TRUE(hits[0].behind_guide && hits[2].behind_guide);
+  hits[0].guide.surface = 1;
+  batch.tell_guides(answers, hits);
+  EXPECT_FALSE(hits[0].behind_guide);
 }
 
 TEST(PathBatch, RadianceIsOptional) {

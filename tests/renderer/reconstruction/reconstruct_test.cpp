@@ -133,6 +133,22 @@ TEST(Reconstruct, ANoisyCacheIsBelievedLess) {
   EXPECT_LT(squared_error(reconstruct(made.samples).color, made.truth), 1.1 * without);
 }
 
+/// Behind a narrow reflection a path's light and what the cache says of it have the same noise.
+TEST(Reconstruct, NoiseOfTheCacheBehindTheGuidesIsNotTakenForLight) {
+  for (const int spp : {4, 16}) {
+    Made made = make_picture(120, 90, spp, 1.0);
+    const double without = squared_error(reconstruct(made.samples).color, made.truth);
+    for (SampledPicture::Half& half : made.samples.halves) half.cache = half.color;
+    const double believed = squared_error(reconstruct(made.samples).color, made.truth);
+    made.samples.behind.assign(made.samples.counts.size(), 1.0f);
+    const double behind = squared_error(reconstruct(made.samples).color, made.truth);
+    EXPECT_GT(believed, 10.0 * without) << spp << " samples";
+    EXPECT_LT(behind, 1.6 * without) << spp << " samples";
+    RecordProperty("shares_" + std::to_string(spp),
+                   std::to_string(believed / without) + " " + std::to_string(behind / without));
+  }
+}
+
 TEST(Reconstruct, KeepsTheSumOfLight) {
   for (const int spp : {1, 4, 16, 64}) {
     const Made made = make_picture(160, 120, spp, 1.5, 0.2);
@@ -147,7 +163,11 @@ TEST(Reconstruct, KeepsTheSumOfLight) {
 TEST(Reconstruct, ThreadsInstructionSetsAndRegionsGiveTheSameBits) {
   Made made = make_picture(70, 300, 8, 1.0, 0.1);
   for (const bool cached : {false, true}) {
-    if (cached) show_cache(made.samples, cache_of(made, 0.1));
+    if (cached) {
+      show_cache(made.samples, cache_of(made, 0.1));
+      made.samples.halves[1].cache = cache_of(made, 0.2);
+      made.samples.behind.assign(made.samples.counts.size(), 0.25f);
+    }
     const SampledPicture& samples = made.samples;
     const Reconstruction expected = reconstruct(samples);
     const auto expect_same = [&](const ReconstructionOptions& options, const std::string& what) {

@@ -53,6 +53,11 @@ class GuideSurfaces : public ::testing::TestWithParam<Integrator> {
     for (std::size_t i = 0; i < layer->values.size(); ++i)
       ASSERT_NEAR(layer->values[i], value[i % value.size()], within) << i;
   }
+  /// The share of the samples whose cache's picture is of a surface behind the guide.
+  static void expect_behind(const Picture& picture, float share) {
+    EXPECT_EQ(picture.find("cache-behind") != nullptr, GetParam() == Integrator::nrc);
+    if (GetParam() == Integrator::nrc) expect_layer(picture, "cache-behind", {share}, 0.0f);
+  }
 };
 
 scene::Material mirror(float roughness) {
@@ -69,6 +74,7 @@ TEST_P(GuideSurfaces, LieBehindAMirror) {
   expect_layer(picture, "guide-normal", {0.0f, 0.0f, -1.0f}, 1e-5f);
   expect_layer(picture, "guide-depth", {7.0f}, 0.05f);
   expect_layer(picture, "guide-albedo", {0.9f * 0.2f, 0.8f * 0.4f, 0.5f * 0.6f}, 0.01f);
+  expect_behind(picture, 0.0f);
   // Output variables are those of the primary hit.
   expect_layer(picture, "depth", {2.0f}, 0.02f);
   expect_layer(picture, "albedo", {0.9f, 0.8f, 0.5f}, 0.02f);
@@ -103,7 +109,15 @@ TEST_P(GuideSurfaces, AreRoughMetalAndVarnishThemselves) {
     expect_layer(picture, "guide-normal", {0.0f, 0.0f, 1.0f}, 1e-5f);
     expect_layer(picture, "guide-depth", {2.0f}, 0.02f);
     EXPECT_EQ(picture.find("guide-albedo")->values, picture.find("albedo")->values);
+    expect_behind(picture, 0.0f);
   }
+}
+
+/// A narrow reflection: the cache is asked where a path goes from there.
+TEST_P(GuideSurfaces, MayBeBeforeWhatTheCacheTells) {
+  const Picture picture = render(scene_with(mirror(0.2f), false));
+  expect_layer(picture, "guide-depth", {2.0f}, 0.02f);
+  expect_behind(picture, 1.0f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, GuideSurfaces, ::testing::Values(Integrator::path, Integrator::nrc),
