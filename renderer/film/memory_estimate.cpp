@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "renderer/film/film.h"
 #include "renderer/image/cryptomatte.h"
 #include "renderer/machine/errors.h"
@@ -18,6 +21,10 @@ constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
 /// Bytes of an emissive triangle with its node of the light tree and its record for the kernels.
 constexpr std::size_t kLightBytes = 336;
+/// Of a picture that is reconstructed: the rows that are worked on at once, with their margins
+/// (reconstruct.h), and the floats of each of their pixels (region.h).
+constexpr std::size_t kWorkingRows = 704;
+constexpr std::size_t kWorkingFloats = 72;
 
 }  // namespace
 
@@ -34,21 +41,24 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
     // Four bytes per texel, and a third more for the coarser mip levels.
     need.textures += static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 16 / 3;
   }
-  const std::size_t pixels =
-      options.region ? static_cast<std::size_t>((*options.region)[2] - (*options.region)[0]) *
-                           static_cast<std::size_t>((*options.region)[3] - (*options.region)[1])
-                     : static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-  // The sums, and at the same time the resolved picture: 13 floats at most, 21 more for the layers that
-  // reconstruction reads, and 38 more for what it reads and writes.
+  const std::array<int, 4> whole = {0, 0, options.width, options.height};
+  const std::array<int, 4> rect = options.region.value_or(whole);
+  const auto width = static_cast<std::size_t>(rect[2] - rect[0]);
+  const auto height = static_cast<std::size_t>(rect[3] - rect[1]);
+  const std::size_t pixels = width * height;
+  // The sums, and at the same time the resolved picture: 13 floats at most, 22 more for the layers that
+  // reconstruction reads, and 18 for what it writes and the layers that are kept.
   const std::vector<Aov> aovs = film_aovs(options);
   const bool halves = has(aovs, Aov::reconstruction);
   const std::size_t density =
       options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
   const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;
-  const std::size_t kept = options.reconstruct ? 72 : halves ? 34 : 13;
+  const std::size_t kept = options.reconstruct ? 53 : halves ? 35 : 13;
   const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
   const std::size_t floats = kept + density + (aovs.size() + groups) * 3 + mattes;
   need.film = pixels * (Film::bytes_per_pixel(aovs, groups) + floats * sizeof(float));
+  if (options.reconstruct)
+    need.film += width * std::min(height, kWorkingRows) * kWorkingFloats * sizeof(float);
   return need;
 }
 

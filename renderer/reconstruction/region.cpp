@@ -91,7 +91,9 @@ void Region::read(const SampledPicture& s, int top) {
         if (cached) {
           const float a = saturated(static_cast<double>(s.halves[0].cache[3 * from + c]) * over);
           const float b = saturated(static_cast<double>(s.halves[1].cache[3 * from + c]) * over);
-          const float other = s.behind.empty() ? 0.5f : 0.5f + 0.5f * s.behind[from];
+          // Noise of the cache behind the guides' surface is that of the half's own samples.
+          const float behind = s.behind.empty() ? 0.0f : std::clamp(s.behind[from], 0.0f, 1.0f);
+          const float other = 0.5f + 0.5f * behind;
           cache_[0][c][p] = a + other * (b - a);
           cache_[1][c][p] = b + other * (a - b);
           cache_noise_[p] += (a - b) * (a - b) / 12.0f;
