@@ -132,7 +132,7 @@ int finish_parsing(const CLI::App& root, const CLI::ParseError& error, const Con
     return kDone;
   }
   if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
-    write_text("-", fmt::format("gatelight {}\n", version()));
+    write_text("-", fmt::format("gatelight {}\ndenoiser: {}\n", version(), denoiser_text()));
     return kDone;
   }
   if (dynamic_cast<const CLI::FileError*>(&error) != nullptr) {
@@ -182,7 +182,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
       add_compare_command(root),
       add_info_command(root),
       add_merge_command(root),
-      add_reconstruct_command(root),
+      add_denoise_command(root),
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
   };
   try {

@@ -94,9 +94,9 @@ ordered_json devices_json(const DeviceReport& report) {
 }
 
 std::string program_text() {
-  return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
+  return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
                      renderer::best_isa(), "threads", renderer::available_threads(), "embree",
-                     renderer::embree_version(), devices_text(find_devices()));
+                     renderer::embree_version(), "denoiser", denoiser_text(), devices_text(find_devices()));
 }
 
 ordered_json program_json() {
@@ -105,6 +105,7 @@ ordered_json program_json() {
           {"isa", renderer::best_isa()},
           {"threads", renderer::available_threads()},
           {"embree", renderer::embree_version()},
+          {"denoiser", denoiser_text()},
           {"vulkan", devices_json(find_devices())}};
 }
 
@@ -187,8 +188,8 @@ Subcommand add_info_command(CLI::App& root) {
   settings->render.load.missing_is_error = false;
   renderer::Option scene = positional(
       "SCENE", settings->render.scene,
-      "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, Vulkan "
-      "devices");
+      "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, denoiser, "
+      "Vulkan devices");
   scene.required = false;
   renderer::Option json =
       renderer::any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");

@@ -23,6 +23,7 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "neural/base/errors.h"
+#include "renderer/denoise/oidn_library.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/machine/clock.h"
@@ -47,7 +48,7 @@ Examples:
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
-  gatelight render room.glb -o room.exr --reconstruct on --max-error 0.05)";
+  gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
 
 using renderer::Clock;
 using renderer::seconds_since;
@@ -70,6 +71,9 @@ class RenderRun {
 
   int run() {
     share_machines(settings_, group_);
+    // A scene may take long to load.
+    if (settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+      renderer::load_oidn(settings_.render.denoise.library);
     const scene::Scene scene = load();
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     expect_equal_ranks(settings_, scene, group_);
@@ -99,6 +103,8 @@ class RenderRun {
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
     report_.statistics = renderer.statistics();
     report_.signal = signal();
+    if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
+      warn(fmt::format("the picture keeps its noise: {}", why));
     if (group_.ranks.first()) write_results(std::move(picture));
     renderer::agreed(group_.ranks, 0);  // what follows may end all ranks, and the picture is written
     if (!report_.statistics.device_lost.empty())

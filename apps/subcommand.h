@@ -26,7 +26,7 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
 Subcommand add_compare_command(CLI::App& root);
 Subcommand add_info_command(CLI::App& root);
 Subcommand add_merge_command(CLI::App& root);
-Subcommand add_reconstruct_command(CLI::App& root);
+Subcommand add_denoise_command(CLI::App& root);
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command);
 
 }  // namespace gatelight::apps

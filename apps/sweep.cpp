@@ -24,11 +24,11 @@ given and holds for all cells (--size, --camera, --batch ...; see its --help). A
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-Where no --preset, axis, --vary, --reconstruct, --view, --query-at or --cache-holds says what is wanted, a sweep shows
-what can be had for a time: 'path' as traced and 'path reconstructed' at the samples of --spp; 'nrc bare', which is
+Where no --preset, axis, --vary, --denoiser, --view, --query-at or --cache-holds says what is wanted, a sweep shows
+what can be had for a time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is
 --preset bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512
-and 2048 steps with 2, 7 and 28 samples. Wherever a cell with a cache is reconstructed, the integrator without one is
-measured both as traced and reconstructed. Time counts all phases: scouting, training, rendering, reconstruction.
+and 2048 steps with 2, 7 and 28 samples. Wherever a cell with a cache is denoised, the integrator without one is
+measured both as traced and denoised. Time counts all phases: scouting, training, rendering, denoising.
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
 file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
@@ -51,7 +51,7 @@ an axis: --vary preset=preview,standard.
 
 Examples:
   gatelight sweep kitchen.glb -o kitchen
-  gatelight sweep kitchen.glb -o kitchen --vary reconstruct=off,on
+  gatelight sweep kitchen.glb -o kitchen --vary denoiser=none,oidn
   gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
   gatelight sweep kitchen.glb sponza.glb -o both --for sponza:camera=hall --for sponza:environment=0.65,0.8,1
   gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run

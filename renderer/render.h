@@ -16,7 +16,7 @@
 
 namespace gatelight::renderer {
 
-enum class Phase : std::uint8_t { scout, train, render };
+enum class Phase : std::uint8_t { scout, train, render, denoise };
 
 struct Progress {
   Phase phase = Phase::render;

@@ -82,6 +82,7 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
   };
   if (statistics.estimated_error)
     recipe["estimated_error"] = fmt::format("{:.6g}", *statistics.estimated_error);
+  if (!statistics.denoiser.empty()) recipe["denoiser"] = statistics.denoiser;
   if (!settings.reproducible) {
     recipe["command"] = quote_command(command);
     recipe["threads"] = std::to_string(statistics.threads);

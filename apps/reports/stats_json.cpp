@@ -25,7 +25,7 @@ ordered_json nonfinite(const renderer::RenderStatistics& statistics) {
   return {{"count", statistics.nonfinite}, {"samples", samples}};
 }
 
-ordered_json seconds(const RunReport& report, bool with_cache, bool reconstructs) {
+ordered_json seconds(const RunReport& report, bool with_cache) {
   const renderer::RenderStatistics& s = report.statistics;
   const renderer::CacheStatistics& cache = s.cache;
   ordered_json json = {{"load", report.load_seconds}, {"build", s.build_seconds}};
@@ -38,7 +38,7 @@ ordered_json seconds(const RunReport& report, bool with_cache, bool reconstructs
   } else {
     json["render_trace"] = s.threads > 0 ? s.rays.seconds / s.threads : 0.0;
   }
-  if (reconstructs) json["reconstruct"] = s.reconstruct_seconds;
+  if (s.denoise_seconds > 0.0) json["denoise"] = s.denoise_seconds;
   if (s.cryptomatte_seconds > 0.0) json["cryptomatte"] = s.cryptomatte_seconds;
   json["write"] = report.write_seconds;
   json["total"] = report.total_seconds;
@@ -90,10 +90,10 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["interrupted"] = s.interrupted;
   json["ended_by"] = word_of(s.ended_by);
   if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
-  if (settings.render.reconstruct) json["lost_light"] = s.lost_light;
+  if (!s.denoiser.empty()) json["denoiser"] = s.denoiser;
   json["exposure"] = report.exposure;
   if (report.signal != 0) json["signal"] = report.signal;
-  json["seconds"] = seconds(report, with_cache, settings.render.reconstruct);
+  json["seconds"] = seconds(report, with_cache);
   json["rays"] = {{"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}};
   json["memory_bytes"] = {{"geometry", s.geometry_bytes},
                           {"bvh", s.bvh_bytes},

@@ -100,12 +100,12 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   const double samples = static_cast<double>(s.samples);
   const double rays = static_cast<double>(count_rays(s.rays));
   std::string text = fmt::format("written   {}\n", fmt::join(settings.outputs, ", "));
-  const std::string reconstruct =
-      settings.render.reconstruct ? fmt::format(", reconstruct {:.2f}", s.reconstruct_seconds) : "";
+  const std::string denoise =
+      s.denoise_seconds > 0.0 ? fmt::format(", denoise {:.2f}", s.denoise_seconds) : "";
   const std::string cryptomatte =
       s.cryptomatte_seconds > 0.0 ? fmt::format("cryptomatte {:.2f}, ", s.cryptomatte_seconds) : "";
   text += fmt::format("seconds   load {:.2f}, build {:.2f}, {}{}{}, write {:.2f}, total {:.2f}\n",
-                      report.load_seconds, s.build_seconds, cryptomatte, render_seconds_text(s), reconstruct,
+                      report.load_seconds, s.build_seconds, cryptomatte, render_seconds_text(s), denoise,
                       report.write_seconds, report.total_seconds);
   std::string error;
   if (s.estimated_error) {
@@ -116,15 +116,13 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
     error += fmt::format(", not {}: {} ended it first", format_percent(settings.render.max_error),
                          s.ended_by == EndedBy::spp ? "--spp" : "--time-limit");
   }
-  constexpr double kToldLoss = 0.001;
-  if (s.lost_light >= kToldLoss)
-    error += fmt::format("; lost with fireflies {} of the light", format_percent(s.lost_light));
   text +=
       fmt::format("samples   {} at {} spp, {:.3f} million/s on {} thread{}{}\n", format_integer(s.samples),
                   s.spp, per_second(samples, sample_seconds(settings.render, s)) * 1e-6, s.threads,
                   s.threads == 1 ? "" : "s", error);
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, ray_seconds(s)) * 1e-6);
+  if (!s.denoiser.empty()) text += fmt::format("denoiser  {}\n", s.denoiser);
   text += ranks_text(report);
   if (!settings.exposure) {
     text += fmt::format("exposure  {:.1f} EV by the picture's light; --exposure {:.1f} keeps it\n",

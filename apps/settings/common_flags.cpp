@@ -8,7 +8,7 @@ const std::set<std::string>& common_flags() {
       "output", "exposure", "tonemap", "stats", "progress", "quiet", "checkpoint", "resume", "cache-in",
       "cache-out", "json", "command",
       // Picture
-      "size", "spp", "time-limit", "max-error", "seed", "reconstruct", "aov",
+      "size", "spp", "time-limit", "max-error", "seed", "denoiser", "aov",
       // Scene and view
       "camera", "eye", "target", "fov", "environment", "environment-scale", "background", "variant",
       // Light transport

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "apps/settings/option_table.h"
 #include "apps/settings/view_file.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/version.h"
 #include "renderer/image/image_read.h"
 #include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
@@ -176,6 +178,19 @@ void complete_aovs(RenderOptions& o) {
   }
 }
 
+/// The library that the environment names, where no flag does.
+void complete_denoiser(RenderSettings& settings) {
+  DenoiseOptions& denoise = settings.render.denoise;
+  const char* const library = std::getenv(kOidnVariable);
+  if (denoise.library.empty() && library) denoise.library = library;
+  if (denoise.denoiser != DenoiserKind::none) return;
+  for (const char* const flag : {"--denoise-guides", "--supersampling", "--oidn"}) {
+    if (settings.given.contains(flag))
+      throw UsageError(
+          fmt::format("{}: it has no effect here, expected it with --denoiser oidn or auto", flag));
+  }
+}
+
 void check_checkpoint(const RenderSettings& settings) {
   const CheckpointOptions& checkpoint = settings.render.checkpoint;
   if (!checkpoint.file.empty()) return;
@@ -218,6 +233,7 @@ void complete_settings(RenderSettings& settings) {
   adapt_cache(settings);
   open_samples(settings);
   complete_aovs(settings.render);
+  complete_denoiser(settings);
   check_checkpoint(settings);
   check_camera_names(settings);
   check_file_names({&settings, 1});

@@ -25,37 +25,6 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
                                                    {"json", ProgressMode::json},
                                                    {"none", ProgressMode::none}};
 
-void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
-                       renderer::ImageWriteOptions& image, std::optional<float>& stops) {
-  auto& [exr_float, bits, display] = image;
-  auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
-  auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output =
-      group.add(any_words("output", outputs, "FILE",
-                          "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
-  output.letter = "-o";
-  output.required = true;
-  output.in_recipe = InRecipe::unless_reproducible;
-  group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
-  group.add(number_or(
-      "auto", "exposure", stops, kStops, "EV",
-      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto: by the picture's own light, "
-      "told at the end; the presets of radiance have auto"));
-  group.add(number("white-balance", white_balance, kKelvin, "KELVIN",
-                   "Colour of light that displayed pictures show as white"));
-  group.add(choice("tonemap", tonemap, "Curve of displayed pictures"));
-  group.add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"));
-  const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
-    group.add(any_word(name, member, unit, help)).value = [&] {
-      return member.empty() ? OptionValue() : member;
-    };
-  };
-  add_ocio("ocio", ocio_config, "FILE",
-           "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures");
-  add_ocio("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)");
-  add_ocio("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)");
-}
-
 /// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
                       bool& quiet, bool& verbose) {
@@ -133,6 +102,37 @@ Option preset_option(std::optional<CachePreset>& preset) {
 }
 
 }  // namespace
+
+void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
+                       renderer::ImageWriteOptions& image, std::optional<float>& stops) {
+  auto& [exr_float, bits, display] = image;
+  auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
+  auto& [ocio_config, ocio_display, ocio_view] = ocio;
+  Option& output =
+      group.add(any_words("output", outputs, "FILE",
+                          "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
+  output.letter = "-o";
+  output.required = true;
+  output.in_recipe = InRecipe::unless_reproducible;
+  group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
+  group.add(number_or(
+      "auto", "exposure", stops, kStops, "EV",
+      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto: by the picture's own light, "
+      "told at the end; the presets of radiance have auto"));
+  group.add(number("white-balance", white_balance, kKelvin, "KELVIN",
+                   "Colour of light that displayed pictures show as white"));
+  group.add(choice("tonemap", tonemap, "Curve of displayed pictures"));
+  group.add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"));
+  const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
+    group.add(any_word(name, member, unit, help)).value = [&] {
+      return member.empty() ? OptionValue() : member;
+    };
+  };
+  add_ocio("ocio", ocio_config, "FILE",
+           "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures");
+  add_ocio("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)");
+  add_ocio("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)");
+}
 
 Option external_option(bool& allowed) {
   return toggle("allow-external", allowed,

@@ -30,16 +30,16 @@ ordered_json per(double seconds, double count) {
   return count > 0.0 ? ordered_json(seconds / count) : nullptr;
 }
 
-ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache, bool reconstructs) {
+ordered_json seconds_json(const renderer::RenderStatistics& s, bool has_cache) {
   const CacheStatistics& c = s.cache;
   ordered_json json = cache_seconds_json(c);
   if (!has_cache) {
     for (ordered_json& value : json) value = nullptr;
   }
   json["render"] = s.render_seconds;
-  json["reconstruct"] = reconstructs ? ordered_json(s.reconstruct_seconds) : nullptr;
+  json["denoise"] = s.denoise_seconds > 0.0 ? ordered_json(s.denoise_seconds) : nullptr;
   const double before = has_cache ? c.scout_seconds + c.setup_seconds + c.train_seconds : 0.0;
-  json["total"] = before + s.render_seconds + s.reconstruct_seconds;
+  json["total"] = before + s.render_seconds + s.denoise_seconds;
   return json;
 }
 
@@ -199,7 +199,7 @@ ordered_json done_record(const CellPlace& place, const renderer::RenderStatistic
   json["isa"] = statistics.isa;
   if (has_cache) json["backend"] = statistics.cache.backend;
   add_found(json["options"], place, statistics, ao_distance);
-  json["seconds"] = seconds_json(statistics, has_cache, place.series.settings.render.reconstruct);
+  json["seconds"] = seconds_json(statistics, has_cache);
   add_speed(json, statistics.cache, has_cache);
   add_errors(json, errors);
   json["estimated_error"] =

@@ -20,7 +20,7 @@ namespace {
 using renderer::Integrator;
 
 constexpr const char* kSameAsGate = "same-as-gate";
-constexpr const char* kReconstruct = "--reconstruct";
+constexpr const char* kDenoiser = "--denoiser";
 
 /// Stands for the scene, because settings are read before a scene is loaded. It is no file.
 const std::string kNoScene = "scene";
@@ -142,14 +142,14 @@ class Planner {
     // No integrator without a cache renders the view of the cache.
     if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
     FlagValues plain = flags;
-    drop_flag(plain, kReconstruct);
+    drop_flag(plain, kDenoiser);
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
     const auto keep_plain = [&] {
       keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));
     };
     keep_plain();
-    if (!is_reconstructed(series)) return;
-    set_flag(plain, kReconstruct, "on");
+    if (!is_denoised(series)) return;
+    set_flag(plain, kDenoiser, denoiser_of(series));
     keep_plain();
   }
 
@@ -193,24 +193,23 @@ class Planner {
   }
 
   /// Integrators also vary where those without a cache are measured too, and presets decide what is
-  /// reconstructed.
+  /// denoised.
   void name_integrators() {
     std::set<std::string> integrators, encodings;
-    std::set<bool> reconstructed;
+    std::set<std::string> denoisers;
     for (const PlannedSeries& s : series_) {
       integrators.insert(integrator_of(s));
       if (s.has_cache()) encodings.insert(encoding_of(s));
-      reconstructed.insert(is_reconstructed(s));
+      denoisers.insert(denoiser_of(s));
     }
     for (PlannedSeries& s : series_) {
       drop_flag(s.axes, "integrator");
       drop_flag(s.axes, "encoding");
-      drop_flag(s.axes, "reconstruct");
+      drop_flag(s.axes, "denoiser");
       FlagValues axes;
       if (integrators.size() > 1) axes.emplace_back("integrator", integrator_of(s));
       if (encodings.size() > 1 && s.has_cache()) axes.emplace_back("encoding", encoding_of(s));
-      if (reconstructed.size() > 1)
-        axes.emplace_back("reconstruct", renderer::name_of(renderer::kOnOff, is_reconstructed(s)));
+      if (denoisers.size() > 1) axes.emplace_back("denoiser", denoiser_of(s));
       s.axes.insert(s.axes.begin(), axes.begin(), axes.end());
     }
   }
@@ -222,10 +221,9 @@ class Planner {
       // A row has a name of its own.
       const bool row = find_flag(s.axes, "row");
       if (s.has_cache() && !row) s.label += fmt::format(" {}", encoding_of(s));
-      const std::string* reconstruct = find_flag(s.axes, "reconstruct");
-      if (!row && reconstruct && *reconstruct == "on") s.label += " reconstructed";
+      if (!row && find_flag(s.axes, "denoiser") && is_denoised(s)) s.label += " denoised";
       for (const auto& [name, value] : s.axes) {
-        if (name == "integrator" || name == "encoding" || name == "reconstruct") continue;
+        if (name == "integrator" || name == "encoding" || name == "denoiser") continue;
         s.label += name == "row" ? fmt::format(" {}", value) : fmt::format(" {} {}", name, value);
       }
       const int count = ++seen[s.label];
@@ -233,7 +231,12 @@ class Planner {
     }
   }
 
-  static bool is_reconstructed(const PlannedSeries& s) { return s.settings.render.reconstruct; }
+  static bool is_denoised(const PlannedSeries& s) {
+    return s.settings.render.denoise.denoiser != renderer::DenoiserKind::none;
+  }
+  static std::string denoiser_of(const PlannedSeries& s) {
+    return renderer::word(s.settings.render.denoise.denoiser);
+  }
   static std::string integrator_of(const PlannedSeries& s) {
     return renderer::word(s.settings.render.integrator);
   }

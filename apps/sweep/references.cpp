@@ -128,8 +128,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
     o.ao_distance = defaults.ao_distance;
   }
   o.aovs.clear();
-  o.reconstruct = false;
-  o.adaptive = false;
+  o.denoise = defaults.denoise;
   o.nan_policy = renderer::NanPolicy::drop;
   o.checkpoint = defaults.checkpoint;
   o.cache = defaults.cache;

@@ -33,7 +33,7 @@ constexpr const char* kNoBaseFlags[] = {
     "--bits",      "--ocio",        "--ocio-display", "--ocio-view"};
 
 /// With any of these a row named after a preset of `render` would not be what its name promises.
-constexpr const char* kNoRowFlags[] = {"--reconstruct", "--view", "--query-at", "--cache-holds"};
+constexpr const char* kNoRowFlags[] = {"--denoiser", "--view", "--query-at", "--cache-holds"};
 
 /// `sweep` has flags of these names with lists or more presets.
 constexpr const char* kOwnFlags[] = {"--train-steps", "--spp", "--preset"};

@@ -26,7 +26,7 @@ using nlohmann::ordered_json;
 constexpr const char* kColumns =
     "id,scene,series,integrator,encoding,seed,train_steps,spp,reference,reference_id,command,status,error,"
     "version,cpu,isa,backend,seconds_scout,seconds_setup,seconds_train,seconds_train_trace,"
-    "seconds_train_query,seconds_train_step,seconds_render,seconds_reconstruct,seconds_total,"
+    "seconds_train_query,seconds_train_step,seconds_render,seconds_denoise,seconds_total,"
     "train_ms_per_step,train_step_ms,query_ms_per_2m,memory_bytes_parameters,memory_bytes_optimizer,"
     "memory_bytes_layout,loss,errors_mse,errors_rel_mse,errors_rel_mse_clean,errors_psnr,errors_ssim,"
     "errors_flip,errors_hdr_flip,flip_percentiles_q25,flip_percentiles_median,flip_percentiles_q75,"

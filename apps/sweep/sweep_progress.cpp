@@ -21,6 +21,8 @@ std::string describe(const renderer::Progress& p) {
       return fmt::format("train {}/{} steps", p.steps_done, p.steps);
     case renderer::Phase::render:
       return fmt::format("render {}/{} spp", p.spp_done, p.spp);
+    case renderer::Phase::denoise:
+      return "denoise";
   }
   return "";
 }

@@ -21,7 +21,8 @@ constexpr double kBarInterval = 0.1;
 
 constexpr renderer::Choice<renderer::Phase> kPhases[] = {{"scout", renderer::Phase::scout},
                                                          {"train", renderer::Phase::train},
-                                                         {"render", renderer::Phase::render}};
+                                                         {"render", renderer::Phase::render},
+                                                         {"denoise", renderer::Phase::denoise}};
 
 /// What the bar shows of a phase beside its fraction.
 std::string measures(const renderer::Progress& progress, double samples_per_second) {

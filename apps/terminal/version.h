@@ -4,7 +4,13 @@
 
 namespace gatelight::apps {
 
+/// The environment variable that names the library of --oidn.
+inline constexpr const char* kOidnVariable = "GATELIGHT_OIDN";
+
 /// "0.1.0", or "0.1.0 (1a2b3c4)" with the revision where the build has one.
 std::string version();
+
+/// "Open Image Denoise 2.5.1, FILE", or why it is not there.
+std::string denoiser_text();
 
 }  // namespace gatelight::apps

@@ -57,7 +57,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       needs_error_(has(context.options.aovs, Aov::cache_error)),
       queries_(session.inputs()) {
   plan_.query_at = context.options.cache.query_at;
-  plan_.guides = has(film_aovs(context.options), Aov::cache_radiance);
+  plan_.guides = has(context.options.aovs, Aov::cache_radiance);
   plan_.max_depth = context.options.max_depth;
   plan_.min_depth = context.options.min_depth;
   if (context.options.cache.view == CacheView::cache) {
@@ -66,7 +66,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
   }
 }
 
-void CachedPass::add_samples(int samples, Film& film, const std::function<void(double)>& report) {
+void CachedPass::run(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& grid = context_.tiles;
   const RenderOptions& options = context_.options;
   const bool occlusion = options.integrator == Integrator::nao;
@@ -84,7 +84,7 @@ void CachedPass::add_samples(int samples, Film& film, const std::function<void(d
         Tile& tile = tiles_[t];
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
-        film.take_pass(tile.pixels, sample, tile.taken);
+        film.take(tile.pixels, tile.taken);
         make_camera_samples(tile.taken, film, options, context_.camera, context_.filter, tile.samples);
         tile.first_hits.resize(film.needs_first_hits() ? tile.taken.size() : 0);
         tile.results.resize(tile.taken.size());
@@ -140,7 +140,6 @@ void CachedPass::finish_paths(Tile& tile) const {
     // Paths without a record or an answer are black.
     const bool traced = plan_.query_at == QueryAt::none;
     const std::vector<std::int32_t>& at = traced ? tile.paths.first_records : tile.paths.first_queries;
-    for (FirstHit& first : tile.first_hits) first.seen = Color::Zero();
     const float* const values = traced ? tile.paths.targets.data() : answers.data();
     for (std::size_t i = 0; i < tile.radiance.size(); ++i) {
       tile.radiance[i] = at[i] == kNone

@@ -24,8 +24,9 @@ class CachedPass : public WorkerPass<CachedWorker> {
 
   void add_to(CacheStatistics& statistics) const override;
 
+  void run(int samples, Film& film, const std::function<void(double)>& report) override;
+
  private:
-  void add_samples(int samples, Film& film, const std::function<void(double)>& report) override;
   /// A tile between its tracing and its answers.
   struct Tile {
     std::vector<Pixel> pixels;

@@ -107,16 +107,12 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   if (!hit || path.looks_through(walk_, hit)) {
     if (first) leave_guide(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
-    if (first && path.surfaces == 0) first->seen = sky.radiance;
     add_emission(path, sky, batch);
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
-  if (first && path.surfaces == 0) {
-    *first = first_hit(hit, m.surface, walk_.world.scene.origin);
-    first->seen = m.emission.radiance;
-  }
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   if (first) meet_guide(path, m, *first);
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;
@@ -221,7 +217,6 @@ void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool st
                             PathBatch& batch) const {
   PathGuide& guide = batch.guides[path.index];
   guide.vertex = vertex;
-  guide.surface = path.surfaces;
   if (!stored || !worth_caching(point.albedo)) return;
   guide.reflectance = cache_reflectance(point.albedo) * path.scale();
   const std::int32_t asked = batch.vertices[static_cast<std::size_t>(vertex)].query;

@@ -52,7 +52,6 @@ void PathBatch::tell_guides(std::span<const float> answers, std::span<FirstHit> 
     FirstHit& first = first_hits[p];
     first.guided = true;
     first.cache_radiance = emission[p] + light;
-    first.behind_guide = guide.vertex == kNone || guide.surface > first.guide.surface;
   }
 }
 

@@ -36,7 +36,6 @@ static_assert(sizeof(PathVertex) == 64);
 struct PathGuide {
   std::int32_t vertex = kNone;
   std::int32_t query = kNone;  ///< into PathBatch::queries; kNone: the surface has no storage
-  std::int32_t surface = 0;    ///< its number on the path, as GuideSurface::surface
   Color reflectance = Color::Zero();
   Color apart = Color::Zero();  ///< light samples of the wide lobes that the cache does not hold
 };

@@ -21,7 +21,7 @@ constexpr float kFaintShare = 0.3f;
 RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints& points,
                                  const RenderOptions& options, const PointInputs& inputs)
     : paths_(paths), points_(points), options_(options), inputs_(inputs) {
-  guides_ = has(film_aovs(options), Aov::cache_radiance);
+  guides_ = has(options.aovs, Aov::cache_radiance);
 }
 
 RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,

@@ -25,7 +25,7 @@ struct CameraSample {
   }
 };
 
-/// The first surface that is neither a mirror nor clear, for reconstruction: behind mirrors and glass the
+/// The first surface that is neither a mirror nor clear, for the denoiser: behind mirrors and glass the
 /// primary hit tells nothing of the picture. It is the last one that was met where there is none.
 struct GuideSurface {
   bool hit = false;
@@ -33,16 +33,12 @@ struct GuideSurface {
   Color tint{1.0f, 1.0f, 1.0f};    ///< of those before it
   Color albedo{0.0f, 0.0f, 0.0f};  ///< times the tint
   Vec3 normal = Vec3::Zero();
-  float depth = 0.0f;  ///< in metres along the path
 };
 
 /// The surface at the primary hit, for the output variables.
 struct FirstHit {
   bool hit = false;
   float alpha = 1.0f;  ///< 1 less what of the background is seen
-  /// The part of the sample's radiance that the camera sees itself: emission of the first surface, or the
-  /// environment.
-  Color seen{0.0f, 0.0f, 0.0f};
   Color albedo{0.0f, 0.0f, 0.0f};
   Vec3 normal = Vec3::Zero();
   Vec3 position = Vec3::Zero();
@@ -52,7 +48,6 @@ struct FirstHit {
   GuideSurface guide;
   bool guided = false;                     ///< cache_radiance is known
   Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, as the cache alone gives it
-  bool behind_guide = false;               ///< what the cache gives was found behind the guide's surface
   // These come from the first cache query of the path.
   bool asked = false;
   Color answer{0.0f, 0.0f, 0.0f};
@@ -72,7 +67,7 @@ inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& or
   first.depth = hit.t;
   first.instance = hit.instance;
   first.primitive = hit.primitive;
-  first.guide = {true, 0, Color::Ones(), first.albedo, first.normal, hit.t};
+  first.guide = {true, 0, Color::Ones(), first.albedo, first.normal};
   return first;
 }
 

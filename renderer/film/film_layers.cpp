@@ -37,7 +37,7 @@ double over(double sum, std::uint32_t count) {
 
 Layer Film::layer(Aov aov, Range range) const {
   Layer layer;
-  layer.name = aov == Aov::reconstruction ? "coverage" : word(aov);
+  layer.name = word(aov);
   layer.full_precision =
       aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
   const auto fill_with = [&](std::vector<std::string> channels, auto&& value) {
@@ -76,8 +76,7 @@ Layer Film::layer(Aov aov, Range range) const {
       fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].instance; });
       break;
     case Aov::cache_radiance:
-      fill_with({"R", "G", "B"},
-                [&](std::size_t p, std::size_t i) { return over(guides_[p].cache[i], guides_[p].cached); });
+      fill_vector({"R", "G", "B"}, &First::cache, &First::cached);
       break;
     case Aov::cache_answer:
       fill_vector({"R", "G", "B"}, &First::answer, &First::count);
@@ -95,111 +94,53 @@ Layer Film::layer(Aov aov, Range range) const {
       fill_number("R", &First::resolution, &First::asked);
       break;
     case Aov::alpha:
-      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(guides_[p].alpha, guides_[p].count); });
+      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(alpha_[p], radiance_[p].taken); });
       break;
     case Aov::sample_count:
       fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance_[p].count; });
       break;
     case Aov::variance:
-      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return variance(p, i); });
+      fill_with({"R", "G", "B"},
+                [&](std::size_t p, std::size_t i) { return variance_of_mean(radiance_[p], i); });
       break;
     case Aov::raw:
-      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return mean(p, i); });
+      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return mean(radiance_[p], i); });
       break;
     case Aov::error:
-      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return std::sqrt(variance(p, i)); });
+      fill_with({"R", "G", "B"},
+                [&](std::size_t p, std::size_t i) { return std::sqrt(variance_of_mean(radiance_[p], i)); });
       break;
-    case Aov::reconstruction:
-      fill_with({"coverage"},
-                [&](std::size_t p, std::size_t) { return over(guides_[p].hits, guides_[p].count); });
+    case Aov::denoising:
       break;
   }
   return layer;
 }
 
-void Film::add_guides(std::vector<Layer>& layers, Range range) const {
-  Layer albedo{.name = "guide-albedo", .channels = {"R", "G", "B"}};
-  fill(albedo, range,
-       [&](std::size_t p, std::size_t i) { return over(guides_[p].albedo[i], guides_[p].count); });
-  Layer normal{.name = "guide-normal", .channels = {"X", "Y", "Z"}};
-  fill(normal, range,
-       [&](std::size_t p, std::size_t i) { return over(guides_[p].normal[i], guides_[p].count); });
-  Layer depth{.name = "guide-depth", .channels = {"Z"}, .full_precision = true};
-  fill(depth, range, [&](std::size_t p, std::size_t) { return over(guides_[p].depth, guides_[p].hits); });
-  if (has(aovs_, Aov::cache_radiance)) {
-    Layer behind{.name = "cache-behind", .channels = {"share"}};
-    fill(behind, range,
-         [&](std::size_t p, std::size_t) { return over(guides_[p].behind, guides_[p].cached); });
-    layers.push_back(std::move(behind));
-  }
-  for (Layer* layer : {&albedo, &normal, &depth}) layers.push_back(std::move(*layer));
-}
-
-void Film::add_halves(std::vector<Layer>& layers, Range range) const {
-  const bool of_cache = has(aovs_, Aov::cache_radiance), of_alpha = has(aovs_, Aov::alpha);
-  for (const std::size_t h : {0u, 1u}) {
-    const auto layer_of = [&](const char* what, std::vector<std::string> channels = {"R", "G", "B"}) {
-      const char half[] = {static_cast<char>('a' + h), '\0'};
-      return Layer{.name = std::string(what) + half, .channels = std::move(channels), .full_precision = true};
-    };
-    Layer color = layer_of("half-"), variance = layer_of("variance-");
-    fill(color, range,
-         [&](std::size_t p, std::size_t i) { return mean_of(halves_[h][p], i) + seen_mean(h, p, i); });
-    Layer seen = layer_of("seen-");
-    fill(seen, range, [&](std::size_t p, std::size_t i) { return seen_mean(h, p, i); });
-    fill(variance, range, [&](std::size_t p, std::size_t i) {
-      const Radiance &half = halves_[h][p], &all = radiance_[p];
-      // A single sample does not tell how it varies; all of the pixel's do.
-      return half.count == 1 ? all.count * variance_of_mean(all, i) : variance_of_mean(half, i);
-    });
-    layers.push_back(std::move(color));
-    layers.push_back(std::move(variance));
-    layers.push_back(std::move(seen));
-    if (of_alpha) {
-      Layer alpha = layer_of("alpha-", {"A"});
-      fill(alpha, range, [&](std::size_t p, std::size_t) {
-        const Guide& f = guides_[p];
-        const std::uint32_t in_b = f.count - f.count_half, n = h == 0 ? f.count_half : in_b;
-        // A half without samples has the mean of all.
-        if (n == 0) return f.count > 0 ? f.alpha / f.count : 0.0;
-        return (h == 0 ? f.alpha_half : f.alpha - f.alpha_half) / n;
+std::vector<float> Film::plane(Plane plane, int first, int end) const {
+  const Range range{rect_.index(rect_.x0, first), rect_.index(rect_.x0, end)};
+  const bool single = plane == Plane::alpha;
+  Layer layer{.channels = single ? std::vector<std::string>{"A"} : std::vector<std::string>{"R", "G", "B"}};
+  switch (plane) {
+    case Plane::mean:
+      fill(layer, range, [&](std::size_t p, std::size_t i) { return mean(radiance_[p], i); });
+      break;
+    case Plane::half_a:
+    case Plane::half_b:
+      fill(layer, range,
+           [&](std::size_t p, std::size_t i) { return half_mean(p, plane == Plane::half_b, i); });
+      break;
+    case Plane::albedo:
+    case Plane::normal:
+      fill(layer, range, [&](std::size_t p, std::size_t i) {
+        const auto& sum = plane == Plane::albedo ? guides_[p].albedo : guides_[p].normal;
+        return over(static_cast<double>(sum[i]), radiance_[p].taken);
       });
-      layers.push_back(std::move(alpha));
-    }
-    if (!of_cache) continue;
-    Layer cache = layer_of("cache-");
-    fill(cache, range, [&](std::size_t p, std::size_t i) {
-      const Guide& guide = guides_[p];
-      const std::uint32_t of_a = guide.cached_half, of_b = guide.cached - guide.cached_half;
-      // A single sample stands for both halves.
-      const bool second = of_b > 0 && (h == 1 || of_a == 0);
-      const double sum = second ? guide.cache[i] - guide.cache_half[i] : guide.cache_half[i];
-      return sum / std::max(second ? of_b : of_a, 1u);
-    });
-    layers.push_back(std::move(cache));
+      break;
+    case Plane::alpha:
+      fill(layer, range, [&](std::size_t p, std::size_t) { return over(alpha_[p], radiance_[p].taken); });
+      break;
   }
-}
-
-// A group's share of the pixel's sum, times the mean: the layers add up to the mean also where that is not
-// the sum over the number of samples (uneven halves).
-void Film::add_light_groups(std::vector<Layer>& layers, Range pixels) const {
-  const std::size_t groups = light_groups_.size(), first = layers.size();
-  for (const std::string& name : light_groups_) {
-    layers.push_back({.name = kLightLayer + name, .channels = {"R", "G", "B"}, .full_precision = true});
-    layers.back().values.resize(3 * (pixels.end - pixels.begin));
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(pixels.begin, pixels.end, 4096),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = 3 * range.begin(); i < 3 * range.end(); ++i) {
-                        const std::size_t p = i / 3, channel = i % 3;
-                        double all = 0.0;
-                        for (std::size_t g = 0; g < groups; ++g) all += parts_[p * groups + g][channel];
-                        const double mean_of_all = mean(p, channel);
-                        for (std::size_t g = 0; g < groups && all != 0.0; ++g)
-                          layers[first + g].values[i - 3 * pixels.begin] =
-                              finite_float(mean_of_all * (parts_[p * groups + g][channel] / all));
-                      }
-                    });
+  return std::move(layer.values);
 }
 
 Picture Film::resolve(int first, int end) const {
@@ -211,14 +152,18 @@ Picture Film::resolve(int first, int end) const {
                   .y0 = first,
                   .full_width = full_width_,
                   .full_height = full_height_};
-  Layer beauty{.channels = {"R", "G", "B"}};
-  fill(beauty, range, [&](std::size_t p, std::size_t i) { return mean(p, i); });
-  picture.layers.push_back(std::move(beauty));
-  for (const Aov aov : aovs_) picture.layers.push_back(layer(aov, range));
-  add_light_groups(picture.layers, range);
-  if (halves_[0].empty()) return picture;
-  add_guides(picture.layers, range);
-  add_halves(picture.layers, range);
+  picture.layers.push_back({.channels = {"R", "G", "B"}, .values = plane(Plane::mean, first, end)});
+  for (const Aov aov : contents_.aovs) {
+    if (aov != Aov::denoising) picture.layers.push_back(layer(aov, range));
+  }
+  const std::size_t groups = contents_.light_groups.size();
+  for (std::size_t g = 0; g < groups; ++g) {
+    Layer light{
+        .name = kLightLayer + contents_.light_groups[g], .channels = {"R", "G", "B"}, .full_precision = true};
+    fill(light, range,
+         [&](std::size_t p, std::size_t i) { return over(parts_[p * groups + g][i], radiance_[p].count); });
+    picture.layers.push_back(std::move(light));
+  }
   return picture;
 }
 

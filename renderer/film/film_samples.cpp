@@ -53,7 +53,6 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
   const std::size_t groups = parts.empty() ? 0 : film.light_groups().size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Color radiance = results[i].radiance;
-    Color seen = first_hits.empty() ? Color(Color::Zero()) : first_hits[i].seen;
     if (!first_hits.empty()) film.add(samples[i], first_hits[i]);
     if (!radiance.isFinite().all()) {
       ++counts.nonfinite;
@@ -68,11 +67,10 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
       if (l > options.clamp) {
         scale = options.clamp / l;
         radiance *= scale;
-        seen *= scale;
         ++counts.clamped;
       }
     }
-    film.add(samples[i], radiance, seen);
+    film.add(samples[i], radiance);
     if (groups > 0) film.add_parts(samples[i].pixel, parts.subspan(i * groups, groups), scale);
   }
 }

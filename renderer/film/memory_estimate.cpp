@@ -21,10 +21,9 @@ constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
 /// Bytes of an emissive triangle with its node of the light tree and its record for the kernels.
 constexpr std::size_t kLightBytes = 336;
-/// Of a picture that is reconstructed: the rows that are worked on at once, with their margins
-/// (reconstruct.h), and the floats of each of their pixels (region.h).
-constexpr std::size_t kWorkingRows = 704;
-constexpr std::size_t kWorkingFloats = 72;
+/// Floats of each pixel of a band that is denoised (denoise.h), and the pixels of a band.
+constexpr std::size_t kBandFloats = 18;
+constexpr std::size_t kBandPixels = std::size_t{1} << 22;
 
 }  // namespace
 
@@ -46,19 +45,18 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const auto width = static_cast<std::size_t>(rect[2] - rect[0]);
   const auto height = static_cast<std::size_t>(rect[3] - rect[1]);
   const std::size_t pixels = width * height;
-  // The sums, and at the same time the resolved picture: 13 floats at most, 22 more for the layers that
-  // reconstruction reads, and 18 for what it writes and the layers that are kept.
-  const std::vector<Aov> aovs = film_aovs(options);
-  const bool halves = has(aovs, Aov::reconstruction);
-  const std::size_t density =
-      options.reconstruct && options.adaptive ? 8 : 0;  // two, and while they are made
+  // The sums, and at the same time the finished picture with its layers.
   const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;
-  const std::size_t kept = options.reconstruct ? 53 : halves ? 35 : 13;
+  const FilmContents contents = film_contents(options, std::vector<std::string>(groups));
+  const bool denoised = options.denoise.denoiser != DenoiserKind::none;
+  const auto edge = static_cast<std::size_t>(denoised ? options.denoise.supersampling : 1);
+  const std::size_t sums = pixels * edge * edge;
+  const std::size_t layers =
+      options.aovs.size() + groups + (has(options.aovs, Aov::denoising) ? 3 * edge * edge : 0);
   const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
-  const std::size_t floats = kept + density + (aovs.size() + groups) * 3 + mattes;
-  need.film = pixels * (Film::bytes_per_pixel(aovs, groups) + floats * sizeof(float));
-  if (options.reconstruct)
-    need.film += width * std::min(height, kWorkingRows) * kWorkingFloats * sizeof(float);
+  const std::size_t floats = 4 + 3 * layers + mattes;
+  need.film = sums * Film::bytes_per_pixel(contents) + pixels * floats * sizeof(float);
+  if (denoised) need.film += std::min(sums, kBandPixels) * kBandFloats * sizeof(float);
   return need;
 }
 

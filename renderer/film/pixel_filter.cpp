@@ -7,10 +7,7 @@
 
 namespace gatelight::renderer {
 
-namespace {
-
-/// The filter's value for x in [-1, 1] over the full width.
-double profile(PixelFilter filter, double x) {
+double filter_value(PixelFilter filter, double x) {
   switch (filter) {
     case PixelFilter::box:
       return 1.0;
@@ -27,12 +24,11 @@ double profile(PixelFilter filter, double x) {
   return 0.0;
 }
 
-}  // namespace
-
 FilterSampler::FilterSampler(PixelFilter filter, float width) : width_(resolve_filter_width(filter, width)) {
   std::array<double, kBins + 1> sum{};
   for (std::size_t i = 0; i < kBins; ++i) {
-    sum[i + 1] = sum[i] + std::max(0.0, profile(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));
+    sum[i + 1] =
+        sum[i] + std::max(0.0, filter_value(filter, (2.0 * static_cast<double>(i) + 1.0) / kBins - 1.0));
   }
   for (std::size_t i = 0; i <= kBins; ++i) cumulative_[i] = static_cast<float>(sum[i] / sum[kBins]);
   std::size_t edge = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// The reconstruction filter by importance sampling: every sample has weight one and counts for one pixel
+// The pixel filter by importance sampling: every sample has weight one and counts for one pixel
 // only.
 
 #include <array>
@@ -9,6 +9,9 @@
 #include "scene/math.h"
 
 namespace gatelight::renderer {
+
+/// The filter's value at x in [-1, 1] over its full width; not normalized.
+double filter_value(PixelFilter filter, double x);
 
 class FilterSampler {
  public:

@@ -27,7 +27,7 @@ struct PixelSample {
   Pixel pixel;
   std::uint32_t number = 0;
 
-  std::size_t half() const { return number % 2; }
+  bool in_first_half() const { return number % 2 == 0; }
 };
 
 /// Pixels in this order are near each other where their numbers are. Coordinates are below 2^16.

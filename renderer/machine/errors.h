@@ -26,6 +26,11 @@ struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The denoiser is not there, is of another version, or does not run on this machine.
+struct MissingDenoiser : Unavailable {
+  using Unavailable::Unavailable;
+};
+
 /// A library that is loaded on demand cannot be. The message gives the loader's reason.
 struct MissingLibrary : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -24,7 +24,7 @@ using neural::TensorType;
 using neural::TensorView;
 
 constexpr const char* kFormat = "gatelight-checkpoint";
-constexpr int kVersion = 9;
+constexpr int kVersion = 10;
 constexpr const char* kOptions = "option";
 constexpr const char* kStatistics = "statistics";
 constexpr const char* kPhase = "phase";
@@ -75,13 +75,13 @@ template <class State, class Visit>
 void each_array(State& film, Visit&& visit) {
   visit("film.radiance", TensorType::f64, film.radiance);
   visit("film.radiance_counts", TensorType::u32, film.radiance_counts);
-  visit("film.guides", TensorType::f64, film.guides);
-  visit("film.guide_counts", TensorType::u32, film.guide_counts);
+  visit("film.half", TensorType::f64, film.half);
+  visit("film.half_counts", TensorType::u32, film.half_counts);
+  visit("film.guides", TensorType::f32, film.guides);
+  visit("film.alpha", TensorType::f64, film.alpha);
   visit("film.first", TensorType::f64, film.first);
   visit("film.first_counts", TensorType::u32, film.first_counts);
   visit("film.first_ids", TensorType::f32, film.first_ids);
-  visit("film.density", TensorType::f32, film.density);
-  visit("film.density_passes", TensorType::u32, film.density_passes);
   visit("film.parts", TensorType::f64, film.parts);
 }
 
@@ -236,10 +236,6 @@ const CacheSetup& Checkpoint::cache_setup() const {
 void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
   if (progress_.samples > 0 || progress_.taught) {
     FilmState sums = film.export_state();  // of the sizes that are expected
-    if (file_.length("film.density", TensorType::f32) > 0) {
-      sums.density.resize(2 * film.pixels());
-      sums.density_passes.resize(1);
-    }
     each_array(sums, [&](const char* name, TensorType type, auto& values) {
       read_array(file_, name, type, values);
     });
@@ -251,13 +247,8 @@ void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
                                bad - values.begin(), *bad));
     };
     require_finite("film.radiance", sums.radiance);
+    require_finite("film.half", sums.half);
     require_finite("film.parts", sums.parts);
-    // The same of a density, which decides how many samples are taken.
-    const auto wrong = std::find_if(sums.density.begin(), sums.density.end(),
-                                    [](float x) { return !(x >= 0.0f && x <= SampleDensity::kMost); });
-    if (wrong != sums.density.end())
-      file_.fail(fmt::format("tensor 'film.density': element {} is {}, expected 0 to {}",
-                             wrong - sums.density.begin(), *wrong, SampleDensity::kMost));
     film.import_state(sums);
   }
   const auto read = [&](const char* name, auto& value) {

@@ -1,10 +1,7 @@
 #pragma once
 // The pixels of a film whose tiles several ranks have.
 
-#include <tbb/task_arena.h>
-
 #include <functional>
-#include <utility>
 
 #include "renderer/film/film.h"
 #include "renderer/film/tiles.h"
@@ -17,11 +14,6 @@ namespace gatelight::renderer {
 /// `shares` deals. `wants` is the same on all ranks.
 void exchange_tiles(Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks,
                     const std::function<bool(int rank, int tile)>& wants);
-
-/// What film.resolve() says of the rows first <= y < end of the picture that each rank wants, wherever their
-/// samples are. `rows_of` is the same on all ranks. Runs in `arena`.
-Picture exchange_rows(const Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks,
-                      const std::function<std::pair<int, int>(int rank)>& rows_of, tbb::task_arena& arena);
 
 /// Rank 0 gets the whole film.
 void gather_film(Film& film, const TileGrid& tiles, const Shares& shares, Ranks& ranks);

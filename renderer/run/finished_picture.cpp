@@ -2,203 +2,298 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "renderer/denoise/denoising_layers.h"
 #include "renderer/machine/clock.h"
+#include "renderer/machine/errors.h"
 #include "renderer/metrics/estimated_error.h"
-#include "renderer/reconstruction/reconstruct.h"
 #include "renderer/run/background.h"
 #include "renderer/settings/words.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Not a layer that reconstruction reads and nobody asked for.
-bool is_wanted(const Layer& layer, const std::vector<Aov>& aovs) {
-  return has(aovs, Aov::reconstruction) || layer.name.empty() || layer.name.starts_with(kLightLayer) ||
-         std::any_of(aovs.begin(), aovs.end(), [&](Aov aov) { return word(aov) == layer.name; });
-}
-
 /// The samples' own brightness is taken from so many pixels around each, in each direction.
 constexpr int kSmoothing = 5;
-/// The same of finished halves, which have less noise.
-constexpr int kHalfSmoothing = 1;
-/// An error counts relative to at least this share of the finished value.
-constexpr float kLeastShare = 0.2f;
-
 /// Samples of a pixel that tell an error.
 constexpr double kTellingSamples = 2.0;
+/// The error is told by strips of so many rows of the film, as many as hold this many pixels or this share of
+/// them, whichever is more.
+constexpr int kStripRows = 128;
+constexpr double kStripPixels = 1 << 18;
+constexpr double kStripShare = 0.25;
+/// Of the time of the denoiser; the estimate of the error has the rest.
+constexpr double kShareOfPicture = 0.85;
 
-std::optional<double> error_of(const Film& film, const Picture& picture) {
-  if (film.samples_per_pixel() < kTellingSamples) return std::nullopt;
+PixelRect picture_rect(const Film& film, const ScaleDown& scale) {
+  const PixelRect& r = film.rect();
+  const int f = scale.factor();
+  return {r.x0 / f, r.y0 / f, r.x1 / f, r.y1 / f};
+}
+
+/// The samples with their guides. Rows count from the top of the film.
+NoisyPicture noisy(const Film& film, const RenderOptions& options, Plane color) {
+  const auto rows = [&film](Plane plane) -> ReadRows {
+    return [&film, plane](int first, int end) {
+      return film.plane(plane, film.rect().y0 + first, film.rect().y0 + end);
+    };
+  };
+  NoisyPicture picture{film.rect().width(), film.rect().height(), rows(color), rows(Plane::albedo),
+                       rows(Plane::normal)};
+  // Occlusion does not depend on what a surface reflects.
+  if (options.integrator == Integrator::ao || options.integrator == Integrator::nao) {
+    picture.albedo = [&film](int first, int end) {
+      return std::vector<float>(
+          3 * static_cast<std::size_t>(end - first) * static_cast<std::size_t>(film.rect().width()), 1.0f);
+    };
+  }
+  return picture;
+}
+
+/// What tells an error: fast, and with the guides as they are.
+FilterOptions error_options(const Film& film) {
+  return {.clean_guides = false,
+          .quality = DenoiseQuality::fast,
+          .scale = exposure_of(film.rect().width(), film.rect().height(), [&film](int first, int end) {
+            return film.plane(Plane::mean, film.rect().y0 + first, film.rect().y0 + end);
+          })};
+}
+
+/// The halves of the samples have independent noise, and the filter's own error is about as large. So the
+/// error of the whole is about the root of half the mean square of their difference (denoise/README.md). By
+/// the finished rows begin <= y < end of both.
+struct DenoisedHalves {
+  std::vector<float> mean;
+  std::vector<float> error;
+};
+std::optional<DenoisedHalves> denoised_halves(const Film& film, const Finishing& f,
+                                              const FilterOptions& filter, int begin, int end,
+                                              const DenoiseProgress& progress) {
+  std::array<std::vector<float>, 2> halves;
+  for (const std::size_t h : {0u, 1u}) {
+    const Plane plane = h == 0 ? Plane::half_a : Plane::half_b;
+    auto denoised =
+        denoise_rows(*f.denoiser, noisy(film, f.options, plane), begin, end, filter, f.scale, progress);
+    if (!denoised) return std::nullopt;
+    halves[h] = std::move(denoised->color);
+  }
+  DenoisedHalves result{halves[0], halves[1]};
+  for (std::size_t i = 0; i < result.mean.size(); ++i) {
+    const float a = halves[0][i], b = halves[1][i];
+    result.mean[i] = 0.5f * (a + b);
+    result.error[i] = std::sqrt(0.5f) * std::abs(a - b);
+  }
+  return result;
+}
+
+/// The relative RMS error of some finished rows.
+double error_of(const DenoisedHalves& halves, int width, int rows) {
+  const Picture picture{.width = width, .height = rows};
+  const Layer mean{.channels = {"R", "G", "B"}, .values = halves.mean};
+  const Layer error{.channels = {"R", "G", "B"}, .values = halves.error};
+  return estimated_error(picture, mean, error, 0);
+}
+
+std::optional<double> denoised_error(const Film& film, const Finishing& f,
+                                     const DenoiseProgress& progress = {}) {
+  const PixelRect rect = picture_rect(film, f.scale);
+  const double all = static_cast<double>(film.pixels());
+  const double share = std::min(1.0, std::max(kStripShare, kStripPixels / all));
+  const int rows = rect.height(), strip = std::max(kStripRows / f.scale.factor(), 1);
+  const int strips = std::max(1, static_cast<int>(std::ceil(share * rows / strip)));
+  const FilterOptions filter = error_options(film);
+  double squares = 0.0, weight = 0.0;
+  for (int s = 0; s < strips; ++s) {
+    // Evenly spread; they meet where they cover the whole.
+    const int cell_begin = s * rows / strips, cell_end = (s + 1) * rows / strips;
+    const int height = std::min(strip, cell_end - cell_begin);
+    const int begin = cell_begin + (cell_end - cell_begin - height) / 2;
+    const auto halves = denoised_halves(film, f, filter, begin, begin + height, progress);
+    if (!halves) return std::nullopt;
+    const double error = error_of(*halves, rect.width(), height);
+    squares += error * error * height;
+    weight += height;
+  }
+  return std::sqrt(squares / weight);
+}
+
+std::optional<double> sampled_error(const Film& film) {
+  const Picture picture = film.resolve();
   return estimated_error(picture, picture.layers.front(), film.layer(Aov::error), kSmoothing);
 }
 
-/// The halves are as good as independent, so half their difference is the error of their mean. Relative to
-/// the darker one: where one half met a bright sample, the other one tells what is usual there. The finished
-/// picture is the front layer.
-double error_of(const Picture& picture, const Reconstruction& finished) {
-  const auto& [a, b] = finished.halves;
-  const std::vector<float>& color = picture.layers.front().values;
-  Layer darker{.channels = picture.layers.front().channels, .values = a}, errors = darker;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    darker.values[i] = std::max(std::min(a[i], b[i]), kLeastShare * color[i]);
-    errors.values[i] = 0.5f * (a[i] - b[i]);
+/// A layer of the film's size, in that of the picture.
+void scale_layer(Layer& layer, const Film& film, const ScaleDown& scale) {
+  if (scale.factor() == 1) return;
+  const int f = scale.factor(), width = film.rect().width(), height = film.rect().height();
+  const auto channels = static_cast<int>(layer.channels.size());
+  const bool of_places = layer.name == word(Aov::primitive_id) || layer.name == word(Aov::instance_id) ||
+                         layer.name == word(Aov::depth) || layer.name == word(Aov::position);
+  if (!of_places) {
+    layer.values = scale.scale(layer.values, channels, width, height, 0, 0, height / f);
+    const auto times = static_cast<float>(f * f);
+    if (layer.name == word(Aov::sample_count))
+      for (float& value : layer.values) value *= times;
+    if (layer.name == word(Aov::variance))
+      for (float& value : layer.values) value /= times;
+    return;
   }
-  return estimated_error(picture, darker, errors, kHalfSmoothing);
-}
-
-SampledPicture samples_of(Picture& picture, const RenderOptions& options) {
-  SampledPicture samples = take_samples(picture);
-  // Occlusion does not depend on what a surface reflects.
-  if (options.integrator == Integrator::ao || options.integrator == Integrator::nao)
-    std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
-  return samples;
-}
-
-/// Both halves get the same.
-void improve(SampledPicture& samples, const PixelRect& rect, const SharedRows& rows,
-             const SeenLight& better) {
-  std::vector<float>&a = samples.halves[0].seen, &b = samples.halves[1].seen;
-  if (a.empty()) return;
-  std::vector<float> seen(a.size());
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    seen[i] = samples.counts[i / 3] < 2.0f ? a[i] : 0.5f * (a[i] + b[i]);
-  const std::vector<float> before = seen;
-  better(rect, rows, seen);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (seen[i] != before[i]) a[i] = b[i] = seen[i];
+  // Places and names have no mean: those of the first of the pixels.
+  std::vector<float> values;
+  for (int y = 0; y < height; y += f) {
+    for (int x = 0; x < width; x += f) {
+      const auto at =
+          (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+          static_cast<std::size_t>(channels);
+      values.insert(values.end(), &layer.values[at], &layer.values[at] + channels);
+    }
   }
+  layer.values = std::move(values);
 }
 
-PixelRect rect_of(const Picture& picture) {
-  return {picture.x0, picture.y0, picture.x0 + picture.width, picture.y0 + picture.height};
-}
-
-/// The mean alpha of each half, with the shadows that it caught.
-std::array<std::vector<float>, 2> alpha_of_halves(const Picture& picture, const CaughtShadows& shadows) {
-  std::array<std::vector<float>, 2> alphas = {picture.find("alpha-a")->values,
-                                              picture.find("alpha-b")->values};
-  for (std::size_t h = 0; shadows && h < 2; ++h) {
-    const std::vector<float> caught = shadows(rect_of(picture), h);
-    for (std::size_t p = 0; p < caught.size(); ++p) alphas[h][p] += caught[p];
-  }
-  return alphas;
-}
-
-/// The same of all samples.
-std::vector<float> mean_alpha(const Picture& picture, const CaughtShadows& shadows) {
-  std::vector<float> alpha = picture.find("alpha")->values;
-  for (std::size_t h = 0; shadows && h < 2; ++h) {
-    const std::vector<float> caught = shadows(rect_of(picture), h);
-    for (std::size_t p = 0; p < caught.size(); ++p) alpha[p] += 0.5f * caught[p];
-  }
+std::vector<float> rows_of_alpha(const Film& film, const std::vector<float>& shadows, int first, int end) {
+  std::vector<float> alpha = film.plane(Plane::alpha, film.rect().y0 + first, film.rect().y0 + end);
+  const std::size_t from = static_cast<std::size_t>(first) * static_cast<std::size_t>(film.rect().width());
+  for (std::size_t i = 0; i < alpha.size() && !shadows.empty(); ++i) alpha[i] += shadows[from + i];
   return alpha;
 }
 
-/// Alpha takes the place of the colours. Panes that stochastic rays pass are as noisy in it, and it is
-/// finished in the same way.
-void replace_by_alpha(SampledPicture& samples, const std::array<std::vector<float>, 2>& alphas) {
-  for (const std::size_t h : {0u, 1u}) {
-    SampledPicture::Half& half = samples.halves[h];
-    for (std::size_t i = 0; i < half.color.size(); ++i) {
-      const float a = std::clamp(alphas[h][i / 3], 0.0f, 1.0f);
-      half.color[i] = a;
-      // The variance of a share.
-      half.variance[i] = a * (1.0f - a) / std::max(0.5f * samples.counts[i / 3], 1.0f);
+class Finisher {
+ public:
+  Finisher(const Film& film, const Finishing& finishing)
+      : film_(film), f_(finishing), options_(finishing.options) {
+    if (options_.background.apart() && f_.shadows) shadows_ = f_.shadows(film.rect());
+  }
+
+  FinishedPicture as_traced() {
+    FinishedPicture result{.picture = layers()};
+    std::vector<float> color = film_.plane(Plane::mean, film_.rect().y0, film_.rect().y1);
+    const int width = film_.rect().width(), height = film_.rect().height(), rows = height / f_.scale.factor();
+    result.picture.layers.front().values = f_.scale.scale(color, 3, width, height, 0, 0, rows);
+    if (film_.samples_per_pixel() >= kTellingSamples) result.estimated_error = sampled_error(film_);
+    finish(result.picture, [&] {
+      return f_.scale.scale(rows_of_alpha(film_, shadows_, 0, height), 1, width, height, 0, 0, rows);
+    });
+    return result;
+  }
+
+  /// Empty where it is cancelled.
+  std::optional<FinishedPicture> denoised() {
+    auto denoised = denoise(*f_.denoiser, samples(), {.clean_guides = options_.denoise.clean_guides},
+                            f_.scale, part(0.0, kShareOfPicture));
+    if (!denoised) return std::nullopt;
+    FinishedPicture result{.picture = layers(), .denoised = true};
+    result.picture.layers.front().values = std::move(denoised->color);
+    if (film_.samples_per_pixel() >= kTellingSamples) {
+      Layer* const error = find(result.picture, Aov::error);
+      if (!(error ? tell_errors(result, error->values) : tell_error(result))) return std::nullopt;
     }
-    half.cache.clear();
-    half.seen.clear();
+    finish(result.picture, [&] { return std::move(denoised->alpha); });
+    return result;
   }
-  std::fill(samples.albedo.begin(), samples.albedo.end(), 1.0f);
-}
 
-/// The first of three channels, which are equal.
-std::vector<float> first_channel(const std::vector<float>& color) {
-  std::vector<float> result(color.size() / 3);
-  for (std::size_t p = 0; p < result.size(); ++p) result[p] = color[3 * p];
-  return result;
-}
-
-/// Leaves the rows of the picture that are finished.
-void crop(Picture& picture, const SharedRows& rows) {
-  if (picture.height == rows.end - rows.first) return;
-  const auto width = static_cast<std::ptrdiff_t>(picture.width);
-  const std::ptrdiff_t above = (rows.first - rows.top) * width, pixels = (rows.end - rows.first) * width;
-  for (Layer& layer : picture.layers) {
-    const auto channels = static_cast<std::ptrdiff_t>(layer.channels.size());
-    const auto begin = layer.values.begin() + above * channels;
-    layer.values = std::vector<float>(begin, begin + pixels * channels);
+ private:
+  static Layer* find(Picture& picture, Aov aov) {
+    for (Layer& layer : picture.layers) {
+      if (layer.name == word(aov)) return &layer;
+    }
+    return nullptr;
   }
-  picture.y0 += rows.first - rows.top;
-  picture.height = rows.end - rows.first;
-}
+
+  /// With the alpha of a background.
+  NoisyPicture samples() const {
+    NoisyPicture picture = noisy(film_, options_, Plane::mean);
+    if (options_.background.apart())
+      picture.alpha = [this](int first, int end) { return rows_of_alpha(film_, shadows_, first, end); };
+    return picture;
+  }
+
+  DenoiseProgress part(double begin, double end) const {
+    return
+        [this, begin, end](double done) { return !f_.progress || f_.progress(std::lerp(begin, end, done)); };
+  }
+
+  /// All layers that are not denoised.
+  Picture layers() const {
+    Picture picture = film_.resolve();
+    for (std::size_t i = 1; i < picture.layers.size(); ++i) scale_layer(picture.layers[i], film_, f_.scale);
+    const PixelRect rect = picture_rect(film_, f_.scale);
+    picture.width = rect.width();
+    picture.height = rect.height();
+    picture.x0 = rect.x0;
+    picture.y0 = rect.y0;
+    picture.full_width /= f_.scale.factor();
+    picture.full_height /= f_.scale.factor();
+    return picture;
+  }
+
+  bool tell_error(FinishedPicture& result) const {
+    result.estimated_error = denoised_error(film_, f_, part(kShareOfPicture, 1.0));
+    return result.estimated_error.has_value();
+  }
+
+  /// That of each pixel too.
+  bool tell_errors(FinishedPicture& result, std::vector<float>& errors) const {
+    const Picture& picture = result.picture;
+    auto halves =
+        denoised_halves(film_, f_, error_options(film_), 0, picture.height, part(kShareOfPicture, 1.0));
+    if (!halves) return false;
+    result.estimated_error = error_of(*halves, picture.width, picture.height);
+    errors = std::move(halves->error);
+    return true;
+  }
+
+  /// What does not depend on how the colours were found.
+  template <class Alpha>
+  void finish(Picture& picture, const Alpha& alpha) const {
+    if (has(options_.aovs, Aov::denoising)) add_denoising_layers(picture, samples(), f_.scale.factor());
+    if (options_.background.apart()) put_before(picture, alpha(), options_.background);
+  }
+
+  const Film& film_;
+  const Finishing& f_;
+  const RenderOptions& options_;
+  std::vector<float> shadows_;  ///< alpha of caught shadows; empty: none
+};
 
 }  // namespace
 
-Reconstruction reconstruction_of(Picture picture, const SharedRows& rows, const RenderOptions& options) {
-  return reconstruct_rows(samples_of(picture, options), rows);
-}
-
-FinishedPicture finished_rows(Picture picture, const SharedRows& rows, const RenderOptions& options,
-                              const SeenLight& better, const CaughtShadows& shadows) {
-  std::array<std::vector<float>, 2> alphas;
-  if (options.background.apart()) alphas = alpha_of_halves(picture, shadows);
-  std::vector<Layer> wanted;
-  std::copy_if(picture.layers.begin(), picture.layers.end(), std::back_inserter(wanted),
-               [&](const Layer& layer) { return is_wanted(layer, options.aovs); });
-  SampledPicture samples = samples_of(picture, options);
-  if (better) improve(samples, rect_of(picture), rows, better);
-  picture.layers = std::move(wanted);
-  crop(picture, rows);
-
-  FinishedPicture result;
-  Reconstruction& finished = result.reconstruction = reconstruct_rows(samples, rows);
-  picture.layers.front().values = std::move(finished.color);
-  for (Layer& layer : picture.layers) {
-    if (layer.name == word(Aov::error)) layer.values = std::move(finished.error);
-  }
-  result.picture = std::move(picture);
-  if (options.background.apart()) {
-    replace_by_alpha(samples, alphas);
-    result.alpha = first_channel(reconstruct_rows(samples, rows).color);
-  }
-  return result;
-}
-
-void complete(FinishedPicture& whole, double samples_per_pixel, const RenderOptions& options) {
-  whole.lost_light = lost_light(whole.reconstruction.kept_and_lost);
-  if (samples_per_pixel >= kTellingSamples)
-    whole.estimated_error = error_of(whole.picture, whole.reconstruction);
-  if (options.background.apart()) put_before(whole.picture, whole.alpha, options.background);
-}
-
-FinishedPicture finished_picture(const Film& film, const RenderOptions& options, tbb::task_arena& arena,
-                                 const SeenLight& better, const CaughtShadows& shadows) {
+FinishedPicture finished_picture(const Film& film, const Finishing& finishing, tbb::task_arena& arena) {
   const Clock::time_point start = Clock::now();
   FinishedPicture result;
   arena.execute([&] {
-    Picture picture = film.resolve();
-    if (options.reconstruct) {
-      result =
-          finished_rows(std::move(picture), SharedRows::all(film.rect().height()), options, better, shadows);
-      complete(result, film.samples_per_pixel(), options);
-      return;
+    Finisher finisher(film, finishing);
+    if (finishing.denoiser) {
+      try {
+        std::optional<FinishedPicture> denoised = finisher.denoised();
+        if (denoised) {
+          result = std::move(*denoised);
+          return;
+        }
+        result.stopped = true;
+        result.failure = "denoising was stopped";
+      } catch (const OutOfMemory& error) {
+        result.failure = error.what();
+      } catch (const MissingDenoiser& error) {
+        result.failure = error.what();
+      }
     }
-    result.estimated_error = error_of(film, picture);
-    std::vector<float> alpha;
-    if (options.background.apart()) alpha = mean_alpha(picture, shadows);
-    std::erase_if(picture.layers, [&](const Layer& layer) { return !is_wanted(layer, options.aovs); });
-    if (options.background.apart()) put_before(picture, alpha, options.background);
-    result.picture = std::move(picture);
+    FinishedPicture traced = finisher.as_traced();
+    traced.stopped = result.stopped;
+    traced.failure = std::move(result.failure);
+    result = std::move(traced);
   });
-  if (options.reconstruct) result.reconstruct_seconds = seconds_since(start);
+  if (finishing.denoiser) result.denoise_seconds = seconds_since(start);
   return result;
 }
 
-std::optional<double> error_of_samples(const Film& film, tbb::task_arena& arena) {
-  return arena.execute([&] { return error_of(film, film.resolve()); });
+std::optional<double> error_of_picture(const Film& film, const Finishing& finishing, tbb::task_arena& arena) {
+  if (film.samples_per_pixel() < kTellingSamples) return std::nullopt;
+  return arena.execute(
+      [&] { return finishing.denoiser ? denoised_error(film, finishing) : sampled_error(film); });
 }
 
 }  // namespace gatelight::renderer

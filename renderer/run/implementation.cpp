@@ -13,6 +13,7 @@
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/cache/cached_pass.h"
+#include "renderer/denoise/denoise_time.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/identity/deciding_options.h"
@@ -22,24 +23,30 @@
 #include "renderer/ranks/packing.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
-#include "renderer/transport/seen_light.h"
 #include "renderer/transport/shadow_catcher.h"
 #include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Points of a pixel in each half that shadows are caught at under a time limit, which must know them before.
-constexpr int kTimedShadowPoints = 32;
+/// Points of a pixel that shadows are caught at under a time limit, which must know them before.
+constexpr int kTimedShadowPoints = 64;
 
-PixelRect resolve_region(const RenderOptions& options) {
-  if (!options.region) return {0, 0, options.width, options.height};
+RenderOptions checked(const RenderOptions& options) {
+  check_light_groups(options);
+  if (!options.region) return options;
   const auto& [x0, y0, x1, y1] = *options.region;
   if (x0 < 0 || y0 < 0 || x1 > options.width || y1 > options.height || x0 >= x1 || y0 >= y1) {
     throw BadOption(
         fmt::format("--region {},{},{},{}: expected x0,y0,x1,y1 within the picture of {}x{}, not empty", x0,
                     y0, x1, y1, options.width, options.height));
   }
+  return options;
+}
+
+PixelRect region_of(const RenderOptions& options) {
+  if (!options.region) return {0, 0, options.width, options.height};
+  const auto& [x0, y0, x1, y1] = *options.region;
   return {x0, y0, x1, y1};
 }
 
@@ -49,6 +56,21 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
                  need.total() - need.geometry);
   if (options.memory_limit_bytes == 0) return 0;
   return options.memory_limit_bytes - (need.total() - need.bvh);
+}
+
+/// What a limit leaves the denoiser; 0: no limit.
+std::size_t memory_of_denoiser(const scene::Scene& scene, const RenderOptions& options) {
+  constexpr std::size_t kLeast = std::size_t{256} << 20;  // less makes it slow, and saves nothing
+  if (options.memory_limit_bytes == 0) return 0;
+  const std::size_t need = estimate_memory(scene, options).total();
+  return std::max(options.memory_limit_bytes - std::min(need, options.memory_limit_bytes), kLeast);
+}
+
+/// Says that a denoiser is missing.
+std::string denoiser_warning(const ChosenDenoiser& chosen) {
+  if (chosen.missing.empty()) return "";
+  return fmt::format("the picture keeps its noise: {}; scripts/setup brings it, --denoiser none is silent",
+                     chosen.missing);
 }
 
 /// Whether the integrator shows light, and not the openness of surfaces.
@@ -122,22 +144,27 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in,
                                          Ranks& ranks_in)
     : scene(scene_in),
-      options(with_sky(scene, options_in)),
+      chosen_denoiser(choose_denoiser(options_in.denoise)),
+      asked(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
+      options(options_of_film(asked)),
       ranks(ranks_in),
       threads(options.threads > 0 ? options.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads),
-      region(resolve_region(options)),
+      region(region_of(options)),
       tiles(region),
       threads_of_ranks(one_of_each(ranks, static_cast<double>(threads))),
       shares(tiles.count(), threads_of_ranks),
       own(tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()))),
       view(chosen_view(options.camera)),
       filter(options.filter, options.filter_width),
-      budget(checked_budget(scene, options)) {
+      scale(asked.denoise.supersampling, asked.filter, asked.filter_width),
+      budget(checked_budget(scene, asked)) {
   const neural::FlushDenormals flush;  // also on the arena's threads, as the arena is made here
-  check_light_groups(options);
   require_threads(threads);
+  if (chosen_denoiser.library)
+    denoiser =
+        std::make_unique<Denoiser>(*chosen_denoiser.library, threads, memory_of_denoiser(scene, asked));
   const Clock::time_point start = Clock::now();
   // A loaded cache needs no more steps, unless the caller asks for some.
   if (!options.cache.train_steps && options.cache.cache_in.empty()) {
@@ -154,8 +181,8 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   });
   look_through(options.camera);
   statistics.build_seconds = seconds_since(start);
-  statistics.width = region.width();
-  statistics.height = region.height();
+  statistics.width = region_of_picture().width();
+  statistics.height = region_of_picture().height();
   statistics.threads = threads;
   statistics.isa = world->accel.isa();
   statistics.geometry_bytes = scene::geometry_bytes(scene);
@@ -185,8 +212,9 @@ void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   }
   statistics.warnings.clear();
   for (std::string warning :
-       {sky_warning(scene, options), made_view(scene, options.camera, view), std::move(focus),
-        world->environment.warning(), view_warning(*world, camera, options.width, options.height)}) {
+       {denoiser_warning(chosen_denoiser), sky_warning(scene, options),
+        made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
+        view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
 }
@@ -214,35 +242,66 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
   return std::make_unique<ReferencePass>(*world, context);
 }
 
-void Renderer::Implementation::tell(const FinishedPicture& finished, double seconds) {
-  statistics.reconstruct_seconds = seconds;
+int Renderer::Implementation::samples_of_film(int spp) const {
+  RenderOptions of_picture = asked;
+  of_picture.spp = spp;
+  return options_of_film(of_picture).spp;
+}
+
+PixelRect Renderer::Implementation::region_of_picture() const {
+  return region_of(asked);
+}
+
+void Renderer::Implementation::tell(const FinishedPicture& finished) {
+  statistics.denoise_seconds += finished.denoise_seconds;
+  statistics.denoiser =
+      finished.denoised ? fmt::format("Open Image Denoise {}", chosen_denoiser.library->version) : "";
+  statistics.denoise_failure = finished.failure;
   statistics.estimated_error = finished.estimated_error;
-  statistics.lost_light = finished.lost_light;
 }
 
 CaughtShadows Renderer::Implementation::caught_shadows(double samples_per_pixel) const {
-  constexpr int kFewest = 16, kMost = 256;
+  constexpr int kFewest = 32, kMost = 512;
   if (world->catchers.empty()) return {};
-  const int wanted = std::clamp(static_cast<int>(samples_per_pixel) / 2, kFewest, kMost);
+  const int wanted = std::clamp(static_cast<int>(samples_per_pixel), kFewest, kMost);
   const int samples = options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
-  return [this, samples](const PixelRect& rect, std::size_t half) {
-    // Whole tiles have the same packets of rays in every part of the picture.
-    PixelRect rows = rect;
-    rows.y0 = std::max(rect.y0 / kTile * kTile, region.y0);
-    rows.y1 = std::min((rect.y1 + kTile - 1) / kTile * kTile, region.y1);
-    std::vector<float> caught =
-        catch_shadows(*world, camera, filter, options, rows, samples, static_cast<std::uint32_t>(half));
-    const auto first = caught.begin() + static_cast<std::ptrdiff_t>(rows.index(rect.x0, rect.y0));
-    return std::vector<float>(first, first + static_cast<std::ptrdiff_t>(rect.index(rect.x0, rect.y1)));
+  return [this, samples](const PixelRect& rect) {
+    return catch_shadows(*world, camera, filter, options, rect, samples);
   };
 }
 
-SeenLight Renderer::Implementation::smoother_edges(double samples_per_pixel) const {
-  if (!shows_light(options.integrator) || options.cache.view == CacheView::cache || options.clamp > 0.0f)
-    return {};
-  return [this, samples_per_pixel](const PixelRect& rect, const SharedRows& rows, std::vector<float>& seen) {
-    smooth_edges(*world, camera, filter, options, rect, rows, samples_per_pixel, seen);
+Finishing Renderer::Implementation::finishing(double samples_per_pixel, DenoiseProgress progress) const {
+  return {options, denoiser.get(), scale, caught_shadows(samples_per_pixel), std::move(progress)};
+}
+
+FinishedPicture Renderer::Implementation::finish(Film& film, const Callbacks& callbacks, bool stopped) {
+  const double spp = samples_per_pixel(film);
+  FinishedPicture finished;
+  gather(film);
+  if (!ranks.first()) return finished;
+  const auto progress = [&callbacks, stopped, start = Clock::now()](double done) {
+    if (callbacks.progress)
+      callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
+    return stopped || !callbacks.stop || !callbacks.stop();
   };
+  finished = finished_picture(film, finishing(spp, progress), arena);
+  finished.picture.view = camera.matrices(scene.origin);
+  return finished;
+}
+
+std::optional<double> Renderer::Implementation::estimate_error(Film& film) {
+  gather(film);
+  std::optional<double> error;
+  if (ranks.first()) error = error_of_picture(film, finishing(1.0, {}), arena);
+  return agreed(ranks, error);
+}
+
+double Renderer::Implementation::expect_denoise_seconds() {
+  if (!denoiser) return 0.0;
+  const double alpha = options.background.apart() ? 1.5 : 1.0;
+  return alpha * arena.execute([&] {
+    return renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
+  });
 }
 
 double Renderer::Implementation::expect_shadow_seconds() {
@@ -253,12 +312,12 @@ double Renderer::Implementation::expect_shadow_seconds() {
   strip.x0 += (region.width() - width) / 2;
   strip.x1 = strip.x0 + width;
   const Clock::time_point start = Clock::now();
-  arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints, 0); });
-  return seconds_since(start) * 2.0 * kTimedShadowPoints / kPoints * region.width() / width * share_of_rows();
+  arena.execute([&] { catch_shadows(*world, camera, filter, options, strip, kPoints); });
+  return seconds_since(start) * kTimedShadowPoints / kPoints * region.width() / width;
 }
 
 Film Renderer::Implementation::make_film() const {
-  return {region, options.width, options.height, film_aovs(options), world->light_groups.names()};
+  return {region, options.width, options.height, film_contents(options, world->light_groups.names())};
 }
 
 RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const Film& film, const Pass* pass,
@@ -266,7 +325,7 @@ RenderStatistics Renderer::Implementation::sum_up(int spp, double seconds, const
                                                   const RenderStatistics& earlier) const {
   RenderStatistics sum = statistics;
   sum.render_seconds = seconds;
-  sum.spp = spp;
+  sum.spp = samples_of_picture(spp);
   SampleCounts counts = pass ? pass->counts() : SampleCounts{};
   counts.add(training.counts);
   sum.rays = pass ? pass->rays() : RayCounts{};

@@ -10,9 +10,11 @@
 #include <string>
 
 #include "renderer/cache/cache_session.h"
+#include "renderer/denoise/denoiser.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/pixel_filter.h"
 #include "renderer/film/rank_tiles.h"
+#include "renderer/film/scale_down.h"
 #include "renderer/film/tiles.h"
 #include "renderer/image/cryptomatte.h"
 #include "renderer/machine/clock.h"
@@ -20,6 +22,7 @@
 #include "renderer/ranks/shares.h"
 #include "renderer/render.h"
 #include "renderer/run/checkpoint.h"
+#include "renderer/run/chosen_denoiser.h"
 #include "renderer/run/film_exchange.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/sample_loop.h"
@@ -65,33 +68,28 @@ struct Renderer::Implementation {
   bool return_to_good(Training& training, Film& film, Checkpoint* found, RenderStatistics& earlier,
                       const Callbacks& callbacks);
   /// The finished picture of a film, with its view. Rank 0 gets it.
-  FinishedPicture finish(Film& film);
-  /// The film follows the density of its finished picture from now on. `known`: its reconstruction, if it is,
-  /// at rank 0. Returns the seconds that this took.
-  double adapt_density(Film& film, const Reconstruction* known);
+  /// `stopped`: the caller has stopped the samples, and not yet the denoiser.
+  FinishedPicture finish(Film& film, const Callbacks& callbacks, bool stopped);
+  /// The estimated error of the picture; empty where it is unknown. All ranks get it.
+  std::optional<double> estimate_error(Film& film);
+  Finishing finishing(double samples_per_pixel, DenoiseProgress progress) const;
   /// Of all pixels, at whatever rank.
   double samples_per_pixel(const Film& film) const;
   /// The exact film, at rank 0.
   void gather(Film& film) { gather_film(film, tiles, shares, ranks); }
   /// Deals the tiles anew where some rank took much longer than others.
   void rebalance(Film& film, const std::vector<RankWork>& measured);
-  /// What a finished picture tells goes into the statistics. `seconds`: of all reconstruction.
-  void tell(const FinishedPicture& finished, double seconds);
-  /// What finish() is expected to take for the catchers of shadows under a time limit.
+  /// Adds what a finished picture tells to the statistics.
+  void tell(const FinishedPicture& finished);
+  /// What finish() is expected to take under a time limit: for the denoiser, and for the catchers of shadows.
+  double expect_denoise_seconds();
   double expect_shadow_seconds();
-  // For finished_picture().
-  SeenLight smoother_edges(double samples_per_pixel) const;
   CaughtShadows caught_shadows(double samples_per_pixel) const;
-  /// The first row of each rank, where they share what costs alike everywhere; then the number of rows.
-  std::vector<int> rows_of_ranks() const;
-  /// Of the picture, that the rank with most rows finishes, with their margin.
-  double share_of_rows() const;
-  /// The rows that a rank needs to finish its own: first <= y < end, from the top of the region.
-  std::pair<int, int> rows_with_margin(int rank) const;
-  /// The rows that this rank finishes.
-  SharedRows shared_rows() const;
-  /// What all samples say of them and their margin.
-  Picture sampled_rows(const Film& film);
+  /// Samples of a pixel of the film for so many of the picture's, and the other way round.
+  int samples_of_film(int spp) const;
+  int samples_of_picture(int of_film) const { return of_film * scale.factor() * scale.factor(); }
+  /// The region of the picture, in its own pixels.
+  PixelRect region_of_picture() const;
   /// The layers of options.cryptomattes; the statistics get the time.
   Cryptomattes cryptomattes();
   Film make_film() const;
@@ -104,10 +102,6 @@ struct Renderer::Implementation {
   RenderStatistics sum_up(int spp, double seconds, const Film& film, const Pass* pass,
                           const Training& training, const RenderStatistics& earlier) const;
 
-  /// One pass, up to `goal` samples, after a new density where one is due. Returns the seconds of the
-  /// density.
-  double run_adaptive_pass(SampleLoop& loop, Film& film, int goal);
-
   class PictureRun;
   bool render_step_series(const std::vector<int>& train_steps, const SeriesPicture& picture,
                           const Callbacks& callbacks);
@@ -115,7 +109,9 @@ struct Renderer::Implementation {
                             const Callbacks& callbacks);
 
   const scene::Scene& scene;
-  RenderOptions options;
+  ChosenDenoiser chosen_denoiser;
+  RenderOptions asked;    ///< of the picture, with what is automatic chosen
+  RenderOptions options;  ///< of the film, which may be larger
   Ranks& ranks;
   int threads;
   tbb::global_control control;
@@ -129,7 +125,9 @@ struct Renderer::Implementation {
   View view;
   Camera camera{view, 1, 1};
   FilterSampler filter;
+  ScaleDown scale;  ///< from the film to the picture
   std::size_t budget;
+  std::unique_ptr<Denoiser> denoiser;  ///< null: the picture is as traced
   std::optional<World> world;
   Ranks::Traffic traffic_before;           ///< before the picture
   Clock::time_point begin = Clock::now();  ///< of the picture

@@ -18,23 +18,14 @@
 #include "renderer/machine/clock.h"
 #include "renderer/ranks/packing.h"
 #include "renderer/ranks/shared_file.h"
-#include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/error_checks.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
-#include "renderer/run/reconstruction_time.h"
 #include "renderer/run/sample_loop.h"
 #include "renderer/run/time_budget.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
-namespace {
-
-// The first reconstruction of a run touches much memory for the first time.
-constexpr double kFirstTime = 1.25, kNextTime = 0.85;
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 class Renderer::Implementation::PictureRun {
  public:
@@ -57,7 +48,7 @@ class Renderer::Implementation::PictureRun {
     SampleLoop loop(renderer_.arena, options_, callbacks_, *pass, film_, options_.spp, ranks_);
     run_passes(loop, *pass);
     end(loop, *pass);
-    Picture picture = finished(loop.done());
+    Picture picture = finished(loop);
     if (ranks_.first()) add_cryptomattes(picture, std::move(mattes_));
     note_end(loop);
     return picture;
@@ -89,11 +80,7 @@ class Renderer::Implementation::PictureRun {
     budget_.limit = options_.time_limit_seconds;
     if (budget_.limit <= 0.0) return;
     budget_.shadows = agreed(ranks_, renderer_.expect_shadow_seconds());
-    if (!options_.reconstruct) return;
-    const Clock::time_point start = Clock::now();
-    const double alone = expect_reconstruct_seconds(renderer_.region, options_, renderer_.arena);
-    budget_.reconstruct = agreed(ranks_, kFirstTime * alone * renderer_.share_of_rows());
-    reconstruct_seconds_ = seconds_since(start);  // of the picture of noise
+    budget_.denoise = agreed(ranks_, renderer_.expect_denoise_seconds());
   }
 
   Clock::time_point time_at(double seconds) const {
@@ -114,7 +101,7 @@ class Renderer::Implementation::PictureRun {
       renderer_.train(training_, film_, callbacks_, [&] {
         if (!checkpoint_due()) return;
         training_.session->settle();
-        keep(Phase::train, sum_up(), true);
+        keep(Phase::train, 0, sum_up(), true);
       });
     } catch (const TrainingDiverged& error) {
       // The last good state still gives a picture and a cache file. The checkpoint is kept.
@@ -123,7 +110,7 @@ class Renderer::Implementation::PictureRun {
       identity_.reset();
     }
     // Training that a time limit ended is not repeated: its end decides the picture.
-    keep(whole() ? Phase::render : Phase::train, sum_up(), whole());
+    keep(whole() ? Phase::render : Phase::train, 0, sum_up(), whole());
   }
 
   void write_cache() const {
@@ -142,8 +129,7 @@ class Renderer::Implementation::PictureRun {
     if (training_.stopped) loop.stop();
     if (options_.max_error > 0.0 && is_check(loop.done()) && good_enough(loop)) return;
     while (loop.done() < options_.spp) {
-      adapt(loop);
-      int goal = std::min(options_.spp, next_density(options_, loop.done()));
+      int goal = options_.spp;
       if (options_.max_error > 0.0) goal = std::min(goal, next_check(loop.done()));
       try {
         loop.run_pass(goal);
@@ -159,7 +145,7 @@ class Renderer::Implementation::PictureRun {
       const bool wanted = callbacks_.snapshot_wanted && callbacks_.snapshot && callbacks_.snapshot_wanted();
       if (any(ranks_, wanted)) {
         renderer_.statistics = sum_up(loop, pass);
-        Picture picture = finished(loop.done());
+        Picture picture = finished(loop);
         if (ranks_.first()) {
           add_cryptomattes(picture, mattes_);
           callbacks_.snapshot(picture);
@@ -168,73 +154,32 @@ class Renderer::Implementation::PictureRun {
       if (loop.over()) return;
       if (options_.max_error > 0.0 && is_check(loop.done()) && (good_enough(loop) || loop.over())) return;
       renderer_.rebalance(film_, loop.last_pass());
-      if (whole() && checkpoint_due()) keep(Phase::render, sum_up(loop, pass), true);
+      if (whole() && checkpoint_due()) keep(Phase::render, loop.done(), sum_up(loop, pass), true);
     }
   }
 
   void limit_passes(SampleLoop& loop) {
     if (budget_.limit <= 0.0) return;
-    // Three rays a pixel at most, which a sample's many rays tell the time of.
-    constexpr double kEdgesOfSample = 0.3;
-    budget_.edges = edges_are_smoother() ? kEdgesOfSample * loop.seconds_per_sample() : 0.0;
     // A checkpoint holds whole passes.
     loop.end_at(time_at(budget_.passes_end()), !identity_);
   }
 
-  /// Chooses anew where samples go, where that is due.
-  void adapt(SampleLoop& loop) {
-    if (!density_due(film_, loop.done(), options_)) {
-      if (checked_) checked_->reconstruction = {};
-      return;
-    }
-    // Where no passes would follow in time. A checkpoint must hold what any other run would have.
-    const bool late =
-        budget_.limit > 0.0 && seconds_since(begin_) + budget_.reconstruct > budget_.passes_end();
-    if (agreed(ranks_, late) && !identity_) return;
-    // A check shows smoother edges; without checks the same samples must follow.
-    const bool known = checked_ && checked_samples_ == loop.done() && !edges_are_smoother();
-    const double seconds = renderer_.adapt_density(film_, known ? &checked_->reconstruction : nullptr);
-    if (checked_) checked_->reconstruction = {};
-    reconstruct_seconds_ += seconds;
-    loop.leave_out(seconds);
-    if (known) return;
-    // The last reconstruction takes as long, which is known better now.
-    budget_.reconstruct = kNextTime * (options_.background.apart() ? 2.0 * seconds : seconds);  // alpha
-    limit_passes(loop);
-  }
-  bool edges_are_smoother() const { return static_cast<bool>(renderer_.smoother_edges(0.0)); }
-
   /// Estimates the error.
   bool good_enough(SampleLoop& loop) {
     const Clock::time_point start = Clock::now();
-    std::optional<double> error;
-    if (options_.reconstruct) {
-      checked_ = renderer_.finish(film_);
-      checked_samples_ = loop.done();
-      reconstruct_seconds_ += checked_->reconstruct_seconds;
-      error = checked_->estimated_error;
-      // Measured with these samples it is better than what was expected.
-      budget_.reconstruct = seconds_since(start);
-      budget_.shadows = 0.0;
-      limit_passes(loop);
-    } else {
-      renderer_.gather(film_);
-      if (ranks_.first()) error = error_of_samples(film_, renderer_.arena);
-    }
-    error = agreed(ranks_, error);
+    const std::optional<double> error = renderer_.estimate_error(film_);
     loop.leave_out(seconds_since(start));
     if (!error) return false;
     const double times = *error / options_.max_error;
     loop.tell_error(*error, loop.done() * times * times);
-    return *error <= options_.max_error;
+    return reached_error_ = *error <= options_.max_error;
   }
 
   void end(const SampleLoop& loop, const Pass& pass) {
     RenderStatistics& told = renderer_.statistics;
     told = sum_up(loop, pass);
-    cut_short_ = loop.cut_short() || !device_lost_.empty();
     told.device_lost = device_lost_;
-    if (whole() && device_lost_.empty()) keep(Phase::render, told, false);
+    if (whole() && device_lost_.empty()) keep(Phase::render, loop.done(), told, false);
     loop.report_end();
   }
 
@@ -243,29 +188,22 @@ class Renderer::Implementation::PictureRun {
     RenderStatistics& told = renderer_.statistics;
     if (!device_lost_.empty()) {
       told.ended_by = EndedBy::device;
-    } else if (loop.stopped() && (loop.done() < options_.spp || !whole())) {
+    } else if (denoising_stopped_ || (loop.stopped() && (loop.done() < options_.spp || !whole()))) {
       told.ended_by = EndedBy::caller;
-    } else if (options_.max_error > 0.0 && told.estimated_error.value_or(kNever) <= options_.max_error) {
+    } else if (reached_error_) {
       told.ended_by = EndedBy::max_error;
     } else {
       told.ended_by = loop.done() < options_.spp ? EndedBy::time_limit : EndedBy::spp;
     }
     const bool early = told.ended_by != EndedBy::max_error && loop.done() < options_.spp;
-    told.interrupted = early || !whole();
+    told.interrupted = early || !whole() || denoising_stopped_;
   }
 
-  /// The picture of the film, with its statistics. `samples`: that every pixel has.
-  Picture finished(int samples) {
-    FinishedPicture finished;
-    // The last check's, where nothing was added since.
-    if (checked_ && checked_samples_ == samples && !cut_short_) {
-      finished = std::move(*checked_);
-    } else {
-      finished = renderer_.finish(film_);
-      reconstruct_seconds_ += finished.reconstruct_seconds;
-    }
-    checked_.reset();
-    renderer_.tell(finished, reconstruct_seconds_);
+  /// The picture of the film, with its statistics.
+  Picture finished(const SampleLoop& loop) {
+    FinishedPicture finished = renderer_.finish(film_, callbacks_, loop.stopped());
+    renderer_.tell(finished);
+    denoising_stopped_ = finished.stopped;
     return std::move(finished.picture);
   }
   Checkpoint* found() { return found_ ? &*found_ : nullptr; }
@@ -279,13 +217,13 @@ class Renderer::Implementation::PictureRun {
   bool checkpoint_due() const {
     return identity_ && agreed(ranks_, seconds_since(last_checkpoint_) >= options_.checkpoint.every_seconds);
   }
-  /// Writes a checkpoint where one is wanted. `again`: another one will be tried.
-  void keep(Phase phase, const RenderStatistics& sum, bool again) {
+  /// Writes a checkpoint where one is wanted. `samples`: of the film's pixels. `again`: another one will be
+  /// tried.
+  void keep(Phase phase, int samples, const RenderStatistics& sum, bool again) {
     if (!identity_) return;
     renderer_.gather(film_);
     last_checkpoint_ = Clock::now();
     if (!ranks_.first()) return;
-    const int samples = phase == Phase::render ? sum.spp : 0;
     const CheckpointProgress progress{phase, samples, training_.first_step, training_.samples() > 0};
     try_writing(again, [&] {
       const neural::TrainingOptions training = training_options(options_);
@@ -326,12 +264,10 @@ class Renderer::Implementation::PictureRun {
   RenderStatistics earlier_;  ///< of the checkpoint
   Training training_;
   std::string device_lost_;
+  bool denoising_stopped_ = false;
+  bool reached_error_ = false;  ///< max_error ended the passes
   TimeBudget budget_;
   Cryptomattes mattes_;
-  std::optional<FinishedPicture> checked_;  ///< of the last check
-  int checked_samples_ = 0;
-  bool cut_short_ = false;  ///< some pixels have a sample more than others
-  double reconstruct_seconds_ = 0.0;
 };
 
 Picture Renderer::render(const Callbacks& callbacks) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "neural/base/flush_denormals.h"
-#include "renderer/run/adaptive_sampling.h"
 #include "renderer/run/finished_picture.h"
 #include "renderer/run/implementation.h"
 #include "renderer/run/sample_loop.h"
@@ -47,13 +46,6 @@ void check_series(const Series& series, const RenderOptions& options) {
 
 }  // namespace
 
-double Renderer::Implementation::run_adaptive_pass(SampleLoop& loop, Film& film, int goal) {
-  const double seconds = density_due(film, loop.done(), options) ? adapt_density(film, nullptr) : 0.0;
-  loop.leave_out(seconds);
-  loop.run_pass(std::min(goal, next_density(options, loop.done())));
-  return seconds;
-}
-
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
   const neural::FlushDenormals flush;
   Implementation& self = *implementation_;
@@ -89,18 +81,18 @@ bool Renderer::Implementation::render_step_series(const std::vector<int>& train_
       if (training.stopped) return false;
     }
     Film film = taught;
-    double reconstruct_seconds = 0.0;  // of densities
     const std::unique_ptr<Pass> pass = make_pass(training);
     SampleLoop loop(arena, options, callbacks, *pass, film, options.spp, ranks);
     while (loop.done() < options.spp) {
       if (loop.over()) return false;
-      reconstruct_seconds += run_adaptive_pass(loop, film, options.spp);
+      loop.run_pass(options.spp);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
     statistics.interrupted = false;
     loop.report_end();
-    FinishedPicture finished = finish(film);
-    tell(finished, reconstruct_seconds + finished.reconstruct_seconds);
+    FinishedPicture finished = finish(film, callbacks, loop.stopped());
+    if (finished.stopped) return false;
+    tell(finished);
     add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     if (loop.over()) return point + 1 == train_steps.size();
@@ -117,20 +109,21 @@ bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp,
   const Cryptomattes mattes = cryptomattes();
   Film film = make_film();
   Training untrained;
-  double reconstruct_seconds = 0.0;  // of densities
   const std::unique_ptr<Pass> pass = make_pass(untrained);
-  SampleLoop loop(arena, options, callbacks, *pass, film, spp.back(), ranks);
+  SampleLoop loop(arena, options, callbacks, *pass, film, samples_of_film(spp.back()), ranks);
   for (std::size_t point = 0; point < spp.size(); ++point) {
-    while (loop.done() < spp[point]) {
+    const int goal = samples_of_film(spp[point]);
+    while (loop.done() < goal) {
       if (loop.over()) return false;
-      reconstruct_seconds += run_adaptive_pass(loop, film, spp[point]);
+      loop.run_pass(goal);
     }
     statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), untrained, {});
     statistics.interrupted = false;
     if (point + 1 == spp.size()) loop.report_end();
     const Clock::time_point start = Clock::now();
-    FinishedPicture finished = finish(film);
-    tell(finished, reconstruct_seconds + finished.reconstruct_seconds);
+    FinishedPicture finished = finish(film, callbacks, loop.stopped());
+    if (finished.stopped) return false;
+    tell(finished);
     add_cryptomattes(finished.picture, mattes);
     picture(static_cast<int>(point), finished.picture, statistics);
     loop.leave_out(seconds_since(start));

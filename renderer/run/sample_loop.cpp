@@ -99,9 +99,10 @@ Progress SampleLoop::progress(double samples) const {
   double fraction = samples / spp_;
   if (expected_samples_ > 0.0) fraction = std::max(fraction, samples / expected_samples_);
   if (std::isfinite(end_)) fraction = std::max(fraction, now() / std::max(end_, 1e-9));
-  return {.spp_done = done_,
-          .spp = spp_,
-          .samples = samples,
+  const int of_pixel = options_.denoise.supersampling * options_.denoise.supersampling;
+  return {.spp_done = done_ * of_pixel,
+          .spp = spp_ == kOpenSpp ? spp_ : spp_ * of_pixel,
+          .samples = samples * of_pixel,
           .error = error_,
           .fraction = std::min(fraction, 1.0),
           .seconds = seconds};

@@ -6,17 +6,16 @@
 
 namespace gatelight::renderer {
 
-/// Seconds since the picture was begun: scouting, setup, training, passes, and reconstruction last.
+/// Seconds since the picture was begun: scouting, setup, training, passes, and denoising last.
 struct TimeBudget {
-  double limit = 0.0;        ///< 0: none
-  double reconstruct = 0.0;  ///< expected, and reserved
-  double edges = 0.0;        ///< the same, for the edges of lamps
-  double shadows = 0.0;      ///< the same, for the catchers of shadows
+  double limit = 0.0;    ///< 0: none
+  double denoise = 0.0;  ///< expected, and reserved
+  double shadows = 0.0;  ///< the same, for the catchers of shadows
 
   /// When the passes should end; infinity without a limit.
   double passes_end() const {
     if (limit <= 0.0) return std::numeric_limits<double>::infinity();
-    return std::max(limit - reconstruct - edges - shadows, 0.0);
+    return std::max(limit - denoise - shadows, 0.0);
   }
   /// When training should end that begins at `now`; the passes have what is left. teaching_samples: the paths
   /// of training are samples of the picture, so that its time is not lost.

@@ -33,6 +33,12 @@ enum class Projection : std::uint8_t {
 };
 enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
 enum class NanPolicy : std::uint8_t { drop, error };
+/// What takes the noise out of a picture.
+enum class DenoiserKind : std::uint8_t {
+  automatic,  ///< Open Image Denoise where it is found, else nothing
+  oidn,       ///< Open Image Denoise
+  none,
+};
 
 enum class Aov : std::uint8_t {
   albedo,
@@ -44,9 +50,9 @@ enum class Aov : std::uint8_t {
   alpha,  ///< 1 less what of the background is seen
   sample_count,
   variance,
-  raw,             ///< the samples' mean
-  error,           ///< estimated standard error of the picture
-  reconstruction,  ///< the layers that renderer/reconstruction reads
+  raw,        ///< the samples' mean
+  error,      ///< estimated standard error of the picture
+  denoising,  ///< the layers from which the picture can be denoised later (denoise/README.md)
   // Of the cache, at the vertex of its first query; black without one.
   cache_radiance,  ///< the picture that it gives without any further path
   cache_answer,    ///< its answer, before reflectance

@@ -19,6 +19,9 @@ constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
 constexpr Choice<std::string_view> kIsa[] = {
     {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
 
+constexpr Choice<bool> kGuides[] = {{"clean", true}, {"noisy", false}};
+constexpr Choice<int> kSupersampling[] = {{"1", 1}, {"2", 2}};
+
 /// Values by a list of words, each once, in the order of the enumeration. `all`: a word for all of them.
 template <class Enumeration>
 std::vector<Enumeration> read_words(const std::string& flag, const std::string& text,
@@ -93,9 +96,7 @@ Option aov_option(std::vector<Aov>& aovs) {
   const char* help =
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
       "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
-      "error of "
-      "the "
-      "picture), reconstruction (what `gatelight reconstruct` reads); of a cache cache-radiance, "
+      "error of the picture), denoising (what `gatelight denoise` reads); of a cache cache-radiance, "
       "cache-answer, cache-error, "
       "training-count, resolution, nearest-node; or all";
   return {.name = "aov",
@@ -273,6 +274,28 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
 }
 
+void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
+  auto& [denoiser, clean_guides, supersampling, library] = options;
+  picture.add(
+      choice("denoiser", denoiser,
+             "Takes the noise out of the finished picture: Open Image Denoise (oidn), the same where it "
+             "is found (auto, that of the presets), or nothing"));
+  picture.add(
+      choice("denoise-guides", clean_guides, kGuides,
+             "With a denoiser: albedo and normal are denoised first, for less error (clean), or read as "
+             "they are, in a quarter of the time (noisy)"));
+  picture.add(
+      choice("supersampling", supersampling, kSupersampling,
+             "With a denoiser: render and denoise at this many times the width and height, with the same "
+             "number of samples, and scale by the pixel filter; sharper edges, four times the denoiser's "
+             "time"));
+  picture.add(
+      decides_nothing(any_word("oidn", library, "FILE|FOLDER",
+                               "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
+                               "of the environment, else where scripts/setup or the system have it)"),
+                      InRecipe::unless_reproducible));
+}
+
 /// Checkpoints store the chosen instruction sets separately.
 void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
                          std::string& isa) {
@@ -298,8 +321,8 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 std::vector<Option> option_table(RenderOptions& options) {
   auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
          threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
-         clamp, ao_distance, reconstruct, adaptive, aovs, cryptomattes, light_groups, nan_policy,
-         memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] = options;
+         clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy, memory_limit_bytes, isa,
+         camera, environment, background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -311,7 +334,7 @@ std::vector<Option> option_table(RenderOptions& options) {
                                      "Samples per pixel; at most so many with --time-limit or --max-error")));
   picture.add(decides_nothing(
       number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-             "Time of scouting, training, rendering and reconstruction together; it decides --spp and the "
+             "Time of scouting, training, rendering and denoising together; it decides --spp and the "
              "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
              "limit")));
   picture.add(decides_nothing(number(
@@ -325,11 +348,7 @@ std::vector<Option> option_table(RenderOptions& options) {
   picture.add(choice("filter", filter, "Pixel filter"));
   picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
                      "Full width of the pixel filter; 0: the filter's own"));
-  picture.add(choice("reconstruct", reconstruct, kOnOff,
-                     "Fit the samples to normals and depth, which takes out most of the grain"));
-  picture.add(choice("adaptive", adaptive, kOnOff,
-                     "With --reconstruct on: from the third sample on, take more where the finished picture "
-                     "has more noise; --spp is then the mean over the picture"));
+  add_denoise_options(picture, denoise);
   picture.add(aov_option(aovs));
   picture.add(decides_nothing(cryptomatte_option(cryptomattes)));  // film and checkpoint know nothing of it
   picture.add(light_groups_option(light_groups));

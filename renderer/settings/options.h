@@ -11,6 +11,7 @@
 #include "renderer/settings/background_options.h"
 #include "renderer/settings/cache_options.h"
 #include "renderer/settings/choices.h"
+#include "renderer/settings/denoise_options.h"
 #include "renderer/settings/environment_options.h"
 #include "renderer/settings/light_group_options.h"
 
@@ -58,7 +59,7 @@ struct RenderOptions {
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
-  /// Of scouting, setup, training, passes and reconstruction together; 0: no limit.
+  /// Of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off
   int max_depth = 8;       ///< scattering events; 1 is emission and direct light
@@ -75,8 +76,7 @@ struct RenderOptions {
   bool watertight = true;     ///< no ray slips between triangles that share an edge
   float clamp = 0.0f;         ///< largest luminance of one sample; 0: off
   float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed
-  bool reconstruct = false;   ///< fit the samples to their guides (reconstruction/README.md)
-  bool adaptive = true;       ///< with reconstruct: more samples where more noise is left
+  DenoiseOptions denoise;
   std::vector<Aov> aovs;
   std::vector<MatteKind> cryptomattes;   ///< each once, in the order of the enumeration
   std::vector<LightGroup> light_groups;  ///< of path alone: each has a layer

@@ -3,12 +3,12 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A finished picture: training learns from the picture's samples, and what all samples say is reconstructed.
-/// Steps are chosen by the picture's pixels and samples.
+/// A finished picture: training learns from the picture's samples, and the picture is denoised. Steps are
+/// chosen by the picture's pixels and samples.
 void set_finished(RenderOptions& options, int spp) {
   options.integrator = Integrator::nrc;
   options.spp = spp;
-  options.reconstruct = true;
+  options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
   options.cache.source = TrainingSource::picture;
   options.cache.query_at = QueryAt::gather;
@@ -29,12 +29,14 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       break;
     case CachePreset::preview:
       set_finished(options, 4);
+      options.denoise.clean_guides = false;
       break;
     case CachePreset::standard:
       set_finished(options, 7);
       break;
     case CachePreset::final:
       set_finished(options, 48);
+      options.denoise.supersampling = 2;
       break;
     case CachePreset::paper_nao:
     case CachePreset::paper_nrc: {

@@ -14,16 +14,6 @@ float resolve_ao_distance(float option, const scene::Box& bounds) {
   return bounds.isEmpty() ? scene::kInfinity : 0.1f * bounds.diagonal().norm();
 }
 
-std::vector<Aov> film_aovs(const RenderOptions& options) {
-  std::vector<Aov> aovs = options.aovs;
-  if (options.reconstruct && !has(aovs, Aov::reconstruction)) aovs.push_back(Aov::reconstruction);
-  if (has(aovs, Aov::reconstruction) && !has(aovs, Aov::cache_radiance) &&
-      options.integrator == Integrator::nrc)
-    aovs.push_back(Aov::cache_radiance);
-  if (options.background.apart() && !has(aovs, Aov::alpha)) aovs.push_back(Aov::alpha);
-  return aovs;
-}
-
 void check_light_groups(const RenderOptions& options) {
   check_light_groups(options.light_groups);
   if (!options.light_groups.empty() && options.integrator != Integrator::path)

@@ -11,9 +11,6 @@ namespace gatelight::renderer {
 /// Metres: a tenth of the scene's diagonal where the option is negative.
 float resolve_ao_distance(float option, const scene::Box& bounds);
 
-/// What the film keeps: the output variables of the options, and those that reconstruction reads.
-std::vector<Aov> film_aovs(const RenderOptions& options);
-
 /// Throws BadOption for groups of lights that are not as they must be, or with an integrator that does not
 /// tell lights apart.
 void check_light_groups(const RenderOptions& options);

@@ -93,7 +93,9 @@ struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
   double resumed_seconds = 0.0;  ///< those of render_seconds that a checkpoint brought
-  double reconstruct_seconds = 0.0;
+  double denoise_seconds = 0.0;
+  std::string denoiser;         ///< name and version of what denoised the picture; empty: it is as traced
+  std::string denoise_failure;  ///< why it is as traced although it should be denoised; else empty
   double cryptomatte_seconds = 0.0;
   int width = 0;
   int height = 0;
@@ -111,7 +113,6 @@ struct RenderStatistics {
   std::vector<NonFiniteSample> nonfinite_samples;  ///< the first 16, in the order of (y, x, sample)
   std::uint64_t clamped = 0;
   CacheStatistics cache;
-  double lost_light = 0.0;  ///< what reconstruction lost with bright samples, of the samples' light
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller

@@ -41,6 +41,9 @@ template <>
 inline constexpr Choice<NanPolicy> kWords<NanPolicy>[] = {{"drop", NanPolicy::drop},
                                                           {"error", NanPolicy::error}};
 template <>
+inline constexpr Choice<DenoiserKind> kWords<DenoiserKind>[] = {
+    {"auto", DenoiserKind::automatic}, {"oidn", DenoiserKind::oidn}, {"none", DenoiserKind::none}};
+template <>
 inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
                                               {"normal", Aov::normal},
                                               {"depth", Aov::depth},
@@ -52,7 +55,7 @@ inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
                                               {"variance", Aov::variance},
                                               {"raw", Aov::raw},
                                               {"error", Aov::error},
-                                              {"reconstruction", Aov::reconstruction},
+                                              {"denoising", Aov::denoising},
                                               {"cache-radiance", Aov::cache_radiance},
                                               {"cache-answer", Aov::cache_answer},
                                               {"cache-error", Aov::cache_error},

@@ -1,6 +1,6 @@
 #pragma once
-// The surface that a path sees first if mirrors and clear glass do not count: what reconstruction is guided
-// by.
+// The surface that a path sees first if mirrors and clear glass do not count: what guides the
+// denoiser.
 
 #include "renderer/film/camera_sample.h"
 #include "renderer/transport/walker.h"
@@ -25,7 +25,6 @@ inline void meet_guide(Walker& path, const Meeting& m, FirstHit& first) {
     guide.tint = path.throughput.min(1.0f);
     guide.albedo = guide.tint * m.surface.material.base_color;
     guide.normal = m.surface.shading_normal;
-    guide.depth += m.hit.t;
   }
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }

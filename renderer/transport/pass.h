@@ -26,12 +26,9 @@ struct PassContext {
 class Pass {
  public:
   virtual ~Pass() = default;
-  /// Adds so many samples of each pixel to the film, in order; on average, where the film follows a density.
-  /// Runs in the caller's arena. Calls report(fraction done) from any thread.
-  void run(int samples, Film& film, const std::function<void(double)>& report) {
-    add_samples(samples, film, report);
-    film.end_passes(samples);
-  }
+  /// Adds so many samples of each pixel to the film, in order. Runs in the caller's arena. Calls
+  /// report(fraction done) from any thread.
+  virtual void run(int samples, Film& film, const std::function<void(double)>& report) = 0;
   /// From this time on run() leaves out the pixels that are not begun yet.
   void end_at(std::chrono::steady_clock::time_point end) { end_ = end; }
   /// Whether a run left pixels out.
@@ -43,7 +40,6 @@ class Pass {
   virtual void add_to(CacheStatistics&) const {}
 
  protected:
-  virtual void add_samples(int samples, Film& film, const std::function<void(double)>& report) = 0;
   /// Whether what is to come is left out.
   bool out_of_time() {
     if (end_ == std::chrono::steady_clock::time_point::max() || std::chrono::steady_clock::now() < end_)

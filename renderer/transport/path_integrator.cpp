@@ -27,15 +27,11 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
   if (!hit || path.looks_through(walk_, hit)) {
     if (first) leave_guide(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
-    if (first && path.surfaces == 0) first->seen = sky.radiance;
     add(sky, [&] { return groups.of_environment(); });
     return nullptr;
   }
   Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
-  if (first && path.surfaces == 0) {
-    *first = first_hit(hit, m.surface, walk_.world.scene.origin);
-    first->seen = m.emission.radiance;
-  }
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
   if (first) meet_guide(path, m, *first);
   add(m.emission, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;

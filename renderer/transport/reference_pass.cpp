@@ -14,7 +14,7 @@ ReferencePass::ReferencePass(const World& world, const PassContext& context)
       path_(world, path_integrator_options(context.options)),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)) {}
 
-void ReferencePass::add_samples(int samples, Film& film, const std::function<void(double)>& report) {
+void ReferencePass::run(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& tiles = context_.tiles;
   const RenderOptions& options = context_.options;
   std::atomic<int> finished{0};
@@ -25,7 +25,7 @@ void ReferencePass::add_samples(int samples, Film& film, const std::function<voi
         for (int tile = range.begin(); tile < range.end() && !out_of_time(); ++tile) {
           tiles.pixels(tile, w.pixels);
           for (int sample = 0; sample < samples; ++sample) {
-            film.take_pass(w.pixels, sample, w.taken);
+            film.take(w.pixels, w.taken);
             w.results.resize(w.taken.size());
             if (film.needs_first_hits()) w.first_hits.resize(w.taken.size());
             make_camera_samples(w.taken, film, options, context_.camera, context_.filter, w.samples);

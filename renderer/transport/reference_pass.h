@@ -24,9 +24,9 @@ class ReferencePass : public WorkerPass<ReferenceWorker> {
   /// options.integrator is path or ao.
   ReferencePass(const World& world, const PassContext& context);
 
- private:
-  void add_samples(int samples, Film& film, const std::function<void(double)>& report) override;
+  void run(int samples, Film& film, const std::function<void(double)>& report) override;
 
+ private:
   PassContext context_;
   PathIntegrator path_;
   AoIntegrator ao_;

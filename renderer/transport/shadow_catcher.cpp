@@ -84,12 +84,11 @@ class Catcher {
 }  // namespace
 
 std::vector<float> catch_shadows(const World& world, const Camera& camera, const FilterSampler& filter,
-                                 const RenderOptions& options, const PixelRect& rect, int samples,
-                                 std::uint32_t salt) {
+                                 const RenderOptions& options, const PixelRect& rect, int samples) {
   std::vector<float> alpha(rect.index(rect.x0, rect.y1), 0.0f);
   const TileGrid tiles(rect);
   RenderOptions own = options;
-  own.seed = hash(options.seed ^ hash(salt ^ 0x73686164u));
+  own.seed = hash(options.seed ^ hash(0x73686164u));
   tbb::parallel_for(0, tiles.count(), [&](int tile) {
     std::vector<Pixel> pixels;
     tiles.pixels(tile, pixels);

@@ -13,10 +13,9 @@ namespace gatelight::renderer {
 
 /// The alpha of black that shadows put before the background, for each pixel of `rect`: the share of the
 /// pixel in which the camera sees a catcher, times 1 less what direct light reaches it of that without any
-/// objects (matte, whatever its material). From `samples` points of each pixel that sees one. `salt` tells
-/// independent results apart. Runs in the caller's arena; the same bits for any number of threads.
+/// objects (matte, whatever its material). From `samples` points of each pixel that sees one. Runs in the
+/// caller's arena; the same bits for any number of threads.
 std::vector<float> catch_shadows(const World& world, const Camera& camera, const FilterSampler& filter,
-                                 const RenderOptions& options, const PixelRect& rect, int samples,
-                                 std::uint32_t salt);
+                                 const RenderOptions& options, const PixelRect& rect, int samples);
 
 }  // namespace gatelight::renderer

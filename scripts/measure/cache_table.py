@@ -9,8 +9,8 @@ import statistics
 from measured_scenes import SCENES
 
 ERRORS = ("rel_mse_clean", "flip", "hdr_flip")
-# The plain integrator as traced and reconstructed, and the columns of the seconds that it needs for the same error.
-BASELINES = {"plain": "", "reconstructed": "reconstructed_"}
+# The plain integrator as traced and denoised, and the columns of the seconds that it needs for the same error.
+BASELINES = {"plain": "", "denoised": "denoised_"}
 
 
 def equal_error_seconds(points, error):
@@ -104,10 +104,10 @@ def faster(rows, baseline):
 
 COLUMNS = [("seconds", "seconds", "{:.1f}", 1), ("rel. MSE", "rel_mse_clean", "{:.4f}", 1), ("bias²", "bias_rel_mse", "{:.4f}", 1),
            ("FLIP", "flip", "{:.3f}", 1)]
-HEADS = ["", "", *(head for head, *_ in COLUMNS), "times faster than plain: rel. MSE; FLIP", "than plain reconstructed"]
-LEGEND = """Seconds: all phases (scouting, training, rendering, reconstruction), without loading, building and writing. Rel. MSE: of one
+HEADS = ["", "", *(head for head, *_ in COLUMNS), "times faster than plain: rel. MSE; FLIP", "than plain denoised"]
+LEGEND = """Seconds: all phases (scouting, training, rendering, denoising), without loading, building and writing. Rel. MSE: of one
 picture, without the noise of the reference. bias²: the part that would remain with infinitely many samples, from pairs of
-pictures. Times faster: the seconds that the plain integrator needs for the same error, as traced and reconstructed, over those
+pictures. Times faster: the seconds that the plain integrator needs for the same error, as traced and denoised, over those
 of the run; * if that lies beyond the measured sample counts. results.csv has all figures."""
 
 

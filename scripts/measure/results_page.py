@@ -5,7 +5,6 @@ import re
 import textwrap
 
 import paper_claims
-import results_guides
 import results_tables as tables
 from measured_scenes import title_of
 from results_data import Results
@@ -122,6 +121,6 @@ def write(folder):
         return
     parts = [introduction(results), SUMMARY, paper_claims.section(results)]
     parts += [section(name, result) for name, result in results.items()]
-    parts += [*results_guides.sections(folder), reference_noise(results)]
+    parts += [reference_noise(results)]
     with open(os.path.join(folder, "RESULTS.md"), "w", encoding="utf-8") as file:
         file.write(wrap("\n".join(parts)))

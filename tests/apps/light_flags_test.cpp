@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/image/image_read.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -122,12 +123,13 @@ TEST_F(LightFlags, GroupsAreLayersThatAddUpAndAreInTheRecipe) {
   EXPECT_FLOAT_EQ(middle_of(dark, "light-key"), middle(dark));
 }
 
-TEST_F(LightFlags, GroupsOfReconstructedPicturesAddUpToRawAndAreMerged) {
+TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
+  GATELIGHT_NEEDS_DENOISER();
   std::vector<std::string> files;
   for (const char* seed : {"1", "2"}) {
     files.push_back((folder / (std::string(seed) + ".exr")).string());
     const Output output = run_gatelight({"render", scene, "-o", files.back(), "--size", "24x16", "--spp",
-                                         seed[0] == '1' ? "4" : "10", "--seed", seed, "--reconstruct", "on",
+                                         seed[0] == '1' ? "4" : "10", "--seed", seed, "--denoiser", "oidn",
                                          "--aov", "raw", "--environment", "0.3,0.2,0.1", "--light-groups",
                                          "key=noon;panel=panel;sky=environment"});
     ASSERT_EQ(output.exit_code, 0) << output.err;

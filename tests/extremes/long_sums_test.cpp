@@ -41,7 +41,7 @@ float variance_of(const Film& film) {
   return film.resolve().find("variance")->values[0];
 }
 
-constexpr Aov kVariance[] = {Aov::variance};
+const FilmContents kVariance = {.aovs = {Aov::variance}};
 
 TEST(LongSums, AMillionEqualSamplesAreTheirMeanToTheLastBit) {
   double worst = 0.0;

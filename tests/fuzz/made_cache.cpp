@@ -89,8 +89,10 @@ renderer::CheckpointIdentity made_identity() {
 }
 
 renderer::Film made_film() {
-  const std::array<renderer::Aov, 2> aovs = {renderer::Aov::depth, renderer::Aov::normal};
-  return {{0, 0, 2, 2}, 2, 2, aovs};
+  return {{0, 0, 2, 2},
+          2,
+          2,
+          {.aovs = {renderer::Aov::depth, renderer::Aov::normal}, .half = true, .guides = true}};
 }
 
 std::vector<std::uint8_t> with_right_digest(Bytes file) {

@@ -67,20 +67,20 @@ function isPlain(cell) {
 }
 
 /// Whether its samples were fitted to normals and depth; otherwise it is their mean.
-function isReconstructed(cell) {
-  return cell.options?.reconstruct === "on";
+function isDenoised(cell) {
+  return !["none", undefined].includes(cell.options?.denoiser);
 }
 
 /// The ways to a picture, in the order of what they add.
 const kWays = [
-  {name: "path tracing, as traced", plain: true, reconstructed: false},
-  {name: "path tracing, reconstructed", plain: true, reconstructed: true},
-  {name: "with the cache, as traced", plain: false, reconstructed: false},
-  {name: "with the cache, reconstructed", plain: false, reconstructed: true},
+  {name: "path tracing, as traced", plain: true, denoised: false},
+  {name: "path tracing, denoised", plain: true, denoised: true},
+  {name: "with the cache, as traced", plain: false, denoised: false},
+  {name: "with the cache, denoised", plain: false, denoised: true},
 ];
 
 function wayOf(cell) {
-  return kWays.find(way => way.plain === isPlain(cell) && way.reconstructed === isReconstructed(cell));
+  return kWays.find(way => way.plain === isPlain(cell) && way.denoised === isDenoised(cell));
 }
 
 /// Relative root mean square, the measure of the estimated error: {is, estimated}. null where nothing was estimated.

@@ -53,12 +53,12 @@ const kWords = {
   gate: "the cache keeps what it learned on the triangles of the scene",
   hashgrid: "the cache keeps what it learned in a table over space",
   bare: "--preset bare: the cache answers at the first surface that is no mirror",
-  standard: "--preset standard: paths go on for one bounce to ask the cache, and the picture is reconstructed",
-  reconstructed: "samples are fitted to normals and depth, and to the cache where there is one: most of the grain goes",
+  standard: "--preset standard: paths go on for one bounce to ask the cache, and the picture is denoised",
+  denoised: "Open Image Denoise takes the noise out, guided by albedo and normals",
 };
 
 function drawWords() {
-  const used = new Set(shownCells().flatMap(cell => [cell.integrator, cell.encoding, cell.axes?.row, isReconstructed(cell) ? "reconstructed" : null]));
+  const used = new Set(shownCells().flatMap(cell => [cell.integrator, cell.encoding, cell.axes?.row, isDenoised(cell) ? "denoised" : null]));
   const plain = shownCells().some(isPlain);
   const trained = shownCells().some(cell => !isPlain(cell));
   describe(at("word-list"), [
@@ -89,7 +89,7 @@ function drawTimeChart(series, all) {
     extras: {bands: series.flatMap(s => bandsOf(s, styles.get(s.name), seconds))},
     description: `${state.metric.label} against seconds of ${plural(series.length, "series")}; the table of all pictures has the numbers`,
   });
-  at("time-caption").textContent = "Against seconds of scouting, set-up, training, rendering and reconstruction; both axes logarithmic." + seedsNote(all) +
+  at("time-caption").textContent = "Against seconds of scouting, set-up, training, rendering and denoising; both axes logarithmic." + seedsNote(all) +
     (all.some(c => c.plain) ? " Grey and dashed: without a cache." : "");
 }
 
@@ -124,8 +124,8 @@ function drawStepsChart(series, all) {
 
 function drawParetoChart(series, all, shown, limits) {
   const kinds = [
-    {name: "dashed: of those without", of: c => c.plain && !c.way.reconstructed, color: "--plain", dash: [6, 4]},
-    {name: "dotted: of those reconstructed without", of: c => c.plain && c.way.reconstructed, color: "--plain", dash: [2, 3]},
+    {name: "dashed: of those without", of: c => c.plain && !c.way.denoised, color: "--plain", dash: [6, 4]},
+    {name: "dotted: of those denoised without", of: c => c.plain && c.way.denoised, color: "--plain", dash: [2, 3]},
     {name: "solid: the front of those with a cache", of: c => !c.plain, color: "--ink", dash: []},
   ];
   const fronts = kinds.map(kind => ({
@@ -157,23 +157,23 @@ function drawParetoChart(series, all, shown, limits) {
     (limits.chosen ? " The ring is around the one to take." : "");
 }
 
-/// What the fronts without a cache take to the same error: {traced, reconstructed}. Each is null where there is no such
+/// What the fronts without a cache take to the same error: {traced, denoised}. Each is null where there is no such
 /// front, or where the configuration belongs to it or has less than it.
 function rivalsOf(configuration, shown) {
-  const seconds = reconstructed => {
-    const [way, own] = [kWays.find(w => w.plain && w.reconstructed === reconstructed), configuration.way];
+  const seconds = denoised => {
+    const [way, own] = [kWays.find(w => w.plain && w.denoised === denoised), configuration.way];
     if (kWays.indexOf(own) <= kWays.indexOf(way)) return null;
     return secondsAtError(frontOf(shown.filter(c => c.way === way)), configuration.error);
   };
-  return {traced: seconds(false), reconstructed: seconds(true)};
+  return {traced: seconds(false), denoised: seconds(true)};
 }
 
-/// "22.6 s", or "22.6 s as traced and 9.1 s reconstructed".
-function rivalsText({traced, reconstructed}) {
+/// "22.6 s", or "22.6 s as traced and 9.1 s denoised".
+function rivalsText({traced, denoised}) {
   const text = rival => `${sign(rival)}${formatSeconds(rival.seconds)}`;
-  if (!traced && !reconstructed) return "";
-  if (traced && reconstructed) return `${text(traced)} as traced and ${text(reconstructed)} reconstructed`;
-  return text(traced ?? reconstructed);
+  if (!traced && !denoised) return "";
+  if (traced && denoised) return `${text(traced)} as traced and ${text(denoised)} denoised`;
+  return text(traced ?? denoised);
 }
 
 function sign(rival) {
@@ -242,7 +242,7 @@ function drawFrontTable(shown) {
     {label: "Time", unit: "s", number: true, value: c => c.seconds},
     {label: state.metric.label, number: true, value: c => c.error},
     ...rivalColumns("traced", "Without a cache"),
-    ...rivalColumns("reconstructed", "Without, reconstructed"),
+    ...rivalColumns("denoised", "Without, denoised"),
     {label: "Command", fixed: true, value: c => c.cells[0].command, show: value => copyButton(value)},
   ];
   if (rows.some(pictureOf)) columns.push({label: "Picture", fixed: true, value: c => c, show: lookButton});

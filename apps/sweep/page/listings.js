@@ -67,7 +67,7 @@ function drawCells() {
     {label: "Scout", unit: "s", number: true, value: seconds("scout")},
     {label: "Train", unit: "s", number: true, value: seconds("train")},
     {label: "Render", unit: "s", number: true, value: seconds("render")},
-    {label: "Reconstruct", unit: "s", number: true, value: seconds("reconstruct")},
+    {label: "Denoise", unit: "s", number: true, value: seconds("denoise")},
     {label: "Memory", number: true, value: totalMemory, show: formatBytes},
     {label: "Loss", number: true, value: cell => cell.loss},
     {label: "Command", fixed: true, value: cell => cell.command, show: value => copyButton(value)},

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "renderer/image/image_read.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -36,12 +37,12 @@ class SweepCommand : public ::testing::Test {
   /// A sweep of seconds; `more` wins.
   Words words(const std::string& out, const Words& more, const std::string& scene = cornell()) const {
     Words all = {"sweep", scene, "-o", path(out), "--quiet"};
-    const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp",         "1,4",
-                            "--batch", "256",   "--reference-spp", "8",   "--reconstruct", "off"};
-    // Rows of a preset say themselves what is reconstructed.
+    const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp",      "1,4",
+                            "--batch", "256",   "--reference-spp", "8",   "--denoiser", "none"};
+    // Rows of a preset say themselves what is denoised.
     const bool preset = std::find(more.begin(), more.end(), "--preset") != more.end();
     for (std::size_t i = 0; i < defaults.size(); i += 2) {
-      if (preset && defaults[i] == "--reconstruct") continue;
+      if (preset && defaults[i] == "--denoiser") continue;
       if (std::find(more.begin(), more.end(), defaults[i]) != more.end()) continue;
       all.insert(all.end(), {defaults[i], defaults[i + 1]});
     }
@@ -192,9 +193,10 @@ TEST_F(SweepCommand, ACellIsThePictureThatItsCommandMakes) {
 /// Nothing says what is wanted, so it is the bare and the finished cache beside path tracing of both kinds.
 class SweepOfASceneAlone : public SweepCommand {
  protected:
+  void SetUp() override { GATELIGHT_NEEDS_DENOISER(); }
   Words all_rows(const std::string& out) const {
     Words call = words(out, {});
-    const auto at = std::find(call.begin(), call.end(), "--reconstruct");
+    const auto at = std::find(call.begin(), call.end(), "--denoiser");
     call.erase(at, at + 2);
     return call;
   }
@@ -207,12 +209,12 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   std::map<std::string, int> cells;
   for (const json& cell : all["cells"]) {
     ++cells[cell["series"].get<std::string>()];
-    const bool finished = cell["options"]["reconstruct"] == "on";
-    EXPECT_EQ(cell["axes"]["reconstruct"], finished ? "on" : "off");
-    EXPECT_EQ(cell["seconds"]["reconstruct"].is_number(), finished);
+    const bool finished = cell["options"]["denoiser"] == "auto";
+    EXPECT_EQ(cell["axes"]["denoiser"], finished ? "auto" : "none");
+    EXPECT_EQ(cell["seconds"]["denoise"].is_number(), finished);
     const json& seconds = cell["seconds"];
     double sum = 0.0;
-    for (const char* phase : {"scout", "setup", "train", "render", "reconstruct"}) {
+    for (const char* phase : {"scout", "setup", "train", "render", "denoise"}) {
       if (seconds[phase].is_number()) sum += seconds[phase].get<double>();
     }
     EXPECT_NEAR(seconds["total"].get<double>(), sum, 1e-9);
@@ -221,12 +223,12 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
     ASSERT_NO_FATAL_FAILURE(expect_picture_of_its_command(cell));
   }
   EXPECT_EQ(cells, (std::map<std::string, int>{{"path", 2},
-                                               {"path reconstructed", 2},
+                                               {"path denoised", 2},
                                                {"nrc bare", 2},
                                                {"nrc standard spp 2", 2},
                                                {"nrc standard spp 7", 2},
                                                {"nrc standard spp 28", 2}}));
-  EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr(",axis_reconstruct"));
+  EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr("axis_denoiser"));
 }
 
 TEST_F(SweepOfASceneAlone, GoesOnWhereItWasStoppedAndSharesCellsWithASweepOfLess) {
@@ -248,14 +250,13 @@ TEST_F(SweepOfASceneAlone, GoesOnWhereItWasStoppedAndSharesCellsWithASweepOfLess
 
 TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
   Words call = all_rows("out");
-  call.insert(call.end(), {"--adaptive", "off"});  // else, at 24x24, a picture as traced is the best one
   ASSERT_EQ(run_gatelight_inside(call).exit_code, 0);
   const json all = results("out");
   const auto least = [](const json& a, const json& b) { return a["errors"]["flip"] < b["errors"]["flip"]; };
   const json& best = *std::min_element(all["cells"].begin(), all["cells"].end(), least);
   // Whichever is the best at 24x24, finished ones are among those that it is chosen from.
   EXPECT_TRUE(std::any_of(all["cells"].begin(), all["cells"].end(),
-                          [](const json& cell) { return cell["options"]["reconstruct"] == "on"; }));
+                          [](const json& cell) { return cell["options"]["denoiser"] == "auto"; }));
   const Output advice = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-time", "1000"});
   EXPECT_EQ(advice.exit_code, 0) << advice.err;
   EXPECT_THAT(advice.out, AllOf(HasSubstr("cornell-box (path): " + best["series"].get<std::string>()),

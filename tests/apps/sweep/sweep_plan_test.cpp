@@ -119,14 +119,16 @@ SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> var
 
 TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
   const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
-  ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 2", "path reconstructed",
+  ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 2", "path denoised",
                                         "nrc standard spp 7", "nrc standard spp 28"));
   EXPECT_EQ(plan.seeds.size(), 1u);
   const std::vector<PlannedSeries>& all = plan.scenes[0].series;
   for (const PlannedSeries& s : all) {
-    const bool finished = s.label.starts_with("nrc standard") || s.label == "path reconstructed";
-    EXPECT_EQ(s.settings.render.reconstruct, finished) << s.label;
-    EXPECT_THAT(s.axes, Contains(Pair("reconstruct", finished ? "on" : "off"))) << s.label;
+    const bool finished = s.label.starts_with("nrc standard") || s.label == "path denoised";
+    EXPECT_EQ(s.settings.render.denoise.denoiser,
+              finished ? renderer::DenoiserKind::automatic : renderer::DenoiserKind::none)
+        << s.label;
+    EXPECT_THAT(s.axes, Contains(Pair("denoiser", finished ? "auto" : "none"))) << s.label;
     EXPECT_EQ(s.reference, ReferenceKind::path);
     EXPECT_EQ(s.settings.render.width, 64);
   }
@@ -135,7 +137,7 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   EXPECT_THAT(all[4].points, ElementsAre(128, 512, 2048));
   EXPECT_EQ(all[4].settings.render.spp, 7);
   EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
-            "gatelight render room.glb --size 64x36 --integrator path --reconstruct on --spp 4 --seed 1 -o "
+            "gatelight render room.glb --size 64x36 --integrator path --denoiser auto --spp 4 --seed 1 -o "
             "out.exr");
   // Steps that are given hold for all rows.
   const SweepPlan short_plan = plan_of_scene_alone({}, {}, "8,16");
@@ -149,20 +151,20 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
 TEST(SweepPlan, WhatRowsPromiseIsNotChangedSilently) {
   EXPECT_THAT(labels(plan_of_scene_alone({{"--query-at", "gather"}})), ElementsAre("nrc gate", "path"));
   EXPECT_THAT(labels(plan_of_scene_alone({{"--view", "cache"}})), ElementsAre("nrc gate"));
-  EXPECT_THAT(labels(plan_of_scene_alone({{"--reconstruct", "on"}})),
-              ElementsAre("nrc gate reconstructed", "path", "path reconstructed"));
+  EXPECT_THAT(labels(plan_of_scene_alone({{"--denoiser", "oidn"}})),
+              ElementsAre("nrc gate denoised", "path", "path denoised"));
 }
 
 TEST(SweepPlan, WhatIsReconstructedHasPathTracingOfBothKindsBesideIt) {
-  EXPECT_THAT(labels(plan_of_scene_alone({}, {"reconstruct=off,on"})),
-              ElementsAre("nrc gate", "path", "nrc gate reconstructed", "path reconstructed"));
-  EXPECT_THAT(labels(plan_of({}, {"integrator=path", "reconstruct=off,on"})),
-              ElementsAre("path", "path reconstructed"));
+  EXPECT_THAT(labels(plan_of_scene_alone({}, {"denoiser=none,oidn"})),
+              ElementsAre("nrc gate", "path", "nrc gate denoised", "path denoised"));
+  EXPECT_THAT(labels(plan_of({}, {"integrator=path", "denoiser=none,oidn"})),
+              ElementsAre("path", "path denoised"));
   EXPECT_THAT(labels(plan_of({}, {}, false, "standard")),
-              ElementsAre("nrc gate reconstructed", "path", "path reconstructed"));
+              ElementsAre("nrc gate denoised", "path", "path denoised"));
   EXPECT_THAT(labels(plan_of({}, {"preset=standard"}, true)), ElementsAre("nrc gate"));
-  EXPECT_THAT(labels(plan_of({}, {"integrator=nao", "reconstruct=on"}, false)),
-              ElementsAre("nao gate reconstructed", "ao", "ao reconstructed"));
+  EXPECT_THAT(labels(plan_of({}, {"integrator=nao", "denoiser=oidn"}, false)),
+              ElementsAre("nao gate denoised", "ao", "ao denoised"));
 }
 
 TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {

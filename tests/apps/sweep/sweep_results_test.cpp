@@ -112,21 +112,21 @@ TEST(SweepRecord, OfAPlainIntegratorHasNoCache) {
   EXPECT_EQ(r["spp"], 16);
 }
 
-TEST(SweepRecord, TimeOfReconstructionCountsAndTheErrorThatItEstimatesIsKept) {
+TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
   const SweepPlan plan = small_plan();
   PlannedSeries series = plan.scenes[0].series[0];
   const CellPlace place{plan.scenes[0], series, 1, 8, "0123", "ref"};
   renderer::RenderStatistics s = statistics();
-  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["seconds"]["reconstruct"].is_null());
+  EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["seconds"]["denoise"].is_null());
   EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["estimated_error"].is_null());
-  series.settings.render.reconstruct = true;
-  s.reconstruct_seconds = 0.5;
+  series.settings.render.denoise.denoiser = renderer::DenoiserKind::oidn;
+  s.denoise_seconds = 0.5;
   s.estimated_error = 0.125;
   const ordered_json r = done_record(place, s, errors(), true, 2.5f);
-  EXPECT_EQ(r["seconds"]["reconstruct"], 0.5);
+  EXPECT_EQ(r["seconds"]["denoise"], 0.5);
   EXPECT_EQ(r["seconds"]["total"], 4.25);
   EXPECT_EQ(r["estimated_error"], 0.125);
-  EXPECT_EQ(r["options"]["reconstruct"], "on");
+  EXPECT_EQ(r["options"]["denoiser"], "oidn");
 }
 
 TEST(SweepRecord, TellsWhoMadeItAndWhatWasChosenOnTheWay) {
@@ -233,8 +233,8 @@ TEST(SweepRecord, OfAnotherShapeOrSchemaIsNone) {
   }
   ordered_json earlier = whole;
   earlier.erase("estimated_error");
-  earlier["seconds"].erase("reconstruct");
-  EXPECT_TRUE(reads(earlier)) << "of a version that neither reconstructed nor estimated";
+  earlier["seconds"].erase("denoise");
+  EXPECT_TRUE(reads(earlier)) << "of a version that neither denoised nor estimated";
   ordered_json negative = whole;
   negative["errors"]["psnr"] = -3.0;
   EXPECT_TRUE(reads(negative)) << "a very bad picture";

@@ -177,7 +177,7 @@ Picture pass_over(const ViewedWorld& viewed, const RenderOptions& options, Cache
   const TileGrid tiles(region);
   const FilterSampler filter(options.filter, options.filter_width);
   const PassContext context{tiles, options, viewed.camera, filter};
-  Film film(region, viewed.region.width(), viewed.region.height(), options.aovs);
+  Film film(region, viewed.region.width(), viewed.region.height(), film_contents(options));
   CachedPass pass(viewed.world, context, session);
   pass.run(options.spp, film, [](double) {});
   if (statistics) pass.add_to(*statistics);

@@ -89,7 +89,7 @@ TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
   glass.known = Color(4.0f, 8.0f, 2.0f);
   glass.link = Color(0.25f, 0.5f, 1.0f);
   batch.vertices = {mirror, wall, beyond, glass};
-  batch.guides[0] = {1, 0, 1, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
+  batch.guides[0] = {1, 0, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
   push_point(batch.queries, 9);
 
   const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
@@ -102,11 +102,6 @@ TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
   EXPECT_TRUE(is(0, Color(8.0f + 3.0f, 5.5f, 16.0f + 17.5f))) << hits[0].cache_radiance.transpose();
   EXPECT_TRUE(is(1, Color(0.5f, 1.0f, 2.0f))) << hits[1].cache_radiance.transpose();
   EXPECT_TRUE(is(2, Color(1.0f, 4.0f, 2.0f))) << hits[2].cache_radiance.transpose();
-  // The mirror is no guide of reconstruction, or it is one.
-  EXPECT_TRUE(hits[0].behind_guide && hits[2].behind_guide);
-  hits[0].guide.surface = 1;
-  batch.tell_guides(answers, hits);
-  EXPECT_FALSE(hits[0].behind_guide);
 }
 
 TEST(PathBatch, RadianceIsOptional) {

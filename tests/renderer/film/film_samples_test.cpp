@@ -114,7 +114,7 @@ TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
 }
 
 TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
-  Film film({0, 0, 2, 1}, 2, 1, {}, {"a", "rest"});
+  Film film({0, 0, 2, 1}, 2, 1, {.light_groups = {"a", "rest"}});
   SampleCounts counts;
   const std::vector<PixelSample> samples = {{{0, 0}, 0}, {{1, 0}, 0}};
   RenderOptions options;
@@ -136,8 +136,7 @@ TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
 }
 
 TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
-  const Aov aovs[] = {Aov::depth};
-  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  Film film({0, 0, 1, 1}, 1, 1, {.aovs = {Aov::depth}});
   SampleCounts counts;
   FirstHit hit;
   hit.hit = true;

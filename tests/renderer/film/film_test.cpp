@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -12,8 +11,7 @@ namespace gatelight::renderer {
 namespace {
 
 TEST(Film, PixelIsTheMeanAndVarianceIsThatOfTheMean) {
-  const Aov aovs[] = {Aov::variance, Aov::sample_count};
-  Film film({2, 1, 4, 3}, 8, 8, aovs);
+  Film film({2, 1, 4, 3}, 8, 8, {.aovs = {Aov::variance, Aov::sample_count}});
   for (float v : {1.0f, 2.0f, 6.0f}) film.add(film.take({3, 2}), Color(v, 2.0f * v, 0.0f));
   const Picture picture = film.resolve();
   EXPECT_EQ(picture.x0, 2);
@@ -29,8 +27,8 @@ TEST(Film, PixelIsTheMeanAndVarianceIsThatOfTheMean) {
 }
 
 TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
-  const Aov aovs[] = {Aov::albedo, Aov::depth, Aov::position, Aov::primitive_id, Aov::instance_id};
-  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  Film film({0, 0, 1, 1}, 1, 1,
+            {.aovs = {Aov::albedo, Aov::depth, Aov::position, Aov::primitive_id, Aov::instance_id}});
   FirstHit hit;
   hit.hit = true;
   hit.albedo = Color(0.8f, 0.4f, 0.2f);
@@ -48,8 +46,8 @@ TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
   EXPECT_FLOAT_EQ(picture.find("primitive")->values[0], 123456.0f);
 }
 
-constexpr Aov kCacheAovs[] = {Aov::cache_radiance, Aov::cache_answer, Aov::cache_error,
-                              Aov::training_count, Aov::resolution,   Aov::nearest_node};
+const std::vector<Aov> kCacheAovs = {Aov::cache_radiance, Aov::cache_answer, Aov::cache_error,
+                                     Aov::training_count, Aov::resolution,   Aov::nearest_node};
 
 FirstHit asked_hit(float answer, float error, float count, float resolution) {
   FirstHit hit;
@@ -66,7 +64,7 @@ FirstHit asked_hit(float answer, float error, float count, float resolution) {
 }
 
 TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
-  Film film({0, 0, 1, 1}, 1, 1, kCacheAovs);
+  Film film({0, 0, 1, 1}, 1, 1, {.aovs = kCacheAovs});
   EXPECT_TRUE(film.needs_first_hits());
   film.add(film.take({0, 0}), asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
   film.add(film.take({0, 0}), asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
@@ -88,19 +86,19 @@ TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
 }
 
 TEST(Film, CacheLayersAreBlackWhereNoCacheWasAsked) {
-  Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
+  Film film({0, 0, 2, 1}, 2, 1, {.aovs = kCacheAovs});
   FirstHit hit;
   hit.hit = true;
   film.add(film.take({0, 0}), hit);
   const Picture picture = film.resolve();
-  ASSERT_EQ(picture.layers.size(), 1 + std::size(kCacheAovs));
+  ASSERT_EQ(picture.layers.size(), 1 + kCacheAovs.size());
   for (const Layer& layer : picture.layers) {
     EXPECT_EQ(layer.values, std::vector<float>(2 * layer.channels.size(), 0.0f)) << layer.name;
   }
 }
 
 TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
-  Film film({0, 0, 2, 1}, 2, 1, kCacheAovs);
+  Film film({0, 0, 2, 1}, 2, 1, {.aovs = kCacheAovs});
   film.add(film.take({1, 0}), asked_hit(1.0f, 2.0f, 3.0f, 4.0f));
   const Picture picture = film.resolve();
   const std::vector<std::string> rgb{"R", "G", "B"};
@@ -124,31 +122,35 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
     EXPECT_EQ(layer.values[layer.channels.size()], all[i].value);
   }
   // They come from the first hit, which costs memory; sample counts alone do not.
-  const Aov counts[] = {Aov::sample_count};
+  const FilmContents counts{.aovs = {Aov::sample_count}};
   EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, counts).needs_first_hits());
-  EXPECT_GT(Film::bytes_per_pixel(kCacheAovs), Film::bytes_per_pixel(counts));
+  EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}), Film::bytes_per_pixel(counts));
 }
 
-TEST(Film, HalvesOfDifferentNumbersCountAsIfTheyHadTakenTurns) {
-  const Aov aovs[] = {Aov::reconstruction, Aov::variance};
-  Film film({0, 0, 1, 1}, 1, 1, aovs);
-  const auto add = [&](std::size_t half, float value) {
-    film.add(film.take({0, 0}, half), Color::Constant(value));
-  };
-  for (const float value : {1.0f, 3.0f}) add(0, value);
-  for (const float value : {5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 13.0f}) add(1, value);
-  EXPECT_EQ(film.taken({0, 0}), 8u);
-  const Picture picture = film.resolve();
-  EXPECT_FLOAT_EQ(picture.find("half-a")->values[0], 2.0f);
-  EXPECT_FLOAT_EQ(picture.find("half-b")->values[0], 8.0f);
-  // The mean of the halves, not that of the samples.
-  EXPECT_FLOAT_EQ(picture.layers[0].values[0], 5.0f);
-  EXPECT_FLOAT_EQ(picture.find("samples")->values[0], 8.0f);
-  // The variance of all samples, (1 + 9 + 25 + 36 + 49 + 64 + 81 + 169 - 52^2 / 8) / 7, over halves of two
-  // and six.
-  EXPECT_FLOAT_EQ(picture.find("variance")->values[0], 96.0f / 7.0f * (0.25f / 2.0f + 0.25f / 6.0f));
-  // The next ones even the halves out.
-  for (const std::uint32_t number : {4u, 6u, 8u, 10u, 12u, 13u}) EXPECT_EQ(film.take({0, 0}).number, number);
+TEST(Film, HalvesAreTheMeansOfEveryOtherSample) {
+  Film film({0, 0, 2, 1}, 2, 1, {.half = true});
+  for (const float value : {1.0f, 5.0f, 3.0f}) film.add(film.take({0, 0}), Color::Constant(value));
+  film.add(film.take({1, 0}), Color::Constant(4.0f));
+  EXPECT_EQ(film.plane(Plane::mean, 0, 1), (std::vector<float>{3, 3, 3, 4, 4, 4}));
+  EXPECT_EQ(film.plane(Plane::half_a, 0, 1), (std::vector<float>{2, 2, 2, 4, 4, 4}));
+  // A pixel with one sample has no second half, and takes the mean.
+  EXPECT_EQ(film.plane(Plane::half_b, 0, 1), (std::vector<float>{5, 5, 5, 4, 4, 4}));
+  EXPECT_EQ(film.resolve().layers.size(), 1u) << "planes are no layers";
+}
+
+TEST(Film, GuidesAndAlphaAreMeansOverAllSamples) {
+  Film film({0, 1, 1, 3}, 1, 4, {.guides = true, .alpha = true});
+  EXPECT_TRUE(film.needs_first_hits());
+  FirstHit hit;
+  hit.guide = {true, 0, Color::Ones(), Color(0.8f, 0.4f, 0.2f), Vec3(0, 0, 1)};
+  FirstHit sky;
+  sky.alpha = 0.0f;
+  for (const FirstHit& first : {hit, sky}) {
+    film.add(film.take({0, 2}), first);  // whether or not its light counts
+  }
+  EXPECT_EQ(film.plane(Plane::albedo, 2, 3), (std::vector<float>{0.4f, 0.2f, 0.1f}));
+  EXPECT_EQ(film.plane(Plane::normal, 1, 3), (std::vector<float>{0, 0, 0, 0, 0, 0.5f}));
+  EXPECT_EQ(film.plane(Plane::alpha, 1, 3), (std::vector<float>{0, 0.5f}));
 }
 
 TEST(Film, AMillionSamplesDoNotDrift) {
@@ -161,8 +163,7 @@ TEST(Film, AMillionSamplesDoNotDrift) {
 }
 
 TEST(Film, WhatLeavesSinglePrecisionBecomesItsGreatestNumber) {
-  const Aov aovs[] = {Aov::variance};
-  Film film({0, 0, 1, 1}, 1, 1, aovs);
+  Film film({0, 0, 1, 1}, 1, 1, {.aovs = {Aov::variance}});
   film.add(film.take({0, 0}), Color(1e30f, 1.0f, 0.0f));
   film.add(film.take({0, 0}), Color(0.0f, 3.0f, 0.0f));
   const Picture picture = film.resolve();

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "renderer/render.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/room.h"
 
 namespace gatelight::renderer::kinds {
@@ -70,6 +71,15 @@ inline void PrintTo(const Kind& kind, std::ostream* stream) {
   *stream << kind.name;
 }
 
+class Kinds : public ::testing::TestWithParam<Kind> {
+ protected:
+  void SetUp() override {
+    RenderOptions options;
+    GetParam().change(options);
+    if (options.denoise.denoiser == DenoiserKind::oidn) GATELIGHT_NEEDS_DENOISER();
+  }
+};
+
 inline const Kind kKinds[] = {
     {"path", Integrator::path, [](RenderOptions&) {}},
     {"path_independent_region", Integrator::path,
@@ -78,21 +88,15 @@ inline const Kind kKinds[] = {
        o.region = {{3, 2, 30, 19}};
        o.aovs.clear();
      }},
-    {"path_reconstructed", Integrator::path,
+    {"path_denoised", Integrator::path,
      [](RenderOptions& o) {
-       o.reconstruct = true;
-       o.adaptive = false;
-       o.aovs = {Aov::normal, Aov::raw, Aov::error};
+       testing::denoise(o);
+       o.aovs = {Aov::normal, Aov::raw, Aov::error, Aov::denoising};
      }},
-    {"path_adaptive", Integrator::path,
-     [](RenderOptions& o) {
-       o.reconstruct = true;
-       o.aovs = {Aov::sample_count, Aov::raw, Aov::error};
-     }},
-    {"path_light_groups_adaptive", Integrator::path,
+    {"path_light_groups_denoised", Integrator::path,
      [](RenderOptions& o) {
        o.light_groups = {{"lamp", {"*"}}, {"sky", {"environment"}}};
-       o.reconstruct = true;
+       testing::denoise(o);
        o.aovs = {Aov::raw};
      }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
@@ -111,12 +115,12 @@ inline const Kind kKinds[] = {
        o.cache.source = TrainingSource::surface;
        o.aovs.clear();
      }},
-    {"nrc_learns_from_samples_adaptive", Integrator::nrc,
+    {"nrc_learns_from_samples_denoised", Integrator::nrc,
      [](RenderOptions& o) {
        o.cache.candidates = 1;
        o.cache.source = TrainingSource::picture;
        o.cache.samples_from_step = 2;
-       o.reconstruct = true;
+       testing::denoise(o);
      }},
     {"nrc_hashgrid", Integrator::nrc,
      [](RenderOptions& o) {

@@ -8,6 +8,7 @@
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/temporary_folder.h"
@@ -99,7 +100,7 @@ TEST(Background, WhatIsTransparentOverTheEnvironmentIsTheScene) {
 }
 
 /// A blended sheet of alpha 0.3 over the whole view, before nothing.
-Picture sheet_of(const Color& emission, bool reconstruct) {
+Picture sheet_of(const Color& emission, bool denoised) {
   SceneBuilder builder;
   scene::Material sheet = SceneBuilder::lambert(Color::Constant(0.5f), emission);
   sheet.alpha_mode = scene::AlphaMode::blend;
@@ -108,7 +109,7 @@ Picture sheet_of(const Color& emission, bool reconstruct) {
   RenderOptions options = options_for(Integrator::path);
   options.background.kind = Kind::transparent;
   options.spp = 64;
-  options.reconstruct = reconstruct;
+  if (denoised) testing::denoise(options);
   return rendered(builder.scene(), options);
 }
 
@@ -145,6 +146,7 @@ TEST(Background, AColourShinesThroughByAlpha) {
 }
 
 TEST(Background, WhatGlowsHasTheAlphaOfItsSheetToo) {
+  GATELIGHT_NEEDS_DENOISER();
   const Picture picture = sheet_of(Color::Constant(4.0f), true);
   double sum = 0.0;
   for (int y = 0; y < kHeight; ++y) {
@@ -200,7 +202,8 @@ TEST(Background, AFileCoversTheViewAndARegionSeesItsPart) {
   tests::expect_message(tests::refusal<ImageError>([&] { rendered(nothing, options); }), {"missing.exr"});
 }
 
-TEST(Background, ReconstructionFinishesTheAlphaToo) {
+TEST(Background, TheAlphaIsDenoisedToo) {
+  GATELIGHT_NEEDS_DENOISER();
   SceneBuilder builder = row_of_objects();
   RenderOptions options = options_for(Integrator::path);
   options.width *= 4;
@@ -223,7 +226,7 @@ TEST(Background, ReconstructionFinishesTheAlphaToo) {
     return std::sqrt(squares / count - sum * sum / count / count);
   };
   const double raw = spread();
-  options.reconstruct = true;
+  testing::denoise(options);
   EXPECT_LT(spread(), 0.5 * raw);
 }
 
@@ -256,16 +259,17 @@ TEST(ShadowCatcher, IsNotSeenButForTheShadowOfASun) {
   sun.type = scene::LightType::directional;
   sun.direction = Vec3(-1, -1, 0).normalized();
   scene.lights.push_back(sun);
+  GATELIGHT_NEEDS_DENOISER();
   for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
-    for (const bool reconstruct : {false, true}) {
+    for (const bool denoised : {false, true}) {
       RenderOptions options = catching(integrator);
-      options.reconstruct = reconstruct;
+      if (denoised) testing::denoise(options);
       const Picture picture = rendered(scene, options);
       // 12 pixels are tan(22.5 degrees) * 10 m: the shadow is from x = -1 to 1 m, the plate beside it.
       const float shadow = pixel(picture, 15, 12)[3], open = pixel(picture, 8, 12)[3];
-      EXPECT_NEAR(shadow, 1.0f, reconstruct ? 0.05f : 1e-6f);
-      EXPECT_NEAR(open, 0.0f, reconstruct ? 0.05f : 1e-6f);
-      for (const int x : {15, 8}) EXPECT_NEAR(pixel(picture, x, 12)[0], 0.0f, reconstruct ? 0.02f : 0.0f);
+      EXPECT_NEAR(shadow, 1.0f, denoised ? 0.05f : 1e-6f);
+      EXPECT_NEAR(open, 0.0f, denoised ? 0.05f : 1e-6f);
+      for (const int x : {15, 8}) EXPECT_NEAR(pixel(picture, x, 12)[0], 0.0f, denoised ? 0.02f : 0.0f);
       EXPECT_NEAR(pixel(picture, 23, 12)[3], 1.0f, 0.05f) << "the plate";
       EXPECT_GT(pixel(picture, 23, 12)[0], 0.1f);
     }
@@ -299,40 +303,6 @@ TEST(ShadowCatcher, NeedsAnAlphaAndAnObjectThatIsThere) {
   options.background.shadow_catcher = "floor";
   options.background.kind = Kind::scene;
   tests::expect_refusal<BadOption>([&] { rendered(scene, options); }, {"--shadow-catcher", "--background"});
-}
-
-/// The edge of a lamp over the picture's rows: how much pixels differ from those of the same column.
-double raggedness(const scene::Scene& scene, const RenderOptions& options) {
-  const Picture picture = rendered(scene, options);
-  double sum = 0.0;
-  for (int x = 0; x < picture.width; ++x) {
-    double mean = 0.0, squares = 0.0;
-    for (int y = 4; y < picture.height - 4; ++y) {
-      const double v = std::min(1.0, static_cast<double>(pixel(picture, x, y)[0]));
-      mean += v / (picture.height - 8);
-      squares += v * v / (picture.height - 8);
-    }
-    sum += std::sqrt(std::max(0.0, squares - mean * mean));
-  }
-  return sum;
-}
-
-TEST(SeenLight, EdgesOfBrightLampsAreSmoothInFinishedPictures) {
-  SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(2.0f))),
-               Vec3(0.13f, -9, 0), Vec3(5, 0, 0), Vec3(0, 18, 0));
-  RenderOptions options = options_for(Integrator::path);
-  options.environment.constant = Color::Zero();
-  options.width = 128;
-  options.height = 96;
-  for (const int spp : {4, 32}) {
-    options.spp = spp;
-    options.reconstruct = false;
-    const double raw = raggedness(builder.scene(), options);
-    options.reconstruct = true;
-    EXPECT_LT(raggedness(builder.scene(), options), 0.6 * raw) << spp;
-    EXPECT_GT(raw, 0.02) << spp;
-  }
 }
 
 TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {

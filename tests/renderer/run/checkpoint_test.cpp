@@ -33,8 +33,14 @@ CheckpointIdentity identity() {
 
 Film blank_film(bool with_first_hits) {
   if (!with_first_hits) return {{1, 1, 4, 3}, 8, 8, {}};
-  const Aov aovs[] = {Aov::depth, Aov::cache_error, Aov::reconstruction};
-  return {{1, 1, 4, 3}, 8, 8, aovs, {"a", "rest"}};
+  return {{1, 1, 4, 3},
+          8,
+          8,
+          {.aovs = {Aov::depth, Aov::cache_error, Aov::cache_radiance},
+           .half = true,
+           .guides = true,
+           .alpha = true,
+           .light_groups = {"a", "rest"}}};
 }
 
 /// Another sample for each pixel, with some of everything.
@@ -49,7 +55,9 @@ void add_sample(Film& film, std::uint64_t seed) {
       FirstHit hit;
       hit.hit = x != 2;
       hit.asked = hit.guided = y != 2;
-      hit.guide = {hit.hit, 0, Color(next(), next(), next()), hit.albedo, hit.normal, next()};
+      hit.guide = {hit.hit, 0, Color::Ones(), Color(next(), next(), next()),
+                   scene::Vec3(next(), next(), next())};
+      hit.alpha = next();
       for (Color* color : {&hit.albedo, &hit.answer, &hit.node, &hit.cache_radiance})
         *color = Color(next(), next(), next());
       for (scene::Vec3* vector : {&hit.normal, &hit.position}) *vector = scene::Vec3(next(), next(), next());
@@ -64,9 +72,9 @@ void add_sample(Film& film, std::uint64_t seed) {
 }
 
 bool same(const FilmState& a, const FilmState& b) {
-  return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.guides == b.guides &&
-         a.guide_counts == b.guide_counts && a.first == b.first && a.first_counts == b.first_counts &&
-         a.first_ids == b.first_ids && a.parts == b.parts;
+  return a.radiance == b.radiance && a.radiance_counts == b.radiance_counts && a.half == b.half &&
+         a.half_counts == b.half_counts && a.guides == b.guides && a.alpha == b.alpha && a.first == b.first &&
+         a.first_counts == b.first_counts && a.first_ids == b.first_ids && a.parts == b.parts;
 }
 
 TEST(FilmState, AFilmGoesOnToTheBit) {

@@ -8,6 +8,7 @@
 #include "neural/simd/isa.h"
 #include "renderer/render.h"
 #include "renderer/settings/words.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/grouped_lights.h"
 #include "tests/support/light_scenes.h"
 #include "tests/support/messages.h"
@@ -77,16 +78,17 @@ TEST_F(LightLayers, AddUpOnEveryInstructionSet) {
 }
 
 TEST_F(LightLayers, AddUpHoweverThePictureIsMade) {
+  GATELIGHT_NEEDS_DENOISER();
   const std::vector<std::pair<const char*, std::function<void(RenderOptions&)>>> changes = {
-      {"adaptive",
+      {"denoised",
        [](RenderOptions& o) {
-         o.reconstruct = true;
+         testing::denoise(o);
          o.spp = 11;
        }},
       {"clamped", [](RenderOptions& o) { o.clamp = 0.5f; }},
-      {"adaptive and clamped",
+      {"denoised and clamped",
        [](RenderOptions& o) {
-         o.reconstruct = true;
+         testing::denoise(o);
          o.clamp = 0.5f;
        }},
       {"lights by power", [](RenderOptions& o) { o.light_selection = LightSelection::power; }},
@@ -108,9 +110,10 @@ TEST_F(LightLayers, AddUpHoweverThePictureIsMade) {
 }
 
 TEST_F(LightLayers, HaveTheSameBitsForAnyNumberOfThreadsAndChangeNoOther) {
+  GATELIGHT_NEEDS_DENOISER();
   RenderOptions o = options();
   o.clamp = 2.0f;
-  o.reconstruct = true;
+  testing::denoise(o);
   o.threads = 1;
   const Picture one = rendered(scene, o);
   o.threads = 4;

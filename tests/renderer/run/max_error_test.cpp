@@ -8,6 +8,7 @@
 #include "renderer/metrics/compare.h"
 #include "renderer/render.h"
 #include "renderer/run/error_checks.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/room.h"
 #include "tests/support/temporary_folder.h"
 
@@ -25,15 +26,18 @@ struct Result {
 struct Kind {
   const char* name;
   Integrator integrator;
-  bool reconstruct;
+  bool denoised;
 };
 
 class MaxError : public ::testing::TestWithParam<Kind> {
  protected:
+  void SetUp() override {
+    if (GetParam().denoised) GATELIGHT_NEEDS_DENOISER();
+  }
   RenderOptions options() const {
     RenderOptions options = testing::small_picture();
     options.integrator = GetParam().integrator;
-    options.reconstruct = GetParam().reconstruct;
+    if (GetParam().denoised) testing::denoise(options);
     options.width = 40;
     options.height = 24;
     options.spp = 100000;
@@ -151,9 +155,8 @@ TEST_P(MaxError, ATimeLimitGivesAPicture) {
   EXPECT_GE(result.statistics.spp, 1);
   const std::uint64_t pixels = 40 * 24;
   const auto passes = static_cast<std::uint64_t>(result.statistics.spp);
-  const std::uint64_t rounding = timed.reconstruct ? pixels : 0;  // of adaptive passes
-  EXPECT_GE(result.statistics.samples + rounding, pixels * passes);
-  EXPECT_LT(result.statistics.samples, pixels * (passes + 1) + rounding);
+  EXPECT_GE(result.statistics.samples, pixels * passes);
+  EXPECT_LT(result.statistics.samples, pixels * (passes + 1));
   if (!uses_cache(timed.integrator)) {
     EXPECT_EQ(result.statistics.samples, result.statistics.rays.camera)
         << "of the last pass those that were begun";
@@ -163,7 +166,7 @@ TEST_P(MaxError, ATimeLimitGivesAPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, MaxError,
                          ::testing::Values(Kind{"path", Integrator::path, false},
-                                           Kind{"finished", Integrator::path, true},
+                                           Kind{"denoised", Integrator::path, true},
                                            Kind{"nrc", Integrator::nrc, true}),
                          [](const auto& parameter) { return parameter.param.name; });
 
@@ -177,15 +180,16 @@ TEST(EstimatedError, OfSamplesIsTheTrueOne) {
   options.spp = 2048;
   const Picture reference = Renderer(scene, options).render();
   options.seed = 1;
-  for (const bool reconstruct : {false, true}) {
-    options.reconstruct = reconstruct;
+  for (const bool denoised : {false, true}) {
+    if (denoised) GATELIGHT_NEEDS_DENOISER();
+    if (denoised) testing::denoise(options);
     options.spp = 16;
     Renderer renderer(scene, options);
     const Picture picture = renderer.render();
     const double error = std::sqrt(compare_pictures({reference, "reference"}, {picture, "test"}).rel_mse);
     const double estimate = renderer.statistics().estimated_error.value();
-    EXPECT_LT(estimate, 1.5 * error) << reconstruct;
-    EXPECT_GT(estimate, error / 1.5) << reconstruct;
+    EXPECT_LT(estimate, 1.5 * error) << denoised;
+    EXPECT_GT(estimate, error / 1.5) << denoised;
   }
 }
 

@@ -64,7 +64,7 @@ Result render_point(const scene::Scene& scene, RenderOptions options, const Seri
   return render(scene, options);
 }
 
-class SeriesOf : public ::testing::TestWithParam<Kind> {};
+using SeriesOf = kinds::Kinds;
 
 TEST_P(SeriesOf, EachPictureIsThatOfARunThatEndsThere) {
   const scene::Scene s = room();
@@ -103,7 +103,7 @@ TEST_P(SeriesOf, StoppedAnywhereItGivesWholePicturesOnly) {
   const std::vector<Result> straight = collect(renderer, series);
   std::vector<bool> seen(4, false);
   std::size_t pictures = 0;
-  for (int stop_at = 1; pictures < 3; stop_at += 1 + stop_at / 6) {
+  for (int stop_at = 1; pictures < 3; stop_at += 1 + stop_at / 20) {
     SCOPED_TRACE(stop_at);
     ASSERT_LT(stop_at, 1000);
     std::atomic<int> asked = 0;

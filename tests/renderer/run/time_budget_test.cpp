@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-TEST(TimeBudget, PassesEndWhereReconstructionBegins) {
+TEST(TimeBudget, PassesEndWhereTheDenoiserBegins) {
   EXPECT_DOUBLE_EQ((TimeBudget{10.0, 0.6}).passes_end(), 9.4);
   EXPECT_EQ((TimeBudget{0.5, 0.6}).passes_end(), 0.0);
   EXPECT_TRUE(std::isinf(TimeBudget{}.passes_end()));

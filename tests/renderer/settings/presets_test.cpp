@@ -69,7 +69,7 @@ TEST(Presets, BareAsksAtTheFirstVertexAndShowsTheAnswers) {
   EXPECT_EQ(options.integrator, Integrator::nrc);
   EXPECT_EQ(options.cache.query_at, QueryAt::primary);
   EXPECT_EQ(options.cache.source, TrainingSource::camera);
-  EXPECT_FALSE(options.reconstruct);
+  EXPECT_EQ(options.denoise.denoiser, DenoiserKind::none);
 }
 
 TEST(Presets, FinishedPicturesAreReconstructedFromSamplesThatTeach) {
@@ -78,7 +78,7 @@ TEST(Presets, FinishedPicturesAreReconstructedFromSamplesThatTeach) {
     RenderOptions options;
     apply_preset(preset, options);
     EXPECT_EQ(options.integrator, Integrator::nrc);
-    EXPECT_TRUE(options.reconstruct);
+    EXPECT_EQ(options.denoise.denoiser, DenoiserKind::automatic);
     EXPECT_EQ(options.cache.source, TrainingSource::picture);
     EXPECT_EQ(options.cache.query_at, QueryAt::gather);
     EXPECT_EQ(options.cache.holds, CacheHolds::no_delta);

@@ -1,0 +1,64 @@
+#pragma once
+// A device of Open Image Denoise that filters pictures in memory.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "renderer/denoise/oidn_library.h"
+
+namespace gatelight::renderer {
+
+/// Pixels in rows from the top, 3 floats each but for alpha.
+struct NoisyImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> color;   ///< linear
+  std::vector<float> albedo;  ///< 0 to 1; empty: no guides
+  std::vector<float> normal;  ///< -1 to 1, in any space, of any length; empty: no guides
+  std::vector<float> alpha;   ///< 1 float a pixel, 0 to 1; empty: none
+};
+
+enum class DenoiseQuality : std::uint8_t { fast, high };
+
+struct FilterOptions {
+  bool clean_guides = true;  ///< filter the guides first, which permits the larger network
+  DenoiseQuality quality = DenoiseQuality::high;
+  /// Multiplies colours before the filter, and divides them after it. Parts of a picture need the same one.
+  float scale = 1.0f;
+};
+
+/// Called with the share that is done, in [0, 1]; false cancels.
+using DenoiseProgress = std::function<bool(double done)>;
+
+class Denoiser {
+ public:
+  /// `threads`: as many as filters use. memory_limit_bytes: of a filter, at the cost of time; 0: the
+  /// library's own. The library must outlive the object. Throws MissingDenoiser.
+  Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes = 0);
+
+  /// Replaces colours and alpha by denoised ones, and the guides by clean ones if they are filtered. Alpha
+  /// stays 0 or 1 where all pixels around are. The same bits for any number of threads. Returns false where
+  /// `progress` cancelled; the image is then undefined. Throws OutOfMemory, or MissingDenoiser with the
+  /// library's message. Source: "RT" filter, "Open Image Denoise API".
+  bool filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress = {}) const;
+
+ private:
+  /// 3 floats a pixel, which are replaced.
+  bool filter_plane(std::vector<float>& color, NoisyImage& guides, const FilterOptions& options,
+                    const DenoiseProgress& progress, double begin, double end) const;
+  bool filter_alpha(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress,
+                    double begin) const;
+
+  struct Release {
+    void (*function)(oidn::Device);
+    void operator()(oidn::Device device) const { function(device); }
+  };
+
+  const oidn::Api& api_;
+  std::unique_ptr<oidn::DeviceHandle, Release> device_;
+  std::size_t memory_limit_bytes_;
+};
+
+}  // namespace gatelight::renderer

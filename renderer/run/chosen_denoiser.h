@@ -1,0 +1,27 @@
+#pragma once
+// Which denoiser a picture gets, and the film that it needs.
+
+#include <string>
+
+#include "renderer/denoise/oidn_library.h"
+#include "renderer/settings/options.h"
+
+namespace gatelight::renderer {
+
+struct ChosenDenoiser {
+  const OidnLibrary* library = nullptr;  ///< null: none
+  std::string missing;                   ///< why DenoiserKind::automatic found none; else empty
+};
+
+/// Throws MissingDenoiser where DenoiserKind::oidn finds none.
+ChosenDenoiser choose_denoiser(const DenoiseOptions& options);
+
+/// The options with what was chosen in the place of DenoiserKind::automatic. Without a denoiser there is no
+/// supersampling.
+RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen);
+
+/// The options of the film: with supersampling it is larger, with as many samples in all, and each of its
+/// pixels is a box.
+RenderOptions options_of_film(RenderOptions options);
+
+}  // namespace gatelight::renderer

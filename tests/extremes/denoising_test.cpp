@@ -1,0 +1,107 @@
+// Denoising: sizes, darkness, units of light, bright samples.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/denoise/denoise.h"
+#include "tests/extremes/extreme.h"
+#include "tests/support/denoiser.h"
+#include "tests/support/noisy_image.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::deviation;
+using testing::noisy_image;
+using testing::tell_extreme;
+
+class Denoising : public ::testing::Test {
+ protected:
+  void SetUp() override { GATELIGHT_NEEDS_DENOISER(); }
+
+  static std::vector<float> denoised(const NoisyImage& image) {
+    static const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
+    const auto rows = [&image](const std::vector<float>& plane) -> ReadRows {
+      return [&plane, row = static_cast<std::ptrdiff_t>(3) * image.width](int first, int end) {
+        return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
+      };
+    };
+    const auto color = denoise(
+        denoiser, {image.width, image.height, rows(image.color), rows(image.albedo), rows(image.normal)}, {},
+        ScaleDown(1, PixelFilter::box, 0.0f));
+    EXPECT_TRUE(color);
+    EXPECT_EQ(color->color.size(), image.color.size());
+    for (const float value : color->color) {
+      EXPECT_TRUE(std::isfinite(value));
+      EXPECT_GE(value, 0.0f);
+    }
+    return color->color;
+  }
+};
+
+TEST_F(Denoising, HasEverySize) {
+  int tried = 0;
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {5, 70}, {33, 17}, {400, 2}, {16384, 3}, {3, 8192}}) {
+    SCOPED_TRACE(::testing::Message() << width << "x" << height);
+    denoised(noisy_image(width, height));
+    ++tried;
+  }
+  tell_extreme("size of a picture", fmt::format("{} pictures: 1x1, 16384x3, 3x8192 and between", tried),
+               "every value is finite and not negative", "");
+}
+
+TEST_F(Denoising, BlackStaysBlack) {
+  NoisyImage image = noisy_image(40, 30);
+  image.color.assign(image.color.size(), 0.0f);
+  const std::vector<float> color = denoised(image);
+  const float greatest = *std::max_element(color.begin(), color.end());
+  EXPECT_LT(greatest, 1e-3f);
+  tell_extreme("all black", "40x30 with guides",
+               fmt::format("black to {:.1e} (bound 1e-3), without NaN", greatest), "");
+}
+
+TEST_F(Denoising, HasTheSamePictureInAnyUnitOfLight) {
+  const NoisyImage image = noisy_image(96, 64);
+  const std::vector<float> usual = denoised(image);
+  double worst = 0.0;
+  for (const float unit : {1e-30f, 1e-12f, 1e-6f, 1e6f, 1e12f, 1e28f}) {
+    NoisyImage scaled = image;
+    for (float& value : scaled.color) value *= unit;
+    std::vector<float> color = denoised(scaled);
+    for (float& value : color) value /= unit;
+    worst = std::max(worst, deviation(color, usual));
+  }
+  EXPECT_LT(worst, 1e-3);
+  tell_extreme("units of light", "1e-30 to 1e28 times a picture of 1",
+               fmt::format("the same picture but for {:.1e} (RMS, bound 1e-3)", worst), "");
+}
+
+TEST_F(Denoising, OneBrightSampleChangesItsNeighbourhoodAlone) {
+  constexpr int kReach = 128;
+  const NoisyImage image = noisy_image(320, 280);
+  const std::vector<float> clean = denoised(image);
+  double worst = 0.0;
+  for (const float bright : {1e4f, 1e12f, 1e30f}) {
+    NoisyImage with = image;
+    // The exposure of the picture counts bins of 16x16 pixels by the logarithm, so one changes it a little.
+    with.color[3 * (140 * 320 + 160)] = bright;
+    const std::vector<float> color = denoised(with);
+    for (int y = 0; y < 280; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        if (std::abs(x - 160) <= kReach && std::abs(y - 140) <= kReach) continue;
+        const auto i = 3 * static_cast<std::size_t>(y * 320 + x);
+        worst = std::max(worst, std::abs(static_cast<double>(color[i] - clean[i])));
+      }
+    }
+  }
+  EXPECT_LT(worst, 0.05);
+  tell_extreme(
+      "one bright sample", "1e4, 1e12 and 1e30 in a picture of 1",
+      fmt::format("beyond {} pixels nothing changes by more than {:.1e} (bound 0.05)", kReach, worst), "");
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

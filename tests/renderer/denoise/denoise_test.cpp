@@ -1,0 +1,120 @@
+#include "renderer/denoise/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "renderer/denoise/denoise_time.h"
+#include "tests/support/denoiser.h"
+#include "tests/support/noisy_image.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::clean_image;
+using testing::deviation;
+using testing::noisy_image;
+
+ReadRows rows_of(const std::vector<float>& plane, int width, int channels = 3) {
+  return [&plane, row = static_cast<std::ptrdiff_t>(width) * channels](int first, int end) {
+    return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
+  };
+}
+
+NoisyPicture picture_of(const NoisyImage& image) {
+  return {image.width, image.height, rows_of(image.color, image.width), rows_of(image.albedo, image.width),
+          rows_of(image.normal, image.width)};
+}
+
+class DenoisedPictures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    GATELIGHT_NEEDS_DENOISER();
+    denoiser = std::make_unique<Denoiser>(load_oidn(testing::denoiser_place()), 2);
+  }
+  std::unique_ptr<Denoiser> denoiser;
+};
+
+TEST_F(DenoisedPictures, HaveNoSeamsWhereBandsMeet) {
+  const NoisyImage image = noisy_image(64, 700);
+  const ScaleDown as_is(1, PixelFilter::box, 0.0f);
+  const auto whole = denoise_rows(*denoiser, picture_of(image), 0, 700, {}, as_is);
+  const auto upper = denoise_rows(*denoiser, picture_of(image), 0, 333, {}, as_is);
+  const auto lower = denoise_rows(*denoiser, picture_of(image), 333, 700, {}, as_is);
+  ASSERT_TRUE(whole && upper && lower);
+  std::vector<float> joined = upper->color;
+  joined.insert(joined.end(), lower->color.begin(), lower->color.end());
+  ASSERT_EQ(joined.size(), whole->color.size());
+  const NoisyImage clean = clean_image(64, 700);
+  for (std::size_t i = 0; i < joined.size(); ++i) ASSERT_NEAR(joined[i], whole->color[i], 0.01f) << i;
+  EXPECT_LT(deviation(joined, whole->color), 0.02 * deviation(whole->color, clean.color));
+}
+
+TEST_F(DenoisedPictures, AreScaledAfterTheyAreDenoised) {
+  const NoisyImage image = noisy_image(128, 96), clean = clean_image(128, 96);
+  const ScaleDown as_is(1, PixelFilter::box, 0.0f), half(2, PixelFilter::blackman_harris, 0.0f);
+  const auto large = denoise(*denoiser, picture_of(image), {}, as_is);
+  const auto small = denoise(*denoiser, picture_of(image), {}, half);
+  ASSERT_TRUE(large && small);
+  EXPECT_EQ(small->color, half.scale(large->color, 3, 128, 96, 0, 0, 48));
+  EXPECT_LT(deviation(small->color, half.scale(clean.color, 3, 128, 96, 0, 0, 48)), 0.1);
+}
+
+TEST_F(DenoisedPictures, WithAnAlphaKeepItsEdges) {
+  const NoisyImage image = noisy_image(96, 64);
+  std::vector<float> alpha;
+  std::mt19937 random(1);
+  std::binomial_distribution<int> of_eight(8, 0.3);
+  for (int i = 0; i < 96 * 64; ++i)
+    alpha.push_back(i % 96 < 48 ? 1.0f : 0.125f * static_cast<float>(of_eight(random)));
+  NoisyPicture picture = picture_of(image);
+  picture.alpha = rows_of(alpha, 96, 1);
+  const auto clean = denoise(*denoiser, picture, {}, ScaleDown(1, PixelFilter::box, 0.0f));
+  ASSERT_TRUE(clean);
+  ASSERT_EQ(clean->alpha.size(), alpha.size());
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    const std::size_t x = i % 96;
+    const float a = clean->alpha[i];
+    if (x < 47) {
+      ASSERT_EQ(a, 1.0f) << i << ": what is opaque stays so";
+    }
+    if (x < 52) continue;
+    sum += static_cast<double>(a);
+    squares += std::pow(static_cast<double>(a) - 0.3, 2);
+  }
+  EXPECT_NEAR(sum / (44 * 64), 0.3, 0.015);
+  EXPECT_LT(std::sqrt(squares / (44 * 64)), 0.04) << "of 0.16";
+  EXPECT_EQ(clean->color,
+            denoise(*denoiser, picture_of(image), {}, ScaleDown(1, PixelFilter::box, 0.0f))->color);
+}
+
+TEST_F(DenoisedPictures, CanBeCancelledInAnyBand) {
+  const NoisyImage image = noisy_image(64, 64);
+  const ScaleDown as_is(1, PixelFilter::box, 0.0f);
+  double last = 0.0;
+  const auto until = [&](double end) {
+    last = 0.0;
+    return [&, end](double done) {
+      EXPECT_GE(done + 1e-9, last);
+      last = done;
+      return done < end;
+    };
+  };
+  EXPECT_FALSE(denoise(*denoiser, picture_of(image), {}, as_is, until(0.5)));
+  EXPECT_TRUE(denoise(*denoiser, picture_of(image), {}, as_is, until(2.0)));
+  EXPECT_GT(last, 0.9);
+}
+
+TEST_F(DenoisedPictures, TimeIsExpectedToGrowWithThePixels) {
+  const double small = expect_denoise_seconds(*denoiser, {}, 256, 256);
+  const double large = expect_denoise_seconds(*denoiser, {}, 2560, 2560);
+  EXPECT_GT(small, 0.0);
+  EXPECT_GT(large, 20.0 * small);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,118 @@
+#include "renderer/denoise/denoising_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/image/image_read.h"
+#include "tests/support/messages.h"
+#include "tests/support/noisy_image.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::noisy_image;
+using tests::expect_refusal;
+
+ReadRows rows_of(const std::vector<float>& plane, int width, int channels) {
+  return [&plane, row = static_cast<std::ptrdiff_t>(width) * channels](int first, int end) {
+    return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
+  };
+}
+
+Picture picture_with(std::initializer_list<const char*> layers) {
+  Picture picture{.width = 2, .height = 1};
+  float value = 0.0f;
+  for (const char* const name : layers) {
+    Layer layer{.name = name, .channels = {"R", "G", "B"}};
+    value += 1.0f;
+    layer.values.assign(6, value);
+    picture.layers.push_back(layer);
+  }
+  return picture;
+}
+
+TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
+  for (const int factor : {1, 2}) {
+    const NoisyImage image = noisy_image(6 * factor, 4 * factor);
+    std::vector<float> alpha(image.color.size() / 3);
+    for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = 0.01f * static_cast<float>(i);
+    Picture picture{.width = 6, .height = 4};
+    picture.layers.push_back({.channels = {"R", "G", "B"}, .values = std::vector<float>(3 * 24, 9.0f)});
+    const NoisyPicture samples{image.width,
+                               image.height,
+                               rows_of(image.color, image.width, 3),
+                               rows_of(image.albedo, image.width, 3),
+                               rows_of(image.normal, image.width, 3),
+                               rows_of(alpha, image.width, 1)};
+    add_denoising_layers(picture, samples, factor);
+    ASSERT_EQ(picture.layers.size(), 1u + 4u * static_cast<unsigned>(factor * factor));
+    for (std::size_t i = 1; i < picture.layers.size(); ++i) {
+      const Layer& layer = picture.layers[i];
+      EXPECT_EQ(layer.values.size(), 24 * layer.channels.size()) << "the size of the picture";
+      EXPECT_TRUE(layer.full_precision && is_denoising_layer(layer.name)) << layer.name;
+    }
+    const Samples read = take_samples(picture);
+    EXPECT_EQ(read.factor, factor);
+    EXPECT_EQ(read.width, image.width);
+    EXPECT_EQ(read.color, image.color);
+    EXPECT_EQ(read.albedo, image.albedo);
+    EXPECT_EQ(read.normal, image.normal);
+    EXPECT_EQ(read.alpha, alpha);
+    EXPECT_EQ(read.noisy().color(1, 3), rows_of(image.color, image.width, 3)(1, 3));
+  }
+}
+
+TEST(DenoisingLayers, AreFoundByTheNamesOfOtherRenderers) {
+  const std::vector<std::vector<const char*>> names = {
+      {"ViewLayer.Combined", "ViewLayer.Denoising Albedo", "ViewLayer.Denoising Normal"},
+      {"", "albedo", "normal"},
+      {"", "Albedo", "N"}};
+  for (const auto& [beauty, albedo, normal] :
+       {std::tuple(names[0][0], names[0][1], names[0][2]), std::tuple(names[1][0], names[1][1], names[1][2]),
+        std::tuple(names[2][0], names[2][1], names[2][2])}) {
+    Picture picture = picture_with({beauty, albedo, normal, "depth"});
+    const Samples samples = take_samples(picture);
+    EXPECT_EQ(samples.color[0], 1.0f) << albedo;
+    EXPECT_EQ(samples.albedo[0], 2.0f) << albedo;
+    EXPECT_EQ(samples.normal[0], 3.0f) << normal;
+  }
+  // The samples go before a beauty that is denoised already.
+  Picture blender = picture_with({"V.Combined", "V.Noisy Image", "V.Denoising Normal", "V.Denoising Albedo"});
+  EXPECT_EQ(take_samples(blender).color[0], 2.0f);
+  Picture own = picture_with({"", "raw"});
+  EXPECT_EQ(take_samples(own).color[0], 2.0f);
+  EXPECT_TRUE(take_samples(own).albedo.empty());
+}
+
+TEST(DenoisingLayers, CanBeNamed) {
+  Picture picture = picture_with({"", "a", "b", "albedo", "normal"});
+  const Samples samples = take_samples(picture, {.color = "a", .albedo = "b", .normal = "normal"});
+  EXPECT_EQ(samples.color[0], 2.0f);
+  EXPECT_EQ(samples.albedo[0], 3.0f);
+  EXPECT_EQ(samples.normal[0], 5.0f);
+  Picture other = picture_with({"", "a"});
+  expect_refusal<ImageError>([&] { take_samples(other, {.normal = "b"}); }, {"'b'"});
+}
+
+TEST(DenoisingLayers, OneGuideAloneAndOtherChannelsAreRefused) {
+  Picture one = picture_with({"", "albedo"});
+  expect_refusal<ImageError>([&] { take_samples(one); }, {"albedo", "normals"});
+  Picture grey = picture_with({"", "albedo", "normal"});
+  grey.layers[1].channels = {"Y"};
+  grey.layers[1].values.resize(2);
+  expect_refusal<ImageError>([&] { take_samples(grey); }, {"albedo", "1", "3"});
+  Picture incomplete = picture_with({"", "denoising-color"});
+  expect_refusal<ImageError>([&] { take_samples(incomplete); }, {"denoising-albedo"});
+}
+
+TEST(DenoisingLayers, WhatIsNotFiniteIsBlackAndAlphaIsLeftOut) {
+  Picture picture = picture_with({""});
+  picture.layers[0].channels = {"R", "G", "B", "A"};
+  picture.layers[0].values = {1, 2, 3, 0.5f, std::nanf(""), std::numeric_limits<float>::infinity(), 6, 1};
+  EXPECT_EQ(take_samples(picture).color, (std::vector<float>{1, 2, 3, 0, 0, 6}));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
