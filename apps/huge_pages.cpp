@@ -1,7 +1,8 @@
 // Large arrays lie in huge pages, where the system has them (transparent huge pages, "madvise" or "always"),
 // and memory that was freed is kept for the next array. First touches of small pages are slow on virtual
-// machines: finishing a picture, which uses many arrays for a short time, took twice as long there. The arrays are
-// vectors, so the program replaces the allocation functions of C++ instead of naming an allocator in each.
+// machines: finishing a picture, which uses many arrays for a short time, took twice as long there. The
+// arrays are vectors, so the program replaces the allocation functions of C++ instead of naming an allocator
+// in each.
 
 #include <malloc.h>
 #include <sys/mman.h>

@@ -98,6 +98,7 @@ class RenderRun {
 
  private:
   int make_picture(renderer::Renderer& renderer) {
+    note_integrator(renderer.integrator());
     for (const std::string& warning : renderer.statistics().warnings) warn(warning);
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
@@ -116,6 +117,15 @@ class RenderRun {
                                                    report_.statistics.cache.steps));
     if (failed_output_) std::rethrow_exception(failed_output_);
     return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
+  }
+
+  /// Reports tell what was chosen.
+  void note_integrator(renderer::Integrator chosen) {
+    renderer::RenderOptions& o = settings_.render;
+    if (!o.choose_integrator) return;
+    o.choose_integrator = false;
+    o.integrator = chosen;
+    if (chosen == renderer::Integrator::path && o.spp_of_paths > 0) o.spp = o.spp_of_paths;
   }
 
   scene::Scene load() {
@@ -150,7 +160,9 @@ class RenderRun {
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
     renderer::ImageWriteOptions image = settings_.image;
-    if (!settings_.exposure) image.display.exposure = renderer::auto_exposure(picture);
+    const float suitable = renderer::auto_exposure(picture);
+    if (!settings_.exposure) image.display.exposure = suitable;
+    warn_of_glare(image.display.exposure - suitable, suitable);
     report_.exposure = image.display.exposure;
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
@@ -162,6 +174,19 @@ class RenderRun {
       }
     }
     if (first_error) std::rethrow_exception(first_error);
+  }
+
+  /// Lights that an exporter wrote in watts are hundreds of times too bright for a screen.
+  void warn_of_glare(float stops_too_bright, float suitable) {
+    constexpr float kTooBright = 4.0f;
+    if (stops_too_bright < kTooBright || settings_.given.contains("--exposure") || glare_told_ ||
+        !shows_on_a_screen(settings_.outputs))
+      return;
+    glare_told_ = true;
+    warn(
+        fmt::format("the picture is {:.0f} stops too bright for a screen (are lights of the file in watts?); "
+                    "--exposure {:.1f} shows it, or --lights scales the lights",
+                    stops_too_bright, suitable));
   }
 
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
@@ -229,15 +254,26 @@ class RenderRun {
   RunReport report_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
+  bool glare_told_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };
 
+/// A preset of radiance finds its exposure, and one of finished pictures has a curve with room for
+/// highlights.
+void show_well(RenderSettings& settings) {
+  using renderer::CachePreset;
+  const renderer::Integrator integrator = settings.render.integrator;
+  const bool radiance = integrator == renderer::Integrator::nrc || integrator == renderer::Integrator::path;
+  if (radiance && !settings.given.contains("--exposure")) settings.exposure.reset();
+  const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
+                        settings.preset == CachePreset::final;
+  if (radiance && finished && !settings.given.contains("--tonemap"))
+    settings.image.display.tonemap = renderer::Tonemap::agx;
+}
+
 int run_render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group) {
   set_json_messages(settings.progress == ProgressMode::json);
-  if (settings.preset && settings.render.integrator == renderer::Integrator::nrc &&
-      !settings.given.contains("--exposure")) {
-    settings.exposure.reset();
-  }
+  if (settings.preset) show_well(settings);
   complete_settings(settings);
   if (!group.ranks.first()) settings.quiet = true;
   check_inputs(settings);

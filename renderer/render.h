@@ -93,6 +93,8 @@ class Renderer {
   /// Like report_cache(), but without the report of each instance and without the size of a cache that is not
   /// scouted.
   CacheStatistics set_up_cache();
+  /// That of the options, or what was chosen for the scene (RenderOptions::choose_integrator).
+  Integrator integrator() const;
   const RenderStatistics& statistics() const;
 
  private:

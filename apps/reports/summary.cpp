@@ -122,6 +122,13 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
                   s.threads == 1 ? "" : "s", error);
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, ray_seconds(s)) * 1e-6);
+  if (s.bounces_of_paths) {
+    text +=
+        fmt::format("integrator {}, chosen because light paths have {:.1f} bounces; --integrator {} {}\n",
+                    word(settings.render.integrator), *s.bounces_of_paths,
+                    renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
+                    renderer::uses_cache(settings.render.integrator) ? "is without a cache" : "has a cache");
+  }
   if (!s.denoiser.empty()) text += fmt::format("denoiser  {}\n", s.denoiser);
   text += ranks_text(report);
   if (!settings.exposure) {

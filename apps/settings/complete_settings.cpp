@@ -98,12 +98,26 @@ std::string no_cache(const RenderOptions& o) {
 
 /// Why an option has no effect here; empty where it has one.
 std::string why_without_effect(const Option& option, const RenderOptions& options) {
-  if (!option.of_cache) return "";
-  if (!uses_cache(options.integrator)) return no_cache(options);
+  if (option.of_cache && !uses_cache(options.integrator)) return no_cache(options);
   for (const Need& need : option.needs) {
     if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
   }
   return "";
+}
+
+/// A flag of the cache asks for one; groups of lights want paths.
+void settle_integrator(RenderSettings& settings) {
+  RenderOptions& o = settings.render;
+  if (settings.given.contains("--spp")) o.spp_of_paths = 0;
+  if (o.choose_integrator && !o.light_groups.empty()) o.integrator = Integrator::path;
+  if (o.integrator == Integrator::path) {
+    o.choose_integrator = false;
+    if (settings.preset && o.spp_of_paths > 0) o.spp = o.spp_of_paths;
+  }
+  if (!o.choose_integrator) return;
+  for (const Option& option : option_table(settings)) {
+    if (option.of_cache && settings.given.contains(option.flag())) o.choose_integrator = false;
+  }
 }
 
 void refuse_without_effect(RenderSettings& settings) {
@@ -125,6 +139,7 @@ void open_samples(RenderSettings& settings) {
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
     o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // of the usual number of samples
   o.spp = timed ? kOpenSpp : kMostForError;
+  o.spp_of_paths = 0;
 }
 
 /// Sets what defaults and presets leave open or wrong for this encoding and integrator.
@@ -183,12 +198,6 @@ void complete_denoiser(RenderSettings& settings) {
   DenoiseOptions& denoise = settings.render.denoise;
   const char* const library = std::getenv(kOidnVariable);
   if (denoise.library.empty() && library) denoise.library = library;
-  if (denoise.denoiser != DenoiserKind::none) return;
-  for (const char* const flag : {"--denoise-guides", "--supersampling", "--oidn"}) {
-    if (settings.given.contains(flag))
-      throw UsageError(
-          fmt::format("{}: it has no effect here, expected it with --denoiser oidn or auto", flag));
-  }
 }
 
 void check_checkpoint(const RenderSettings& settings) {
@@ -228,6 +237,7 @@ void complete_settings(RenderSettings& settings) {
   if (settings.render.environment.sky && settings.given.contains("--environment"))
     throw UsageError("--sky and --environment exclude each other, expected one of them");
   check_picture(settings.render);
+  settle_integrator(settings);
   check_light_groups(settings.render);
   refuse_without_effect(settings);
   adapt_cache(settings);

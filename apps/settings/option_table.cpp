@@ -97,7 +97,6 @@ Option preset_option(std::optional<CachePreset>& preset) {
       .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
       .read = read,
       .group = "Light transport",
-      .of_cache = true,
       .in_recipe = InRecipe::unless_reproducible};
 }
 
@@ -121,7 +120,8 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
       "told at the end; the presets of radiance have auto"));
   group.add(number("white-balance", white_balance, kKelvin, "KELVIN",
                    "Colour of light that displayed pictures show as white"));
-  group.add(choice("tonemap", tonemap, "Curve of displayed pictures"));
+  group.add(
+      choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx"));
   group.add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"));
   const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
     group.add(any_word(name, member, unit, help)).value = [&] {

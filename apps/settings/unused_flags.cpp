@@ -13,6 +13,13 @@ namespace gatelight::apps {
 using renderer::image_format;
 using renderer::ImageFormat;
 
+bool shows_on_a_screen(const std::vector<std::string>& outputs) {
+  return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) {
+    const ImageFormat format = image_format(output);
+    return format == ImageFormat::png || format == ImageFormat::jpeg || format == ImageFormat::tiff;
+  });
+}
+
 std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
   std::set<ImageFormat> formats;
   for (const std::string& output : settings.outputs) formats.insert(image_format(output));
@@ -26,7 +33,7 @@ std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
         unused.push_back(fmt::format("{} changes nothing: {}", flag, what));
     }
   };
-  const bool displayed = any({ImageFormat::png, ImageFormat::jpeg, ImageFormat::tiff});
+  const bool displayed = shows_on_a_screen(settings.outputs);
   need({"--exposure", "--white-balance", "--tonemap", "--ocio"}, displayed,
        "no output is a .png, .jpg or .tif");
   need({"--tonemap"}, settings.image.display.ocio.config.empty(), "the view of --ocio has its own curve");

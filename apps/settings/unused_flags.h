@@ -12,4 +12,7 @@ namespace gatelight::apps {
 /// nothing, so they are told and not refused.
 std::vector<std::string> unused_output_flags(const RenderSettings& settings);
 
+/// Whether some output is a picture as a screen shows it: PNG, JPEG or TIFF.
+bool shows_on_a_screen(const std::vector<std::string>& outputs);
+
 }  // namespace gatelight::apps

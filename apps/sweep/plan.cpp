@@ -38,12 +38,16 @@ RenderSettings settle(FlagValues& flags) {
     dropped = false;
     settings = read_render_words(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
+    // A sweep compares both.
+    if (o.choose_integrator) {
+      set_flag(flags, "--integrator", renderer::word(o.integrator));
+      dropped = true;
+      continue;
+    }
     const bool has_cache = renderer::uses_cache(o.integrator);
     for (const std::string& flag : flags_without_effect(settings)) {
       if (!drop_flag(flags, flag)) continue;
       dropped = true;
-      // The size of the preset stays, because pictures are compared with each other.
-      if (flag == "--preset") set_flag(flags, "--size", fmt::format("{}x{}", o.width, o.height));
     }
     if (!has_cache) dropped |= drop_flag(flags, "--spp");
   }
@@ -51,7 +55,12 @@ RenderSettings settle(FlagValues& flags) {
     throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
   }
   // A preset alone would let each picture choose its exposure.
-  if (find_flag(flags, "--preset") && !find_flag(flags, "--exposure")) set_flag(flags, "--exposure", "0");
+  // So would its command, with a curve of its own.
+  if (find_flag(flags, "--preset")) {
+    for (const auto& [flag, value] : {std::pair("--exposure", "0"), {"--tonemap", "none"}}) {
+      if (!find_flag(flags, flag)) set_flag(flags, flag, value);
+    }
+  }
   complete_settings(settings);
   return settings;
 }
@@ -143,6 +152,9 @@ class Planner {
     if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
     FlagValues plain = flags;
     drop_flag(plain, kDenoiser);
+    // The size of the preset stays, because pictures are compared with each other.
+    const renderer::RenderOptions& o = series.settings.render;
+    if (drop_flag(plain, "--preset")) set_flag(plain, "--size", fmt::format("{}x{}", o.width, o.height));
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
     const auto keep_plain = [&] {
       keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));

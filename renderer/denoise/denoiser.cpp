@@ -20,12 +20,15 @@ struct Progress {
   const DenoiseProgress& report;
   double begin;
   double end;
+  bool cancelled = false;  ///< the library finishes what is nearly done, and says so
 };
 
 bool monitor(void* user, double done) {
-  const Progress& progress = *static_cast<const Progress*>(user);
-  return !progress.report ||
-         progress.report(std::lerp(progress.begin, progress.end, std::clamp(done, 0.0, 1.0)));
+  Progress& progress = *static_cast<Progress*>(user);
+  if (progress.report &&
+      !progress.report(std::lerp(progress.begin, progress.end, std::clamp(done, 0.0, 1.0))))
+    progress.cancelled = true;
+  return !progress.cancelled;
 }
 
 int mebibytes(std::size_t bytes) {
@@ -65,7 +68,7 @@ class RayTracingFilter {
     api_.CommitFilter(filter_.get());
     check();
     api_.ExecuteFilter(filter_.get());
-    return check();
+    return check() && !progress.cancelled;
   }
 
  private:

@@ -47,23 +47,21 @@ std::string short_name(const std::string& layer) {
 }
 
 /// The first of the names that the picture has.
-Layer* find_layer(Picture& picture, std::initializer_list<const char*> names) {
+const Layer* find_layer(const Picture& picture, std::initializer_list<const char*> names) {
   for (const char* const name : names) {
-    for (Layer& layer : picture.layers) {
+    for (const Layer& layer : picture.layers) {
       if (short_name(layer.name) == name) return &layer;
     }
   }
   return nullptr;
 }
 
-Layer* named_layer(Picture& picture, const std::string& name) {
-  for (Layer& layer : picture.layers) {
-    if (layer.name == name) return &layer;
-  }
+const Layer* named_layer(const Picture& picture, const std::string& name) {
+  if (const Layer* const layer = picture.find(name)) return layer;
   throw ImageError(fmt::format("has no layer '{}'", name));
 }
 
-std::vector<float> take_values(Layer& layer, std::size_t channels) {
+std::vector<float> values_of(const Layer& layer, std::size_t channels) {
   const std::size_t has = layer.channels.size();
   // A fourth channel is alpha.
   if (has != channels && !(channels == 3 && has == 4)) {
@@ -72,7 +70,7 @@ std::vector<float> take_values(Layer& layer, std::size_t channels) {
   }
   std::vector<float> values;
   if (has == channels) {
-    values = std::move(layer.values);
+    values = layer.values;
   } else {
     for (std::size_t i = 0; i < layer.values.size(); i += has)
       values.insert(values.end(), &layer.values[i], &layer.values[i] + channels);
@@ -83,13 +81,13 @@ std::vector<float> take_values(Layer& layer, std::size_t channels) {
 }
 
 /// A plane of samples whose layers add_denoising_layers() wrote.
-std::vector<float> join_layers(Picture& picture, const Samples& samples, const char* what,
+std::vector<float> join_layers(const Picture& picture, const Samples& samples, const char* what,
                                std::size_t channels) {
   std::vector<float> plane(size(samples.width) * size(samples.height) * channels);
   for (int row = 0; row < samples.factor; ++row) {
     for (int column = 0; column < samples.factor; ++column) {
       const std::string name = name_of(what, samples.factor, column, row);
-      const std::vector<float> values = take_values(*named_layer(picture, name), channels);
+      const std::vector<float> values = values_of(*named_layer(picture, name), channels);
       each_place(samples.width, samples.height, samples.factor, column, row,
                  [&](std::size_t from, std::size_t to) {
                    std::copy_n(&values[from * channels], channels, &plane[to * channels]);
@@ -146,7 +144,7 @@ NoisyPicture Samples::noisy() const {
           rows_of(alpha, width, 1)};
 }
 
-Samples take_samples(Picture& picture, const LayerNames& names) {
+Samples samples_of(const Picture& picture, const LayerNames& names) {
   const bool named = !(names.color.empty() && names.albedo.empty() && names.normal.empty());
   for (int factor = 1; factor <= kMostFactor && !named; ++factor) {
     if (!picture.find(name_of(kColor, factor, 0, 0))) continue;
@@ -160,18 +158,18 @@ Samples take_samples(Picture& picture, const LayerNames& names) {
   const auto find = [&](const std::string& name, std::initializer_list<const char*> usual) {
     return name.empty() ? find_layer(picture, usual) : named_layer(picture, name);
   };
-  Layer* color = find(names.color, {"noisy image", "raw", "combined"});
+  const Layer* color = find(names.color, {"noisy image", "raw", "combined"});
   if (!color) color = &picture.layers.front();
-  Layer* const albedo = find(names.albedo, {"denoising albedo", "albedo"});
-  Layer* const normal = find(names.normal, {"denoising normal", "normal", "n"});
+  const Layer* const albedo = find(names.albedo, {"denoising albedo", "albedo"});
+  const Layer* const normal = find(names.normal, {"denoising normal", "normal", "n"});
   if (!albedo != !normal) {
     throw ImageError(fmt::format("has the layer '{}' but no {}, expected both or none",
                                  (albedo ? albedo : normal)->name, albedo ? "normals" : "albedo"));
   }
-  Samples samples{1, picture.width, picture.height, take_values(*color, 3)};
+  Samples samples{1, picture.width, picture.height, values_of(*color, 3)};
   if (albedo) {
-    samples.albedo = take_values(*albedo, 3);
-    samples.normal = take_values(*normal, 3);
+    samples.albedo = values_of(*albedo, 3);
+    samples.normal = values_of(*normal, 3);
   }
   return samples;
 }

@@ -10,10 +10,10 @@
 
 namespace gatelight::renderer {
 
-/// Appends the layers of Aov::denoising: denoising-color, -albedo, -normal and, where there is one, -alpha, in
-/// full precision. Where the samples are of `factor` times the picture's size, each pixel of the picture has
-/// factor x factor of theirs, and each of these has its own layers, with the suffix -XY: its column and row.
-/// So merge and crop treat them as all other layers.
+/// Appends the layers of Aov::denoising: denoising-color, -albedo, -normal and, where there is one, -alpha,
+/// in full precision. Where the samples are of `factor` times the picture's size, each pixel of the picture
+/// has factor x factor of theirs, and each of these has its own layers, with the suffix -XY: its column and
+/// row. So merge and crop treat them as all other layers.
 void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int factor);
 
 bool is_denoising_layer(const std::string& name);
@@ -37,11 +37,11 @@ struct LayerNames {
   std::string normal;
 };
 
-/// Takes the layers of add_denoising_layers(), or where there are none, those that other renderers write for
+/// Reads the layers of add_denoising_layers(), or where there are none, those that other renderers write for
 /// a denoiser: colour "Noisy Image" (Blender), "raw", "Combined" or the beauty; albedo "Denoising Albedo" or
 /// "albedo"; normal "Denoising Normal", "normal" or "N". Capitals do not count, nor what stands before the
 /// last dot. Values that are not finite become 0. Throws ImageError, without the file's name, for a layer
 /// that was named and is not there, one without three channels, and one guide without the other.
-Samples take_samples(Picture& picture, const LayerNames& names = {});
+Samples samples_of(const Picture& picture, const LayerNames& names = {});
 
 }  // namespace gatelight::renderer

@@ -45,7 +45,7 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const auto width = static_cast<std::size_t>(rect[2] - rect[0]);
   const auto height = static_cast<std::size_t>(rect[3] - rect[1]);
   const std::size_t pixels = width * height;
-  // The sums, and at the same time the finished picture with its layers.
+  // The sums, and at the same time the finished picture with its layers, and means and errors of the samples.
   const std::size_t groups = options.light_groups.empty() ? 0 : options.light_groups.size() + 1;
   const FilmContents contents = film_contents(options, std::vector<std::string>(groups));
   const bool denoised = options.denoise.denoiser != DenoiserKind::none;
@@ -54,7 +54,7 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const std::size_t layers =
       options.aovs.size() + groups + (has(options.aovs, Aov::denoising) ? 3 * edge * edge : 0);
   const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
-  const std::size_t floats = 4 + 3 * layers + mattes;
+  const std::size_t floats = 13 + 3 * layers + mattes;
   need.film = sums * Film::bytes_per_pixel(contents) + pixels * floats * sizeof(float);
   if (denoised) need.film += std::min(sums, kBandPixels) * kBandFloats * sizeof(float);
   return need;

@@ -9,7 +9,14 @@
 namespace gatelight::renderer {
 
 float auto_exposure(const Picture& picture) {
-  constexpr double kGrey = 0.18, kBright = 32.0, kShare = 0.98;
+  constexpr double kGrey = 0.18;
+  /// What a share of the pixels does not exceed, and where it is to be at most: sunlit floors just below
+  /// white without a curve, windows within the reach of AgX, whose white is at 16.
+  struct Bound {
+    double share;
+    double greatest;
+  };
+  constexpr Bound kBounds[] = {{0.90, 0.75}, {0.98, 12.0}};
   const Layer& beauty = picture.layers.front();
   const std::size_t channels = beauty.channels.size();
   std::vector<float> lit;
@@ -23,10 +30,12 @@ float auto_exposure(const Picture& picture) {
   }
   if (lit.empty()) return 0.0f;
   const double average = std::exp(logs / static_cast<double>(lit.size()));
-  const auto bright = lit.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lit.size() - 1));
-  std::nth_element(lit.begin(), bright, lit.end());
-  const double stops =
-      std::min(std::log2(kGrey / average), std::log2(kBright / static_cast<double>(*bright)));
+  double stops = std::log2(kGrey / average);
+  for (const auto& [share, greatest] : kBounds) {
+    const auto at = lit.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));
+    std::nth_element(lit.begin(), at, lit.end());
+    stops = std::min(stops, std::log2(greatest / static_cast<double>(*at)));
+  }
   return static_cast<float>(std::round(10.0 * stops) / 10.0);
 }
 

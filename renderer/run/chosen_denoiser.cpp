@@ -19,7 +19,8 @@ ChosenDenoiser choose_denoiser(const DenoiseOptions& options) {
 
 RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen) {
   options.denoise.denoiser = chosen.library ? DenoiserKind::oidn : DenoiserKind::none;
-  if (!chosen.library) options.denoise.supersampling = 1;
+  const int factor = options.denoise.supersampling;
+  if (!chosen.library || options.spp < factor * factor) options.denoise.supersampling = 1;
   return options;
 }
 

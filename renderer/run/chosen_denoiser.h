@@ -16,8 +16,8 @@ struct ChosenDenoiser {
 /// Throws MissingDenoiser where DenoiserKind::oidn finds none.
 ChosenDenoiser choose_denoiser(const DenoiseOptions& options);
 
-/// The options with what was chosen in the place of DenoiserKind::automatic. Without a denoiser there is no
-/// supersampling.
+/// The options with what was chosen in the place of DenoiserKind::automatic. Without a denoiser, or with less
+/// samples than a pixel has parts, there is no supersampling.
 RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen);
 
 /// The options of the film: with supersampling it is larger, with as many samples in all, and each of its

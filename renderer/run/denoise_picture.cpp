@@ -24,15 +24,13 @@ void set_colors(Layer& layer, const std::vector<float>& color) {
 std::optional<Picture> denoise_picture(Picture picture, const Denoiser& denoiser,
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress) {
-  // The colours may be those of the beauty layer, whose alpha stays.
-  const Layer beauty = picture.layers.front();
-  const Samples samples = take_samples(picture, options.layers);
+  const Samples samples = samples_of(picture, options.layers);
   const ScaleDown scale(samples.factor, options.filter, options.filter_width);
   auto denoised = denoise(denoiser, samples.noisy(), {.clean_guides = options.clean_guides}, scale, progress);
   if (!denoised) return std::nullopt;
   std::erase_if(picture.layers, [](const Layer& layer) { return is_denoising_layer(layer.name); });
   if (samples.alpha.empty()) {
-    picture.layers.front() = beauty;
+    // An alpha of another program stays.
     set_colors(picture.layers.front(), denoised->color);
   } else {
     picture.layers.front() = {.channels = {"R", "G", "B"}, .values = std::move(denoised->color)};

@@ -22,7 +22,7 @@ struct DenoisePictureOptions {
 
 /// The picture with its samples (denoising_layers.h) denoised in the beauty layer; with the layers of
 /// Aov::denoising it is the finished picture, bit for bit. These layers are left out, all others stay. Empty
-/// where `progress` cancelled. Runs in the caller's arena. Throws what take_samples(), Denoiser::filter() and
+/// where `progress` cancelled. Runs in the caller's arena. Throws what samples_of(), Denoiser::filter() and
 /// put_before() throw.
 std::optional<Picture> denoise_picture(Picture picture, const Denoiser& denoiser,
                                        const DenoisePictureOptions& options,

@@ -120,9 +120,12 @@ std::optional<double> denoised_error(const Film& film, const Finishing& f,
   return std::sqrt(squares / weight);
 }
 
+/// The error of the samples' means, by their variance.
 std::optional<double> sampled_error(const Film& film) {
-  const Picture picture = film.resolve();
-  return estimated_error(picture, picture.layers.front(), film.layer(Aov::error), kSmoothing);
+  const PixelRect& rect = film.rect();
+  const Picture size{.width = rect.width(), .height = rect.height()};
+  const Layer mean{.channels = {"R", "G", "B"}, .values = film.plane(Plane::mean, rect.y0, rect.y1)};
+  return estimated_error(size, mean, film.layer(Aov::error), kSmoothing);
 }
 
 /// A layer of the film's size, in that of the picture.
@@ -170,12 +173,11 @@ class Finisher {
 
   FinishedPicture as_traced() {
     FinishedPicture result{.picture = layers()};
-    std::vector<float> color = film_.plane(Plane::mean, film_.rect().y0, film_.rect().y1);
-    const int width = film_.rect().width(), height = film_.rect().height(), rows = height / f_.scale.factor();
-    result.picture.layers.front().values = f_.scale.scale(color, 3, width, height, 0, 0, rows);
     if (film_.samples_per_pixel() >= kTellingSamples) result.estimated_error = sampled_error(film_);
+    const int width = film_.rect().width(), height = film_.rect().height();
     finish(result.picture, [&] {
-      return f_.scale.scale(rows_of_alpha(film_, shadows_, 0, height), 1, width, height, 0, 0, rows);
+      return f_.scale.scale(rows_of_alpha(film_, shadows_, 0, height), 1, width, height, 0, 0,
+                            height / f_.scale.factor());
     });
     return result;
   }
@@ -219,7 +221,7 @@ class Finisher {
   /// All layers that are not denoised.
   Picture layers() const {
     Picture picture = film_.resolve();
-    for (std::size_t i = 1; i < picture.layers.size(); ++i) scale_layer(picture.layers[i], film_, f_.scale);
+    for (Layer& layer : picture.layers) scale_layer(layer, film_, f_.scale);
     const PixelRect rect = picture_rect(film_, f_.scale);
     picture.width = rect.width();
     picture.height = rect.height();

@@ -21,6 +21,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/ranks/packing.h"
+#include "renderer/run/chosen_integrator.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/shadow_catcher.h"
@@ -166,12 +167,6 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
     denoiser =
         std::make_unique<Denoiser>(*chosen_denoiser.library, threads, memory_of_denoiser(scene, asked));
   const Clock::time_point start = Clock::now();
-  // A loaded cache needs no more steps, unless the caller asks for some.
-  if (!options.cache.train_steps && options.cache.cache_in.empty()) {
-    steps_chosen = true;
-    options.cache.train_steps = choose_training_steps(
-        options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
-  }
   arena.execute([&] {
     world.emplace(scene, options.environment, options.light_selection,
                   AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
@@ -180,6 +175,13 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
     world->light_groups = LightGroups(options.light_groups, scene, world->lights);
   });
   look_through(options.camera);
+  choose_integrator();
+  // A loaded cache needs no more steps, unless the caller asks for some.
+  if (!options.cache.train_steps && options.cache.cache_in.empty()) {
+    steps_chosen = true;
+    options.cache.train_steps = choose_training_steps(
+        options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
+  }
   statistics.build_seconds = seconds_since(start);
   statistics.width = region_of_picture().width();
   statistics.height = region_of_picture().height();
@@ -189,6 +191,14 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
   statistics.bvh_bytes = world->accel.bytes();
   statistics.texture_bytes = world->textures.bytes() + world->environment.bytes();
   statistics.light_bytes = world->lights.bytes() + world->light_arrays.bytes();
+}
+
+void Renderer::Implementation::choose_integrator() {
+  if (!options.choose_integrator) return;
+  const double bounces = arena.execute([&] { return bounces_of_paths(*world, camera, region, options); });
+  statistics.bounces_of_paths = bounces;
+  asked = with_integrator(asked, bounces);
+  options = options_of_film(asked);
 }
 
 View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
@@ -356,6 +366,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::set_camera(const CameraOptions& camera) {
   implementation_->look_through(camera);
+}
+
+Integrator Renderer::integrator() const {
+  return implementation_->options.integrator;
 }
 
 const RenderStatistics& Renderer::statistics() const {

@@ -52,6 +52,8 @@ struct Training {
 struct Renderer::Implementation {
   Implementation(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks_in);
 
+  /// For RenderOptions::choose_integrator, by the first view.
+  void choose_integrator();
   View chosen_view(const CameraOptions& chosen) const;
   /// Chooses the view, and says in the statistics what is to be told of it.
   void look_through(const CameraOptions& chosen);

@@ -274,6 +274,28 @@ void add_view_options(std::vector<Option>& table, CameraOptions& camera, Environ
   add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"));
 }
 
+Option integrator_option(Integrator& integrator, bool& choose) {
+  constexpr const char* kAuto = "auto";
+  const auto value = [&]() -> OptionValue { return choose ? kAuto : word(integrator); };
+  const auto read = [&](const std::string& text) {
+    choose = text == kAuto;
+    integrator = choose ? Integrator::nrc : parse_choice("--integrator", text, kWords<Integrator>);
+  };
+  return {.name = "integrator",
+          .unit = fmt::format("{}|{}", choice_names(kWords<Integrator>), kAuto),
+          .help =
+              "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache that is "
+              "trained first (nrc, nao); auto, that of the presets: nrc, or path where light paths are too "
+              "short for a cache to pay",
+          .value = value,
+          .read = read};
+}
+
+constexpr Need kDenoiser{
+    [](const RenderOptions& o) { return o.denoise.denoiser != DenoiserKind::none; },
+    "--denoiser oidn or auto",
+};
+
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
   auto& [denoiser, clean_guides, supersampling, library] = options;
   picture.add(
@@ -282,18 +304,19 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
              "is found (auto, that of the presets), or nothing"));
   picture.add(
       choice("denoise-guides", clean_guides, kGuides,
-             "With a denoiser: albedo and normal are denoised first, for less error (clean), or read as "
-             "they are, in a quarter of the time (noisy)"));
-  picture.add(
-      choice("supersampling", supersampling, kSupersampling,
-             "With a denoiser: render and denoise at this many times the width and height, with the same "
-             "number of samples, and scale by the pixel filter; sharper edges, four times the denoiser's "
-             "time"));
+             "Albedo and normal are denoised first, for less error (clean), or read as they are, in a "
+             "quarter of the time (noisy)"),
+      {kDenoiser});
+  picture.add(choice("supersampling", supersampling, kSupersampling,
+                     "Render and denoise at this many times the width and height, with the same number of "
+                     "samples, and scale by the pixel filter: sharper edges, four times the denoiser's time"),
+              {kDenoiser});
   picture.add(
       decides_nothing(any_word("oidn", library, "FILE|FOLDER",
                                "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
                                "of the environment, else where scripts/setup or the system have it)"),
-                      InRecipe::unless_reproducible));
+                      InRecipe::unless_reproducible),
+      {kDenoiser});
 }
 
 /// Checkpoints store the chosen instruction sets separately.
@@ -319,10 +342,11 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
-  auto& [integrator, width, height, region, spp, time_limit_seconds, max_error, max_depth, min_depth, seed,
-         threads, sampler, filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
-         clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy, memory_limit_bytes, isa,
-         camera, environment, background, cache, checkpoint] = options;
+  auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
+         max_error, max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
+         light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
+         light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
+         checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);
@@ -356,9 +380,7 @@ std::vector<Option> option_table(RenderOptions& options) {
   add_view_options(table, camera, environment, background);
 
   OptionGroup light{table, "Light transport"};
-  light.add(choice("integrator", integrator,
-                   "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache "
-                   "that is trained first (nrc, nao)"));
+  light.add(integrator_option(integrator, choose_integrator));
   light.add(number("max-depth", max_depth, kDepth, "N",
                    "Largest number of scattering events; 1: emission and direct light"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));

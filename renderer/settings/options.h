@@ -55,10 +55,15 @@ inline constexpr int kOpenSpp = 1 << 24;
 
 struct RenderOptions {
   Integrator integrator = Integrator::path;
+  /// With nrc: a scene whose light paths are too short for a cache to pay gets path
+  /// (run/chosen_integrator.h).
+  bool choose_integrator = false;
   int width = 960;
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
+  /// Instead of spp where choose_integrator takes path: about as many as take the time; 0: spp.
+  int spp_of_paths = 0;
   /// Of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off

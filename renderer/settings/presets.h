@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 
 enum class CachePreset : std::uint8_t {
   bare,       ///< the cache's answers at the first wide hit, as they are
-  preview,    ///< a finished picture in seconds: few samples that end after a gather, denoised
+  preview,    ///< a finished picture in seconds: few samples that end where they have spread out, denoised
   standard,   ///< the same with some more samples
   final,      ///< the same with many
   paper_nao,  ///< ambient occlusion as in the paper

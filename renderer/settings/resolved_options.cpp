@@ -34,7 +34,8 @@ int choose_training_steps(const RenderOptions& options, std::uint64_t pixels) {
     const double samples = static_cast<double>(pixels) * options.spp;
     // Paths that are samples of the picture are no loss (cache/README.md).
     const bool gives_samples = options.cache.source == TrainingSource::picture;
-    records = std::clamp(gives_samples ? 0.6 * samples : 1600.0 * std::sqrt(samples), 0x1p19, 0x1p25);
+    records = gives_samples ? std::clamp(0.6 * samples, 0x1p18, 0x1p25)
+                            : std::clamp(1600.0 * std::sqrt(samples), 0x1p19, 0x1p25);
   }
   return static_cast<int>(std::max(1l, std::lround(records / options.cache.batch)));
 }

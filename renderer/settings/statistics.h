@@ -102,8 +102,9 @@ struct RenderStatistics {
   int spp = 0;                ///< finished for every pixel
   std::uint64_t samples = 0;  ///< camera paths in all
   int threads = 0;
-  std::string isa;                    ///< that Embree chose
-  std::vector<std::string> warnings;  ///< of building: input that was not taken literally
+  std::string isa;                         ///< that Embree chose
+  std::vector<std::string> warnings;       ///< of building: input that was not taken literally
+  std::optional<double> bounces_of_paths;  ///< by which the integrator was chosen, where it was
   RayCounts rays;
   std::size_t geometry_bytes = 0;
   std::size_t bvh_bytes = 0;

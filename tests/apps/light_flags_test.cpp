@@ -162,7 +162,7 @@ TEST_F(LightFlags, BadGroupsAreOneLine) {
   expect_failure(refused({"--light-groups", "a b=noon"}), 1, {"--light-groups", "'a b'"});
   expect_failure(refused({"--light-groups", "key=noon", "--integrator", "nrc"}), 1,
                  {"--light-groups", "nrc", "--integrator path"});
-  expect_failure(refused({"--light-groups", "key=noon", "--preset", "standard"}), 1,
+  expect_failure(refused({"--light-groups", "key=noon", "--preset", "bare"}), 1,
                  {"--light-groups", "nrc", "--integrator path"});
 }
 

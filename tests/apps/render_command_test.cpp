@@ -340,6 +340,18 @@ TEST_F(RenderCommand, APresetFindsTheExposureOfItsPngAndTellsIt) {
   EXPECT_THAT(render_open({"-o", path("plain.png")}).err, Not(HasSubstr("exposure")));
 }
 
+TEST_F(RenderCommand, APictureThatIsFarTooBrightForAScreenIsTold) {
+  const auto lit = [&](const char* scale, std::vector<std::string> more) {
+    more.insert(more.end(), {"--environment-scale", scale, "-o", path("a.exr"), "--spp", "1"});
+    return render_open(more).err;
+  };
+  const char* const told = "stops too bright for a screen";
+  EXPECT_THAT(lit("1000", {"-o", path("a.png")}), AllOf(HasSubstr(told), HasSubstr("--exposure -")));
+  EXPECT_THAT(lit("1000", {}), Not(HasSubstr(told))) << "an EXR holds any light";
+  EXPECT_THAT(lit("1000", {"-o", path("a.png"), "--exposure", "0"}), Not(HasSubstr(told)));
+  EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(told)));
+}
+
 TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   // The square and its twin light each other, and the sum of what they emit and reflect overflows.
   nlohmann::json hot = json::parse(tiny_scene());

@@ -53,7 +53,7 @@ const kWords = {
   gate: "the cache keeps what it learned on the triangles of the scene",
   hashgrid: "the cache keeps what it learned in a table over space",
   bare: "--preset bare: the cache answers at the first surface that is no mirror",
-  standard: "--preset standard: paths go on for one bounce to ask the cache, and the picture is denoised",
+  standard: "--preset standard: paths go on until they have spread out and ask the cache there, and the picture is denoised",
   denoised: "Open Image Denoise takes the noise out, guided by albedo and normals",
 };
 

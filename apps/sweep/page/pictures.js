@@ -149,7 +149,7 @@ function defaultPair(pictures, reference) {
   const right = best(made.filter(p => !isPlain(p.cell))) ?? best(made) ?? pictures[pictures.length - 1];
   const ratio = p => Math.abs(Math.log((secondsOf(p.cell) ?? Infinity) / (secondsOf(right.cell ?? {}) ?? 1)));
   const plain = made.filter(p => isPlain(p.cell) && p !== right && sameDisplay(p.display, right.display));
-  const traced = plain.filter(p => !isReconstructed(p.cell));
+  const traced = plain.filter(p => !isDenoised(p.cell));
   const left = (traced.length > 0 ? traced : plain).sort((a, b) => ratio(a) - ratio(b))[0] ?? referencePictureOf(pictures, right) ?? right;
   return {left: left.id, right: right.id};
 }

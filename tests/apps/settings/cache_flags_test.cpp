@@ -294,13 +294,27 @@ TEST(Presets, AreBelowEveryFlagOfAConfigFile) {
 TEST(Presets, ChooseTheIntegratorUnlessItIsGiven) {
   EXPECT_EQ(read({"--preset", "final"}).render.integrator, Integrator::nrc);
   EXPECT_EQ(read({"--preset", "paper-nrc", "--integrator", "nao"}).render.integrator, Integrator::nao);
-  expect_message(refusal({"--preset", "preview", "--integrator", "path"}), {"--preset", "path"});
+  EXPECT_TRUE(read({"--preset", "final"}).render.choose_integrator);
+  EXPECT_FALSE(read({"--preset", "final", "--integrator", "nrc"}).render.choose_integrator);
+  EXPECT_FALSE(read({"--preset", "final", "--train-steps", "9"}).render.choose_integrator)
+      << "a flag of the cache asks for one";
+  // Paths get more samples in the same time, unless their number is given.
+  for (const char* const flag : {"--integrator=path", "--light-groups=a=*"}) {
+    const RenderSettings paths = read({"--preset", "standard", flag});
+    EXPECT_EQ(paths.render.integrator, Integrator::path);
+    EXPECT_FALSE(paths.render.choose_integrator);
+    EXPECT_EQ(paths.render.spp, 12);
+    EXPECT_EQ(paths.render.denoise.denoiser, renderer::DenoiserKind::automatic);
+  }
+  EXPECT_EQ(read({"--preset", "standard", "--integrator", "path", "--spp", "5"}).render.spp, 5);
+  const RenderSettings chosen = read({"--integrator", "auto"});
+  EXPECT_TRUE(chosen.render.choose_integrator);
+  EXPECT_EQ(chosen.render.integrator, Integrator::nrc);
 }
 
 TEST(CacheFlags, AreRefusedWithoutACache) {
   EXPECT_GT(cache_flags().size(), 40u);
-  for (const char* flag :
-       {"--preset", "--cache-in", "--cache-out", "--train-steps", "--device", "--cache-memory"}) {
+  for (const char* flag : {"--cache-in", "--cache-out", "--train-steps", "--device", "--cache-memory"}) {
     EXPECT_TRUE(cache_flags().contains(flag)) << flag;
   }
   for (const char* flag : {"--spp", "--integrator", "--isa", "--checkpoint"}) {

@@ -155,7 +155,7 @@ TEST(SweepPlan, WhatRowsPromiseIsNotChangedSilently) {
               ElementsAre("nrc gate denoised", "path", "path denoised"));
 }
 
-TEST(SweepPlan, WhatIsReconstructedHasPathTracingOfBothKindsBesideIt) {
+TEST(SweepPlan, WhatIsDenoisedHasPathTracingOfBothKindsBesideIt) {
   EXPECT_THAT(labels(plan_of_scene_alone({}, {"denoiser=none,oidn"})),
               ElementsAre("nrc gate", "path", "nrc gate denoised", "path denoised"));
   EXPECT_THAT(labels(plan_of({}, {"integrator=path", "denoiser=none,oidn"})),

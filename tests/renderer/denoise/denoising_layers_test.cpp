@@ -53,7 +53,7 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
       EXPECT_EQ(layer.values.size(), 24 * layer.channels.size()) << "the size of the picture";
       EXPECT_TRUE(layer.full_precision && is_denoising_layer(layer.name)) << layer.name;
     }
-    const Samples read = take_samples(picture);
+    const Samples read = samples_of(picture);
     EXPECT_EQ(read.factor, factor);
     EXPECT_EQ(read.width, image.width);
     EXPECT_EQ(read.color, image.color);
@@ -73,45 +73,45 @@ TEST(DenoisingLayers, AreFoundByTheNamesOfOtherRenderers) {
        {std::tuple(names[0][0], names[0][1], names[0][2]), std::tuple(names[1][0], names[1][1], names[1][2]),
         std::tuple(names[2][0], names[2][1], names[2][2])}) {
     Picture picture = picture_with({beauty, albedo, normal, "depth"});
-    const Samples samples = take_samples(picture);
+    const Samples samples = samples_of(picture);
     EXPECT_EQ(samples.color[0], 1.0f) << albedo;
     EXPECT_EQ(samples.albedo[0], 2.0f) << albedo;
     EXPECT_EQ(samples.normal[0], 3.0f) << normal;
   }
   // The samples go before a beauty that is denoised already.
   Picture blender = picture_with({"V.Combined", "V.Noisy Image", "V.Denoising Normal", "V.Denoising Albedo"});
-  EXPECT_EQ(take_samples(blender).color[0], 2.0f);
+  EXPECT_EQ(samples_of(blender).color[0], 2.0f);
   Picture own = picture_with({"", "raw"});
-  EXPECT_EQ(take_samples(own).color[0], 2.0f);
-  EXPECT_TRUE(take_samples(own).albedo.empty());
+  EXPECT_EQ(samples_of(own).color[0], 2.0f);
+  EXPECT_TRUE(samples_of(own).albedo.empty());
 }
 
 TEST(DenoisingLayers, CanBeNamed) {
   Picture picture = picture_with({"", "a", "b", "albedo", "normal"});
-  const Samples samples = take_samples(picture, {.color = "a", .albedo = "b", .normal = "normal"});
+  const Samples samples = samples_of(picture, {.color = "a", .albedo = "b", .normal = "normal"});
   EXPECT_EQ(samples.color[0], 2.0f);
   EXPECT_EQ(samples.albedo[0], 3.0f);
   EXPECT_EQ(samples.normal[0], 5.0f);
   Picture other = picture_with({"", "a"});
-  expect_refusal<ImageError>([&] { take_samples(other, {.normal = "b"}); }, {"'b'"});
+  expect_refusal<ImageError>([&] { samples_of(other, {.normal = "b"}); }, {"'b'"});
 }
 
 TEST(DenoisingLayers, OneGuideAloneAndOtherChannelsAreRefused) {
   Picture one = picture_with({"", "albedo"});
-  expect_refusal<ImageError>([&] { take_samples(one); }, {"albedo", "normals"});
+  expect_refusal<ImageError>([&] { samples_of(one); }, {"albedo", "normals"});
   Picture grey = picture_with({"", "albedo", "normal"});
   grey.layers[1].channels = {"Y"};
   grey.layers[1].values.resize(2);
-  expect_refusal<ImageError>([&] { take_samples(grey); }, {"albedo", "1", "3"});
+  expect_refusal<ImageError>([&] { samples_of(grey); }, {"albedo", "1", "3"});
   Picture incomplete = picture_with({"", "denoising-color"});
-  expect_refusal<ImageError>([&] { take_samples(incomplete); }, {"denoising-albedo"});
+  expect_refusal<ImageError>([&] { samples_of(incomplete); }, {"denoising-albedo"});
 }
 
 TEST(DenoisingLayers, WhatIsNotFiniteIsBlackAndAlphaIsLeftOut) {
   Picture picture = picture_with({""});
   picture.layers[0].channels = {"R", "G", "B", "A"};
   picture.layers[0].values = {1, 2, 3, 0.5f, std::nanf(""), std::numeric_limits<float>::infinity(), 6, 1};
-  EXPECT_EQ(take_samples(picture).color, (std::vector<float>{1, 2, 3, 0, 0, 6}));
+  EXPECT_EQ(samples_of(picture).color, (std::vector<float>{1, 2, 3, 0, 0, 6}));
 }
 
 }  // namespace

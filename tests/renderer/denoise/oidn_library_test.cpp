@@ -85,7 +85,11 @@ TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsAskedFor) {
   EXPECT_EQ(render.denoise.supersampling, 1);
   options.library = GATELIGHT_STAND_IN_OIDN_2;
   render.denoise = options;
-  EXPECT_EQ(with_denoiser(render, choose_denoiser(options)).denoise.denoiser, DenoiserKind::oidn);
+  render = with_denoiser(render, choose_denoiser(options));
+  EXPECT_EQ(render.denoise.denoiser, DenoiserKind::oidn);
+  EXPECT_EQ(render.denoise.supersampling, 2);
+  render.spp = 3;
+  EXPECT_EQ(with_denoiser(render, choose_denoiser(options)).denoise.supersampling, 1);
 }
 
 TEST(OptionsOfFilm, AreThoseOfALargerPictureWithAsManySamples) {

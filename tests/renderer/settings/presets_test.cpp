@@ -72,7 +72,7 @@ TEST(Presets, BareAsksAtTheFirstVertexAndShowsTheAnswers) {
   EXPECT_EQ(options.denoise.denoiser, DenoiserKind::none);
 }
 
-TEST(Presets, FinishedPicturesAreReconstructedFromSamplesThatTeach) {
+TEST(Presets, FinishedPicturesAreDenoisedAndLearnFromTheirSamples) {
   int spp = 0;
   for (const CachePreset preset : {CachePreset::preview, CachePreset::standard, CachePreset::final}) {
     RenderOptions options;
@@ -80,7 +80,7 @@ TEST(Presets, FinishedPicturesAreReconstructedFromSamplesThatTeach) {
     EXPECT_EQ(options.integrator, Integrator::nrc);
     EXPECT_EQ(options.denoise.denoiser, DenoiserKind::automatic);
     EXPECT_EQ(options.cache.source, TrainingSource::picture);
-    EXPECT_EQ(options.cache.query_at, QueryAt::gather);
+    EXPECT_EQ(options.cache.query_at, QueryAt::spread);
     EXPECT_EQ(options.cache.holds, CacheHolds::no_delta);
     EXPECT_EQ(options.cache.view, CacheView::final);
     EXPECT_FALSE(options.cache.train_steps) << "nothing about training";
