@@ -59,7 +59,8 @@ struct DenoiseSettings {
 };
 
 /// The options of `render` that this command has too.
-constexpr const char* kOfRender[] = {"denoise-guides", "oidn", "threads", "memory-limit"};
+constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "denoise-guides",
+                                     "oidn",       "threads", "memory-limit"};
 /// Those that the picture's recipe decides.
 constexpr const char* kOfRecipe[] = {"denoise-guides", "filter", "filter-width", "background"};
 
@@ -143,21 +144,18 @@ class DenoiseRun {
     progress_.phase("load");
     renderer::Picture picture = read();
     apply_recipe(picture, given_, settings_);
-    std::optional<renderer::Picture> finished;
-    try {
-      finished = arena.execute(
-          [&] { return denoise_picture(std::move(picture), denoiser, options_of(), progress()); });
-    } catch (const renderer::ImageError& error) {
-      throw InputError(fmt::format("'{}' {}", settings_.input, error.what()));
-    }
+    const renderer::Samples samples = samples_in(picture);
+    std::optional<renderer::Picture> denoised = arena.execute(
+        [&] { return denoise_picture(std::move(picture), samples, denoiser, options_of(), progress()); });
     progress_.clear();
-    if (!finished) {
+    if (!denoised) {
       print_notice(fmt::format("stopped by signal {}; nothing was written", stop_signal()),
                    kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
     }
-    finished->metadata["denoiser"] = fmt::format("Open Image Denoise {}", oidn.version);
-    write(*finished);
+    renderer::Picture finished = std::move(*denoised);
+    finished.metadata["denoiser"] = fmt::format("Open Image Denoise {}", oidn.version);
+    write(finished);
     return kDone;
   }
 
@@ -186,9 +184,25 @@ class DenoiseRun {
     return picture;
   }
 
+  renderer::Samples samples_in(const renderer::Picture& picture) const {
+    try {
+      renderer::Samples samples = renderer::samples_of(picture, settings_.layers);
+      using Kind = renderer::BackgroundOptions::Kind;
+      const renderer::BackgroundOptions& background = settings_.render.background;
+      // The background is in the colours already, with sharp edges of what stands before it.
+      if (background.apart() && background.kind != Kind::transparent && samples.alpha.empty())
+        throw renderer::ImageError(
+            "has no samples of its alpha, expected the layers of --aov denoising for a "
+            "picture with a background of its own");
+      return samples;
+    } catch (const renderer::ImageError& error) {
+      throw InputError(fmt::format("'{}' {}", settings_.input, error.what()));
+    }
+  }
+
   renderer::DenoisePictureOptions options_of() const {
     const renderer::RenderOptions& o = settings_.render;
-    return {o.denoise.clean_guides, o.filter, o.filter_width, o.background, settings_.layers};
+    return {o.denoise.clean_guides, o.filter, o.filter_width, o.background};
   }
 
   renderer::DenoiseProgress progress() {

@@ -26,7 +26,7 @@ namespace {
 using renderer::Bytes;
 
 /// What may differ from rank to rank, because it decides no bit.
-constexpr const char* kOwnOptions[] = {"threads", "memory-limit"};
+constexpr const char* kOwnOptions[] = {"threads", "memory-limit", "oidn"};
 
 /// One name and value a line.
 std::string identity(const RenderSettings& settings, const scene::Scene& scene) {

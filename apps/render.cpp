@@ -72,7 +72,7 @@ class RenderRun {
   int run() {
     share_machines(settings_, group_);
     // A scene may take long to load.
-    if (settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+    if (group_.ranks.first() && settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
       renderer::load_oidn(settings_.render.denoise.library);
     const scene::Scene scene = load();
     if (const int number = signal(); number != 0) return stop_without_picture(number);

@@ -62,6 +62,9 @@ RenderSettings settle(FlagValues& flags) {
     }
   }
   complete_settings(settings);
+  // A machine without a denoiser must not give other pictures.
+  renderer::DenoiserKind& denoiser = settings.render.denoise.denoiser;
+  if (denoiser == renderer::DenoiserKind::automatic) denoiser = renderer::DenoiserKind::oidn;
   return settings;
 }
 

@@ -271,6 +271,8 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
   const RenderSettings& settings = place.series.settings;
   // Occlusion lies between 0 and 1, so it needs no exposures.
   const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
+  if (!statistics.denoise_failure.empty() && stop_signal() == 0)
+    throw renderer::MissingDenoiser(statistics.denoise_failure);
   progress_.phase("measure");
   const auto go_on = [this](double fraction) {
     progress_.phase("measure", fraction);

@@ -57,7 +57,8 @@ Failure describe_current_exception() {
     }
     return {kInput, error.what(), "check the input file"};
   } catch (const renderer::MissingDenoiser& error) {
-    return {kUnavailable, error.what(), "run scripts/setup, which brings it, or use --denoiser none"};
+    return {kUnavailable, error.what(),
+            "check --oidn and GATELIGHT_OIDN, run scripts/setup, or use --denoiser none"};
   } catch (const renderer::Unavailable& error) {
     return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
   } catch (const renderer::MissingLibrary& error) {

@@ -7,30 +7,29 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Rows that the networks see around a pixel, in each direction.
-constexpr int kMargin = 128;
 /// The networks halve images several times, so what they make of a row depends on its place in blocks of
 /// these.
 constexpr int kAlignment = 64;
 /// Pixels of a band, with its margins, before they are scaled: some 72 bytes each.
 constexpr std::int64_t kBandPixels = std::int64_t{1} << 22;
 
-/// The rows of a scaled band whose filter reads at most kBandPixels, but not less rows than its margins have.
-int rows_of_band(const NoisyPicture& picture, const ScaleDown& scale) {
-  const std::int64_t rows = kBandPixels / picture.width;
-  if (picture.height <= rows) return picture.height / scale.factor();
+}  // namespace
+
+int rows_of_band(int width, int height, const ScaleDown& scale) {
+  constexpr int kMargin = RowsToDenoise().margin;
+  const std::int64_t rows = kBandPixels / width;
+  if (height <= rows) return height / scale.factor();
+  // No less than the margins have.
   return static_cast<int>(std::max<std::int64_t>(rows - 2 * (kMargin + scale.reach()), 2 * kMargin)) /
          scale.factor();
 }
 
-}  // namespace
-
-std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture, int begin,
-                                         int end, const FilterOptions& options, const ScaleDown& scale,
-                                         const DenoiseProgress& progress) {
-  const int margin = kMargin + scale.reach();
-  const int top = std::max(begin * scale.factor() - margin, 0) / kAlignment * kAlignment;
-  const int bottom = std::min(end * scale.factor() + margin, picture.height);
+std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture,
+                                         const RowsToDenoise& rows, const FilterOptions& options,
+                                         const ScaleDown& scale, const DenoiseProgress& progress) {
+  const int margin = rows.margin + scale.reach();
+  const int top = std::max(rows.begin * scale.factor() - margin, 0) / kAlignment * kAlignment;
+  const int bottom = std::min(rows.end * scale.factor() + margin, picture.height);
   NoisyImage image{picture.width, bottom - top, picture.color(top, bottom)};
   if (picture.albedo && picture.normal) {
     image.albedo = picture.albedo(top, bottom);
@@ -40,7 +39,7 @@ std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPi
   if (!denoiser.filter(image, options, progress)) return std::nullopt;
   for (float& value : image.color) value = std::isfinite(value) ? std::max(value, 0.0f) : 0.0f;
   const auto scaled = [&](const std::vector<float>& values, int channels) {
-    return scale.scale(values, channels, picture.width, picture.height, top, begin, end);
+    return scale.scale(values, channels, picture.width, picture.height, top, rows.begin, rows.end);
   };
   return DenoisedRows{scaled(image.color, 3),
                       image.alpha.empty() ? std::vector<float>() : scaled(image.alpha, 1)};
@@ -50,7 +49,8 @@ std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture
                                     FilterOptions options, const ScaleDown& scale,
                                     const DenoiseProgress& progress) {
   options.scale = exposure_of(picture.width, picture.height, picture.color);
-  const int rows = picture.height / scale.factor(), step = rows_of_band(picture, scale);
+  const int rows = picture.height / scale.factor();
+  const int step = rows_of_band(picture.width, picture.height, scale);
   DenoisedRows all;
   for (int begin = 0; begin < rows; begin += step) {
     const int end = std::min(begin + step, rows);
@@ -58,7 +58,7 @@ std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture
       return !progress ||
              progress(std::lerp(static_cast<double>(begin), static_cast<double>(end), done) / rows);
     };
-    const auto band = denoise_rows(denoiser, picture, begin, end, options, scale, report);
+    const auto band = denoise_rows(denoiser, picture, {begin, end}, options, scale, report);
     if (!band) return std::nullopt;
     all.color.insert(all.color.end(), band->color.begin(), band->color.end());
     all.alpha.insert(all.alpha.end(), band->alpha.begin(), band->alpha.end());

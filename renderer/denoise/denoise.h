@@ -26,11 +26,22 @@ struct DenoisedRows {
   std::vector<float> alpha;  ///< 1 float a pixel, 0 to 1; empty where the noisy picture has none
 };
 
-/// The denoised rows begin <= y < end of the scaled picture. Each is that of the whole picture but for
-/// rounding, because so many rows around them are read as the filter sees. Empty where `progress` cancelled.
-std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture, int begin,
-                                         int end, const FilterOptions& options, const ScaleDown& scale,
-                                         const DenoiseProgress& progress = {});
+/// The rows begin <= y < end of a scaled picture.
+struct RowsToDenoise {
+  int begin = 0;
+  int end = 0;
+  int margin = 128;  ///< rows before scaling that are read around them; the networks see no more
+};
+
+/// Some denoised rows. With the usual margin each is that of the whole picture but for rounding. Empty where
+/// `progress` cancelled.
+std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture,
+                                         const RowsToDenoise& rows, const FilterOptions& options,
+                                         const ScaleDown& scale, const DenoiseProgress& progress = {});
+
+/// The rows of the scaled picture that denoise() takes at a time, to bound memory. `width` and `height`: of
+/// the picture before scaling.
+int rows_of_band(int width, int height, const ScaleDown& scale);
 
 /// All rows, with exposure_of() the picture as FilterOptions::scale.
 std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture& picture,

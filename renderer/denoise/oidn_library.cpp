@@ -23,7 +23,7 @@ constexpr const char* kName = "Open Image Denoise";
 constexpr const char* kFile = "libOpenImageDenoise.so.2";
 constexpr int kVersion = 2;
 
-/// Folders of the cache that have the library, the newest name first.
+/// Folders of the cache that have the library, the last name first.
 std::vector<fs::path> cache_folders() {
   const auto variable = [](const char* name) {
     const char* const value = std::getenv(name);
@@ -47,7 +47,11 @@ std::vector<fs::path> cache_folders() {
 /// What to give to the loader, in the order in which it is tried.
 std::vector<fs::path> candidates(const std::string& place) {
   std::error_code error;
-  if (!place.empty()) return {fs::is_directory(place, error) ? fs::path(place) / kFile : fs::path(place)};
+  if (!place.empty()) {
+    const fs::path given = fs::is_directory(place, error) ? fs::path(place) / kFile : fs::path(place);
+    // The loader searches its own folders for a name without one.
+    return {fs::exists(given, error) ? fs::absolute(given, error) : given};
+  }
   std::vector<fs::path> files;
   const auto add = [&](const fs::path& file) {
     if (fs::exists(file, error)) files.push_back(file);
@@ -131,7 +135,8 @@ OidnLibrary load(const std::string& place) {
     loaded.path = path_of(reinterpret_cast<void*>(loaded.api.NewDevice), file);
     return loaded;
   }
-  throw MissingDenoiser(fmt::format("{} was not found: {}", kName, refused));
+  throw MissingDenoiser(fmt::format("{} was not found: {}{}", kName, refused,
+                                    place.empty() ? " (scripts/setup brings it)" : ""));
 }
 
 }  // namespace

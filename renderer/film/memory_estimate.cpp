@@ -24,6 +24,8 @@ constexpr std::size_t kLightBytes = 336;
 /// Floats of each pixel of a band that is denoised (denoise.h), and the pixels of a band.
 constexpr std::size_t kBandFloats = 18;
 constexpr std::size_t kBandPixels = std::size_t{1} << 22;
+/// Open Image Denoise, where it is told to be modest.
+constexpr std::size_t kDenoiserBytes = std::size_t{256} << 20;
 
 }  // namespace
 
@@ -51,12 +53,11 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
   const bool denoised = options.denoise.denoiser != DenoiserKind::none;
   const auto edge = static_cast<std::size_t>(denoised ? options.denoise.supersampling : 1);
   const std::size_t sums = pixels * edge * edge;
-  const std::size_t layers =
-      options.aovs.size() + groups + (has(options.aovs, Aov::denoising) ? 3 * edge * edge : 0);
+  const std::size_t layers = options.aovs.size() + groups + (has(options.aovs, Aov::denoising) ? 3 : 0);
   const std::size_t mattes = options.cryptomattes.size() * 2 * kCryptomatteRanks;
   const std::size_t floats = 13 + 3 * layers + mattes;
-  need.film = sums * Film::bytes_per_pixel(contents) + pixels * floats * sizeof(float);
-  if (denoised) need.film += std::min(sums, kBandPixels) * kBandFloats * sizeof(float);
+  need.film = sums * (Film::bytes_per_pixel(contents) + floats * sizeof(float));
+  if (denoised) need.film += std::min(sums, kBandPixels) * kBandFloats * sizeof(float) + kDenoiserBytes;
   return need;
 }
 

@@ -24,7 +24,8 @@ ScaleDown::ScaleDown(int factor, PixelFilter filter, float width) : factor_(fact
     weights_ = {1.0f};
     return;
   }
-  const double half = 0.5 * static_cast<double>(resolve_filter_width(filter, width)) * factor;
+  // A narrower filter would miss the middles of the larger picture's pixels.
+  const double half = std::max(0.5 * static_cast<double>(resolve_filter_width(filter, width)), 0.5) * factor;
   reach_ = std::max(static_cast<int>(std::ceil(half - 0.5 * factor)), 0);
   for (int i = -reach_; i < factor + reach_; ++i) {
     const double x = (i + 0.5 - 0.5 * factor) / half;

@@ -68,7 +68,15 @@ void put_before(Picture& picture, const std::vector<float>& alpha, const Backgro
   const int width = picture.full_width > 0 ? picture.full_width : picture.width;
   const int height = picture.full_height > 0 ? picture.full_height : picture.height;
   std::vector<float> cover;
-  if (background.kind == Kind::file) cover = read_cover(background.file, width, height);
+  if (background.kind == Kind::file) {
+    if (picture.x0 < 0 || picture.y0 < 0 || picture.x0 + picture.width > width ||
+        picture.y0 + picture.height > height) {
+      throw ImageError(fmt::format(
+          "cannot put '{}' behind the pixels {},{} to {},{}: expected them within {}x{}", background.file,
+          picture.x0, picture.y0, picture.x0 + picture.width, picture.y0 + picture.height, width, height));
+    }
+    cover = read_cover(background.file, width, height);
+  }
   for (std::size_t p = 0; p < alpha.size(); ++p) {
     const std::size_t x = p % size(picture.width) + size(picture.x0),
                       y = p / size(picture.width) + size(picture.y0);

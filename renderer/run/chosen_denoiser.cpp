@@ -4,23 +4,34 @@
 #include <utility>
 
 #include "renderer/machine/errors.h"
+#include "renderer/ranks/packing.h"
 
 namespace gatelight::renderer {
+namespace {
 
-ChosenDenoiser choose_denoiser(const DenoiseOptions& options) {
-  if (options.denoiser == DenoiserKind::none) return {};
+ChosenDenoiser load_denoiser(const DenoiseOptions& options) {
   try {
-    return {&load_oidn(options.library), ""};
+    return {true, &load_oidn(options.library), ""};
   } catch (const MissingDenoiser& error) {
     if (options.denoiser == DenoiserKind::oidn) throw;
-    return {nullptr, error.what()};
+    return {false, nullptr, error.what()};
   }
 }
 
+}  // namespace
+
+ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
+  if (options.denoiser == DenoiserKind::none) return {};
+  ChosenDenoiser chosen;
+  if (ranks.first()) chosen = load_denoiser(options);
+  chosen.found = agreed(ranks, static_cast<int>(chosen.found)) != 0;
+  return chosen;
+}
+
 RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen) {
-  options.denoise.denoiser = chosen.library ? DenoiserKind::oidn : DenoiserKind::none;
+  options.denoise.denoiser = chosen.found ? DenoiserKind::oidn : DenoiserKind::none;
   const int factor = options.denoise.supersampling;
-  if (!chosen.library || options.spp < factor * factor) options.denoise.supersampling = 1;
+  if (!chosen.found || options.spp < factor * factor) options.denoise.supersampling = 1;
   return options;
 }
 
@@ -32,8 +43,7 @@ RenderOptions options_of_film(RenderOptions options) {
   if (options.region) {
     for (int& edge : *options.region) edge *= factor;
   }
-  if (options.spp < kOpenSpp)
-    options.spp = std::max(1, (options.spp + factor * factor - 1) / (factor * factor));
+  if (options.spp < kOpenSpp) options.spp = std::max(1, options.spp / (factor * factor));
   options.filter = PixelFilter::box;
   options.filter_width = 0.0f;
   return options;

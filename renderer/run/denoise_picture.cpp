@@ -21,10 +21,9 @@ void set_colors(Layer& layer, const std::vector<float>& color) {
 
 }  // namespace
 
-std::optional<Picture> denoise_picture(Picture picture, const Denoiser& denoiser,
+std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, const Denoiser& denoiser,
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress) {
-  const Samples samples = samples_of(picture, options.layers);
   const ScaleDown scale(samples.factor, options.filter, options.filter_width);
   auto denoised = denoise(denoiser, samples.noisy(), {.clean_guides = options.clean_guides}, scale, progress);
   if (!denoised) return std::nullopt;

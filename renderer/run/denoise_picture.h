@@ -17,14 +17,13 @@ struct DenoisePictureOptions {
   PixelFilter filter = PixelFilter::blackman_harris;  ///< by which larger samples are scaled
   float filter_width = 0.0f;
   BackgroundOptions background;  ///< put behind the picture where its layers have an alpha
-  LayerNames layers;
 };
 
-/// The picture with its samples (denoising_layers.h) denoised in the beauty layer; with the layers of
+/// The picture with its samples, those of samples_of(), denoised in the beauty layer; with the layers of
 /// Aov::denoising it is the finished picture, bit for bit. These layers are left out, all others stay. Empty
-/// where `progress` cancelled. Runs in the caller's arena. Throws what samples_of(), Denoiser::filter() and
-/// put_before() throw.
-std::optional<Picture> denoise_picture(Picture picture, const Denoiser& denoiser,
+/// where `progress` cancelled. Runs in the caller's arena. Throws what Denoiser::filter() and put_before()
+/// throw.
+std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, const Denoiser& denoiser,
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress = {});
 

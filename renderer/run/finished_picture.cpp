@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <utility>
 
 #include "renderer/denoise/denoising_layers.h"
@@ -25,6 +26,7 @@ constexpr double kTellingSamples = 2.0;
 constexpr int kStripRows = 128;
 constexpr double kStripPixels = 1 << 18;
 constexpr double kStripShare = 0.25;
+constexpr int kStripMargin = 16;
 /// Of the time of the denoiser; the estimate of the error has the rest.
 constexpr double kShareOfPicture = 0.85;
 
@@ -63,20 +65,19 @@ FilterOptions error_options(const Film& film) {
 }
 
 /// The halves of the samples have independent noise, and the filter's own error is about as large. So the
-/// error of the whole is about the root of half the mean square of their difference (denoise/README.md). By
-/// the finished rows begin <= y < end of both.
+/// error of the whole is about the root of half the mean square of their difference (denoise/README.md).
 struct DenoisedHalves {
   std::vector<float> mean;
   std::vector<float> error;
 };
 std::optional<DenoisedHalves> denoised_halves(const Film& film, const Finishing& f,
-                                              const FilterOptions& filter, int begin, int end,
+                                              const FilterOptions& filter, const RowsToDenoise& rows,
                                               const DenoiseProgress& progress) {
   std::array<std::vector<float>, 2> halves;
   for (const std::size_t h : {0u, 1u}) {
     const Plane plane = h == 0 ? Plane::half_a : Plane::half_b;
-    auto denoised =
-        denoise_rows(*f.denoiser, noisy(film, f.options, plane), begin, end, filter, f.scale, progress);
+    const auto report = [&](double done) { return !progress || progress(0.5 * (h + done)); };
+    auto denoised = denoise_rows(*f.denoiser, noisy(film, f.options, plane), rows, filter, f.scale, report);
     if (!denoised) return std::nullopt;
     halves[h] = std::move(denoised->color);
   }
@@ -90,10 +91,10 @@ std::optional<DenoisedHalves> denoised_halves(const Film& film, const Finishing&
 }
 
 /// The relative RMS error of some finished rows.
-double error_of(const DenoisedHalves& halves, int width, int rows) {
+double error_of(DenoisedHalves halves, int width, int rows) {
   const Picture picture{.width = width, .height = rows};
-  const Layer mean{.channels = {"R", "G", "B"}, .values = halves.mean};
-  const Layer error{.channels = {"R", "G", "B"}, .values = halves.error};
+  const Layer mean{.channels = {"R", "G", "B"}, .values = std::move(halves.mean)};
+  const Layer error{.channels = {"R", "G", "B"}, .values = std::move(halves.error)};
   return estimated_error(picture, mean, error, 0);
 }
 
@@ -111,9 +112,10 @@ std::optional<double> denoised_error(const Film& film, const Finishing& f,
     const int cell_begin = s * rows / strips, cell_end = (s + 1) * rows / strips;
     const int height = std::min(strip, cell_end - cell_begin);
     const int begin = cell_begin + (cell_end - cell_begin - height) / 2;
-    const auto halves = denoised_halves(film, f, filter, begin, begin + height, progress);
+    const auto report = [&](double done) { return !progress || progress((s + done) / strips); };
+    auto halves = denoised_halves(film, f, filter, {begin, begin + height, kStripMargin}, report);
     if (!halves) return std::nullopt;
-    const double error = error_of(*halves, rect.width(), height);
+    const double error = error_of(std::move(*halves), rect.width(), height);
     squares += error * error * height;
     weight += height;
   }
@@ -239,12 +241,22 @@ class Finisher {
 
   /// That of each pixel too.
   bool tell_errors(FinishedPicture& result, std::vector<float>& errors) const {
-    const Picture& picture = result.picture;
-    auto halves =
-        denoised_halves(film_, f_, error_options(film_), 0, picture.height, part(kShareOfPicture, 1.0));
-    if (!halves) return false;
-    result.estimated_error = error_of(*halves, picture.width, picture.height);
-    errors = std::move(halves->error);
+    const int height = result.picture.height;
+    const int step = rows_of_band(film_.rect().width(), film_.rect().height(), f_.scale);
+    const FilterOptions filter = error_options(film_);
+    DenoisedHalves all;
+    for (int begin = 0; begin < height; begin += step) {
+      const int end = std::min(begin + step, height);
+      const auto at = [&](int row) {
+        return std::lerp(kShareOfPicture, 1.0, static_cast<double>(row) / height);
+      };
+      const auto halves = denoised_halves(film_, f_, filter, {begin, end}, part(at(begin), at(end)));
+      if (!halves) return false;
+      all.mean.insert(all.mean.end(), halves->mean.begin(), halves->mean.end());
+      all.error.insert(all.error.end(), halves->error.begin(), halves->error.end());
+    }
+    errors = all.error;
+    result.estimated_error = error_of(std::move(all), result.picture.width, height);
     return true;
   }
 
@@ -281,6 +293,8 @@ FinishedPicture finished_picture(const Film& film, const Finishing& finishing, t
         result.failure = error.what();
       } catch (const MissingDenoiser& error) {
         result.failure = error.what();
+      } catch (const std::bad_alloc&) {
+        result.failure = "denoising it needs more memory than there is";
       }
     }
     FinishedPicture traced = finisher.as_traced();
@@ -294,8 +308,16 @@ FinishedPicture finished_picture(const Film& film, const Finishing& finishing, t
 
 std::optional<double> error_of_picture(const Film& film, const Finishing& finishing, tbb::task_arena& arena) {
   if (film.samples_per_pixel() < kTellingSamples) return std::nullopt;
-  return arena.execute(
-      [&] { return finishing.denoiser ? denoised_error(film, finishing) : sampled_error(film); });
+  return arena.execute([&]() -> std::optional<double> {
+    if (!finishing.denoiser) return sampled_error(film);
+    try {
+      return denoised_error(film, finishing);
+    } catch (const OutOfMemory&) {
+    } catch (const MissingDenoiser&) {
+    } catch (const std::bad_alloc&) {
+    }
+    return std::nullopt;  // finished_picture() tells why
+  });
 }
 
 }  // namespace gatelight::renderer

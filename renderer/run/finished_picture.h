@@ -42,7 +42,7 @@ struct Finishing {
 /// Where denoising fails or is cancelled, the picture is that of the samples' means.
 FinishedPicture finished_picture(const Film& film, const Finishing& finishing, tbb::task_arena& arena);
 
-/// Its estimated_error alone.
+/// Its estimated_error alone; empty too where denoising fails.
 std::optional<double> error_of_picture(const Film& film, const Finishing& finishing, tbb::task_arena& arena);
 
 }  // namespace gatelight::renderer

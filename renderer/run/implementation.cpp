@@ -70,8 +70,7 @@ std::size_t memory_of_denoiser(const scene::Scene& scene, const RenderOptions& o
 /// Says that a denoiser is missing.
 std::string denoiser_warning(const ChosenDenoiser& chosen) {
   if (chosen.missing.empty()) return "";
-  return fmt::format("the picture keeps its noise: {}; scripts/setup brings it, --denoiser none is silent",
-                     chosen.missing);
+  return fmt::format("the picture keeps its noise: {}; --denoiser none is silent", chosen.missing);
 }
 
 /// Whether the integrator shows light, and not the openness of surfaces.
@@ -145,7 +144,7 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 Renderer::Implementation::Implementation(const scene::Scene& scene_in, const RenderOptions& options_in,
                                          Ranks& ranks_in)
     : scene(scene_in),
-      chosen_denoiser(choose_denoiser(options_in.denoise)),
+      chosen_denoiser(choose_denoiser(options_in.denoise, ranks_in)),
       asked(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
       options(options_of_film(asked)),
       ranks(ranks_in),
@@ -263,7 +262,7 @@ PixelRect Renderer::Implementation::region_of_picture() const {
 }
 
 void Renderer::Implementation::tell(const FinishedPicture& finished) {
-  statistics.denoise_seconds += finished.denoise_seconds;
+  statistics.denoise_seconds = finished.denoise_seconds;
   statistics.denoiser =
       finished.denoised ? fmt::format("Open Image Denoise {}", chosen_denoiser.library->version) : "";
   statistics.denoise_failure = finished.failure;
@@ -309,9 +308,15 @@ std::optional<double> Renderer::Implementation::estimate_error(Film& film) {
 double Renderer::Implementation::expect_denoise_seconds() {
   if (!denoiser) return 0.0;
   const double alpha = options.background.apart() ? 1.5 : 1.0;
-  return alpha * arena.execute([&] {
-    return renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
-  });
+  try {
+    return alpha * arena.execute([&] {
+      return renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
+    });
+  } catch (const OutOfMemory&) {
+    return 0.0;  // finish() will say so
+  } catch (const MissingDenoiser&) {
+    return 0.0;
+  }
 }
 
 double Renderer::Implementation::expect_shadow_seconds() {

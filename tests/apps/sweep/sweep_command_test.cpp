@@ -209,8 +209,8 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   std::map<std::string, int> cells;
   for (const json& cell : all["cells"]) {
     ++cells[cell["series"].get<std::string>()];
-    const bool finished = cell["options"]["denoiser"] == "auto";
-    EXPECT_EQ(cell["axes"]["denoiser"], finished ? "auto" : "none");
+    const bool finished = cell["options"]["denoiser"] == "oidn";
+    EXPECT_EQ(cell["axes"]["denoiser"], finished ? "oidn" : "none");
     EXPECT_EQ(cell["seconds"]["denoise"].is_number(), finished);
     const json& seconds = cell["seconds"];
     double sum = 0.0;
@@ -256,7 +256,7 @@ TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
   const json& best = *std::min_element(all["cells"].begin(), all["cells"].end(), least);
   // Whichever is the best at 24x24, finished ones are among those that it is chosen from.
   EXPECT_TRUE(std::any_of(all["cells"].begin(), all["cells"].end(),
-                          [](const json& cell) { return cell["options"]["denoiser"] == "auto"; }));
+                          [](const json& cell) { return cell["options"]["denoiser"] == "oidn"; }));
   const Output advice = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-time", "1000"});
   EXPECT_EQ(advice.exit_code, 0) << advice.err;
   EXPECT_THAT(advice.out, AllOf(HasSubstr("cornell-box (path): " + best["series"].get<std::string>()),

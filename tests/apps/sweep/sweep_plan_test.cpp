@@ -126,9 +126,9 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   for (const PlannedSeries& s : all) {
     const bool finished = s.label.starts_with("nrc standard") || s.label == "path denoised";
     EXPECT_EQ(s.settings.render.denoise.denoiser,
-              finished ? renderer::DenoiserKind::automatic : renderer::DenoiserKind::none)
+              finished ? renderer::DenoiserKind::oidn : renderer::DenoiserKind::none)
         << s.label;
-    EXPECT_THAT(s.axes, Contains(Pair("denoiser", finished ? "auto" : "none"))) << s.label;
+    EXPECT_THAT(s.axes, Contains(Pair("denoiser", finished ? "oidn" : "none"))) << s.label;
     EXPECT_EQ(s.reference, ReferenceKind::path);
     EXPECT_EQ(s.settings.render.width, 64);
   }
@@ -137,7 +137,7 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   EXPECT_THAT(all[4].points, ElementsAre(128, 512, 2048));
   EXPECT_EQ(all[4].settings.render.spp, 7);
   EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
-            "gatelight render room.glb --size 64x36 --integrator path --denoiser auto --spp 4 --seed 1 -o "
+            "gatelight render room.glb --size 64x36 --integrator path --denoiser oidn --spp 4 --seed 1 -o "
             "out.exr");
   // Steps that are given hold for all rows.
   const SweepPlan short_plan = plan_of_scene_alone({}, {}, "8,16");

@@ -41,9 +41,9 @@ class DenoisedPictures : public ::testing::Test {
 TEST_F(DenoisedPictures, HaveNoSeamsWhereBandsMeet) {
   const NoisyImage image = noisy_image(64, 700);
   const ScaleDown as_is(1, PixelFilter::box, 0.0f);
-  const auto whole = denoise_rows(*denoiser, picture_of(image), 0, 700, {}, as_is);
-  const auto upper = denoise_rows(*denoiser, picture_of(image), 0, 333, {}, as_is);
-  const auto lower = denoise_rows(*denoiser, picture_of(image), 333, 700, {}, as_is);
+  const auto whole = denoise_rows(*denoiser, picture_of(image), {0, 700}, {}, as_is);
+  const auto upper = denoise_rows(*denoiser, picture_of(image), {0, 333}, {}, as_is);
+  const auto lower = denoise_rows(*denoiser, picture_of(image), {333, 700}, {}, as_is);
   ASSERT_TRUE(whole && upper && lower);
   std::vector<float> joined = upper->color;
   joined.insert(joined.end(), lower->color.begin(), lower->color.end());

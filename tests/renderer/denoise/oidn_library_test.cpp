@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "tests/support/denoiser.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/thread_ranks.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -71,11 +73,11 @@ TEST(OidnLibrary, OtherVersionsAndOtherLibrariesAreRefusedByName) {
 
 TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsAskedFor) {
   DenoiseOptions options{.supersampling = 2, .library = "/none/libOpenImageDenoise.so.2"};
-  EXPECT_EQ(choose_denoiser(options).library, nullptr) << "nothing is looked for";
+  EXPECT_EQ(choose_denoiser(options, one_rank()).library, nullptr) << "nothing is looked for";
   options.denoiser = DenoiserKind::oidn;
-  expect_refusal<MissingDenoiser>([&] { choose_denoiser(options); }, {"/none"});
+  expect_refusal<MissingDenoiser>([&] { choose_denoiser(options, one_rank()); }, {"/none"});
   options.denoiser = DenoiserKind::automatic;
-  const ChosenDenoiser none = choose_denoiser(options);
+  const ChosenDenoiser none = choose_denoiser(options, one_rank());
   EXPECT_EQ(none.library, nullptr);
   EXPECT_NE(none.missing.find("/none"), std::string::npos);
   RenderOptions render;
@@ -85,14 +87,31 @@ TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsAskedFor) {
   EXPECT_EQ(render.denoise.supersampling, 1);
   options.library = GATELIGHT_STAND_IN_OIDN_2;
   render.denoise = options;
-  render = with_denoiser(render, choose_denoiser(options));
+  render = with_denoiser(render, choose_denoiser(options, one_rank()));
   EXPECT_EQ(render.denoise.denoiser, DenoiserKind::oidn);
   EXPECT_EQ(render.denoise.supersampling, 2);
   render.spp = 3;
-  EXPECT_EQ(with_denoiser(render, choose_denoiser(options)).denoise.supersampling, 1);
+  EXPECT_EQ(with_denoiser(render, choose_denoiser(options, one_rank())).denoise.supersampling, 1);
 }
 
-TEST(OptionsOfFilm, AreThoseOfALargerPictureWithAsManySamples) {
+TEST(ChosenDenoiser, IsThatOfTheFirstRank) {
+  std::array<ChosenDenoiser, 2> chosen;
+  const auto choose = [&chosen](DenoiserKind kind, const char* of_first, const char* of_second) {
+    tests::run_ranks(2, [&](Ranks& ranks) {
+      chosen[static_cast<std::size_t>(ranks.rank())] =
+          choose_denoiser({.denoiser = kind, .library = ranks.first() ? of_first : of_second}, ranks);
+    });
+  };
+  for (const DenoiserKind kind : {DenoiserKind::automatic, DenoiserKind::oidn}) {
+    choose(kind, GATELIGHT_STAND_IN_OIDN_2, "/none");
+    EXPECT_TRUE(chosen[0].found && chosen[0].library);
+    EXPECT_TRUE(chosen[1].found && !chosen[1].library);
+  }
+  choose(DenoiserKind::automatic, "/none", GATELIGHT_STAND_IN_OIDN_2);
+  EXPECT_FALSE(chosen[0].found || chosen[1].found);
+}
+
+TEST(OptionsOfFilm, AreThoseOfALargerPictureWithNoMoreSamples) {
   RenderOptions options{.width = 30, .height = 20, .region = std::array<int, 4>{1, 2, 3, 4}, .spp = 48};
   EXPECT_EQ(options_of_film(options).width, 30);
   options.denoise.supersampling = 2;
@@ -102,7 +121,7 @@ TEST(OptionsOfFilm, AreThoseOfALargerPictureWithAsManySamples) {
   EXPECT_EQ(*film.region, (std::array<int, 4>{2, 4, 6, 8}));
   EXPECT_EQ(film.spp, 12);
   EXPECT_EQ(film.filter, PixelFilter::box);
-  for (const auto& [of_picture, of_film] : {std::pair(1, 1), {4, 1}, {5, 2}, {kOpenSpp, kOpenSpp}}) {
+  for (const auto& [of_picture, of_film] : {std::pair(1, 1), {4, 1}, {5, 1}, {8, 2}, {kOpenSpp, kOpenSpp}}) {
     options.spp = of_picture;
     EXPECT_EQ(options_of_film(options).spp, of_film) << of_picture;
   }

@@ -46,6 +46,15 @@ TEST(ScaleDown, EveryFilterKeepsAConstantAtTheBordersToo) {
   }
 }
 
+TEST(ScaleDown, ANarrowFilterIsAsWideAsAPixel) {
+  for (const float width : {0.01f, 0.49f}) {
+    const ScaleDown narrow(2, PixelFilter::box, width);
+    EXPECT_EQ(narrow.reach(), 0);
+    EXPECT_EQ(narrow.scale(ramp(), 1, kWidth, kHeight, 0, 0, kHeight / 2),
+              ScaleDown(2, PixelFilter::box, 1.0f).scale(ramp(), 1, kWidth, kHeight, 0, 0, kHeight / 2));
+  }
+}
+
 TEST(ScaleDown, AStepIsBlurredByTheFilter) {
   // The filter is three small pixels wide and symmetric, so a step between two pixels has its middle there.
   std::vector<float> values(kWidth * kHeight, 0.0f);

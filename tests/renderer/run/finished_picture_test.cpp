@@ -79,7 +79,7 @@ TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
         const Picture finished = render(o);
         Picture samples = finished;
         samples.layers[0].values.assign(samples.layers[0].values.size(), 0.0f);
-        const auto again = denoise_picture(samples, denoiser,
+        const auto again = denoise_picture(samples, samples_of(samples), denoiser,
                                            {.clean_guides = clean,
                                             .filter = o.filter,
                                             .filter_width = o.filter_width,

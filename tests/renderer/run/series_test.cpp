@@ -10,6 +10,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/render.h"
 #include "tests/renderer/image/kinds_of_pictures.h"
+#include "tests/support/denoiser.h"
 #include "tests/support/messages.h"
 #include "tests/support/room.h"
 #include "tests/support/temporary_folder.h"
@@ -207,6 +208,7 @@ std::string refusal(const scene::Scene& scene, const RenderOptions& options, con
 }
 
 TEST(RenderSeries, WhatIsNoSeriesIsRefused) {
+  GATELIGHT_NEEDS_DENOISER();
   const scene::Scene s = room();
   const RenderOptions path = picture_of(Integrator::path);
   const RenderOptions nrc = picture_of(Integrator::nrc);
@@ -219,6 +221,10 @@ TEST(RenderSeries, WhatIsNoSeriesIsRefused) {
   expect_message(refusal(s, path, {.train_steps = {8}}), {"spp"});
   expect_message(refusal(s, path, {.train_steps = {8}, .spp = {8}}), {"spp"});
   expect_message(refusal(s, nrc, {.train_steps = {8}, .spp = {8}}), {"train_steps"});
+  RenderOptions large = path;
+  testing::denoise(large);
+  large.denoise.supersampling = 2;
+  expect_message(refusal(s, large, {.spp = {4, 6}}), {"spp with 6", "multiples of 4"});
   const auto with = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions changed = nrc;
     change(changed);
