@@ -11,13 +11,12 @@ namespace gatelight::renderer {
 float auto_exposure(const Picture& picture) {
   constexpr double kGrey = 0.18;
   /// What a share of the pixels does not exceed, and where it is to be at most: sunlit floors just below
-  /// white without a curve, windows a stop above the white of AgX, which is at 16, because a room may clip
-  /// them.
+  /// white without a curve, windows within the reach of AgX, whose white is at 16.
   struct Bound {
     double share;
     double greatest;
   };
-  constexpr Bound kBounds[] = {{0.90, 0.75}, {0.98, 32.0}};
+  constexpr Bound kBounds[] = {{0.90, 0.75}, {0.98, 12.0}};
   const Layer& beauty = picture.layers.front();
   const std::size_t channels = beauty.channels.size();
   std::vector<float> lit;

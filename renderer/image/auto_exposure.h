@@ -7,8 +7,8 @@ namespace gatelight::renderer {
 
 /// In stops, to a tenth: brings the log-average of the luminance to a middle grey of 0.18 (Reinhard et al.
 /// 2002, equation 1), but the pixel that 90 % do not exceed to at most 0.75, and the one that 98 % do not
-/// exceed to at most 32, so that sunlit floors and skies keep their shades, and rooms theirs. Black pixels do
-/// not count. 0 for a picture without light.
+/// exceed to at most 12, so that sunlit floors, sky and windows keep their shades. Black pixels do not count.
+/// 0 for a picture without light.
 float auto_exposure(const Picture& picture);
 
 }  // namespace gatelight::renderer

@@ -36,8 +36,6 @@ class SampleLoop {
 
   /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
-  /// Of the last pass; 0 before the first.
-  double seconds_per_sample() const { return per_sample_; }
   /// What each rank did in the last pass.
   const std::vector<RankWork>& last_pass() const { return last_pass_; }
   /// Finished samples of every pixel.
@@ -45,8 +43,6 @@ class SampleLoop {
   /// Whether the loop was stopped or the time is over, at any rank.
   bool over() const;
   bool stopped() const { return stop_; }
-  /// Whether a pass left pixels out, at any rank.
-  bool cut_short() const { return cut_short_; }
   double seconds() const { return seconds_since(start_) - left_out_; }
   /// Excludes time that the caller spent on something else.
   void leave_out(double seconds) { left_out_ += seconds; }
