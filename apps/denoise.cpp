@@ -4,7 +4,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -130,10 +129,7 @@ class DenoiseRun {
   int run() {
     check();
     install_signal_handlers();
-    const char* const library = std::getenv(kOidnVariable);
-    renderer::DenoiseOptions& options = settings_.render.denoise;
-    if (options.library.empty() && library) options.library = library;
-    const renderer::OidnLibrary& oidn = renderer::load_oidn(options.library);
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place(settings_.render.denoise.library));
     const int threads =
         settings_.render.threads > 0 ? settings_.render.threads : renderer::available_threads();
     renderer::require_threads(threads);

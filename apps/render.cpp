@@ -29,6 +29,7 @@
 #include "renderer/machine/clock.h"
 #include "renderer/ranks/packing.h"
 #include "renderer/render.h"
+#include "renderer/settings/resolved_options.h"
 #include "scene/gltf.h"
 
 namespace gatelight::apps {
@@ -121,11 +122,7 @@ class RenderRun {
 
   /// Reports tell what was chosen.
   void note_integrator(renderer::Integrator chosen) {
-    renderer::RenderOptions& o = settings_.render;
-    if (!o.choose_integrator) return;
-    o.choose_integrator = false;
-    o.integrator = chosen;
-    if (chosen == renderer::Integrator::path && o.spp_of_paths > 0) o.spp = o.spp_of_paths;
+    if (settings_.render.choose_integrator) renderer::settle_on(settings_.render, chosen);
   }
 
   scene::Scene load() {

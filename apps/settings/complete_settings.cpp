@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -110,10 +109,7 @@ void settle_integrator(RenderSettings& settings) {
   RenderOptions& o = settings.render;
   if (settings.given.contains("--spp")) o.spp_of_paths = 0;
   if (o.choose_integrator && !o.light_groups.empty()) o.integrator = Integrator::path;
-  if (o.integrator == Integrator::path) {
-    o.choose_integrator = false;
-    if (settings.preset && o.spp_of_paths > 0) o.spp = o.spp_of_paths;
-  }
+  if (o.integrator == Integrator::path) renderer::settle_on(o, Integrator::path);
   if (!o.choose_integrator) return;
   for (const Option& option : option_table(settings)) {
     if (option.of_cache && settings.given.contains(option.flag())) o.choose_integrator = false;
@@ -193,13 +189,6 @@ void complete_aovs(RenderOptions& o) {
   }
 }
 
-/// The library that the environment names, where no flag does.
-void complete_denoiser(RenderSettings& settings) {
-  DenoiseOptions& denoise = settings.render.denoise;
-  const char* const library = std::getenv(kOidnVariable);
-  if (denoise.library.empty() && library) denoise.library = library;
-}
-
 void check_checkpoint(const RenderSettings& settings) {
   const CheckpointOptions& checkpoint = settings.render.checkpoint;
   if (!checkpoint.file.empty()) return;
@@ -243,7 +232,7 @@ void complete_settings(RenderSettings& settings) {
   adapt_cache(settings);
   open_samples(settings);
   complete_aovs(settings.render);
-  complete_denoiser(settings);
+  settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
   check_camera_names(settings);
   check_file_names({&settings, 1});

@@ -15,10 +15,14 @@ std::string version() {
   return revision.empty() ? GATELIGHT_VERSION : GATELIGHT_VERSION " (" + revision + ")";
 }
 
+std::string oidn_place(const std::string& flag) {
+  const char* const variable = std::getenv("GATELIGHT_OIDN");
+  return flag.empty() && variable ? variable : flag;
+}
+
 std::string denoiser_text() {
   try {
-    const char* const library = std::getenv(kOidnVariable);
-    const renderer::OidnLibrary& oidn = renderer::load_oidn(library ? library : "");
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place());
     return fmt::format("Open Image Denoise {}, {}", oidn.version, oidn.path);
   } catch (const renderer::MissingDenoiser& error) {
     return fmt::format("none: {}", error.what());

@@ -4,8 +4,8 @@
 
 namespace gatelight::apps {
 
-/// The environment variable that names the library of --oidn.
-inline constexpr const char* kOidnVariable = "GATELIGHT_OIDN";
+/// The library that --oidn names, else that of the environment variable GATELIGHT_OIDN; empty: none is named.
+std::string oidn_place(const std::string& flag = "");
 
 /// "0.1.0", or "0.1.0 (1a2b3c4)" with the revision where the build has one.
 std::string version();

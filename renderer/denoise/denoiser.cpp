@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -92,6 +93,19 @@ class RayTracingFilter {
 };
 
 }  // namespace
+
+std::string failure_to_denoise(const std::function<void()>& run) {
+  try {
+    run();
+    return "";
+  } catch (const OutOfMemory& error) {
+    return error.what();
+  } catch (const MissingDenoiser& error) {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return "denoising it needs more memory than there is";
+  }
+}
 
 Denoiser::Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes)
     : api_(library.api),

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "renderer/denoise/oidn_library.h"
@@ -31,6 +32,9 @@ struct FilterOptions {
 
 /// Called with the share that is done, in [0, 1]; false cancels.
 using DenoiseProgress = std::function<bool(double done)>;
+
+/// Runs what denoises. Returns why it could not, where the denoiser or memory failed; else an empty text.
+std::string failure_to_denoise(const std::function<void()>& run);
 
 class Denoiser {
  public:

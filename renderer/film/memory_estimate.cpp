@@ -24,8 +24,6 @@ constexpr std::size_t kLightBytes = 336;
 /// Floats of each pixel of a band that is denoised (denoise.h), and the pixels of a band.
 constexpr std::size_t kBandFloats = 18;
 constexpr std::size_t kBandPixels = std::size_t{1} << 22;
-/// Open Image Denoise, where it is told to be modest.
-constexpr std::size_t kDenoiserBytes = std::size_t{256} << 20;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "renderer/film/film_samples.h"
 #include "renderer/film/sample_order.h"
+#include "renderer/settings/resolved_options.h"
 #include "renderer/transport/path_integrator.h"
 
 namespace gatelight::renderer {
@@ -34,11 +35,9 @@ double bounces_of_paths(const World& world, const Camera& camera, const PixelRec
 }
 
 RenderOptions with_integrator(RenderOptions options, double bounces) {
-  options.choose_integrator = false;
-  if (bounces >= kBouncesForCache || !options.cache.cache_in.empty() || !options.cache.cache_out.empty())
-    return options;
-  options.integrator = Integrator::path;
-  if (options.spp_of_paths > 0) options.spp = options.spp_of_paths;
+  const bool cached =
+      bounces >= kBouncesForCache || !options.cache.cache_in.empty() || !options.cache.cache_out.empty();
+  settle_on(options, cached ? options.integrator : Integrator::path);
   return options;
 }
 

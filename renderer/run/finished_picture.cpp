@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "renderer/denoise/denoising_layers.h"
 #include "renderer/machine/clock.h"
-#include "renderer/machine/errors.h"
 #include "renderer/metrics/estimated_error.h"
 #include "renderer/run/background.h"
 #include "renderer/settings/words.h"
@@ -280,21 +278,14 @@ FinishedPicture finished_picture(const Film& film, const Finishing& finishing, t
   arena.execute([&] {
     Finisher finisher(film, finishing);
     if (finishing.denoiser) {
-      try {
-        std::optional<FinishedPicture> denoised = finisher.denoised();
-        if (denoised) {
-          result = std::move(*denoised);
-          return;
-        }
-        result.stopped = true;
-        result.failure = "denoising was stopped";
-      } catch (const OutOfMemory& error) {
-        result.failure = error.what();
-      } catch (const MissingDenoiser& error) {
-        result.failure = error.what();
-      } catch (const std::bad_alloc&) {
-        result.failure = "denoising it needs more memory than there is";
+      std::optional<FinishedPicture> denoised;
+      result.failure = failure_to_denoise([&] { denoised = finisher.denoised(); });
+      if (denoised) {
+        result = std::move(*denoised);
+        return;
       }
+      result.stopped = result.failure.empty();
+      if (result.stopped) result.failure = "denoising was stopped";
     }
     FinishedPicture traced = finisher.as_traced();
     traced.stopped = result.stopped;
@@ -309,13 +300,9 @@ std::optional<double> error_of_picture(const Film& film, const Finishing& finish
   if (film.samples_per_pixel() < kTellingSamples) return std::nullopt;
   return arena.execute([&]() -> std::optional<double> {
     if (!finishing.denoiser) return sampled_error(film);
-    try {
-      return denoised_error(film, finishing);
-    } catch (const OutOfMemory&) {
-    } catch (const MissingDenoiser&) {
-    } catch (const std::bad_alloc&) {
-    }
-    return std::nullopt;  // finished_picture() tells why
+    std::optional<double> error;
+    failure_to_denoise([&] { error = denoised_error(film, finishing); });  // finished_picture() tells why
+    return error;
   });
 }
 

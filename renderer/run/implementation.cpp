@@ -61,10 +61,9 @@ std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& optio
 
 /// What a limit leaves the denoiser; 0: no limit.
 std::size_t memory_of_denoiser(const scene::Scene& scene, const RenderOptions& options) {
-  constexpr std::size_t kLeast = std::size_t{256} << 20;  // less makes it slow, and saves nothing
   if (options.memory_limit_bytes == 0) return 0;
   const std::size_t need = estimate_memory(scene, options).total();
-  return std::max(options.memory_limit_bytes - std::min(need, options.memory_limit_bytes), kLeast);
+  return std::max(options.memory_limit_bytes - std::min(need, options.memory_limit_bytes), kDenoiserBytes);
 }
 
 /// Says that a denoiser is missing.
@@ -308,15 +307,13 @@ std::optional<double> Renderer::Implementation::estimate_error(Film& film) {
 double Renderer::Implementation::expect_denoise_seconds() {
   if (!denoiser) return 0.0;
   const double alpha = options.background.apart() ? 1.5 : 1.0;
-  try {
-    return alpha * arena.execute([&] {
-      return renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
+  double seconds = 0.0;
+  arena.execute([&] {
+    failure_to_denoise([&] {  // finish() tells why
+      seconds = renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
     });
-  } catch (const OutOfMemory&) {
-    return 0.0;  // finish() will say so
-  } catch (const MissingDenoiser&) {
-    return 0.0;
-  }
+  });
+  return alpha * seconds;
 }
 
 double Renderer::Implementation::expect_shadow_seconds() {

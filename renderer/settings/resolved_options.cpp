@@ -46,4 +46,10 @@ float resolve_filter_width(PixelFilter filter, float option) {
   return filter == PixelFilter::tent ? 2.0f : 3.0f;
 }
 
+void settle_on(RenderOptions& options, Integrator integrator) {
+  options.choose_integrator = false;
+  options.integrator = integrator;
+  if (integrator == Integrator::path && options.spp_of_paths > 0) options.spp = options.spp_of_paths;
+}
+
 }  // namespace gatelight::renderer
