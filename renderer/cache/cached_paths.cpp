@@ -11,9 +11,14 @@ namespace gatelight::renderer {
 namespace {
 
 /// Where the cache answers the wide lobes, the narrow ones are followed with a probability of this times the
-/// square root of their throughput. So the reflection of a varnish of 4 % is always followed once and rarely
-/// twice: one ray and one query cost less than the noise of leaving them out.
-constexpr Roulette kNarrowRoulette{5.0f, 1.0f};
+/// square root of their throughput. What the camera sees in a varnish of 4 % is always followed once and
+/// rarely twice: one ray and one query cost less than the noise of leaving them out. After a wide bounce it
+/// is noise among more.
+constexpr Roulette kSeenNarrow{5.0f, 1.0f}, kLaterNarrow{1.5f, 1.0f};
+
+const Roulette& narrow_roulette(const PathPlan& plan) {
+  return plan.query_at == QueryAt::primary ? kSeenNarrow : kLaterNarrow;
+}
 
 /// Light at a vertex is summed up in units of the path's start. With hundreds of nested media between the
 /// two, single precision does not hold both, and the vertex makes no record.
@@ -133,7 +138,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
     const BlockKind kind = has_storage && ends_here(path, plan) ? kind_of_end(m.surface.material) : kScatters;
     if (kind == kScatters || options_.held.emission()) {
       PathBlock& block = scratch.blocks[kind];
-      // Where a path splits, Russian roulette applies at every depth (kNarrowRoulette).
+      // Where a path splits, Russian roulette applies at every depth (narrow_roulette).
       path.wait(m, number, kind == kScatters ? plan.min_depth : path.depth, block);
       return &block;
     }
@@ -151,7 +156,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   const bool ends = wide && ends_here(path, plan);
   if (ends && !has_storage) ++batch.unstored_hits;
   const bool teaches = wide && has_storage && may_teach(path, plan);
-  if (ends && has_storage ? answer(path, m, side, batch, scratch)
+  if (ends && has_storage ? answer(path, m, side, plan, batch, scratch)
                           : continue_from(path, m, side, teaches, plan, batch, scratch))
     scratch.go_on(number, ray);
   return nullptr;
@@ -166,7 +171,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   } else if (delta_apart_) {
     walk_.shading.delta_light(points);
   } else if (splits) {
-    walk_.shading.scatter_narrow(points, kNarrowRoulette);
+    walk_.shading.scatter_narrow(points, narrow_roulette(plan));
   } else {
     walk_.shading.albedo(points);
   }
@@ -186,7 +191,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     if (delta_apart_) add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
   }
   if (!splits) return;
-  if (delta_apart_) walk_.shading.scatter_narrow(points, kNarrowRoulette);
+  if (delta_apart_) walk_.shading.scatter_narrow(points, narrow_roulette(plan));
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!delta_apart_ || !points.light_is_delta[lane])
@@ -255,8 +260,8 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
   return index;
 }
 
-bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch,
-                         Scratch& scratch) const {
+bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, const PathPlan& plan,
+                         PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.min_roughness;
   const bool has_narrow = m.bsdf->has_narrow(roughness);
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
@@ -290,8 +295,8 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, PathB
   add_light(path, m, narrow, delta_apart_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
   std::optional<Drawn> drawn = path.draw(m, narrow);
   if (!drawn) return false;
-  const float survival =
-      std::min(kNarrowRoulette.most, kNarrowRoulette.factor * std::sqrt(path.throughput.maxCoeff()));
+  const Roulette& roulette = narrow_roulette(plan);
+  const float survival = std::min(roulette.most, roulette.factor * std::sqrt(path.throughput.maxCoeff()));
   return path.survives_by(survival, *drawn) &&
          advance(path, m, *drawn, {drawn->weight, drawn->weight}, index);
 }

@@ -118,7 +118,8 @@ class CachedPaths {
   bool may_teach(const Path& path, const PathPlan& plan) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool ends_at(const Path& path, QueryAt place) const;
-  bool answer(Path& path, const Meeting& m, std::uint32_t side, PathBatch& batch, Scratch& scratch) const;
+  bool answer(Path& path, const Meeting& m, std::uint32_t side, const PathPlan& plan, PathBatch& batch,
+              Scratch& scratch) const;
   /// For a lane that is shaded.
   void continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan, PathBatch& batch,
                      Scratch& scratch) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/denoise/oidn_library.h"
+#include "renderer/settings/choices.h"
 
 namespace gatelight::renderer {
 
@@ -24,7 +25,7 @@ struct NoisyImage {
 enum class DenoiseQuality : std::uint8_t { fast, high };
 
 struct FilterOptions {
-  bool clean_guides = true;  ///< filter the guides first, which permits the larger network
+  DenoiseGuides guides = DenoiseGuides::filtered;  ///< automatic is filtered here
   DenoiseQuality quality = DenoiseQuality::high;
   /// Multiplies colours before the filter, and divides them after it. Parts of a picture need the same one.
   float scale = 1.0f;
@@ -42,7 +43,7 @@ class Denoiser {
   /// library's own. The library must outlive the object. Throws MissingDenoiser.
   Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes = 0);
 
-  /// Replaces colours and alpha by denoised ones, and the guides by clean ones if they are filtered. Alpha
+  /// Replaces colours and alpha by denoised ones, and the guides by denoised ones if they are filtered. Alpha
   /// stays 0 or 1 where all pixels around are. The same bits for any number of threads. Returns false where
   /// `progress` cancelled; the image is then undefined. Throws OutOfMemory, or MissingDenoiser with the
   /// library's message. Source: "RT" filter, "Open Image Denoise API".

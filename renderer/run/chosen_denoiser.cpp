@@ -30,8 +30,7 @@ ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
 
 RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen) {
   options.denoise.denoiser = chosen.found ? DenoiserKind::oidn : DenoiserKind::none;
-  const int factor = options.denoise.supersampling;
-  if (!chosen.found || options.spp < factor * factor) options.denoise.supersampling = 1;
+  if (!chosen.found || options.spp < options.denoise.parts()) options.denoise.supersampling = 1;
   return options;
 }
 
@@ -43,7 +42,7 @@ RenderOptions options_of_film(RenderOptions options) {
   if (options.region) {
     for (int& edge : *options.region) edge *= factor;
   }
-  if (options.spp < kOpenSpp) options.spp = std::max(1, options.spp / (factor * factor));
+  if (options.spp < kOpenSpp) options.spp = std::max(1, options.spp / options.denoise.parts());
   options.filter = PixelFilter::box;
   options.filter_width = 0.0f;
   return options;

@@ -21,7 +21,7 @@ constexpr double kTellingSamples = 2.0;
 /// The error is told by strips of so many rows of the film, as many as hold this many pixels or this share of
 /// them, whichever is more.
 constexpr int kStripRows = 128;
-constexpr double kStripPixels = 1 << 18;
+constexpr double kStripPixels = 1 << 17;
 constexpr double kStripShare = 0.25;
 constexpr int kStripMargin = 16;
 /// Of the time of the denoiser; the estimate of the error has the rest.
@@ -54,7 +54,7 @@ NoisyPicture noisy(const Film& film, const RenderOptions& options, Plane color) 
 
 /// What tells an error: fast, and with the guides as they are.
 FilterOptions error_options(const Film& film) {
-  return {.clean_guides = false,
+  return {.guides = DenoiseGuides::noisy,
           .quality = DenoiseQuality::fast,
           .scale = exposure_of(film.rect().width(), film.rect().height(), [&film](int first, int end) {
             return film.plane(Plane::mean, film.rect().y0 + first, film.rect().y0 + end);
@@ -183,10 +183,10 @@ class Finisher {
 
   /// Empty where it is cancelled.
   std::optional<FinishedPicture> denoised() {
-    auto denoised = denoise(*f_.denoiser, samples(), {.clean_guides = options_.denoise.clean_guides},
-                            f_.scale, part(0.0, kShareOfPicture));
+    auto denoised =
+        denoise(*f_.denoiser, samples(), {.guides = f_.guides}, f_.scale, part(0.0, kShareOfPicture));
     if (!denoised) return std::nullopt;
-    FinishedPicture result{.picture = layers(), .denoised = true};
+    FinishedPicture result{.picture = layers(), .denoised = true, .guides = f_.guides};
     result.picture.layers.front().values = std::move(denoised->color);
     if (film_.samples_per_pixel() >= kTellingSamples) {
       Layer* const error = find(result.picture, Aov::error);

@@ -54,6 +54,10 @@ struct Renderer::Implementation {
 
   /// For RenderOptions::choose_integrator, by the first view.
   void choose_integrator();
+  /// After a choice: the film, its tiles and how it becomes the picture.
+  void set_film();
+  /// For DenoiseGuides::automatic, by the view and the samples of a pixel of the picture.
+  DenoiseGuides chosen_guides(double samples_per_pixel);
   View chosen_view(const CameraOptions& chosen) const;
   /// Chooses the view, and says in the statistics what is to be told of it.
   void look_through(const CameraOptions& chosen);
@@ -89,7 +93,7 @@ struct Renderer::Implementation {
   CaughtShadows caught_shadows(double samples_per_pixel) const;
   /// Samples of a pixel of the film for so many of the picture's, and the other way round.
   int samples_of_film(int spp) const;
-  int samples_of_picture(int of_film) const { return of_film * scale.factor() * scale.factor(); }
+  int samples_of_picture(int of_film) const { return of_film * options.denoise.parts(); }
   /// The region of the picture, in its own pixels.
   PixelRect region_of_picture() const;
   /// The layers of options.cryptomattes; the statistics get the time.

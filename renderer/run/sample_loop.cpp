@@ -99,7 +99,7 @@ Progress SampleLoop::progress(double samples) const {
   double fraction = samples / spp_;
   if (expected_samples_ > 0.0) fraction = std::max(fraction, samples / expected_samples_);
   if (std::isfinite(end_)) fraction = std::max(fraction, now() / std::max(end_, 1e-9));
-  const int of_pixel = options_.denoise.supersampling * options_.denoise.supersampling;
+  const int of_pixel = options_.denoise.parts();
   return {.spp_done = done_ * of_pixel,
           .spp = spp_ == kOpenSpp ? spp_ : spp_ * of_pixel,
           .samples = samples * of_pixel,

@@ -40,6 +40,14 @@ enum class DenoiserKind : std::uint8_t {
   none,
 };
 
+/// How albedo and normal reach the denoiser.
+enum class DenoiseGuides : std::uint8_t {
+  automatic,  ///< filtered where paths see them noisy (run/chosen_guides.h), else clean
+  filtered,   ///< each denoised first, then read by the larger network
+  clean,      ///< read as they are by the larger network, which expects no noise in them
+  noisy,      ///< read as they are by the smaller network, which expects some
+};
+
 enum class Aov : std::uint8_t {
   albedo,
   normal,

@@ -19,7 +19,6 @@ constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
 constexpr Choice<std::string_view> kIsa[] = {
     {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
 
-constexpr Choice<bool> kGuides[] = {{"clean", true}, {"noisy", false}};
 constexpr Choice<int> kSupersampling[] = {{"1", 1}, {"2", 2}};
 
 /// Values by a list of words, each once, in the order of the enumeration. `all`: a word for all of them.
@@ -297,15 +296,16 @@ constexpr Need kDenoiser{
 };
 
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
-  auto& [denoiser, clean_guides, supersampling, library] = options;
+  auto& [denoiser, guides, supersampling, library] = options;
   picture.add(
       choice("denoiser", denoiser,
              "Takes the noise out of the finished picture: Open Image Denoise (oidn), the same where it "
              "is found (auto, that of the presets), or nothing"));
   picture.add(
-      choice("denoise-guides", clean_guides, kGuides,
-             "Albedo and normal are denoised first, for less error (clean), or read as they are, in a "
-             "quarter of the time (noisy)"),
+      choice("denoise-guides", guides,
+             "How albedo and normal are read: denoised first (filtered); as they are (clean), by the same "
+             "large network; or by a smaller one that expects noise in them (noisy), in half the time of "
+             "clean; auto: filtered behind lenses and in glass, where they have noise, else clean"),
       {kDenoiser});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "
@@ -342,11 +342,10 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
-  auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
-         max_error, max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
-         light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
-         light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
-         checkpoint] = options;
+  auto& [integrator, choose_integrator, width, height, region, spp, of_paths, time_limit_seconds, max_error,
+         max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
+         glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy,
+         memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);

@@ -9,7 +9,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.integrator = Integrator::nrc;
   options.choose_integrator = true;
   options.spp = spp;
-  options.spp_of_paths = spp + spp / 2;
+  options.of_paths = {.spp = spp + spp / 2, .supersampling = 1};
   options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
   // Chosen by the error after denoising (renderer/cache/README.md). Twice the steps of half the records, and
@@ -38,7 +38,7 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       break;
     case CachePreset::preview:
       set_finished(options, 4);
-      options.denoise.clean_guides = false;
+      options.denoise.guides = DenoiseGuides::noisy;
       break;
     case CachePreset::standard:
       set_finished(options, 8);

@@ -44,6 +44,11 @@ template <>
 inline constexpr Choice<DenoiserKind> kWords<DenoiserKind>[] = {
     {"auto", DenoiserKind::automatic}, {"oidn", DenoiserKind::oidn}, {"none", DenoiserKind::none}};
 template <>
+inline constexpr Choice<DenoiseGuides> kWords<DenoiseGuides>[] = {{"auto", DenoiseGuides::automatic},
+                                                                  {"filtered", DenoiseGuides::filtered},
+                                                                  {"clean", DenoiseGuides::clean},
+                                                                  {"noisy", DenoiseGuides::noisy}};
+template <>
 inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
                                               {"normal", Aov::normal},
                                               {"depth", Aov::depth},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/denoise/exposure.h"
+#include "renderer/settings/words.h"
 #include "tests/support/denoiser.h"
 #include "tests/support/noisy_image.h"
 
@@ -29,12 +30,12 @@ class Denoisers : public ::testing::Test {
 TEST_F(Denoisers, TakeMostOfTheNoiseAndKeepEdges) {
   const NoisyImage clean = clean_image(96, 64), noisy = noisy_image(96, 64);
   const double before = deviation(noisy.color, clean.color);
-  for (const bool clean_guides : {false, true}) {
+  for (const DenoiseGuides guides : {DenoiseGuides::filtered, DenoiseGuides::clean, DenoiseGuides::noisy}) {
     for (const DenoiseQuality quality : {DenoiseQuality::fast, DenoiseQuality::high}) {
-      const NoisyImage denoised = filtered(noisy, {.clean_guides = clean_guides, .quality = quality});
-      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << clean_guides;
-      // Guides are cleaned in place, or stay as they are.
-      EXPECT_EQ(denoised.albedo == noisy.albedo, !clean_guides);
+      const NoisyImage denoised = filtered(noisy, {.guides = guides, .quality = quality});
+      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << word(guides);
+      // Guides are filtered in place, or stay as they are.
+      EXPECT_EQ(denoised.albedo == noisy.albedo, guides != DenoiseGuides::filtered);
     }
   }
   NoisyImage alone = noisy;

@@ -68,11 +68,11 @@ TEST_P(FinishedPicture, IsDenoisedAndItsSamplesStayLayers) {
 TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
   GATELIGHT_NEEDS_DENOISER();
   const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
-  for (const bool clean : {false, true}) {
+  for (const DenoiseGuides guides : {DenoiseGuides::filtered, DenoiseGuides::clean, DenoiseGuides::noisy}) {
     for (const int supersampling : {1, 2}) {
       for (const Kind background : {Kind::scene, Kind::transparent, Kind::color}) {
         RenderOptions o = denoised({Aov::denoising});
-        o.denoise.clean_guides = clean;
+        o.denoise.guides = guides;
         o.denoise.supersampling = supersampling;
         o.background = {.kind = background, .color = {0.1f, 0.2f, 0.3f}};
         o.environment.constant = scene::Color::Constant(0.3f);
@@ -80,7 +80,7 @@ TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
         Picture samples = finished;
         samples.layers[0].values.assign(samples.layers[0].values.size(), 0.0f);
         const auto again = denoise_picture(samples, samples_of(samples), denoiser,
-                                           {.clean_guides = clean,
+                                           {.guides = guides,
                                             .filter = o.filter,
                                             .filter_width = o.filter_width,
                                             .background = o.background});
@@ -88,7 +88,7 @@ TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
         ASSERT_EQ(again->layers.size(), 1u);
         EXPECT_EQ(again->layers[0].channels, finished.layers[0].channels);
         EXPECT_EQ(again->layers[0].values, finished.layers[0].values)
-            << clean << supersampling << static_cast<int>(background);
+            << word(guides) << supersampling << static_cast<int>(background);
         // The samples themselves do not depend on the denoiser.
         RenderOptions traced = o;
         traced.denoise.denoiser = DenoiserKind::none;
