@@ -3,7 +3,9 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -26,26 +28,52 @@ int channel_rank(std::string_view channel) {
   return at == std::string_view::npos ? static_cast<int>(kOrder.size()) : static_cast<int>(at);
 }
 
-std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
-  std::vector<Layer> layers;
+/// A layer, and where its values are in the file.
+struct StoredLayer {
+  Layer layer;
+  int part = 0;
+  std::vector<std::string> channels;  ///< their full names in the part
+};
+
+/// Adds the layers of a part that are not there yet: views of the same names are not told apart. Channels of
+/// later parts without a layer of their own belong to one with the part's name.
+void add_layers(const Imf::Header& header, int part, std::vector<StoredLayer>& layers) {
+  std::vector<StoredLayer> own;
+  const Imf::ChannelList& channels = header.channels();
   for (auto it = channels.begin(); it != channels.end(); ++it) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
       throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", it.name()));
     }
     const std::string full = it.name();
     const std::size_t dot = full.rfind('.');
-    const std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
-    auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
-    if (layer == layers.end()) layer = layers.insert(layers.end(), Layer{.name = name});
-    layer->channels.push_back(dot == std::string::npos ? full : full.substr(dot + 1));
-    layer->full_precision |= it.channel().type != Imf::HALF;
+    std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
+    if (name.empty() && part > 0 && header.hasName()) name = header.name();
+    auto stored = std::find_if(own.begin(), own.end(), [&](const auto& s) { return s.layer.name == name; });
+    if (stored == own.end())
+      stored = own.insert(own.end(), StoredLayer{.layer = {.name = name}, .part = part});
+    stored->layer.channels.push_back(dot == std::string::npos ? full : full.substr(dot + 1));
+    stored->layer.full_precision |= it.channel().type != Imf::HALF;
   }
-  for (Layer& layer : layers) {
+  for (StoredLayer& stored : own) {
+    Layer& layer = stored.layer;
     std::stable_sort(
         layer.channels.begin(), layer.channels.end(),
         [](const std::string& a, const std::string& b) { return channel_rank(a) < channel_rank(b); });
+    for (const std::string& channel : layer.channels) {
+      const std::string full = layer.name + "." + channel;
+      stored.channels.push_back(channels.findChannel(full) ? full : channel);
+    }
+    if (std::none_of(layers.begin(), layers.end(), [&](const auto& s) { return s.layer.name == layer.name; }))
+      layers.push_back(std::move(stored));
   }
-  const auto first = [&](auto condition) { return std::find_if(layers.begin(), layers.end(), condition); };
+}
+
+/// Moves the picture that is shown to the front.
+void put_beauty_first(std::vector<StoredLayer>& layers) {
+  const auto first = [&](auto condition) {
+    return std::find_if(layers.begin(), layers.end(),
+                        [&](const StoredLayer& s) { return condition(s.layer); });
+  };
   auto beauty = first([](const Layer& l) { return l.name.empty() && color_channels(l); });
   // A grey layer with a name is depth or a mask.
   const auto has_rgb = [](const Layer& l) {
@@ -55,14 +83,27 @@ std::vector<Layer> find_layers(const Imf::ChannelList& channels) {
   if (beauty == layers.end()) beauty = first(has_rgb);
   if (beauty == layers.end()) beauty = first([](const Layer& l) { return l.name.empty(); });
   if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
+}
+
+/// Of all parts that have pixels where the first one has them.
+std::vector<StoredLayer> find_layers(const Imf::MultiPartInputFile& file) {
+  std::vector<StoredLayer> layers;
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& header = file.header(part);
+    const bool deep = header.hasType() && Imf::isDeepData(header.type());
+    if (part > 0 && (deep || header.dataWindow() != file.header(0).dataWindow())) continue;
+    if (deep) throw std::runtime_error("it has deep pixels, expected flat ones");
+    add_layers(header, part, layers);
+  }
+  put_beauty_first(layers);
   return layers;
 }
 
 }  // namespace
 
 Picture read_exr(const std::filesystem::path& path) {
-  Imf::InputFile file(path.c_str(), 0);
-  const Imf::Header& header = file.header();
+  Imf::MultiPartInputFile file(path.c_str(), 0);
+  const Imf::Header& header = file.header(0);
   const Imath::Box2i data = header.dataWindow();
   const Imath::Box2i display = header.displayWindow();
 
@@ -73,42 +114,51 @@ Picture read_exr(const std::filesystem::path& path) {
   picture.y0 = data.min.y - display.min.y;
   picture.full_width = display.max.x - display.min.x + 1;
   picture.full_height = display.max.y - display.min.y + 1;
-  picture.layers = find_layers(header.channels());
+  std::vector<StoredLayer> layers = find_layers(file);
 
   const std::size_t width = static_cast<std::size_t>(picture.width);
   const std::size_t pixels = width * static_cast<std::size_t>(picture.height);
   std::size_t channels = 0;
-  for (const Layer& layer : picture.layers) channels += layer.channels.size();
+  for (const StoredLayer& stored : layers) channels += stored.channels.size();
   if (channels == 0) throw std::runtime_error("it has no channels");
   check_claimed_size(picture.width, picture.height, static_cast<std::int64_t>(channels), path);
 
-  Imf::FrameBuffer frame;
-  for (Layer& layer : picture.layers) {
-    const std::size_t count = layer.channels.size();
-    layer.values.resize(pixels * count);
+  std::vector<Imf::FrameBuffer> frames(static_cast<std::size_t>(file.parts()));
+  for (StoredLayer& stored : layers) {
+    const std::size_t count = stored.channels.size();
+    stored.layer.values.resize(pixels * count);
     const std::size_t pixel_bytes = count * sizeof(float);
     // The address of the pixel (0, 0), to which the library adds the offset of the data window. A data window
     // may lie anywhere, so the address is an integer that may wrap, not a pointer.
-    const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(layer.values.data()) -
+    const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(stored.layer.values.data()) -
                                   static_cast<std::uintptr_t>(data.min.x) * pixel_bytes -
                                   static_cast<std::uintptr_t>(data.min.y) * pixel_bytes * width;
     for (std::size_t c = 0; c < count; ++c) {
-      const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
       // NOLINTNEXTLINE(performance-no-int-to-ptr): see above
       char* const channel = reinterpret_cast<char*>(origin + c * sizeof(float));
-      frame.insert(name, Imf::Slice(Imf::FLOAT, channel, pixel_bytes, pixel_bytes * width));
+      frames[static_cast<std::size_t>(stored.part)].insert(
+          stored.channels[c], Imf::Slice(Imf::FLOAT, channel, pixel_bytes, pixel_bytes * width));
     }
   }
-  file.setFrameBuffer(frame);
-  file.readPixels(data.min.y, data.max.y);
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::FrameBuffer& frame = frames[static_cast<std::size_t>(part)];
+    if (frame.begin() == frame.end()) continue;
+    Imf::InputPart input(file, part);
+    input.setFrameBuffer(frame);
+    input.readPixels(data.min.y, data.max.y);
+  }
+  for (StoredLayer& stored : layers) picture.layers.push_back(std::move(stored.layer));
 
   constexpr std::string_view kPrefix = "gatelight:";
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
-    const std::string_view name = it.name();
-    if (text == nullptr) continue;
-    if (name.starts_with(kPrefix)) picture.metadata.emplace(name.substr(kPrefix.size()), text->value());
-    if (name.starts_with(kCryptomattePrefix)) picture.attributes.emplace(name, text->value());
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& attributes = file.header(part);
+    for (auto it = attributes.begin(); it != attributes.end(); ++it) {
+      const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+      const std::string_view name = it.name();
+      if (text == nullptr) continue;
+      if (name.starts_with(kPrefix)) picture.metadata.emplace(name.substr(kPrefix.size()), text->value());
+      if (name.starts_with(kCryptomattePrefix)) picture.attributes.emplace(name, text->value());
+    }
   }
   return picture;
 }
