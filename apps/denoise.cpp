@@ -37,7 +37,8 @@ constexpr const char* kDenoiseFooter =
 very picture that the renderer finishes, with its background, exposure and curve, unless flags say otherwise; merged
 parts (gatelight merge) become one finished picture. Pictures of other renderers need layers of albedo and normal,
 which are found by their usual names (Blender: "Denoising Albedo", "Denoising Normal", "Noisy Image"); without them the
-colours alone are denoised. Further layers of an EXR, Cryptomattes among them, stay as they are.
+colours alone are denoised. Further layers of an EXR, Cryptomattes among them, stay as they are; of an EXR of several
+parts those are read that have the pixels of the first.
 
 Examples:
   gatelight render room.glb -o samples.exr --spp 64 --aov denoising
@@ -58,10 +59,10 @@ struct DenoiseSettings {
 };
 
 /// The options of `render` that this command has too.
-constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "denoise-guides",
+constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "prefilter",
                                      "oidn",       "threads", "memory-limit"};
 /// Those that the picture's recipe decides.
-constexpr const char* kOfRecipe[] = {"denoise-guides", "filter", "filter-width", "background"};
+constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background"};
 
 std::vector<renderer::Option> denoise_table(DenoiseSettings& settings) {
   std::vector<renderer::Option> table;
@@ -198,7 +199,7 @@ class DenoiseRun {
 
   renderer::DenoisePictureOptions options_of() const {
     const renderer::RenderOptions& o = settings_.render;
-    return {o.denoise.guides, o.filter, o.filter_width, o.background};
+    return {o.denoise.prefilter, o.filter, o.filter_width, o.background};
   }
 
   renderer::DenoiseProgress progress() {

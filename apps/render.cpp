@@ -104,8 +104,6 @@ class RenderRun {
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     renderer::Picture picture = renderer.render(make_callbacks(renderer));
     report_.statistics = renderer.statistics();
-    if (const auto guides = report_.statistics.denoise_guides; guides != renderer::DenoiseGuides::automatic)
-      settings_.render.denoise.guides = guides;
     report_.signal = signal();
     if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
       warn(fmt::format("the picture keeps its noise: {}", why));
@@ -125,6 +123,11 @@ class RenderRun {
   /// Reports tell what was chosen.
   void note_integrator(renderer::Integrator chosen) {
     if (settings_.render.choose_integrator) renderer::settle_on(settings_.render, chosen);
+  }
+
+  /// gatelight denoise reads it.
+  void note_prefilter(renderer::Prefilter chosen) {
+    if (chosen != renderer::Prefilter::automatic) settings_.render.denoise.prefilter = chosen;
   }
 
   scene::Scene load() {
@@ -158,6 +161,7 @@ class RenderRun {
 
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
+    note_prefilter(statistics.prefilter);
     renderer::ImageWriteOptions image = settings_.image;
     const float suitable = renderer::auto_exposure(picture);
     if (!settings_.exposure) image.display.exposure = suitable;

@@ -107,8 +107,7 @@ std::string why_without_effect(const Option& option, const RenderOptions& option
 /// A flag of the cache asks for one; groups of lights want paths.
 void settle_integrator(RenderSettings& settings) {
   RenderOptions& o = settings.render;
-  if (settings.given.contains("--spp")) o.of_paths.spp = 0;
-  if (settings.given.contains("--supersampling")) o.of_paths.supersampling = 0;
+  if (settings.given.contains("--spp")) o.spp_of_paths = 0;
   if (o.choose_integrator && !o.light_groups.empty()) o.integrator = Integrator::path;
   if (o.integrator == Integrator::path) renderer::settle_on(o, Integrator::path);
   if (!o.choose_integrator) return;
@@ -136,7 +135,7 @@ void open_samples(RenderSettings& settings) {
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
     o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // of the usual number of samples
   o.spp = timed ? kOpenSpp : kMostForError;
-  o.of_paths.spp = 0;
+  o.spp_of_paths = 0;
 }
 
 /// Sets what defaults and presets leave open or wrong for this encoding and integrator.

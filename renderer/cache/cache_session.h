@@ -82,6 +82,8 @@ class CacheSession {
   const CacheSetup& setup() const { return setup_; }
   std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
+  /// Whether a device of its own computes what the model answers.
+  bool on_device() const { return trainer_->backend().runs_alongside(); }
   /// Rays of scouting and training, of this rank.
   RayCounts rays() const;
   /// Paths of training that this rank has traced.

@@ -30,7 +30,7 @@ double expect_denoise_seconds(const Denoiser& denoiser, const DenoiseOptions& op
   NoisyImage image = image_of_noise(std::min(width, kEdge), std::min(height, kEdge));
   const double share =
       static_cast<double>(image.width) * image.height / (static_cast<double>(width) * height);
-  const FilterOptions filter{.guides = options.guides};
+  const FilterOptions filter{.prefilter = options.prefilter};
   denoiser.filter(image, filter);  // the first time networks are set up
   const Clock::time_point start = Clock::now();
   denoiser.filter(image, filter);

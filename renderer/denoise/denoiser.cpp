@@ -126,9 +126,9 @@ bool Denoiser::filter(NoisyImage& image, const FilterOptions& options,
                       const DenoiseProgress& progress) const {
   if (image.width <= 0 || image.height <= 0) return true;
   double begin = 0.0;
-  const bool filtered =
-      options.guides == DenoiseGuides::filtered || options.guides == DenoiseGuides::automatic;
-  if (filtered && has_guides(image)) {
+  const bool accurate =
+      options.prefilter == Prefilter::accurate || options.prefilter == Prefilter::automatic;
+  if (accurate && has_guides(image)) {
     for (const auto& [name, guide] : {std::pair("albedo", &image.albedo), {"normal", &image.normal}}) {
       RayTracingFilter filter(api_, device_.get(), image, memory_limit_bytes_);
       filter.set_image(name, *guide);
@@ -152,7 +152,7 @@ bool Denoiser::filter_plane(std::vector<float>& color, NoisyImage& guides, const
   if (has_guides(guides)) {
     filter.set_image("albedo", guides.albedo);
     filter.set_image("normal", guides.normal);
-    filter.set_bool("cleanAux", options.guides != DenoiseGuides::noisy);
+    filter.set_bool("cleanAux", options.prefilter != Prefilter::fast);
   }
   filter.set_bool("hdr", true);
   filter.set_float("inputScale", options.scale);

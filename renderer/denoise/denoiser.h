@@ -25,7 +25,7 @@ struct NoisyImage {
 enum class DenoiseQuality : std::uint8_t { fast, high };
 
 struct FilterOptions {
-  DenoiseGuides guides = DenoiseGuides::filtered;  ///< automatic is filtered here
+  Prefilter prefilter = Prefilter::accurate;  ///< automatic is the same
   DenoiseQuality quality = DenoiseQuality::high;
   /// Multiplies colours before the filter, and divides them after it. Parts of a picture need the same one.
   float scale = 1.0f;

@@ -16,7 +16,7 @@ float auto_exposure(const Picture& picture) {
     double share;
     double greatest;
   };
-  constexpr Bound kBounds[] = {{0.90, 0.75}, {0.98, 12.0}};
+  constexpr Bound kBounds[] = {{0.88, 0.75}, {0.98, 12.0}};
   const Layer& beauty = picture.layers.front();
   const std::size_t channels = beauty.channels.size();
   std::vector<float> lit;

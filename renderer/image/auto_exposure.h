@@ -6,7 +6,7 @@
 namespace gatelight::renderer {
 
 /// In stops, to a tenth: brings the log-average of the luminance to a middle grey of 0.18 (Reinhard et al.
-/// 2002, equation 1), but the pixel that 90 % do not exceed to at most 0.75, and the one that 98 % do not
+/// 2002, equation 1), but the pixel that 88 % do not exceed to at most 0.75, and the one that 98 % do not
 /// exceed to at most 12, so that sunlit floors, sky and windows keep their shades. Black pixels do not count.
 /// 0 for a picture without light.
 float auto_exposure(const Picture& picture);

@@ -35,19 +35,20 @@ struct StoredLayer {
   std::vector<std::string> channels;  ///< their full names in the part
 };
 
-/// Adds the layers of a part that are not there yet: views of the same names are not told apart. Channels of
-/// later parts without a layer of their own belong to one with the part's name.
-void add_layers(const Imf::Header& header, int part, std::vector<StoredLayer>& layers) {
+bool is_subsampled(const Imf::Channel& channel) {
+  return channel.xSampling != 1 || channel.ySampling != 1;
+}
+
+/// Adds the layers of a part that are not there yet: views of the same names are not told apart. Channels
+/// without a layer belong to one with the name of their part, where the file has several.
+void add_layers(const Imf::Header& header, int part, const std::string& part_name,
+                std::vector<StoredLayer>& layers) {
   std::vector<StoredLayer> own;
   const Imf::ChannelList& channels = header.channels();
   for (auto it = channels.begin(); it != channels.end(); ++it) {
-    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", it.name()));
-    }
     const std::string full = it.name();
     const std::size_t dot = full.rfind('.');
-    std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
-    if (name.empty() && part > 0 && header.hasName()) name = header.name();
+    const std::string name = dot == std::string::npos ? part_name : full.substr(0, dot);
     auto stored = std::find_if(own.begin(), own.end(), [&](const auto& s) { return s.layer.name == name; });
     if (stored == own.end())
       stored = own.insert(own.end(), StoredLayer{.layer = {.name = name}, .part = part});
@@ -68,32 +69,47 @@ void add_layers(const Imf::Header& header, int part, std::vector<StoredLayer>& l
   }
 }
 
+/// The last component of a layer's name is one that renderers give the picture itself.
+bool is_called_beauty(const std::string& layer) {
+  std::string name = layer.substr(layer.rfind('.') + 1);
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return name.empty() || name == "rgba" || name == "beauty" || name == "combined" || name == "c";
+}
+
 /// Moves the picture that is shown to the front.
 void put_beauty_first(std::vector<StoredLayer>& layers) {
   const auto first = [&](auto condition) {
     return std::find_if(layers.begin(), layers.end(),
                         [&](const StoredLayer& s) { return condition(s.layer); });
   };
-  auto beauty = first([](const Layer& l) { return l.name.empty() && color_channels(l); });
   // A grey layer with a name is depth or a mask.
   const auto has_rgb = [](const Layer& l) {
     const auto index = color_channels(l);
     return index && (*index)[0] != (*index)[1];
   };
+  auto beauty = first([](const Layer& l) { return l.name.empty() && color_channels(l); });
+  if (beauty == layers.end())
+    beauty = first([&](const Layer& l) { return is_called_beauty(l.name) && has_rgb(l); });
   if (beauty == layers.end()) beauty = first(has_rgb);
   if (beauty == layers.end()) beauty = first([](const Layer& l) { return l.name.empty(); });
   if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
 }
 
-/// Of all parts that have pixels where the first one has them.
+/// Of all flat parts that have pixels where the first part has them.
 std::vector<StoredLayer> find_layers(const Imf::MultiPartInputFile& file) {
   std::vector<StoredLayer> layers;
   for (int part = 0; part < file.parts(); ++part) {
     const Imf::Header& header = file.header(part);
+    std::string subsampled;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+      if (is_subsampled(it.channel())) subsampled = it.name();
+    }
+    if (part == 0 && !subsampled.empty())
+      throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", subsampled));
     const bool deep = header.hasType() && Imf::isDeepData(header.type());
-    if (part > 0 && (deep || header.dataWindow() != file.header(0).dataWindow())) continue;
-    if (deep) throw std::runtime_error("it has deep pixels, expected flat ones");
-    add_layers(header, part, layers);
+    if (part > 0 && (deep || !subsampled.empty() || header.dataWindow() != file.header(0).dataWindow()))
+      continue;
+    add_layers(header, part, file.parts() > 1 && header.hasName() ? header.name() : "", layers);
   }
   put_beauty_first(layers);
   return layers;
@@ -143,9 +159,14 @@ Picture read_exr(const std::filesystem::path& path) {
   for (int part = 0; part < file.parts(); ++part) {
     const Imf::FrameBuffer& frame = frames[static_cast<std::size_t>(part)];
     if (frame.begin() == frame.end()) continue;
-    Imf::InputPart input(file, part);
-    input.setFrameBuffer(frame);
-    input.readPixels(data.min.y, data.max.y);
+    try {
+      Imf::InputPart input(file, part);
+      input.setFrameBuffer(frame);
+      input.readPixels(data.min.y, data.max.y);
+    } catch (const std::exception&) {
+      if (layers.front().part == part) throw;
+      std::erase_if(layers, [part](const StoredLayer& stored) { return stored.part == part; });
+    }
   }
   for (StoredLayer& stored : layers) picture.layers.push_back(std::move(stored.layer));
 

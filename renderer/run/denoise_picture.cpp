@@ -25,7 +25,7 @@ std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, 
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress) {
   const ScaleDown scale(samples.factor, options.filter, options.filter_width);
-  auto denoised = denoise(denoiser, samples.noisy(), {.guides = options.guides}, scale, progress);
+  auto denoised = denoise(denoiser, samples.noisy(), {.prefilter = options.prefilter}, scale, progress);
   if (!denoised) return std::nullopt;
   std::erase_if(picture.layers, [](const Layer& layer) { return is_denoising_layer(layer.name); });
   if (samples.alpha.empty()) {

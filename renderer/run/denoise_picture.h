@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 
 /// As the picture was rendered.
 struct DenoisePictureOptions {
-  DenoiseGuides guides = DenoiseGuides::filtered;
+  Prefilter prefilter = Prefilter::accurate;
   PixelFilter filter = PixelFilter::blackman_harris;  ///< by which larger samples are scaled
   float filter_width = 0.0f;
   BackgroundOptions background;  ///< put behind the picture where its layers have an alpha

@@ -54,7 +54,7 @@ NoisyPicture noisy(const Film& film, const RenderOptions& options, Plane color) 
 
 /// What tells an error: fast, and with the guides as they are.
 FilterOptions error_options(const Film& film) {
-  return {.guides = DenoiseGuides::noisy,
+  return {.prefilter = Prefilter::fast,
           .quality = DenoiseQuality::fast,
           .scale = exposure_of(film.rect().width(), film.rect().height(), [&film](int first, int end) {
             return film.plane(Plane::mean, film.rect().y0 + first, film.rect().y0 + end);
@@ -171,7 +171,7 @@ class Finisher {
   }
 
   FinishedPicture as_traced() {
-    FinishedPicture result{.picture = layers()};
+    FinishedPicture result{.picture = layers(), .prefilter = f_.prefilter};
     if (film_.samples_per_pixel() >= kTellingSamples) result.estimated_error = sampled_error(film_);
     const int width = film_.rect().width(), height = film_.rect().height();
     finish(result.picture, [&] {
@@ -184,9 +184,9 @@ class Finisher {
   /// Empty where it is cancelled.
   std::optional<FinishedPicture> denoised() {
     auto denoised =
-        denoise(*f_.denoiser, samples(), {.guides = f_.guides}, f_.scale, part(0.0, kShareOfPicture));
+        denoise(*f_.denoiser, samples(), {.prefilter = f_.prefilter}, f_.scale, part(0.0, kShareOfPicture));
     if (!denoised) return std::nullopt;
-    FinishedPicture result{.picture = layers(), .denoised = true, .guides = f_.guides};
+    FinishedPicture result{.picture = layers(), .denoised = true, .prefilter = f_.prefilter};
     result.picture.layers.front().values = std::move(denoised->color);
     if (film_.samples_per_pixel() >= kTellingSamples) {
       Layer* const error = find(result.picture, Aov::error);

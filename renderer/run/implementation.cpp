@@ -21,8 +21,8 @@
 #include "renderer/machine/clock.h"
 #include "renderer/machine/threads.h"
 #include "renderer/ranks/packing.h"
-#include "renderer/run/chosen_guides.h"
 #include "renderer/run/chosen_integrator.h"
+#include "renderer/run/chosen_prefilter.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/shadow_catcher.h"
@@ -197,25 +197,14 @@ void Renderer::Implementation::choose_integrator() {
   const double bounces = arena.execute([&] { return bounces_of_paths(*world, camera, region, options); });
   statistics.bounces_of_paths = bounces;
   asked = with_integrator(asked, bounces);
-  set_film();
-}
-
-void Renderer::Implementation::set_film() {
   options = options_of_film(asked);
-  region = region_of(options);
-  tiles = TileGrid(region);
-  shares = Shares(tiles.count(), threads_of_ranks);
-  own = tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()));
-  filter = FilterSampler(options.filter, options.filter_width);
-  scale = ScaleDown(asked.denoise.supersampling, asked.filter, asked.filter_width);
-  camera = Camera(view, options.width, options.height);
 }
 
-DenoiseGuides Renderer::Implementation::chosen_guides(double samples_per_pixel) {
-  if (options.denoise.guides != DenoiseGuides::automatic) return options.denoise.guides;
-  if (samples_per_pixel < kSamplesForCleanGuides) return DenoiseGuides::filtered;
+Prefilter Renderer::Implementation::chosen_prefilter(double samples_per_pixel) {
+  if (options.denoise.prefilter != Prefilter::automatic) return options.denoise.prefilter;
+  if (samples_per_pixel < kSamplesWithoutPrefilter) return Prefilter::accurate;
   const double noisy = arena.execute([&] { return noisy_share_of_guides(*world, camera, region, options); });
-  return noisy > kNoisyShareOfCleanGuides ? DenoiseGuides::filtered : DenoiseGuides::clean;
+  return noisy > kNoisyShareWithoutPrefilter ? Prefilter::accurate : Prefilter::none;
 }
 
 View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
@@ -283,7 +272,7 @@ void Renderer::Implementation::tell(const FinishedPicture& finished) {
   statistics.denoise_seconds = finished.denoise_seconds;
   statistics.denoiser =
       finished.denoised ? fmt::format("Open Image Denoise {}", chosen_denoiser.library->version) : "";
-  statistics.denoise_guides = finished.guides;
+  statistics.prefilter = finished.prefilter;
   statistics.denoise_failure = finished.failure;
   statistics.estimated_error = finished.estimated_error;
 }
@@ -301,7 +290,7 @@ CaughtShadows Renderer::Implementation::caught_shadows(double samples_per_pixel)
 Finishing Renderer::Implementation::finishing(double samples_per_pixel, DenoiseProgress progress) const {
   return {options,
           denoiser.get(),
-          options.denoise.guides,
+          options.denoise.prefilter,
           scale,
           caught_shadows(samples_per_pixel),
           std::move(progress)};
@@ -318,7 +307,8 @@ FinishedPicture Renderer::Implementation::finish(Film& film, const Callbacks& ca
     return stopped || !callbacks.stop || !callbacks.stop();
   };
   Finishing how = finishing(spp, progress);
-  if (denoiser) how.guides = chosen_guides(spp * options.denoise.parts());
+  if (denoiser || has(options.aovs, Aov::denoising))
+    how.prefilter = chosen_prefilter(spp * options.denoise.parts());
   finished = finished_picture(film, how, arena);
   finished.picture.view = camera.matrices(scene.origin);
   return finished;

@@ -54,10 +54,8 @@ struct Renderer::Implementation {
 
   /// For RenderOptions::choose_integrator, by the first view.
   void choose_integrator();
-  /// After a choice: the film, its tiles and how it becomes the picture.
-  void set_film();
-  /// For DenoiseGuides::automatic, by the view and the samples of a pixel of the picture.
-  DenoiseGuides chosen_guides(double samples_per_pixel);
+  /// For Prefilter::automatic, by the view and the samples of a pixel of the picture.
+  Prefilter chosen_prefilter(double samples_per_pixel);
   View chosen_view(const CameraOptions& chosen) const;
   /// Chooses the view, and says in the statistics what is to be told of it.
   void look_through(const CameraOptions& chosen);

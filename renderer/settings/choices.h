@@ -40,12 +40,12 @@ enum class DenoiserKind : std::uint8_t {
   none,
 };
 
-/// How albedo and normal reach the denoiser.
-enum class DenoiseGuides : std::uint8_t {
-  automatic,  ///< filtered where paths see them noisy (run/chosen_guides.h), else clean
-  filtered,   ///< each denoised first, then read by the larger network
-  clean,      ///< read as they are by the larger network, which expects no noise in them
-  noisy,      ///< read as they are by the smaller network, which expects some
+/// What happens to albedo and normal before they guide the denoiser, in the words of Blender.
+enum class Prefilter : std::uint8_t {
+  automatic,  ///< accurate where they have noise (run/chosen_prefilter.h), else none
+  accurate,   ///< each is denoised first, then read by the larger network
+  fast,       ///< read as they are by the smaller network, which expects noise in them
+  none,       ///< read as they are by the larger network, which expects none
 };
 
 enum class Aov : std::uint8_t {

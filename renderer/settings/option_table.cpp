@@ -295,18 +295,26 @@ constexpr Need kDenoiser{
     "--denoiser oidn or auto",
 };
 
+constexpr Need kDenoiserOrLayers{
+    [](const RenderOptions& o) {
+      return o.denoise.denoiser != DenoiserKind::none || has(o.aovs, Aov::denoising);
+    },
+    "--denoiser oidn or auto, or --aov denoising",
+};
+
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
-  auto& [denoiser, guides, supersampling, library] = options;
+  auto& [denoiser, prefilter, supersampling, library] = options;
   picture.add(
       choice("denoiser", denoiser,
              "Takes the noise out of the finished picture: Open Image Denoise (oidn), the same where it "
              "is found (auto, that of the presets), or nothing"));
   picture.add(
-      choice("denoise-guides", guides,
-             "How albedo and normal are read: denoised first (filtered); as they are (clean), by the same "
-             "large network; or by a smaller one that expects noise in them (noisy), in half the time of "
-             "clean; auto: filtered behind lenses and in glass, where they have noise, else clean"),
-      {kDenoiser});
+      choice("prefilter", prefilter,
+             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
+             "are (none), in half the time; or by a smaller network that expects noise in them (fast), in a "
+             "third of it; auto: none from 32 samples a pixel on where lens and glass give them no noise, "
+             "else accurate, as for files that do not tell"),
+      {kDenoiserOrLayers});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "
                      "samples, and scale by the pixel filter: sharper edges, four times the denoiser's time"),
@@ -342,10 +350,11 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 }  // namespace
 
 std::vector<Option> option_table(RenderOptions& options) {
-  auto& [integrator, choose_integrator, width, height, region, spp, of_paths, time_limit_seconds, max_error,
-         max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
-         glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy,
-         memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] = options;
+  auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
+         max_error, max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
+         light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
+         light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
+         checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);

@@ -62,11 +62,8 @@ struct RenderOptions {
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
-  /// What else changes where choose_integrator takes path; 0: nothing.
-  struct OfPaths {
-    int spp = 0;            ///< about as many as take the time
-    int supersampling = 0;  ///< the denoiser needs less noise at twice the size
-  } of_paths;
+  /// Instead of spp where choose_integrator takes path: about as many as take the time; 0: spp.
+  int spp_of_paths = 0;
   /// Of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off

@@ -9,7 +9,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.integrator = Integrator::nrc;
   options.choose_integrator = true;
   options.spp = spp;
-  options.of_paths = {.spp = spp + spp / 2, .supersampling = 1};
+  options.spp_of_paths = spp + spp / 2;
   options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
   // Chosen by the error after denoising (renderer/cache/README.md). Twice the steps of half the records, and
@@ -38,14 +38,13 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       break;
     case CachePreset::preview:
       set_finished(options, 4);
-      options.denoise.guides = DenoiseGuides::noisy;
+      options.denoise.prefilter = Prefilter::fast;
       break;
     case CachePreset::standard:
       set_finished(options, 8);
       break;
     case CachePreset::final:
       set_finished(options, 48);
-      options.denoise.supersampling = 2;
       break;
     case CachePreset::paper_nao:
     case CachePreset::paper_nrc: {

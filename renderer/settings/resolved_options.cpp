@@ -49,9 +49,7 @@ float resolve_filter_width(PixelFilter filter, float option) {
 void settle_on(RenderOptions& options, Integrator integrator) {
   options.choose_integrator = false;
   options.integrator = integrator;
-  if (integrator != Integrator::path) return;
-  if (options.of_paths.spp > 0) options.spp = options.of_paths.spp;
-  if (options.of_paths.supersampling > 0) options.denoise.supersampling = options.of_paths.supersampling;
+  if (integrator == Integrator::path && options.spp_of_paths > 0) options.spp = options.spp_of_paths;
 }
 
 }  // namespace gatelight::renderer

@@ -25,7 +25,7 @@ int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);
 /// option is 0.
 float resolve_filter_width(PixelFilter filter, float option);
 
-/// Ends RenderOptions::choose_integrator by a choice, with RenderOptions::of_paths where it is path.
+/// Ends RenderOptions::choose_integrator by a choice, with the samples that paths have in its place.
 void settle_on(RenderOptions& options, Integrator integrator);
 
 }  // namespace gatelight::renderer

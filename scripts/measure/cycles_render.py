@@ -1,9 +1,11 @@
-"""Renders a glTF file with Blender's Cycles without any of its extras: run by scripts/measure/compare-cycles.
+"""Renders a glTF file with Blender's Cycles without any of its extras: run by compare-cycles and compare-finished.
 
 blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..., ...}'
+python3 cycles_render.py -- '{...}', where the package bpy is installed
 
 Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
-JSON with the prefix "cycles: ". "out" may hold a path for the last picture (.exr in 32-bit float, or .png in sRGB without a view transform).
+JSON with the prefix "cycles: ". "out" may hold a path for the pictures (.exr in 32-bit float, or .png in sRGB without a view transform), in
+which {spp} stands for their samples. "denoise": by Open Image Denoise with prefiltered albedo and normal, within the seconds.
 "environment" is a colour or the path of a picture, "materials" what shaders get that the importer does not know, "hidden" the
 names of objects to leave out."""
 
@@ -14,7 +16,8 @@ import time
 import numpy
 
 # The importer of Blender 3.4 uses a name that numpy has dropped.
-numpy.bool = bool
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool
 
 import bpy  # noqa: E402
 
@@ -23,7 +26,9 @@ def main():
     job = json.loads(sys.argv[sys.argv.index("--") + 1])
     bpy.ops.wm.read_factory_settings(use_empty=True)
     # COMPAT: the intensity of a sun is not divided by 683.
-    bpy.ops.import_scene.gltf(filepath=job["scene"], convert_lighting_mode="COMPAT")
+    importer = bpy.ops.import_scene.gltf
+    lighting = next(name for name in importer.get_rna_type().properties.keys() if name.endswith("convert_lighting_mode"))
+    importer(filepath=job["scene"], **{lighting: "COMPAT"})
     for name in job.get("hidden", []):
         bpy.data.objects.remove(bpy.data.objects[name])
     for name, change in job.get("materials", {}).items():
@@ -38,8 +43,8 @@ def main():
         begin = time.perf_counter()
         bpy.ops.render.render()
         seconds[spp] = time.perf_counter() - begin
-    if job.get("out"):
-        save(job["out"])
+        if job.get("out"):
+            save(job["out"].format(spp=spp))
     print("cycles: " + json.dumps({"version": bpy.app.version_string, "seconds": seconds}), flush=True)
 
 
@@ -76,7 +81,10 @@ def set_material(tree, change):
 def set_sky(scene, environment):
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
-    background = world.node_tree.nodes["Background"]
+    nodes = world.node_tree.nodes
+    background = nodes.get("Background") or nodes.new("ShaderNodeBackground")
+    output = next((node for node in nodes if node.type == "OUTPUT_WORLD"), None) or nodes.new("ShaderNodeOutputWorld")
+    world.node_tree.links.new(background.outputs["Background"], output.inputs["Surface"])
     if isinstance(environment, str):
         picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
         picture.image = bpy.data.images.load(environment)
@@ -96,7 +104,12 @@ def set_sampling(scene, job):
     render.use_persistent_data = False
     render.film_transparent = False
     cycles.device = "CPU"
-    cycles.use_denoising = False
+    cycles.use_denoising = job.get("denoise", False)
+    if cycles.use_denoising:
+        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+        cycles.denoising_input_passes = "RGB_ALBEDO_NORMAL"
+        if hasattr(cycles, "denoising_quality"):
+            cycles.denoising_quality = "HIGH"
     cycles.use_adaptive_sampling = False
     cycles.seed = job.get("seed", 0)
     cycles.time_limit = 0.0

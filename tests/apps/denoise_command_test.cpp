@@ -26,7 +26,7 @@ class DenoiseCommand : public ::testing::Test {
                                       "--size",
                                       "40x32",
                                       "--spp",
-                                      "8",
+                                      spp,
                                       "--environment",
                                       "1,0.9,0.8",
                                       "--seed",
@@ -42,6 +42,7 @@ class DenoiseCommand : public ::testing::Test {
   }
 
   TemporaryFolder folder;
+  std::string spp = "8";
 };
 
 TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
@@ -49,7 +50,7 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
   const std::vector<std::vector<std::string>> flags = {
       {"--denoiser", "oidn"},
       {"--denoiser", "oidn", "--supersampling", "2", "--filter", "tent"},
-      {"--denoiser", "oidn", "--denoise-guides", "noisy", "--background", "transparent"},
+      {"--denoiser", "oidn", "--prefilter", "fast", "--background", "transparent"},
       {"--denoiser", "oidn", "--background", "0.5,0,1", "--exposure", "1", "--tonemap", "agx"}};
   for (const std::vector<std::string>& some : flags) {
     std::vector<std::string> more = some;
@@ -65,6 +66,25 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
     ASSERT_EQ(again.layers.size(), 2u) << "other layers stay";
     EXPECT_EQ(again.layers[1].name, "depth");
     EXPECT_TRUE(again.metadata.at("denoiser").starts_with("Open Image Denoise 2."));
+  }
+}
+
+TEST_F(DenoiseCommand, ReadsWhatTheRendererChoseForTheGuides) {
+  GATELIGHT_NEEDS_DENOISER();
+  spp = "32";
+  const std::vector<float> finished = beauty(render("finished.exr", {"--denoiser", "oidn"}));
+  for (const char* const denoiser : {"oidn", "none"}) {
+    const std::string input = render("a.exr", {"--denoiser", denoiser, "--aov", "denoising"});
+    EXPECT_NE(renderer::read_image(input).metadata.at("options").find("\"prefilter\":\"none\""),
+              std::string::npos)
+        << denoiser;
+    ASSERT_EQ(run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet"}).exit_code, 0);
+    EXPECT_EQ(beauty(path("b.exr")), finished) << denoiser;
+    ASSERT_EQ(
+        run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--prefilter", "accurate"})
+            .exit_code,
+        0);
+    EXPECT_NE(beauty(path("b.exr")), finished) << denoiser;
   }
 }
 

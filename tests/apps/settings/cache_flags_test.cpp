@@ -296,11 +296,6 @@ TEST(Presets, ChooseTheIntegratorUnlessItIsGiven) {
   EXPECT_EQ(read({"--preset", "paper-nrc", "--integrator", "nao"}).render.integrator, Integrator::nao);
   EXPECT_TRUE(read({"--preset", "final"}).render.choose_integrator);
   EXPECT_FALSE(read({"--preset", "final", "--integrator", "nrc"}).render.choose_integrator);
-  EXPECT_EQ(read({"--preset", "final"}).render.denoise.supersampling, 2);
-  EXPECT_EQ(read({"--preset", "final", "--integrator", "path"}).render.denoise.supersampling, 1);
-  EXPECT_EQ(read({"--preset", "final", "--integrator", "path", "--supersampling", "2"})
-                .render.denoise.supersampling,
-            2);
   EXPECT_FALSE(read({"--preset", "final", "--train-steps", "9"}).render.choose_integrator)
       << "a flag of the cache asks for one";
   // Paths get more samples in the same time, unless their number is given.

@@ -30,12 +30,12 @@ class Denoisers : public ::testing::Test {
 TEST_F(Denoisers, TakeMostOfTheNoiseAndKeepEdges) {
   const NoisyImage clean = clean_image(96, 64), noisy = noisy_image(96, 64);
   const double before = deviation(noisy.color, clean.color);
-  for (const DenoiseGuides guides : {DenoiseGuides::filtered, DenoiseGuides::clean, DenoiseGuides::noisy}) {
+  for (const Prefilter prefilter : {Prefilter::accurate, Prefilter::none, Prefilter::fast}) {
     for (const DenoiseQuality quality : {DenoiseQuality::fast, DenoiseQuality::high}) {
-      const NoisyImage denoised = filtered(noisy, {.guides = guides, .quality = quality});
-      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << word(guides);
+      const NoisyImage denoised = filtered(noisy, {.prefilter = prefilter, .quality = quality});
+      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << word(prefilter);
       // Guides are filtered in place, or stay as they are.
-      EXPECT_EQ(denoised.albedo == noisy.albedo, guides != DenoiseGuides::filtered);
+      EXPECT_EQ(denoised.albedo == noisy.albedo, prefilter != Prefilter::accurate);
     }
   }
   NoisyImage alone = noisy;

@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -88,8 +89,32 @@ TEST(ExrParts, OfAnotherSizeAndOfTheSameNameAreLeftOut) {
                                                           {"again", {"right.R"}, 7.0f},
                                                           {"thumbnail", {"R", "G", "B"}, 9.0f, 2}}));
   ASSERT_EQ(picture.layers.size(), 2u);
-  EXPECT_EQ(picture.layers[0].name, "") << "the first part needs no name";
+  EXPECT_EQ(picture.layers[0].name, "left");
   EXPECT_EQ(picture.find("right")->values[0], 5.0f);
+}
+
+TEST(ExrParts, ShowTheOneThatIsCalledThePicture) {
+  const TemporaryFolder folder;
+  const Picture picture = read_image(write_parts(
+      folder,
+      {{"albedo", {"R", "G", "B"}, 1.0f}, {"Beauty", {"R", "G", "B"}, 5.0f}, {"N", {"X", "Y", "Z"}, 9.0f}}));
+  EXPECT_EQ(picture.layers[0].name, "Beauty");
+  const Samples samples = samples_of(picture, {});
+  EXPECT_EQ(samples.color[0], 5.0f);
+  EXPECT_EQ(samples.albedo[0], 1.0f);
+  EXPECT_EQ(samples.normal[0], 9.0f);
+}
+
+/// A crash left the second part behind without pixels.
+TEST(ExrParts, ThatCannotBeReadAreLeftOut) {
+  const TemporaryFolder folder;
+  const std::string path =
+      write_parts(folder, {{"rgba", {"R", "G", "B"}, 1.0f}, {"N", {"X", "Y", "Z"}, 9.0f}});
+  ASSERT_EQ(read_image(path).layers.size(), 2u);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 8);
+  const Picture picture = read_image(path);
+  ASSERT_EQ(picture.layers.size(), 1u);
+  EXPECT_EQ(picture.layers[0].values[1], 2.0f);
 }
 
 }  // namespace

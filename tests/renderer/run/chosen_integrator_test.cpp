@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "renderer/render.h"
-#include "tests/support/denoiser.h"
 #include "tests/support/room.h"
 #include "tests/support/scene_builder.h"
 
@@ -21,7 +20,7 @@ RenderOptions automatic() {
   options.integrator = Integrator::nrc;
   options.choose_integrator = true;
   options.spp = 2;
-  options.of_paths.spp = 3;
+  options.spp_of_paths = 3;
   options.cache.train_steps = 2;
   options.cache.batch = 256;
   return options;
@@ -65,28 +64,6 @@ TEST(ChosenIntegrator, IsPathWherePathsAreShortAndTheCacheInARoom) {
   EXPECT_FALSE(named.statistics().bounces_of_paths);
 }
 
-/// The film is chosen after the integrator.
-TEST(ChosenIntegrator, GivesThePictureThatNamingItGives) {
-  GATELIGHT_NEEDS_DENOISER();
-  const scene::Scene square = open_square();
-  RenderOptions options = automatic();
-  options.environment.constant = Color::Ones();
-  options.spp = 4;
-  options.of_paths = {.spp = 6, .supersampling = 1};
-  options.denoise = {
-      .denoiser = DenoiserKind::oidn, .supersampling = 2, .library = testing::denoiser_place()};
-  options.region = {{3, 2, 33, 21}};
-  Renderer chosen(square, options);
-  const Picture picture = chosen.render();
-  EXPECT_EQ(picture.width, 30);
-  options.choose_integrator = false;
-  options.integrator = Integrator::path;
-  options.spp = 6;
-  options.denoise.supersampling = 1;
-  Renderer named(square, options);
-  EXPECT_EQ(picture.layers[0].values, named.render().layers[0].values);
-}
-
 TEST(ChosenIntegrator, DependsOnNothingButTheScene) {
   const scene::Scene scene = testing::room();
   RenderOptions options = automatic();
@@ -102,11 +79,6 @@ TEST(ChosenIntegrator, IsTheCacheWhereOneIsKept) {
   EXPECT_EQ(with_integrator(options, 1.0).spp, 3);
   EXPECT_EQ(with_integrator(options, 2.0).integrator, Integrator::nrc);
   EXPECT_EQ(with_integrator(options, 2.0).spp, 2);
-  options.denoise.supersampling = 2;
-  EXPECT_EQ(with_integrator(options, 1.0).denoise.supersampling, 2);
-  options.of_paths.supersampling = 1;
-  EXPECT_EQ(with_integrator(options, 1.0).denoise.supersampling, 1);
-  EXPECT_EQ(with_integrator(options, 2.0).denoise.supersampling, 2);
   options.cache.cache_in = "kept.safetensors";
   EXPECT_EQ(with_integrator(options, 1.0).integrator, Integrator::nrc);
 }

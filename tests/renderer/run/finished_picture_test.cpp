@@ -68,11 +68,11 @@ TEST_P(FinishedPicture, IsDenoisedAndItsSamplesStayLayers) {
 TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
   GATELIGHT_NEEDS_DENOISER();
   const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
-  for (const DenoiseGuides guides : {DenoiseGuides::filtered, DenoiseGuides::clean, DenoiseGuides::noisy}) {
+  for (const Prefilter prefilter : {Prefilter::accurate, Prefilter::none, Prefilter::fast}) {
     for (const int supersampling : {1, 2}) {
       for (const Kind background : {Kind::scene, Kind::transparent, Kind::color}) {
         RenderOptions o = denoised({Aov::denoising});
-        o.denoise.guides = guides;
+        o.denoise.prefilter = prefilter;
         o.denoise.supersampling = supersampling;
         o.background = {.kind = background, .color = {0.1f, 0.2f, 0.3f}};
         o.environment.constant = scene::Color::Constant(0.3f);
@@ -80,7 +80,7 @@ TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
         Picture samples = finished;
         samples.layers[0].values.assign(samples.layers[0].values.size(), 0.0f);
         const auto again = denoise_picture(samples, samples_of(samples), denoiser,
-                                           {.guides = guides,
+                                           {.prefilter = prefilter,
                                             .filter = o.filter,
                                             .filter_width = o.filter_width,
                                             .background = o.background});
@@ -88,7 +88,7 @@ TEST_P(FinishedPicture, IsMadeAgainOfItsLayersToTheBit) {
         ASSERT_EQ(again->layers.size(), 1u);
         EXPECT_EQ(again->layers[0].channels, finished.layers[0].channels);
         EXPECT_EQ(again->layers[0].values, finished.layers[0].values)
-            << word(guides) << supersampling << static_cast<int>(background);
+            << word(prefilter) << supersampling << static_cast<int>(background);
         // The samples themselves do not depend on the denoiser.
         RenderOptions traced = o;
         traced.denoise.denoiser = DenoiserKind::none;

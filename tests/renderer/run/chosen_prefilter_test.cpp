@@ -1,6 +1,6 @@
 // Views with and without noise in what guides the denoiser, and what it reads for them.
 
-#include "renderer/run/chosen_guides.h"
+#include "renderer/run/chosen_prefilter.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ double share(const scene::Scene& scene, const RenderOptions& options) {
   return noisy_share_of_guides(world, camera, {0, 0, options.width, options.height}, options);
 }
 
-TEST(ChosenGuides, TellNoiseFromEdges) {
+TEST(ChosenPrefilter, TellsNoiseFromEdges) {
   EXPECT_EQ(share(squares(), options_of()), 0.0) << "an edge is no noise";
   EXPECT_GT(share(squares(), options_of(0.2f)), 0.01) << "a lens blurs it";
   SceneBuilder builder;
@@ -56,21 +56,22 @@ TEST(ChosenGuides, TellNoiseFromEdges) {
   EXPECT_GT(share(builder.scene(), options_of()), 0.4) << "each path passes it or not";
 }
 
-TEST(ChosenGuides, AreFilteredWhereTheyHaveNoise) {
+TEST(ChosenPrefilter, IsAccurateWhereGuidesHaveNoise) {
   GATELIGHT_NEEDS_DENOISER();
   const scene::Scene scene = squares();
-  const auto guides_of = [&](float aperture, int spp, DenoiseGuides asked) {
+  const auto prefilter_of = [&](float aperture, int spp, Prefilter asked) {
     RenderOptions options = options_of(aperture);
     options.spp = spp;
-    options.denoise = {.denoiser = DenoiserKind::oidn, .guides = asked, .library = testing::denoiser_place()};
+    options.denoise = {
+        .denoiser = DenoiserKind::oidn, .prefilter = asked, .library = testing::denoiser_place()};
     Renderer renderer(scene, options);
     renderer.render();
-    return word(renderer.statistics().denoise_guides);
+    return word(renderer.statistics().prefilter);
   };
-  EXPECT_EQ(guides_of(0.0f, 32, DenoiseGuides::automatic), "clean");
-  EXPECT_EQ(guides_of(0.0f, 31, DenoiseGuides::automatic), "filtered") << "edges have noise yet";
-  EXPECT_EQ(guides_of(2.0f, 32, DenoiseGuides::automatic), "filtered");
-  EXPECT_EQ(guides_of(2.0f, 32, DenoiseGuides::noisy), "noisy") << "naming them wins";
+  EXPECT_EQ(prefilter_of(0.0f, 32, Prefilter::automatic), "none");
+  EXPECT_EQ(prefilter_of(0.0f, 31, Prefilter::automatic), "accurate") << "edges have noise yet";
+  EXPECT_EQ(prefilter_of(2.0f, 32, Prefilter::automatic), "accurate");
+  EXPECT_EQ(prefilter_of(2.0f, 32, Prefilter::fast), "fast") << "naming them wins";
 }
 
 }  // namespace

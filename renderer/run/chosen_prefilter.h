@@ -14,9 +14,9 @@ namespace gatelight::renderer {
 double noisy_share_of_guides(const World& world, const Camera& camera, const PixelRect& region,
                              const RenderOptions& options);
 
-/// With so many samples of a pixel, and up to this noisy share, guides are read as they are
+/// With so many samples of a pixel, and up to this noisy share, Prefilter::none is as good as accurate
 /// (denoise/README.md).
-inline constexpr double kSamplesForCleanGuides = 32.0;
-inline constexpr double kNoisyShareOfCleanGuides = 0.03;
+inline constexpr double kSamplesWithoutPrefilter = 32.0;
+inline constexpr double kNoisyShareWithoutPrefilter = 0.03;
 
 }  // namespace gatelight::renderer

@@ -1,4 +1,4 @@
-#include "renderer/run/chosen_guides.h"
+#include "renderer/run/chosen_prefilter.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
