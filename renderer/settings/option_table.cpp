@@ -317,7 +317,8 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
       {kDenoiserOrLayers});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "
-                     "samples, and scale by the pixel filter: sharper edges, four times the denoiser's time"),
+                     "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
+                     "textures, four times the denoiser's time"),
               {kDenoiser});
   picture.add(
       decides_nothing(any_word("oidn", library, "FILE|FOLDER",
