@@ -125,11 +125,6 @@ class RenderRun {
     if (settings_.render.choose_integrator) renderer::settle_on(settings_.render, chosen);
   }
 
-  /// gatelight denoise reads it.
-  void note_prefilter(renderer::Prefilter chosen) {
-    if (chosen != renderer::Prefilter::automatic) settings_.render.denoise.prefilter = chosen;
-  }
-
   scene::Scene load() {
     for (const std::string& unused : unused_output_flags(settings_)) warn(unused);
     progress_.phase("load");
@@ -161,7 +156,6 @@ class RenderRun {
 
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
   void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
-    note_prefilter(statistics.prefilter);
     renderer::ImageWriteOptions image = settings_.image;
     const float suitable = renderer::auto_exposure(picture);
     if (!settings_.exposure) image.display.exposure = suitable;

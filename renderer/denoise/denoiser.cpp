@@ -126,9 +126,7 @@ bool Denoiser::filter(NoisyImage& image, const FilterOptions& options,
                       const DenoiseProgress& progress) const {
   if (image.width <= 0 || image.height <= 0) return true;
   double begin = 0.0;
-  const bool accurate =
-      options.prefilter == Prefilter::accurate || options.prefilter == Prefilter::automatic;
-  if (accurate && has_guides(image)) {
+  if (options.prefilter == Prefilter::accurate && has_guides(image)) {
     for (const auto& [name, guide] : {std::pair("albedo", &image.albedo), {"normal", &image.normal}}) {
       RayTracingFilter filter(api_, device_.get(), image, memory_limit_bytes_);
       filter.set_image(name, *guide);

@@ -25,7 +25,7 @@ struct NoisyImage {
 enum class DenoiseQuality : std::uint8_t { fast, high };
 
 struct FilterOptions {
-  Prefilter prefilter = Prefilter::accurate;  ///< automatic is the same
+  Prefilter prefilter = Prefilter::accurate;
   DenoiseQuality quality = DenoiseQuality::high;
   /// Multiplies colours before the filter, and divides them after it. Parts of a picture need the same one.
   float scale = 1.0f;

@@ -171,7 +171,7 @@ class Finisher {
   }
 
   FinishedPicture as_traced() {
-    FinishedPicture result{.picture = layers(), .prefilter = f_.prefilter};
+    FinishedPicture result{.picture = layers()};
     if (film_.samples_per_pixel() >= kTellingSamples) result.estimated_error = sampled_error(film_);
     const int width = film_.rect().width(), height = film_.rect().height();
     finish(result.picture, [&] {
@@ -183,10 +183,10 @@ class Finisher {
 
   /// Empty where it is cancelled.
   std::optional<FinishedPicture> denoised() {
-    auto denoised =
-        denoise(*f_.denoiser, samples(), {.prefilter = f_.prefilter}, f_.scale, part(0.0, kShareOfPicture));
+    auto denoised = denoise(*f_.denoiser, samples(), {.prefilter = options_.denoise.prefilter}, f_.scale,
+                            part(0.0, kShareOfPicture));
     if (!denoised) return std::nullopt;
-    FinishedPicture result{.picture = layers(), .denoised = true, .prefilter = f_.prefilter};
+    FinishedPicture result{.picture = layers(), .denoised = true};
     result.picture.layers.front().values = std::move(denoised->color);
     if (film_.samples_per_pixel() >= kTellingSamples) {
       Layer* const error = find(result.picture, Aov::error);

@@ -19,9 +19,8 @@ namespace gatelight::renderer {
 struct FinishedPicture {
   Picture picture;
   bool denoised = false;
-  Prefilter prefilter = Prefilter::automatic;  ///< Finishing::prefilter
-  bool stopped = false;                        ///< denoising was cancelled
-  std::string failure;                         ///< why it is not denoised although it should be; else empty
+  bool stopped = false;  ///< denoising was cancelled
+  std::string failure;   ///< why it is not denoised although it should be; else empty
   double denoise_seconds = 0.0;
   /// Relative RMS, as metrics/estimated_error.h defines it. Empty where pixels have less than two samples.
   std::optional<double> estimated_error;
@@ -32,12 +31,11 @@ using CaughtShadows = std::function<std::vector<float>(const PixelRect& rect)>;
 
 /// How a film becomes a picture.
 struct Finishing {
-  const RenderOptions& options;               ///< of the film
-  const Denoiser* denoiser = nullptr;         ///< null: the means of the samples
-  Prefilter prefilter = Prefilter::accurate;  ///< of the picture, or for its denoising layers
-  ScaleDown scale;                            ///< from the film to the picture
-  CaughtShadows shadows;                      ///< empty: none
-  DenoiseProgress progress;                   ///< false cancels denoising
+  const RenderOptions& options;        ///< of the film
+  const Denoiser* denoiser = nullptr;  ///< null: the means of the samples
+  ScaleDown scale;                     ///< from the film to the picture
+  CaughtShadows shadows;               ///< empty: none
+  DenoiseProgress progress;            ///< false cancels denoising
 };
 
 /// The finished picture with the output variables of the options. The film keeps film_contents(options).

@@ -22,7 +22,6 @@
 #include "renderer/machine/threads.h"
 #include "renderer/ranks/packing.h"
 #include "renderer/run/chosen_integrator.h"
-#include "renderer/run/chosen_prefilter.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/reference_pass.h"
 #include "renderer/transport/shadow_catcher.h"
@@ -200,13 +199,6 @@ void Renderer::Implementation::choose_integrator() {
   options = options_of_film(asked);
 }
 
-Prefilter Renderer::Implementation::chosen_prefilter(double samples_per_pixel) {
-  if (options.denoise.prefilter != Prefilter::automatic) return options.denoise.prefilter;
-  if (samples_per_pixel < kSamplesWithoutPrefilter) return Prefilter::accurate;
-  const double noisy = arena.execute([&] { return noisy_share_of_guides(*world, camera, region, options); });
-  return noisy > kNoisyShareWithoutPrefilter ? Prefilter::accurate : Prefilter::none;
-}
-
 View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
   return choose_camera(scene, chosen, static_cast<float>(options.width) / static_cast<float>(options.height));
 }
@@ -272,7 +264,6 @@ void Renderer::Implementation::tell(const FinishedPicture& finished) {
   statistics.denoise_seconds = finished.denoise_seconds;
   statistics.denoiser =
       finished.denoised ? fmt::format("Open Image Denoise {}", chosen_denoiser.library->version) : "";
-  statistics.prefilter = finished.prefilter;
   statistics.denoise_failure = finished.failure;
   statistics.estimated_error = finished.estimated_error;
 }
@@ -288,12 +279,7 @@ CaughtShadows Renderer::Implementation::caught_shadows(double samples_per_pixel)
 }
 
 Finishing Renderer::Implementation::finishing(double samples_per_pixel, DenoiseProgress progress) const {
-  return {options,
-          denoiser.get(),
-          options.denoise.prefilter,
-          scale,
-          caught_shadows(samples_per_pixel),
-          std::move(progress)};
+  return {options, denoiser.get(), scale, caught_shadows(samples_per_pixel), std::move(progress)};
 }
 
 FinishedPicture Renderer::Implementation::finish(Film& film, const Callbacks& callbacks, bool stopped) {
@@ -306,10 +292,7 @@ FinishedPicture Renderer::Implementation::finish(Film& film, const Callbacks& ca
       callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
     return stopped || !callbacks.stop || !callbacks.stop();
   };
-  Finishing how = finishing(spp, progress);
-  if (denoiser || has(options.aovs, Aov::denoising))
-    how.prefilter = chosen_prefilter(spp * options.denoise.parts());
-  finished = finished_picture(film, how, arena);
+  finished = finished_picture(film, finishing(spp, progress), arena);
   finished.picture.view = camera.matrices(scene.origin);
   return finished;
 }

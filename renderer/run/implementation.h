@@ -54,8 +54,6 @@ struct Renderer::Implementation {
 
   /// For RenderOptions::choose_integrator, by the first view.
   void choose_integrator();
-  /// For Prefilter::automatic, by the view and the samples of a pixel of the picture.
-  Prefilter chosen_prefilter(double samples_per_pixel);
   View chosen_view(const CameraOptions& chosen) const;
   /// Chooses the view, and says in the statistics what is to be told of it.
   void look_through(const CameraOptions& chosen);

@@ -42,10 +42,9 @@ enum class DenoiserKind : std::uint8_t {
 
 /// What happens to albedo and normal before they guide the denoiser, in the words of Blender.
 enum class Prefilter : std::uint8_t {
-  automatic,  ///< accurate where they have noise (run/chosen_prefilter.h), else none
-  accurate,   ///< each is denoised first, then read by the larger network
-  fast,       ///< read as they are by the smaller network, which expects noise in them
-  none,       ///< read as they are by the larger network, which expects none
+  accurate,  ///< each is denoised first, then read by the larger network
+  fast,      ///< read as they are by the smaller network, which expects noise in them
+  none,      ///< read as they are by the larger network, which expects none
 };
 
 enum class Aov : std::uint8_t {

@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 
 struct DenoiseOptions {
   DenoiserKind denoiser = DenoiserKind::none;
-  Prefilter prefilter = Prefilter::automatic;
+  Prefilter prefilter = Prefilter::accurate;
   /// The picture is rendered and denoised at so many times its width and height, with as many samples in all,
   /// and then scaled by its pixel filter. 1 where nothing is denoised.
   int supersampling = 1;

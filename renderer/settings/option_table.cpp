@@ -309,11 +309,11 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
              "Takes the noise out of the finished picture: Open Image Denoise (oidn), the same where it "
              "is found (auto, that of the presets), or nothing"));
   picture.add(
-      choice("prefilter", prefilter,
-             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
-             "are (none), in half the time; or by a smaller network that expects noise in them (fast), in a "
-             "third of it; auto: none from 32 samples a pixel on where lens and glass give them no noise, "
-             "else accurate, as for files that do not tell"),
+      choice(
+          "prefilter", prefilter,
+          "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
+          "are, for half the time (none): what they have of noise shows, in glass and behind lenses; or read "
+          "by a smaller network that expects noise in them, for a third of the time (fast)"),
       {kDenoiserOrLayers});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "

@@ -94,8 +94,6 @@ struct RenderStatistics {
   double render_seconds = 0.0;
   double resumed_seconds = 0.0;  ///< those of render_seconds that a checkpoint brought
   double denoise_seconds = 0.0;
-  /// That of the picture, or of its layers (Aov::denoising): no longer automatic.
-  Prefilter prefilter = Prefilter::automatic;
   std::string denoiser;         ///< name and version of what denoised the picture; empty: it is as traced
   std::string denoise_failure;  ///< why it is as traced although it should be denoised; else empty
   double cryptomatte_seconds = 0.0;

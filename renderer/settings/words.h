@@ -44,10 +44,8 @@ template <>
 inline constexpr Choice<DenoiserKind> kWords<DenoiserKind>[] = {
     {"auto", DenoiserKind::automatic}, {"oidn", DenoiserKind::oidn}, {"none", DenoiserKind::none}};
 template <>
-inline constexpr Choice<Prefilter> kWords<Prefilter>[] = {{"auto", Prefilter::automatic},
-                                                          {"accurate", Prefilter::accurate},
-                                                          {"fast", Prefilter::fast},
-                                                          {"none", Prefilter::none}};
+inline constexpr Choice<Prefilter> kWords<Prefilter>[] = {
+    {"accurate", Prefilter::accurate}, {"fast", Prefilter::fast}, {"none", Prefilter::none}};
 template <>
 inline constexpr Choice<Aov> kWords<Aov>[] = {{"albedo", Aov::albedo},
                                               {"normal", Aov::normal},

@@ -43,7 +43,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) { o.light_selection = LightSelection::power; }, {"light-selection", "tree", "power"}},
       {[](O o, C) { o.watertight = false; }, {"watertight", "on", "off"}},
       {[](O o, C) { o.denoise.denoiser = DenoiserKind::oidn; }, {"denoiser", "none", "oidn"}},
-      {[](O o, C) { o.denoise.prefilter = Prefilter::fast; }, {"prefilter", "auto", "fast"}},
+      {[](O o, C) { o.denoise.prefilter = Prefilter::fast; }, {"prefilter", "accurate", "fast"}},
       {[](O o, C) { o.denoise.supersampling = 2; }, {"supersampling", "1", "2"}},
       {[](O o, C) { o.clamp = 1.5f; }, {"clamp", "0", "1.5"}},
       {[](O o, C) { o.ao_distance = 0.0f; }, {"ao-distance", "auto", "0"}},
