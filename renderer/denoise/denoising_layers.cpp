@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 
 #include "renderer/image/image_read.h"
+#include "renderer/image/short_name.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -34,16 +34,6 @@ void each_place(int width, int height, int factor, int column, int row, Visit vi
   for (int y = row; y < height; y += factor) {
     for (int x = column; x < width; x += factor) visit(at++, size(y) * size(width) + size(x));
   }
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-/// "viewlayer.Denoising Albedo" -> "denoising albedo"
-std::string short_name(const std::string& layer) {
-  return lower(layer.substr(layer.rfind('.') + 1));
 }
 
 /// The first of the names that the picture has.

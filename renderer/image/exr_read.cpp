@@ -17,6 +17,7 @@
 #include "renderer/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/cryptomatte.h"
+#include "renderer/image/short_name.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -35,8 +36,12 @@ struct StoredLayer {
   std::vector<std::string> channels;  ///< their full names in the part
 };
 
-bool is_subsampled(const Imf::Channel& channel) {
-  return channel.xSampling != 1 || channel.ySampling != 1;
+/// Empty where there is none.
+std::string subsampled_channel(const Imf::ChannelList& channels) {
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) return it.name();
+  }
+  return "";
 }
 
 /// Adds the layers of a part that are not there yet: views of the same names are not told apart. Channels
@@ -71,8 +76,7 @@ void add_layers(const Imf::Header& header, int part, const std::string& part_nam
 
 /// The last component of a layer's name is one that renderers give the picture itself.
 bool is_called_beauty(const std::string& layer) {
-  std::string name = layer.substr(layer.rfind('.') + 1);
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string name = short_name(layer);
   return name.empty() || name == "rgba" || name == "beauty" || name == "combined" || name == "c";
 }
 
@@ -100,10 +104,7 @@ std::vector<StoredLayer> find_layers(const Imf::MultiPartInputFile& file) {
   std::vector<StoredLayer> layers;
   for (int part = 0; part < file.parts(); ++part) {
     const Imf::Header& header = file.header(part);
-    std::string subsampled;
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-      if (is_subsampled(it.channel())) subsampled = it.name();
-    }
+    const std::string subsampled = subsampled_channel(header.channels());
     if (part == 0 && !subsampled.empty())
       throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", subsampled));
     const bool deep = header.hasType() && Imf::isDeepData(header.type());
