@@ -17,7 +17,7 @@
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/version.h"
-#include "scene/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace gatelight::apps {
 namespace {
@@ -64,9 +64,8 @@ std::string describe_unknown_flag(const CLI::App& root) {
   for (const std::string& word : root.remaining(true)) {
     if (!word.starts_with('-')) continue;
     const std::string name = word.substr(0, word.find('='));
-    // The dashes are no letters that could be right or wrong.
-    const std::string meant =
-        name.starts_with("--") ? scene::nearest_word(name.substr(2), flag_names(root)) : "";
+    // The dashes are left out of the comparison: they always match.
+    const std::string meant = name.starts_with("--") ? nearest_word(name.substr(2), flag_names(root)) : "";
     return fmt::format("unknown flag '{}'{}", cut(word),
                        meant.empty() ? "" : fmt::format("; did you mean '--{}'?", meant));
   }
@@ -81,10 +80,10 @@ std::string describe_subcommand(const CLI::App& root) {
   const std::string got =
       rest.empty() ? "a subcommand is missing" : fmt::format("'{}' is no subcommand", cut(rest.front()));
   return fmt::format("{}, expected {} or {}{}", got, fmt::join(names.begin(), names.end() - 1, ", "),
-                     names.back(), rest.empty() ? "" : scene::did_you_mean(rest.front(), names));
+                     names.back(), rest.empty() ? "" : did_you_mean(rest.front(), names));
 }
 
-/// What was wrong; our own words replace those of the library where they are too vague.
+/// Describes a parse error. Replaces those of CLI11's messages that are too vague.
 std::string describe(const CLI::App& root, const CLI::ParseError& error, const ConfigFile& config) {
   const CLI::App* called = called_subcommand(root);
   const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
@@ -101,7 +100,7 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
     std::string meant;
     if (text.starts_with(kExtras)) {
       const std::string key = text.substr(kExtras.size());
-      meant = scene::did_you_mean(key.substr(key.rfind('.') + 1), flag_names(root));
+      meant = did_you_mean(key.substr(key.rfind('.') + 1), flag_names(root));
       text = fmt::format("unknown '{}'", cut(key));
     }
     return fmt::format("{}: {}, expected flags of '{}' and their values{}", file, text, called->get_name(),
@@ -190,7 +189,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
     refuse_empty_words(root);
     for (const Subcommand& subcommand : subcommands) {
       if (!subcommand.app->parsed()) continue;
-      if (!group.ranks.alone() && !subcommand.of_ranks) {
+      if (!group.ranks.is_single() && !subcommand.of_ranks) {
         throw UsageError(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
                                      subcommand.app->get_name()));
       }

@@ -10,7 +10,7 @@ int read_only(int argc, const char* const* argv);
 
 /// Runs the whole program. Returns the exit code; throws nothing.
 int run(int argc, const char* const* argv);
-/// The same as one of several ranks. All of them run the same command.
+/// Runs the program as one of several ranks. All of them run the same command.
 int run(int argc, const char* const* argv, const RankGroup& group);
 
 }  // namespace gatelight::apps

@@ -31,9 +31,9 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
   psnr      peak signal to noise ratio in dB, for a peak of 1
   mean      mean of the absolute difference, and of the signed one (test minus reference)
   max       largest absolute difference
-  ssim      mean structural similarity (Wang et al. 2004) of what flip sees, as grey: 1 for equal pictures. A Gaussian
+  ssim      mean structural similarity (Wang et al. 2004) of flip's input in grey: 1 for equal pictures. A Gaussian
             window of 11x11 pixels that must lie within the picture, K1 0.01, K2 0.03; none for smaller pictures
-  flip      LDR-FLIP (2020), what the eye sees when the pictures alternate: mean, quartiles weighted by the
+  flip      LDR-FLIP (2020), the visible difference when the pictures alternate: mean, quartiles weighted by the
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
 Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
@@ -69,8 +69,8 @@ std::vector<Metric> choose_metrics(const std::string& list) {
     for (const renderer::Choice<Metric>& choice : kMetrics) chosen.push_back(choice.value);
     return chosen;
   }
-  for (const std::string& word : renderer::split_list("--metric", list)) {
-    const Metric metric = renderer::parse_choice("--metric", word, kMetrics);
+  for (const std::string& word : split_list("--metric", list)) {
+    const Metric metric = parse_choice("--metric", word, kMetrics);
     if (std::find(chosen.begin(), chosen.end(), metric) == chosen.end()) chosen.push_back(metric);
   }
   return chosen;
@@ -100,7 +100,7 @@ void check_outputs(const CompareSettings& settings) {
     }
     renderer::check_image_output(settings.error_map);
   }
-  if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
+  if (!settings.json.empty() && settings.json != "-") check_writable(settings.json);
 }
 
 /// Whether the metric is a mean over pixels, so that some pixels can be left out.
@@ -184,10 +184,9 @@ int run_compare(const CompareSettings& settings) {
   return kDone;
 }
 
-std::vector<renderer::Option> option_table(CompareSettings& settings) {
-  constexpr renderer::RealRange kPixelsPerDegree{renderer::kMinPixelsPerDegree,
-                                                 renderer::kMaxPixelsPerDegree};
-  constexpr renderer::RealRange kStops{-100.0, 100.0};
+std::vector<Option> option_table(CompareSettings& settings) {
+  constexpr RealRange kPixelsPerDegree{renderer::kMinPixelsPerDegree, renderer::kMaxPixelsPerDegree};
+  constexpr RealRange kStops{-100.0, 100.0};
   using namespace renderer;
   std::vector<Option> table = {
       positional("REFERENCE", settings.reference, "Reference picture, .exr, .hdr or .png"),
@@ -195,7 +194,7 @@ std::vector<renderer::Option> option_table(CompareSettings& settings) {
       any_words("halves", settings.halves, "REF2 TEST2",
                 "Second halves of reference and test: also estimates the bias without noise"),
       any_word("metric", settings.metrics, "LIST",
-               "Which, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)"),
+               "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)"),
       any_word("json", settings.json, "FILE|-", "Result as JSON; - is stdout"),
       any_word("error-map", settings.error_map, "FILE.png",
                "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "

@@ -14,30 +14,30 @@
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_options.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/version.h"
+#include "base/clock.h"
+#include "base/platform/threads.h"
+#include "renderer/driver/denoise_picture.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "renderer/machine/clock.h"
-#include "renderer/machine/threads.h"
-#include "renderer/run/denoise_picture.h"
-#include "renderer/settings/option_table.h"
 
 namespace gatelight::apps {
 namespace {
 
 constexpr const char* kDenoiseFooter =
-    R"(Takes the noise out of a picture by Open Image Denoise. A picture that was rendered with --aov denoising becomes the
-very picture that the renderer finishes, with its background, exposure and curve, unless flags say otherwise; merged
-parts (gatelight merge) become one finished picture. Pictures of other renderers need layers of albedo and normal,
-which are found by their usual names (Blender: "Denoising Albedo", "Denoising Normal", "Noisy Image"); without them the
-colours alone are denoised. Further layers of an EXR, Cryptomattes among them, stay as they are; of an EXR of several
+    R"(Takes the noise out of a picture by Open Image Denoise. A picture that was rendered with --aov denoising gives the
+same picture as denoising in the renderer, with its background, exposure and curve, unless flags override them; merged
+parts (gatelight merge) give one finished picture. Pictures of other renderers need layers of albedo and normal,
+which are found by their usual names (Blender: "Denoising Albedo", "Denoising Normal", "Noisy Image"); without them only
+the colours are denoised. Further layers of an EXR, Cryptomattes among them, stay as they are; of an EXR of several
 parts those are read that have the pixels of the first.
 
 Examples:
@@ -52,7 +52,7 @@ struct DenoiseSettings {
   std::vector<std::string> outputs;
   renderer::ImageWriteOptions image;
   std::optional<float> exposure;
-  renderer::RenderOptions render;  ///< of which the options of the denoiser and of the machine count
+  renderer::RenderOptions render;  ///< only the options of kOfRender are used
   renderer::LayerNames layers;
   ProgressMode progress = ProgressMode::automatic;
   bool quiet = false;
@@ -61,31 +61,33 @@ struct DenoiseSettings {
 /// The options of `render` that this command has too.
 constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "prefilter",
                                      "oidn",       "threads", "memory-limit"};
-/// Those that the picture's recipe decides.
+/// Options that the picture's recipe sets, unless a flag does.
 constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background"};
 
-std::vector<renderer::Option> denoise_table(DenoiseSettings& settings) {
-  std::vector<renderer::Option> table;
+std::vector<Option> denoise_table(DenoiseSettings& settings) {
+  std::vector<Option> table;
   table.push_back(positional("INPUT", settings.input, "Picture, .exr"));
-  renderer::OptionGroup output{table, "Output"};
+  OptionGroup output{table, "Output"};
   add_picture_files(output, settings.outputs, settings.image, settings.exposure);
   output.add(progress_option(settings.progress));
-  output.add(renderer::toggle("quiet", settings.quiet, "Print errors only"));
-  renderer::OptionGroup input{table, "Layers of the input"};
+  output.add(toggle("quiet", settings.quiet, "Print errors only"));
+  OptionGroup input{table, "Layers of the input"};
   const auto add_layer = [&](const char* name, std::string& member, const char* help) {
-    input.add(renderer::any_word(name, member, "NAME", help));
+    input.add(any_word(name, member, "NAME", help));
   };
   add_layer("color-layer", settings.layers.color, "Colours with noise (default: by the usual names)");
-  add_layer("albedo-layer", settings.layers.albedo, "Albedo of what is seen (default: by the usual names)");
-  add_layer("normal-layer", settings.layers.normal, "Normals of what is seen (default: by the usual names)");
-  for (renderer::Option& option : renderer::option_table(settings.render)) {
+  add_layer("albedo-layer", settings.layers.albedo,
+            "Albedo of the visible surfaces (default: by the usual names)");
+  add_layer("normal-layer", settings.layers.normal,
+            "Normals of the visible surfaces (default: by the usual names)");
+  for (Option& option : picture_options(settings.render)) {
     if (std::find(std::begin(kOfRender), std::end(kOfRender), option.name) != std::end(kOfRender))
       table.push_back(std::move(option));
   }
   return table;
 }
 
-/// What an option reads, from its value in a recipe.
+/// Text of a recipe's value, in the syntax that the option reads.
 std::string text_of(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
@@ -94,28 +96,28 @@ std::string text_of(const ordered_json& value) {
   return text;
 }
 
-/// Sets the options that decide how the picture was to be finished, where no flag does.
+/// Sets the options of finishing the picture from its recipe, where no flag sets them.
 void apply_recipe(const renderer::Picture& picture, const std::set<std::string>& given,
                   DenoiseSettings& settings) {
   const ordered_json recipe = recipe_options(picture);
   if (!recipe.is_object()) return;
-  const auto read = [&](renderer::Option& option) {
+  const auto read = [&](Option& option) {
     if (given.contains(option.flag()) || !recipe.contains(option.name)) return;
     try {
       option.read(text_of(recipe[option.name]));
-    } catch (const renderer::BadOption& error) {
-      throw InputError(fmt::format("'{}' tells how it was made: {}", settings.input, error.what()));
+    } catch (const BadOption& error) {
+      throw InputError(fmt::format("the recipe of '{}': {}", settings.input, error.what()));
     }
   };
-  for (renderer::Option& option : renderer::option_table(settings.render)) {
+  for (Option& option : picture_options(settings.render)) {
     if (std::find(std::begin(kOfRecipe), std::end(kOfRecipe), option.name) != std::end(kOfRecipe))
       read(option);
   }
-  std::vector<renderer::Option> files;
-  renderer::OptionGroup group{files, ""};
+  std::vector<Option> files;
+  OptionGroup group{files, ""};
   std::vector<std::string> outputs;
   add_picture_files(group, outputs, settings.image, settings.exposure);
-  for (renderer::Option& option : files) {
+  for (Option& option : files) {
     if (option.name == "exposure" || option.name == "tonemap" || option.name == "white-balance") read(option);
   }
 }
@@ -131,9 +133,8 @@ class DenoiseRun {
     check();
     install_signal_handlers();
     const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place(settings_.render.denoise.library));
-    const int threads =
-        settings_.render.threads > 0 ? settings_.render.threads : renderer::available_threads();
-    renderer::require_threads(threads);
+    const int threads = settings_.render.threads > 0 ? settings_.render.threads : available_threads();
+    require_threads(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
@@ -186,13 +187,13 @@ class DenoiseRun {
       renderer::Samples samples = renderer::samples_of(picture, settings_.layers);
       using Kind = renderer::BackgroundOptions::Kind;
       const renderer::BackgroundOptions& background = settings_.render.background;
-      // The background is in the colours already, with sharp edges of what stands before it.
-      if (background.apart() && background.kind != Kind::transparent && samples.alpha.empty())
-        throw renderer::ImageError(
+      // The colours already contain the background, with sharp edges of the objects in front of it.
+      if (background.is_separate() && background.kind != Kind::transparent && samples.alpha.empty())
+        throw InputError(
             "has no samples of its alpha, expected the layers of --aov denoising for a "
             "picture with a background of its own");
       return samples;
-    } catch (const renderer::ImageError& error) {
+    } catch (const InputError& error) {
       throw InputError(fmt::format("'{}' {}", settings_.input, error.what()));
     }
   }
@@ -205,7 +206,7 @@ class DenoiseRun {
   renderer::DenoiseProgress progress() {
     return [this](double done) {
       progress_.update(
-          {.phase = renderer::Phase::denoise, .fraction = done, .seconds = renderer::seconds_since(start_)});
+          {.phase = renderer::Phase::denoise, .fraction = done, .seconds = seconds_since(start_)});
       return stop_signal() == 0;
     };
   }
@@ -223,13 +224,13 @@ class DenoiseRun {
     }
     if (first_error) std::rethrow_exception(first_error);
     if (settings_.quiet) return;
-    tell(fmt::format("written   {}\nseconds   {:.2f}, by {}\n", fmt::join(settings_.outputs, ", "),
-                     renderer::seconds_since(start_), picture.metadata.at("denoiser")));
+    print_status(fmt::format("written   {}\nseconds   {:.2f}, by {}\n", fmt::join(settings_.outputs, ", "),
+                             seconds_since(start_), picture.metadata.at("denoiser")));
   }
 
   DenoiseSettings settings_;
   std::set<std::string> given_;
-  renderer::Clock::time_point start_ = renderer::Clock::now();
+  Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
 };
 

@@ -6,7 +6,6 @@
 #include "apps/reports/cache_report_text.h"
 #include "apps/reports/picture_report.h"
 #include "apps/reports/scene_report.h"
-#include "apps/settings/common_flags.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
@@ -17,13 +16,13 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "neural/base/errors.h"
+#include "base/clock.h"
+#include "base/errors.h"
+#include "base/file/atomic_file.h"
+#include "base/platform/threads.h"
 #include "neural/vulkan/devices.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_read.h"
-#include "renderer/machine/atomic_file.h"
-#include "renderer/machine/clock.h"
-#include "renderer/machine/threads.h"
 #include "renderer/render.h"
 #include "renderer/surface/embree.h"
 #include "scene/gltf.h"
@@ -37,7 +36,7 @@ constexpr const char* kInfoFooter =
     R"(With --integrator nao or nrc it also describes the cache that the scene would get for the view of these flags: memory,
 feature vectors, resolutions and sides of the instances, and inputs of the network. Nothing is trained.
 
-Of an EXR that gatelight wrote it tells size, layers and the recipe in its header: how the picture was made.
+For an EXR that gatelight wrote it prints size, layers and the recipe in its header: how the picture was made.
 
 Examples:
   gatelight info
@@ -63,7 +62,7 @@ DeviceReport find_devices() {
     DeviceReport report{neural::vulkan::list_devices(), ""};
     if (report.devices.empty()) report.reason = "no device";
     return report;
-  } catch (const neural::Unavailable& error) {
+  } catch (const Unavailable& error) {
     return {{}, error.what()};
   }
 }
@@ -95,7 +94,7 @@ ordered_json devices_json(const DeviceReport& report) {
 
 std::string program_text() {
   return fmt::format("{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{:<14} {}\n{}", "version", version(), "isa",
-                     renderer::best_isa(), "threads", renderer::available_threads(), "embree",
+                     renderer::best_isa(), "threads", available_threads(), "embree",
                      renderer::embree_version(), "denoiser", denoiser_text(), devices_text(find_devices()));
 }
 
@@ -103,37 +102,38 @@ ordered_json program_json() {
   return {{"schema", 1},
           {"version", version()},
           {"isa", renderer::best_isa()},
-          {"threads", renderer::available_threads()},
+          {"threads", available_threads()},
           {"embree", renderer::embree_version()},
           {"denoiser", denoiser_text()},
           {"vulkan", devices_json(find_devices())}};
 }
 
-struct Told {
+struct Description {
   std::string text;
   ordered_json json;
 };
 
-Told tell_scene(const RenderSettings& settings) {
-  const renderer::Clock::time_point start = renderer::Clock::now();
+Description describe_scene(const RenderSettings& settings) {
+  const Clock::time_point start = Clock::now();
   const scene::Scene scene = scene::load_gltf(settings.scene, settings.load);
-  const double seconds = renderer::seconds_since(start);
+  const double seconds = seconds_since(start);
   const scene::SceneRequirements requirements = scene::compute_requirements(scene);
   for (const std::string& warning : scene.warnings) log_warning(warning);
-  Told told{scene_report_text(scene, requirements, seconds), scene_report_json(scene, requirements, seconds)};
+  Description description{scene_report_text(scene, requirements, seconds),
+                          scene_report_json(scene, requirements, seconds)};
   if (renderer::uses_cache(settings.render.integrator)) {
     const renderer::CacheReport cache = renderer::Renderer(scene, settings.render).report_cache();
-    told.text += cache_report_text(cache, settings.render);
-    told.json["cache"] = cache_report_json(cache, settings.render);
+    description.text += cache_report_text(cache, settings.render);
+    description.json["cache"] = cache_report_json(cache, settings.render);
   }
-  return told;
+  return description;
 }
 
 bool is_picture(const std::string& file) {
   return renderer::image_format(file) != renderer::ImageFormat::unknown;
 }
 
-Told tell_picture(const std::string& file, bool command) {
+Description describe_picture(const std::string& file, bool command) {
   renderer::Picture picture;
   // Other formats carry no recipe.
   if (renderer::image_format(file) == renderer::ImageFormat::exr) picture = renderer::read_image(file);
@@ -143,10 +143,10 @@ Told tell_picture(const std::string& file, bool command) {
   return {line, picture_report_json(file, picture)};
 }
 
-Told describe(const InfoSettings& settings) {
+Description describe(const InfoSettings& settings) {
   const std::string& file = settings.render.scene;
   if (file.empty()) return {program_text(), program_json()};
-  return is_picture(file) ? tell_picture(file, settings.command) : tell_scene(settings.render);
+  return is_picture(file) ? describe_picture(file, settings.command) : describe_scene(settings.render);
 }
 
 void check_picture_flags(const InfoSettings& settings) {
@@ -163,18 +163,18 @@ void check_picture_flags(const InfoSettings& settings) {
 int run_info(InfoSettings settings) {
   check_picture_flags(settings);
   if (settings.render.scene.empty() && !settings.render.given.empty()) {
-    throw UsageError(fmt::format("{}: there is no scene to tell about, expected SCENE with it",
+    throw UsageError(fmt::format("{}: it has no effect without a scene, expected SCENE with it",
                                  *settings.render.given.begin()));
   }
   complete_settings(settings.render);
   read_files(settings.render).write("--json", settings.json);
-  if (!settings.json.empty() && settings.json != "-") renderer::check_writable(settings.json);
-  const Told told = describe(settings);
+  if (!settings.json.empty() && settings.json != "-") check_writable(settings.json);
+  const Description description = describe(settings);
   if (!settings.json.empty()) {
-    write_text(settings.json, json_text(told.json) + "\n");
+    write_text(settings.json, json_text(description.json) + "\n");
   }
   // With JSON on stdout nothing else is printed there, so that it can be parsed.
-  if (settings.json != "-") write_text("-", told.text);
+  if (settings.json != "-") write_text("-", description.text);
   return kDone;
 }
 
@@ -186,27 +186,28 @@ Subcommand add_info_command(CLI::App& root) {
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;
-  renderer::Option scene = positional(
+  Option scene = positional(
       "SCENE", settings->render.scene,
       "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, denoiser, "
       "Vulkan devices");
   scene.required = false;
-  renderer::Option json =
-      renderer::any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");
+  Option json = any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");
   json.group = "Output";
-  renderer::Option command = renderer::toggle(
-      "command", settings->command, "Print only the command line that made PICTURE.exr, for a shell");
+  Option command =
+      toggle("command", settings->command, "Print only the command line that made PICTURE.exr, for a shell");
   command.group = "Output";
-  add_flags(*app, {scene, json, command});
-  add_flags(*app, cache_report_table(settings->render));
+  std::vector<Option> options = {scene, common(json), common(command)};
+  const std::vector<Option> of_cache = cache_report_table(settings->render);
+  options.insert(options.end(), of_cache.begin(), of_cache.end());
+  add_flags(*app, options);
   return {app,
           [app, settings] {
             finish_flags(*app, settings->render);
-            // They belong to the call, not to the scene.
+            // These flags belong to the call, not to the scene.
             for (const char* name : {"SCENE", "--json", "--command"}) settings->render.given.erase(name);
             return run_info(*settings);
           },
-          common_flags()};
+          common_names(options)};
 }
 
 }  // namespace gatelight::apps

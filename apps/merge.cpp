@@ -36,13 +36,13 @@ Example:
 class ScenesSeen {
  public:
   void add(const renderer::Picture& picture, const std::string& file) {
-    const auto told = picture.metadata.find("scene");
-    if (told == picture.metadata.end()) return;
-    const std::string name = std::filesystem::path(told->second).filename();
+    const auto scene = picture.metadata.find("scene");
+    if (scene == picture.metadata.end()) return;
+    const std::string name = std::filesystem::path(scene->second).filename();
     if (first_.empty()) {
       first_ = name;
     } else if (name != first_ && !warned_) {
-      log_warning(fmt::format("'{}' tells of the scene '{}', those before it of '{}'", file, name, first_));
+      log_warning(fmt::format("'{}' shows the scene '{}', the files before it '{}'", file, name, first_));
       warned_ = true;
     }
   }
@@ -97,11 +97,10 @@ Subcommand add_merge_command(CLI::App& root) {
   CLI::App* app =
       add_subcommand(root, "merge", "Average pictures of one scene with different seeds", kMergeFooter);
   const auto settings = std::make_shared<MergeSettings>();
-  renderer::Option output =
-      renderer::any_word("output", settings->output, "FILE", "Picture to write, 32-bit .exr");
+  Option output = any_word("output", settings->output, "FILE", "Picture to write, 32-bit .exr");
   output.letter = "-o";
   output.required = true;
-  renderer::Option inputs = renderer::any_words("INPUT", settings->inputs, "", "Pictures, .exr");
+  Option inputs = any_words("INPUT", settings->inputs, "", "Pictures, .exr");
   inputs.positional = inputs.required = true;
   add_flags(*app, {output, inputs});
   return {app, [settings] { return run_merge(*settings); }};

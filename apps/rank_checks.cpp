@@ -12,12 +12,12 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "neural/simd/isa.h"
+#include "base/platform/memory.h"
+#include "base/platform/threads.h"
+#include "base/simd/isa.h"
+#include "renderer/distributed/packing.h"
 #include "renderer/film/memory_estimate.h"
-#include "renderer/identity/scene_fingerprint.h"
-#include "renderer/machine/memory.h"
-#include "renderer/machine/threads.h"
-#include "renderer/ranks/packing.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
@@ -25,15 +25,15 @@ namespace {
 
 using renderer::Bytes;
 
-/// What may differ from rank to rank, because it decides no bit.
+/// Options that may differ between ranks, because they do not change the picture.
 constexpr const char* kOwnOptions[] = {"threads", "memory-limit", "oidn"};
 
-/// One name and value a line.
+/// Version, options and digests of the inputs, one name and value per line.
 std::string identity(const RenderSettings& settings, const scene::Scene& scene) {
   std::string text = fmt::format("version: {}\n", version());
-  RenderSettings told = settings;
-  told.reproducible = false;
-  const nlohmann::ordered_json options = resolved_options(told);
+  RenderSettings reproducible = settings;
+  reproducible.reproducible = false;
+  const nlohmann::ordered_json options = resolved_options(reproducible);
   for (const auto& [name, value] : options.items()) {
     if (std::find(std::begin(kOwnOptions), std::end(kOwnOptions), name) != std::end(kOwnOptions)) continue;
     text += fmt::format("--{}: {}\n", name, json_text(value, -1));
@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 int rank_of_isa(const std::string& name) {
-  return static_cast<int>(*neural::simd::parse_isa(name));
+  return static_cast<int>(*simd::parse_isa(name));
 }
 
 }  // namespace
@@ -63,30 +63,29 @@ std::string name_of_rank(int rank, int count, const std::string& host) {
 }
 
 void share_machines(RenderSettings& settings, const RankGroup& group) {
-  if (group.ranks.alone()) return;
+  if (group.ranks.is_single()) return;
   renderer::RenderOptions& options = settings.render;
   if (!settings.given.contains("--threads")) {
     const int processors = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
     const int fair = std::max(processors / group.local_count, 1);
-    options.threads = std::min(renderer::available_threads(), fair);
+    options.threads = std::min(available_threads(), fair);
   }
-  // Of the rays and of the kernels. Equal machines choose as a process alone does. Ranks with a choice of
-  // their own ask too, because the options are compared later.
-  const std::array<int, 2> best = {rank_of_isa(renderer::best_isa()),
-                                   static_cast<int>(neural::simd::select_isa())};
+  // Instruction sets of the rays and of the kernels. Equal machines choose as a single process does. Ranks
+  // with --isa take part too, because the options are compared later.
+  const std::array<int, 2> best = {rank_of_isa(renderer::best_isa()), static_cast<int>(simd::select_isa())};
   int least = std::min(best[0], best[1]);
   bool equal = true;
   for (const std::array<int, 2>& other : renderer::one_of_each(group.ranks, best)) {
     least = std::min({least, other[0], other[1]});
     equal &= other == best;
   }
-  // Each compares with its own, so all see the same where one sees a difference.
+  // Each rank compares with its own sets; any() gives all ranks the same result.
   if (renderer::any(group.ranks, !equal) && options.isa == "auto")
-    options.isa = std::string(neural::simd::isa_name(static_cast<neural::simd::Isa>(least)));
+    options.isa = std::string(simd::isa_name(static_cast<simd::Isa>(least)));
 }
 
 void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scene, const RankGroup& group) {
-  if (group.ranks.alone()) return;
+  if (group.ranks.is_single()) return;
   const std::string mine = identity(settings, scene);
   renderer::Packer packer;
   packer.add_all(std::span(mine));
@@ -109,13 +108,13 @@ void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scen
 std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene::Scene& scene,
                                     const RankGroup& group) {
   const renderer::MemoryEstimate need = renderer::estimate_memory(scene, settings.render);
-  if (group.ranks.alone()) return need.total();
+  if (group.ranks.is_single()) return need.total();
   struct Machine {
     std::uint64_t more, left;
   };
   // The scene is loaded already.
-  const std::vector<Machine> all = renderer::one_of_each(
-      group.ranks, Machine{need.total() - need.geometry, renderer::memory_room().bytes});
+  const std::vector<Machine> all =
+      renderer::one_of_each(group.ranks, Machine{need.total() - need.geometry, memory_room().bytes});
   std::map<std::string, Machine> machines;
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
     Machine& machine = machines.try_emplace(group.hosts[rank], Machine{0, all[rank].left}).first->second;
@@ -124,7 +123,7 @@ std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene:
   }
   for (const auto& [host, machine] : machines) {
     if (machine.more <= machine.left) continue;
-    throw renderer::OutOfMemory(
+    throw OutOfMemory(
         fmt::format("{}: rendering needs {} more at the ranks of {} together, which has {} left",
                     settings.scene, format_bytes(static_cast<std::size_t>(machine.more)), host,
                     format_bytes(static_cast<std::size_t>(machine.left))));

@@ -1,5 +1,5 @@
 #pragma once
-// What ranks settle among themselves before anything is built.
+// Checks and choices that the ranks make together before anything is built.
 
 #include "apps/rank_group.h"
 #include "apps/settings/render_settings.h"
@@ -15,8 +15,8 @@ void share_machines(RenderSettings& settings, const RankGroup& group);
 /// than rank 0.
 void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scene, const RankGroup& group);
 
-/// Throws renderer::OutOfMemory at all ranks, naming the machine, where its ranks need more memory together
-/// than it has left. Returns what a rank needs.
+/// Throws OutOfMemory at all ranks, naming the machine, where its ranks need more memory together
+/// than it has left. Returns the bytes that a rank needs.
 std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene::Scene& scene,
                                     const RankGroup& group);
 

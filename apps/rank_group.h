@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/ranks/ranks.h"
+#include "renderer/distributed/ranks.h"
 
 namespace gatelight::apps {
 
@@ -14,7 +14,7 @@ std::string name_of_rank(int rank, int count, const std::string& host);
 struct RankGroup {
   renderer::Ranks& ranks;
   int local_count = 1;             ///< ranks of this machine
-  std::vector<std::string> hosts;  ///< of each rank; empty for a process alone
+  std::vector<std::string> hosts;  ///< one per rank; empty for a single process
 
   std::string name_of(int rank) const {
     return name_of_rank(rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);

@@ -10,7 +10,6 @@
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/camera_names.h"
-#include "apps/settings/common_flags.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -22,12 +21,12 @@
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
-#include "neural/base/errors.h"
+#include "base/clock.h"
+#include "base/errors.h"
 #include "renderer/denoise/oidn_library.h"
+#include "renderer/distributed/packing.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/image/auto_exposure.h"
-#include "renderer/machine/clock.h"
-#include "renderer/ranks/packing.h"
 #include "renderer/render.h"
 #include "renderer/settings/resolved_options.h"
 #include "scene/gltf.h"
@@ -50,9 +49,6 @@ Examples:
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
-
-using renderer::Clock;
-using renderer::seconds_since;
 
 double count_pixels(const renderer::RenderOptions& options) {
   if (!options.region) return static_cast<double>(options.width) * options.height;
@@ -79,7 +75,7 @@ class RenderRun {
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     expect_equal_ranks(settings_, scene, group_);
     const std::size_t memory = require_memory_of_ranks(settings_, scene, group_);
-    log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.alone() ? "" : " by each rank",
+    log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.is_single() ? "" : " by each rank",
                            format_bytes(memory)));
     const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
     settings_ = pictures.front();
@@ -108,21 +104,19 @@ class RenderRun {
     if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
       warn(fmt::format("the picture keeps its noise: {}", why));
     if (group_.ranks.first()) write_results(std::move(picture));
-    renderer::agreed(group_.ranks, 0);  // what follows may end all ranks, and the picture is written
+    renderer::agreed(group_.ranks, 0);  // what follows may end all ranks: rank 0 has written by now
     if (!report_.statistics.device_lost.empty())
-      throw neural::DeviceLost(
-          fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
+      throw DeviceLost(fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
     if (report_.signal == 0 && !report_.statistics.cache.diverged.empty())
-      throw renderer::TrainingDiverged(fmt::format("{}; what was written is of its last good step, {}",
-                                                   report_.statistics.cache.diverged,
-                                                   report_.statistics.cache.steps));
+      throw TrainingDiverged(fmt::format("{}; what was written is of its last good step, {}",
+                                         report_.statistics.cache.diverged, report_.statistics.cache.steps));
     if (failed_output_) std::rethrow_exception(failed_output_);
     return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
   }
 
-  /// Reports tell what was chosen.
+  /// Sets the chosen integrator in the settings, which the reports show.
   void note_integrator(renderer::Integrator chosen) {
-    if (settings_.render.choose_integrator) renderer::settle_on(settings_.render, chosen);
+    if (settings_.render.choose_integrator) renderer::use_integrator(settings_.render, chosen);
   }
 
   scene::Scene load() {
@@ -176,10 +170,10 @@ class RenderRun {
   /// Lights that an exporter wrote in watts are hundreds of times too bright for a screen.
   void warn_of_glare(float stops_too_bright, float suitable) {
     constexpr float kTooBright = 4.0f;
-    if (stops_too_bright < kTooBright || settings_.given.contains("--exposure") || glare_told_ ||
+    if (stops_too_bright < kTooBright || settings_.given.contains("--exposure") || glare_reported_ ||
         !shows_on_a_screen(settings_.outputs))
       return;
-    glare_told_ = true;
+    glare_reported_ = true;
     warn(
         fmt::format("the picture is {:.0f} stops too bright for a screen (are lights of the file in watts?); "
                     "--exposure {:.1f} shows it, or --lights scales the lights",
@@ -192,7 +186,7 @@ class RenderRun {
       progress_.clear();
       log_detail("snapshot written");
     } catch (const std::exception& error) {
-      // The end of the run is another chance to write.
+      // The outputs are written again at the end of the run.
       warn(fmt::format("snapshot: {}", error.what()));
     }
   }
@@ -208,8 +202,8 @@ class RenderRun {
     report_.write_seconds = seconds_since(start);
     report_.total_seconds = seconds_since(start_);
     if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));
-    const bool told = progress_.done(summary_json(settings_, report_));
-    if (!told && !settings_.quiet) tell(summary(settings_, report_));
+    const bool as_json = progress_.done(summary_json(settings_, report_));
+    if (!as_json && !settings_.quiet) print_status(summary(settings_, report_));
     if (report_.signal != 0) {
       print_notice(stop_notice(settings_, report_), kSignalBase + report_.signal);
     }
@@ -225,7 +219,7 @@ class RenderRun {
     if (!again && !failed_output_) failed_output_ = error;
   }
 
-  /// What any rank was sent.
+  /// The signal that some rank received; 0: none.
   int signal() const {
     const std::vector<int> signals = renderer::one_of_each(group_.ranks, stop_signal());
     return *std::max_element(signals.begin(), signals.end());
@@ -243,7 +237,7 @@ class RenderRun {
   void warn(const std::string& text) {
     progress_.clear();
     log_warning(text);
-    report_.warnings.push_back(text);
+    report_.warnings.push_back(with_flags(text));
   }
 
   RenderSettings settings_;  ///< of the picture that is made
@@ -251,11 +245,11 @@ class RenderRun {
   RunReport report_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
-  bool glare_told_ = false;
+  bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };
 
-/// A preset of radiance finds its exposure, and one of finished pictures has a curve with room for
+/// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
 /// highlights.
 void show_well(RenderSettings& settings) {
   using renderer::CachePreset;
@@ -280,12 +274,12 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   // Errors without a file name get the scene's name.
   try {
     return RenderRun(settings, command, group).run();
-  } catch (const renderer::TrainingDiverged& error) {
-    throw renderer::TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
-  } catch (const renderer::NumericalError& error) {
-    throw renderer::NumericalError(fmt::format("{}: {}", settings.scene, error.what()));
+  } catch (const TrainingDiverged& error) {
+    throw TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
+  } catch (const NumericalError& error) {
+    throw NumericalError(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const std::bad_alloc&) {
-    throw renderer::OutOfMemory(fmt::format("{}: the machine is out of memory", settings.scene));
+    throw OutOfMemory(fmt::format("{}: the machine is out of memory", settings.scene));
   }
 }
 
@@ -295,13 +289,14 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
                               const RankGroup& group) {
   CLI::App* app = add_subcommand(root, "render", "Render a scene to EXR and PNG", kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
-  add_flags(*app, option_table(*settings));
+  const std::vector<Option> options = option_table(*settings);
+  add_flags(*app, options);
   return {app,
           [app, settings, command, &group] {
             finish_flags(*app, *settings);
             return run_render(*settings, command, group);
           },
-          common_flags(), true};
+          common_names(options), true};
 }
 
 }  // namespace gatelight::apps

@@ -20,15 +20,15 @@ constexpr const char* kSweepFooter =
     R"(Every combination of the lists is a line in the plots, and each of its step counts is a cell: one picture, compared
 with a reference. One training gives the pictures of all its step counts. For each integrator with a cache the one
 without is measured too (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture can be
-given and holds for all cells (--size, --camera, --batch ...; see its --help). A flag without effect in a cell, such as
+given and applies to all cells (--size, --camera, --batch ...; see its --help). A flag without effect in a cell, such as
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-Where no --preset, axis, --vary, --denoiser, --view, --query-at or --cache-holds says what is wanted, a sweep shows
-what can be had for a time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is
---preset bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512
-and 2048 steps with 2, 7 and 28 samples. Wherever a cell with a cache is denoised, the integrator without one is
-measured both as traced and denoised. Time counts all phases: scouting, training, rendering, denoising.
+Without --preset, an axis, --vary, --denoiser, --view, --query-at and --cache-holds, a sweep compares these by error and
+time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset bare after 8 to 1024
+steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512 and 2048 steps with 2, 7 and 28
+samples. Wherever a cell with a cache is denoised, the integrator without one is measured both as traced and denoised.
+Time counts all phases: scouting, training, rendering, denoising.
 
 DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
 file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
@@ -45,7 +45,7 @@ after):
   paper-steps     the same as table 1 from 8 to 128 steps
   paper-adaptive  resolution 4 everywhere against adaptive ones
   paper-inputs    with and without normal and albedo
-  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache holds
+  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache stores
 Those of 'gatelight render' (bare, preview, standard, final, paper-nao, paper-nrc) stand for their flags. Several of them are
 an axis: --vary preset=preview,standard.
 
@@ -59,8 +59,8 @@ Examples:
   gatelight sweep -o kitchen --advise --max-time 10
   gatelight sweep kitchen.glb -o table1 --preset paper-table1 --size 960x540)";
 
-constexpr renderer::IntegerRange kReferenceSpp{2, 1 << 24};
-constexpr renderer::RealRange kErrors{0.0, 1.0};
+constexpr IntegerRange kReferenceSpp{2, 1 << 24};
+constexpr RealRange kErrors{0.0, 1.0};
 
 using namespace renderer;
 
@@ -87,7 +87,7 @@ void add_axes(std::vector<Option>& table, SweepWords& words) {
   axes.add(any_words("vary", words.vary, "NAME=LIST",
                      "Any other flag of render as an axis; may be given several times"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
-                     "A flag for one scene alone; may be given several times"));
+                     "A flag for one scene only; may be given several times"));
   kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds);
   kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp);
   axes.add(
@@ -106,13 +106,13 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
        .help = "Samples per pixel of rendered references: two halves, whose difference gives their noise",
        .read =
            [&s](const std::string& text) {
-             const std::int64_t spp = renderer::parse_integer("--reference-spp", text, kReferenceSpp);
+             const std::int64_t spp = parse_integer("--reference-spp", text, kReferenceSpp);
              s.reference_spp = static_cast<int>(spp + spp % 2);
            },
        .default_text = "1024"});
   references.add(any_word("reference-dir", s.reference_folder, "DIR",
                           "Folder of rendered references (default: references in DIR)"));
-  references.add(choice("hdr-flip", s.hdr_flip, renderer::kOnOff, "Measure HDR-FLIP of radiance, too"));
+  references.add(choice("hdr-flip", s.hdr_flip, kOnOff, "Measure HDR-FLIP of radiance, too"));
 }
 
 void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
@@ -122,7 +122,7 @@ void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
                     "results in DIR"));
   advice.add(number_or("", "max-error", s.limits.max_error, kErrors, "FLIP",
                        "Largest mean FLIP of a picture, with every seed"));
-  advice.add(number_or("", "max-time", s.limits.max_seconds, renderer::kPositive, "SECONDS",
+  advice.add(number_or("", "max-time", s.limits.max_seconds, kPositive, "SECONDS",
                        "Longest time to train and render"));
 }
 

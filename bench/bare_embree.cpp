@@ -14,10 +14,9 @@ BareEmbree::BareEmbree(const scene::Scene& scene, Watertight watertight)
     const scene::Mesh& mesh = scene.mesh_of(instance);
     if (mesh.triangles.empty()) continue;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<scene::Vec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(scene::Vec3), mesh.positions.size()));
-    for (const scene::Vec3& p : mesh.positions)
-      *positions++ = instance.baked ? p : scene::Vec3(instance.transform * p);
+    auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
+    for (const Vec3& p : mesh.positions) *positions++ = instance.baked ? p : Vec3(instance.transform * p);
     auto* indices = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 sizeof(mesh.triangles[0]), mesh.triangles.size()));

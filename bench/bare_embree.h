@@ -1,5 +1,5 @@
 #pragma once
-// Embree alone, with the triangles and the build quality of the renderer, but without filter functions.
+// Bare Embree, with the triangles and the build quality of the renderer, but without filter functions.
 
 #include <embree3/rtcore.h>
 
@@ -13,8 +13,7 @@
 namespace gatelight::bench {
 
 /// A ray that has hit nothing yet.
-inline RTCRayHit to_embree(const scene::Vec3& origin, const scene::Vec3& direction, float t_min,
-                           float t_max) {
+inline RTCRayHit to_embree(const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
   RTCRayHit ray{};
   ray.ray = {origin.x(), origin.y(), origin.z(), t_min, direction.x(), direction.y(), direction.z(), 0.0f,
              t_max,      ~0u,        0,          0};

@@ -15,7 +15,7 @@
 #include <new>
 #include <thread>
 
-#include "renderer/machine/threads.h"
+#include "base/platform/threads.h"
 
 namespace gatelight::bench {
 
@@ -189,13 +189,13 @@ std::vector<Arithmetic> available_arithmetics() {
   return available;
 }
 
-Arithmetic arithmetic_of(neural::simd::Isa isa) {
+Arithmetic arithmetic_of(simd::Isa isa) {
   switch (isa) {
-    case neural::simd::Isa::scalar:
+    case simd::Isa::scalar:
       return Arithmetic::sse2;
-    case neural::simd::Isa::avx2:
+    case simd::Isa::avx2:
       return Arithmetic::avx2;
-    case neural::simd::Isa::avx512:
+    case simd::Isa::avx512:
       return Arithmetic::avx512;
   }
   return Arithmetic::sse2;
@@ -204,7 +204,7 @@ Arithmetic arithmetic_of(neural::simd::Isa isa) {
 Work run_fma(Arithmetic arithmetic) {
   const Burner& burner = burners()[static_cast<std::size_t>(arithmetic)];
   constexpr std::int64_t kSteps = 500'000;
-  const int threads = renderer::available_threads();
+  const int threads = available_threads();
   const double seconds = seconds_of(
       threads, [&](int) { sink.fetch_add(static_cast<std::uint64_t>(burner.burn(kSteps) > 0.0f)); });
   return {burner.operations * static_cast<double>(kSteps) * threads, seconds};
@@ -215,7 +215,7 @@ BigBuffer::BigBuffer(bool huge_pages) {
   words_ = static_cast<std::uint64_t*>(::operator new (kBytes, std::align_val_t{kHugePage}));
   // Where the system refuses huge pages, the reads are slower and the limit is lower.
   ::madvise(words_, kBytes, huge_pages ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
-  const int threads = renderer::available_threads();
+  const int threads = available_threads();
   const std::size_t count = kBytes / sizeof(std::uint64_t);
   seconds_of(threads, [&](int thread) {
     const std::size_t begin = count * static_cast<std::size_t>(thread) / static_cast<std::size_t>(threads);
@@ -232,7 +232,7 @@ Work run_stream(const BigBuffer& buffer) {
   // Each pass reads an eighth of the buffer, so that it returns to the same bytes after a gigabyte.
   constexpr std::size_t kPassWords = BigBuffer::kBytes / sizeof(std::uint64_t) / 8;
   static std::atomic<std::size_t> passes{0};
-  const int threads = renderer::available_threads();
+  const int threads = available_threads();
   const std::uint64_t* first = buffer.words() + kPassWords * (passes.fetch_add(1) % 8);
   const std::size_t count = kPassWords / static_cast<std::size_t>(threads) / 16 * 16;
   const double seconds = seconds_of(threads, [&](int thread) {
@@ -245,7 +245,7 @@ Work run_gather(const BigBuffer& buffer) {
   constexpr std::size_t kReads = 250'000;
   // Each pass reads other places, because those of the last pass may still be in a cache.
   static std::atomic<std::uint64_t> seeds{0};
-  const int threads = renderer::available_threads();
+  const int threads = available_threads();
   const double seconds = seconds_of(threads, [&](int) {
     sink.fetch_add(gather_lines(buffer.words(), kReads, 0x9e3779b97f4a7c15u * (1 + seeds.fetch_add(1))));
   });

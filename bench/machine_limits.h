@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "neural/simd/isa.h"
+#include "base/simd/isa.h"
 
 namespace gatelight::bench {
 
@@ -19,9 +19,9 @@ enum class Arithmetic : std::uint8_t {
 };
 
 std::string_view arithmetic_name(Arithmetic arithmetic);
-/// What the processor supports, slowest first.
+/// The arithmetics that the processor supports, slowest first.
 std::vector<Arithmetic> available_arithmetics();
-Arithmetic arithmetic_of(neural::simd::Isa isa);
+Arithmetic arithmetic_of(simd::Isa isa);
 
 /// An amount of work and the seconds it took.
 struct Work {

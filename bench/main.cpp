@@ -2,11 +2,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "neural/base/flush_denormals.h"
+#include "base/platform/flush_denormals.h"
 
 int main(int argc, char** argv) {
   // As in the renderer: before the first task starts.
-  const gatelight::neural::FlushDenormals flush;
+  const gatelight::FlushDenormals flush;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -1,14 +1,14 @@
-// mlp/{nrc,nao}: the network's arithmetic alone, on 49152 samples with encoded inputs.
+// mlp/{nrc,nao}: only the network's arithmetic, on 49152 samples with encoded inputs.
 
+#include "base/random.h"
 #include "bench/neural_rows.h"
-#include "neural/base/random.h"
 
 namespace gatelight::bench {
 namespace {
 
 std::vector<float> random_floats(std::size_t count, std::uint64_t seed) {
   std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i) values[i] = neural::uniform_float(seed, i);
+  for (std::size_t i = 0; i < count; ++i) values[i] = uniform_float(seed, i);
   return values;
 }
 

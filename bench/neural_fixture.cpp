@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/layout/vector3.h"
 
 namespace gatelight::bench {
@@ -63,7 +63,7 @@ NeuralSurface make_surface() {
 struct PointRandom {
   std::uint64_t key;
   std::uint64_t counter;
-  float next() { return neural::uniform_float(key, counter++); }
+  float next() { return uniform_float(key, counter++); }
 };
 
 void set_point(NeuralPoints& points, std::size_t i, std::uint32_t triangle, const Float2& b,

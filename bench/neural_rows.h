@@ -6,23 +6,23 @@
 
 #include <chrono>
 
+#include "base/platform/threads.h"
 #include "bench/machine_limits.h"
 #include "bench/neural_fixture.h"
 #include "neural/cpu/cpu_backend.h"
 #include "neural/model/training_options.h"
-#include "renderer/machine/threads.h"
 
 namespace gatelight::bench {
 
 /// An arena of all threads that the process may use, as for the limits.
 inline tbb::task_arena& all_threads() {
-  static tbb::task_arena arena(renderer::available_threads());
+  static tbb::task_arena arena(available_threads());
   return arena;
 }
 
 /// The arithmetic whose limit a row is compared with: that of the instruction set in use.
 inline Arithmetic arithmetic_in_use(bool bf16 = false) {
-  const Arithmetic arithmetic = arithmetic_of(neural::simd::select_isa());
+  const Arithmetic arithmetic = arithmetic_of(simd::select_isa());
   return bf16 && arithmetic == Arithmetic::avx512 && available_arithmetics().back() == Arithmetic::bf16
              ? Arithmetic::bf16
              : arithmetic;
@@ -60,7 +60,7 @@ inline benchmark::Counter mean_ms(double seconds) {
   return {1e3 * seconds, benchmark::Counter::kAvgIterations};
 }
 
-/// What the steps of a row report, added up.
+/// Sums of the statistics of a row's steps.
 struct StepSums {
   neural::StepStatistics step;
   double touched = 0.0;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/simd/isa.h"
+#include "base/simd/isa.h"
 #include "renderer/bsdf/tables.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
@@ -17,9 +17,9 @@ namespace {
 
 using namespace renderer;
 
-constexpr std::size_t kBlocks = 64;  // that stay in the second-level cache
+constexpr std::size_t kBlocks = 64;  // they stay in the second-level cache
 
-/// Numbers of a sequence, as a function of their place.
+/// The numbers of a random sequence, one after the other.
 struct Numbers {
   Sampler sampler{SamplerKind::independent, 1, 0, 0, 0};
   std::uint32_t next = 0;
@@ -107,8 +107,8 @@ void run(benchmark::State& state, const std::string& isa, Kernel kernel) {
 }
 
 const int shading_registered = [] {
-  for (const neural::simd::Isa isa : neural::simd::available_isas()) {
-    const std::string name(neural::simd::isa_name(isa));
+  for (const simd::Isa isa : simd::available_isas()) {
+    const std::string name(simd::isa_name(isa));
     for (const auto& [what, kernel] :
          {std::pair("lights", &ShadingKernels::sample_lights), std::pair("scatter", &ShadingKernels::scatter),
           std::pair("albedo", &ShadingKernels::albedo)}) {

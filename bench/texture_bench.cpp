@@ -92,7 +92,7 @@ const Pictures& pictures() {
 
 struct Lookup {
   std::uint32_t picture;
-  renderer::Vec2 uv;
+  Vec2 uv;
 };
 
 std::vector<Lookup> lookups(bool random, int level) {
@@ -105,8 +105,8 @@ std::vector<Lookup> lookups(bool random, int level) {
     } else {
       // Tiles of 16x16 pixels, in the order of the renderer.
       const std::uint32_t tile = i / 256;
-      const renderer::Vec2 origin(static_cast<float>(tile % 8) / 8.0f, static_cast<float>(tile / 8) / 32.0f);
-      const renderer::Vec2 step(static_cast<float>(i % 16) + 0.3f, static_cast<float>(i / 16 % 16) + 0.7f);
+      const Vec2 origin(static_cast<float>(tile % 8) / 8.0f, static_cast<float>(tile / 8) / 32.0f);
+      const Vec2 step(static_cast<float>(i % 16) + 0.3f, static_cast<float>(i / 16 % 16) + 0.7f);
       result.push_back({tile % kPictures, origin + step * texel});
     }
   }
@@ -136,7 +136,7 @@ void ours(benchmark::State& state, bool random, int level, Encoding encoding) {
   const float footprint = std::ldexp(1.4f / kSize, level);
   time_lookups(state, random, level, [&](const Lookup& at) {
     const scene::Material& material = p.scene.materials[at.picture];
-    const renderer::Vec4 value = p.ours->lookup(
+    const Vec4 value = p.ours->lookup(
         encoding == Encoding::srgb ? material.base_color_texture : material.metallic_roughness_texture,
         encoding, at.uv, footprint, 0.0f);
     return value.x() + value.w();

@@ -21,7 +21,7 @@ class TracingOnly {
 
  private:
   const BareEmbree& bare_;
-  std::vector<scene::Vec3> light_points_;  ///< on the emissive triangles; if empty, a sun overhead
+  std::vector<Vec3> light_points_;  ///< on the emissive triangles; if empty, a sun overhead
 };
 
 }  // namespace gatelight::bench

@@ -15,9 +15,6 @@
 namespace gatelight::bench {
 namespace {
 
-using scene::Vec2;
-using scene::Vec3;
-
 constexpr int kRows = 32;
 constexpr std::size_t kChunk = 1 << 20;
 
@@ -72,7 +69,7 @@ renderer::Ray ray_within(const scene::Mesh& mesh, bool to_edges, std::uint32_t i
   const renderer::Sampler sampler(renderer::SamplerKind::independent, 1, index, 0, 0);
   renderer::Ray ray;
   ray.origin = 0.5f * renderer::sample_uniform_sphere(sampler.get_2d(0)) * sampler.get_1d(2);
-  ray.t_max = scene::kInfinity;
+  ray.t_max = kInfinity;
   if (!to_edges) {
     ray.direction = renderer::sample_uniform_sphere(sampler.get_2d(3));
     return ray;

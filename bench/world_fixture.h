@@ -16,7 +16,7 @@ struct SceneCase {
   const char* name;
   const char* file;
   const char* camera;
-  scene::Color sky;
+  Color sky;
 };
 
 inline const SceneCase kSponza{"sponza", "sponza/sponza.glb", "hall", {1.3f, 1.6f, 2.0f}};
@@ -40,7 +40,7 @@ struct WorldFixture {
 
   /// Camera samples of one pass over the picture, tile by tile as the program makes them.
   std::vector<std::vector<renderer::CameraSample>> tiles(std::uint32_t sample) const;
-  /// Built when it is first asked for. Not thread-safe.
+  /// Built at the first call. Not thread-safe.
   const BareEmbree& bare(Watertight watertight = Watertight::robust) const;
 
   scene::Scene scene;

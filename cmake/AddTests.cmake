@@ -1,8 +1,8 @@
 # gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>...)
 #
 # Adds one executable for a folder of tests, and one CTest entry for each of its files NAME_test.cpp. An entry for every
-# case would start the program a thousand times. An entry runs the test suites of its
-# file. Its label is the last word before _test if that is stat, golden or slow, otherwise "unit".
+# case would start the program a thousand times. An entry runs the test suites of its file. Its label is the last word
+# before _test if that is stat, golden or slow, otherwise "unit".
 include(GoogleTest)
 function(gatelight_add_tests target)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;PRECOMPILE;SOURCES" ${ARGN})

@@ -13,7 +13,7 @@ endfunction()
 # gatelight_compile_together(<target> <name> <source>...)
 #
 # Compiles several sources of the target to one object, where their includes take longer than their own code. Their
-# unnamed namespaces become one, so two functions there must not have the same name. Other sources are compiled alone.
+# unnamed namespaces become one, so two functions there must not have the same name. Other sources are compiled separately.
 function(gatelight_compile_together target name)
   if(NOT GATELIGHT_FAST_BUILD)
     return()

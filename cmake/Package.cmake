@@ -1,5 +1,5 @@
-# Install rules and the exported package. find_package(gatelight) gives gatelight::scene, gatelight::neural and
-# gatelight::renderer.
+# Install rules and the exported package. find_package(gatelight) gives gatelight::base, gatelight::scene,
+# gatelight::neural and gatelight::renderer.
 include(CMakePackageConfigHelpers)
 
 set(GATELIGHT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/gatelight)
@@ -10,7 +10,7 @@ foreach(program IN ITEMS gatelight gatelight-mpi gatelight-bench)
   endif()
 endforeach()
 
-foreach(folder IN ITEMS scene neural renderer)
+foreach(folder IN ITEMS base scene neural renderer)
   if(NOT TARGET gatelight_${folder})
     continue()
   endif()

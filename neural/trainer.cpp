@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "neural/base/errors.h"
-#include "neural/file/model_file.h"
+#include "base/errors.h"
 #include "neural/model/checks.h"
+#include "neural/model/model_file.h"
 
 namespace gatelight::neural {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/errors.h"
+#include "renderer/distributed/ranks.h"
 #include "renderer/image/picture.h"
-#include "renderer/machine/errors.h"
-#include "renderer/ranks/ranks.h"
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
 #include "scene/scene.h"
@@ -54,18 +54,18 @@ struct Series {
 };
 
 /// `statistics` are those of a run that ends at this point. For nao and nrc they hold the training up to the
-/// point, with the time of training alone, and the rendering of this picture. For path and ao they hold the
+/// point, with only the time of training, and the rendering of this picture. For path and ao they hold the
 /// rendering up to the point.
 using SeriesPicture =
     std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
 
 struct CacheReport;  // cache/cache_report.h
 
-/// Holds what is built once for a scene (acceleration structure, lights, textures) and renders pictures from
-/// it.
+/// Owns the data that is built once for a scene (acceleration structure, lights, textures) and renders
+/// pictures from it.
 class Renderer {
  public:
-  /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or std::runtime_error
+  /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or InputError
   /// that names the file when the environment cannot be read.
   Renderer(const scene::Scene& scene, const RenderOptions& options);
   /// One of several processes, which must outlive the renderer, that make one picture together. Each holds
@@ -80,12 +80,12 @@ class Renderer {
 
   /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless
   /// a time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and
-  /// the others get an empty picture; a stop that one of them is asked for stops all.
+  /// the others get an empty picture; a stop request to one of them stops all.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
   /// or samples. Returns false when callbacks.stop ends it before the last point; `picture` is not called for
   /// the points that remain. Throws BadOption for points that are not a valid series, and when the options
-  /// ask for a time limit, max_error, checkpoints or cache_out, and with several ranks.
+  /// have a time limit, max_error, checkpoints or cache_out, and with several ranks.
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// Describes the cache that rendering would build. Scouts, but neither trains nor renders. Only for
   /// integrators with a cache.
@@ -93,7 +93,7 @@ class Renderer {
   /// Like report_cache(), but without the report of each instance and without the size of a cache that is not
   /// scouted.
   CacheStatistics set_up_cache();
-  /// That of the options, or what was chosen for the scene (RenderOptions::choose_integrator).
+  /// The integrator of the options, or the one chosen for the scene (RenderOptions::choose_integrator).
   Integrator integrator() const;
   const RenderStatistics& statistics() const;
 

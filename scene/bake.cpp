@@ -1,11 +1,11 @@
 #include "scene/bake.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
-
-#include "scene/parallel.h"
 
 namespace gatelight::scene {
 namespace {
@@ -82,7 +82,7 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
 
   std::vector<std::size_t> last_uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++last_uses[static_cast<std::size_t>(instance.mesh)];
-  parallel_for(scene.instances.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
     Instance& instance = scene.instances[i];
     const std::size_t m = static_cast<std::size_t>(instance.mesh);
     if (instance.baked || last_uses[m] != 1) return;

@@ -1,6 +1,6 @@
 #pragma once
 // Moves meshes that one instance uses into world space, so that rays need no instance transform there. Also
-// the scene's bounds, and the removal of meshes without an instance.
+// computes the scene's bounds and removes meshes without an instance.
 
 #include "scene/scene.h"
 

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.h"
 #include "scene/light_adjustments.h"
 #include "scene/light_profiles.h"
 #include "scene/scene.h"
-#include "scene/scene_error.h"
 
 namespace gatelight::scene {
 
-/// What happens at the back faces of materials that are neither doubleSided nor transparent.
+/// The treatment of back faces of materials that are neither doubleSided nor transparent.
 enum class BackFaces : std::uint8_t {
-  show,   ///< they are seen and reflect, but do not emit
-  cull,   ///< rays pass them, as the specification wants it
-  light,  ///< they are seen, reflect and emit, as the front
+  show,   ///< they are visible and reflect, but do not emit
+  cull,   ///< rays pass them, as the specification requires
+  light,  ///< they are visible, reflect and emit, as the front
 };
 
 struct LoadOptions {
@@ -30,6 +30,7 @@ struct LoadOptions {
   std::vector<LightAdjustment> lights;  ///< applied to the loaded scene, in this order
   std::vector<LightProfile> profiles;   ///< likewise
   bool bake_transforms = true;          ///< see scene/bake.h; if false, every instance stays an instance
+  int threads = 0;                      ///< 0: as many as the machine and the control group allow
 };
 
 /// A scene farther from the file's origin than this many times its radius is moved to its centre, in double
@@ -37,8 +38,9 @@ struct LoadOptions {
 /// this distance that is a 30 000th of the radius.
 inline constexpr double kFarFromOrigin = 16.0;
 
-/// Loads a .gltf or .glb file. Throws SceneError if the file cannot be read, violates the specification in a
-/// way that affects pictures, or requires an unsupported extension.
+/// Loads a .gltf or .glb file. Throws InputError if the file cannot be read, violates the specification in a
+/// way that affects pictures, or requires an unsupported extension; OutOfMemory where the threads cannot be
+/// started. The same scene, warnings and errors for any number of threads.
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace gatelight::scene

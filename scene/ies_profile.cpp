@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-#include "scene/scene_error.h"
+#include "base/errors.h"
 
 namespace gatelight::scene {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t kColumns = 145;  // 0 to 360 degrees
 constexpr int kMostAngles = 10000;
 constexpr std::size_t kMostBytes = 64 << 20;
 
-/// The numbers of the file, which blanks, commas and ends of lines part.
+/// The numbers of the file, separated by blanks, commas and ends of lines.
 class Numbers {
  public:
   explicit Numbers(std::string_view text) : rest_(text) {}
@@ -29,7 +29,7 @@ class Numbers {
     const auto part = [](char c) { return c == ',' || c == '\x7f' || static_cast<unsigned char>(c) <= ' '; };
     rest_.remove_prefix(
         static_cast<std::size_t>(std::find_if_not(rest_.begin(), rest_.end(), part) - rest_.begin()));
-    if (rest_.empty()) throw SceneError(fmt::format("the file ends before {}", what));
+    if (rest_.empty()) throw InputError(fmt::format("the file ends before {}", what));
     const std::string_view word = rest_.substr(
         0, static_cast<std::size_t>(std::find_if(rest_.begin(), rest_.end(), part) - rest_.begin()));
     rest_.remove_prefix(word.size());
@@ -37,14 +37,14 @@ class Numbers {
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-      throw SceneError(fmt::format("{} is '{}', expected a number", what, word.substr(0, 40)));
+      throw InputError(fmt::format("{} is '{}', expected a number", what, word.substr(0, 40)));
     return value;
   }
 
   int count(std::string_view what, int least) {
     const double value = next(what);
     if (!(value >= least && value <= kMostAngles) || value != std::floor(value))
-      throw SceneError(fmt::format("{} is {}, expected {} to {}", what, value, least, kMostAngles));
+      throw InputError(fmt::format("{} is {}, expected {} to {}", what, value, least, kMostAngles));
     return static_cast<int>(value);
   }
 
@@ -53,9 +53,9 @@ class Numbers {
     for (int i = 0; i < count; ++i) {
       angles.push_back(next(what));
       if (!(angles.back() >= 0.0 && angles.back() <= most))
-        throw SceneError(fmt::format("{} is {}, expected 0 to {} degrees", what, angles.back(), most));
+        throw InputError(fmt::format("{} is {}, expected 0 to {} degrees", what, angles.back(), most));
       if (i > 0 && !(angles.back() > angles[angles.size() - 2]))
-        throw SceneError(fmt::format("{} {} comes after {}, expected more", what, angles.back(),
+        throw InputError(fmt::format("{} {} comes after {}, expected more", what, angles.back(),
                                      angles[angles.size() - 2]));
     }
     return angles;
@@ -65,7 +65,7 @@ class Numbers {
   std::string_view rest_;
 };
 
-/// What follows the line "TILT=", and what that line says.
+/// The text after the line "TILT=", and the choice that the line makes.
 struct Body {
   std::string_view numbers;
   bool tilt_follows = false;
@@ -79,10 +79,10 @@ Body find_body(std::string_view text) {
     if (line.starts_with("TILT=")) return {text.substr(end), line.substr(5).starts_with("INCLUDE")};
     at = end + 1;
   }
-  throw SceneError("there is no line 'TILT=', expected a photometric file of the IES (LM-63)");
+  throw InputError("there is no line 'TILT=', expected a photometric file of the IES (LM-63)");
 }
 
-/// Where a value lies among sorted ones: between `below` and the next, at `share` of the way.
+/// The place of a value among sorted ones: between `below` and the next, at `share` of the way.
 struct Place {
   std::size_t below = 0;
   double share = 0.0;
@@ -137,7 +137,7 @@ void check_horizontal(const std::vector<double>& angles) {
   const bool known =
       (first == 0.0 && (last == 0.0 || last == 90.0 || last >= 180.0)) || (first == 90.0 && last == 270.0);
   if (!known) {
-    throw SceneError(fmt::format(
+    throw InputError(fmt::format(
         "horizontal angles go from {} to {}, expected 0 to 0, 90, or 180 to 360, or 90 to 270", first, last));
   }
 }
@@ -146,7 +146,8 @@ Web read_web(std::string_view text) {
   const Body body = find_body(text);
   Numbers numbers(body.numbers);
   if (body.tilt_follows) {
-    // How a lamp dims when the luminaire is tilted; lights of scenes do not know how they are mounted.
+    // Skips the dimming of a lamp when the luminaire is tilted: lights of scenes do not know how they are
+    // mounted.
     numbers.next("the position of the lamp");
     const int pairs = numbers.count("the number of tilt angles", 0);
     for (int i = 0; i < 2 * pairs; ++i) numbers.next("a tilt angle or its factor");
@@ -157,13 +158,13 @@ Web read_web(std::string_view text) {
   const int rows = numbers.count("the number of vertical angles", 2);
   const int planes = numbers.count("the number of horizontal angles", 1);
   if (const double type = numbers.next("the photometric type"); type != 1.0)
-    throw SceneError(fmt::format("the photometric type is {}, expected 1 (type C)", type));
+    throw InputError(fmt::format("the photometric type is {}, expected 1 (type C)", type));
   for (const char* what : {"the units", "the width", "the length", "the height"}) numbers.next(what);
   factor *= numbers.next("the ballast factor");
   factor *= numbers.next("the ballast lamp factor");
   numbers.next("the watts");
   if (!(factor > 0.0))
-    throw SceneError(fmt::format("the factor of all candela is {}, expected more than 0", factor));
+    throw InputError(fmt::format("the factor of all candela is {}, expected more than 0", factor));
   Web web;
   web.vertical = numbers.angles("a vertical angle", rows, 180.0);
   web.horizontal = numbers.angles("a horizontal angle", planes, 360.0);
@@ -171,7 +172,7 @@ Web read_web(std::string_view text) {
   for (long i = 0; i < long{rows} * planes; ++i) {
     web.candela.push_back(factor * numbers.next("a candela value"));
     if (!(web.candela.back() >= 0.0 && web.candela.back() <= 1e30))
-      throw SceneError(fmt::format("a candela value is {}, expected 0 to 1e30", web.candela.back()));
+      throw InputError(fmt::format("a candela value is {}, expected 0 to 1e30", web.candela.back()));
   }
   return web;
 }
@@ -181,7 +182,7 @@ Web read_web(std::string_view text) {
 IesProfile::IesProfile(std::string_view text) {
   const Web web = read_web(text);
   greatest_ = *std::max_element(web.candela.begin(), web.candela.end());
-  if (!(greatest_ > 0.0)) throw SceneError("all candela values are 0, expected some light");
+  if (!(greatest_ > 0.0)) throw InputError("all candela values are 0, expected some light");
   if (web.horizontal.size() > 1) columns_ = kColumns;
   values_.reserve(kRows * columns_);
   for (std::size_t row = 0; row < kRows; ++row) {
@@ -217,15 +218,15 @@ IesProfile read_ies_profile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMostBytes + 1, '\0');
   if (!file || std::filesystem::is_directory(path))
-    throw SceneError(fmt::format("cannot read '{}'", path.string()));
+    throw InputError(fmt::format("cannot read '{}'", path.string()));
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMostBytes)
-    throw SceneError(fmt::format("{}: expected at most {} bytes", path.string(), kMostBytes));
+    throw InputError(fmt::format("{}: expected at most {} bytes", path.string(), kMostBytes));
   try {
     return IesProfile(text);
-  } catch (const SceneError& error) {
-    throw SceneError(fmt::format("{}: {}", path.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
 }
 

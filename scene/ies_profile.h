@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::scene {
 
@@ -13,7 +13,7 @@ namespace gatelight::scene {
 /// from x to y, as in the extension EXT_lights_ies.
 class IesProfile {
  public:
-  /// The text of a file. Throws SceneError that says what is wrong, without the file's name.
+  /// The text of a file. Throws InputError that says what is wrong, without the file's name.
   explicit IesProfile(std::string_view text);
 
   /// The intensity in a direction, which need not be unit, as a share of the greatest. Linear between angles;
@@ -34,7 +34,7 @@ class IesProfile {
   float extent_ = 0.0f;
 };
 
-/// Throws SceneError that names the file.
+/// Throws InputError that names the file.
 IesProfile read_ies_profile(const std::filesystem::path& path);
 
 }  // namespace gatelight::scene

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.h"
 #include "scene/light_names.h"
-#include "scene/scene_error.h"
 
 namespace gatelight::scene {
 
@@ -21,7 +21,7 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
     if (last == nullptr) return;
     light *= last->factor;
     if (!light.isFinite().all()) {
-      throw SceneError(fmt::format("{}: '{}' times {},{},{} is not finite, expected a smaller number",
+      throw InputError(fmt::format("{}: '{}' times {},{},{} is not finite, expected a smaller number",
                                    scene.path, name, last->factor.x(), last->factor.y(), last->factor.z()));
     }
   };
@@ -33,7 +33,7 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i])
-      throw SceneError(fmt::format("{}: {}", scene.path, names.no_such_light(adjustments[i].name)));
+      throw InputError(fmt::format("{}: {}", scene.path, names.no_such_light(adjustments[i].name)));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Lights of a loaded file switched off, made brighter or darker, or coloured.
+// Switches lights of a loaded file off, makes them brighter or darker, or colours them.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace gatelight::scene {
 
-/// What the lights of a name are multiplied by.
+/// A factor for the lights of a name.
 struct LightAdjustment {
-  /// Of a punctual light or an emissive material. A '*' at its end stands for any further letters.
+  /// Name of a punctual light or an emissive material. A '*' at its end stands for any further letters.
   std::string name;
   Color factor{1.0f, 1.0f, 1.0f};  ///< linear; not negative; zero switches off
 
@@ -20,8 +20,8 @@ struct LightAdjustment {
 };
 
 /// Multiplies the intensity of punctual lights and the emission of materials. Where several adjustments name
-/// a light, the last one counts: {"*", 0}, {"lamp", 1} leaves the lamp alone. Throws SceneError for a name
-/// that no light and no emissive material has, and where a product is not finite.
+/// a light, the last one counts: {"*", 0}, {"lamp", 1} switches off all but the lamp. Throws InputError for a
+/// name that no light and no emissive material has, and where a product is not finite.
 void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments);
 
 }  // namespace gatelight::scene

@@ -5,12 +5,12 @@
 
 #include <vector>
 
-#include "scene/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace gatelight::scene {
 namespace {
 
-/// "lights 'a', 'b'"; at most so many names that they fit into a line.
+/// "lights 'a', 'b'"; at most kMost names, which fit into a line.
 std::string list_names(const char* what, const std::set<std::string>& names) {
   constexpr std::size_t kMost = 24;
   std::vector<std::string> quoted;

@@ -14,11 +14,11 @@ bool fits_light_name(const std::string& wanted, const std::string& name);
 /// The names of punctual lights and of emissive materials.
 struct LightNames {
   std::set<std::string> lights;
-  std::set<std::string> materials;  ///< with those that adjust_lights() made black
+  std::set<std::string> materials;  ///< including those that adjust_lights() made black
 
   explicit LightNames(const Scene& scene);
-  /// "there is no light 'lamb', expected one of its lights 'lamp'; did you mean 'lamp'?". `word`: what else
-  /// is a name; empty: nothing.
+  /// "there is no light 'lamb', expected one of its lights 'lamp'; did you mean 'lamp'?". `word` is a
+  /// further valid name; empty means none.
   std::string no_such_light(const std::string& wanted, const std::string& word = "") const;
 };
 

@@ -4,13 +4,13 @@
 
 #include <memory>
 
+#include "base/errors.h"
 #include "scene/light_names.h"
-#include "scene/scene_error.h"
 
 namespace gatelight::scene {
 namespace {
 
-/// Why no light got the profile.
+/// The reason why no light got the profile.
 std::string no_such_light(const Scene& scene, const std::string& wanted) {
   LightNames names(scene);
   names.materials.clear();
@@ -34,7 +34,7 @@ void give_profiles(Scene& scene, const std::vector<LightProfile>& profiles) {
       light.profile = profile;
       used = true;
     }
-    if (!used) throw SceneError(fmt::format("{}: {}", scene.path, no_such_light(scene, wanted.name)));
+    if (!used) throw InputError(fmt::format("{}: {}", scene.path, no_such_light(scene, wanted.name)));
   }
   for (PunctualLight& light : scene.lights) {
     if (light.profile) light.type = LightType::point;

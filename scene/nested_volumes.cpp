@@ -24,7 +24,7 @@ struct Body {
   int placement(const Scene& scene) const { return scene.instances[instances.front()].placement; }
 };
 
-/// What rays always meet bounds something.
+/// Whether rays always hit surfaces of the material, so that they can bound a volume.
 bool can_close(const Material& m) {
   return m.alpha_mode == AlphaMode::opaque && !m.culled;
 }
@@ -53,9 +53,8 @@ std::vector<Body> find_bodies(const Scene& scene) {
   return bodies;
 }
 
-/// Leaves the bodies whose bounding boxes touch another's. They are swept along the axis on which they are
-/// spread most. Of very many bodies some more may stay: that costs their paths a little time, and nothing
-/// else.
+/// Keeps the bodies whose bounding boxes touch another's. They are swept along the axis on which they are
+/// spread most. With very many bodies it may keep more of them, which costs their paths only a little time.
 void keep_those_that_touch(std::vector<Body>& bodies) {
   constexpr std::size_t kMostTests = 20'000'000;
   Box all;
@@ -87,9 +86,9 @@ struct Surfaces {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Numbers of points, the same for points at the same place. Meshes are cut along the borders of their
-/// textures, and the two sides of a cut need not be rounded alike: with a `step` points that are half of it
-/// apart are the same, and those that are farther apart than twice the step are not.
+/// Numbers points, with the same number for points at the same place. Meshes are cut along the borders of
+/// their textures, and the two sides of a cut need not be rounded alike. With a `step`, points at most half a
+/// step from each other count as the same, and those more than two steps from each other do not.
 Indices weld(const std::vector<Eigen::Vector3d>& points, double step) {
   Indices parent(points.size());
   std::iota(parent.begin(), parent.end(), 0u);
@@ -99,7 +98,7 @@ Indices weld(const std::vector<Eigen::Vector3d>& points, double step) {
   };
   using Place = std::array<double, 3>;
   std::vector<std::pair<Place, std::uint32_t>> places(points.size());
-  // Neighbours that one grid parts are in one cell of another.
+  // Neighbours that one grid separates are in one cell of another.
   const int grids = step > 0.0 ? 8 : 1;
   for (int grid = 0; grid < grids; ++grid) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -195,8 +194,8 @@ class EnclosedVolumes {
   std::map<std::vector<int>, double> known_;  ///< by meshes, before they are placed
 };
 
-/// Bodies that do not close alone are one if those of their placement close together, or with what is opaque
-/// there.
+/// Bodies that are not closed by themselves become one body if all of their placement are closed together, or
+/// together with its opaque surfaces.
 std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
   EnclosedVolumes enclosed(scene);
   std::vector<Body> closed;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "base/math.h"
+#include "base/padded_vector.h"
 #include "scene/ies_profile.h"
-#include "scene/math.h"
-#include "scene/padded_vector.h"
 
 namespace gatelight::scene {
 
@@ -87,7 +87,7 @@ struct Material {
   float iridescence = 0.0f;                   ///< KHR_materials_iridescence
   TextureSlot iridescence_texture;            ///< R
   float film_ior = 1.3f;
-  float film_thickness_minimum = 100.0f;  ///< nanometres; with a texture alone
+  float film_thickness_minimum = 100.0f;  ///< nanometres; only used with a texture
   float film_thickness_maximum = 400.0f;
   TextureSlot film_thickness_texture;  ///< G, from the minimum to the maximum
   float clearcoat = 0.0f;              ///< KHR_materials_clearcoat
@@ -140,7 +140,8 @@ struct Instance {
   /// The instances of one placed glTF mesh, one for each of its primitives, have the same number. Numbers
   /// grow along the walk through the nodes.
   int placement = -1;
-  /// Where bodies of glass or liquid overlap, that of the largest fills the space (scene/nested_volumes.h).
+  /// Where bodies of glass or liquid overlap, the one with the largest priority fills the space
+  /// (scene/nested_volumes.h).
   float dielectric_priority = 0.0f;
 };
 
@@ -157,8 +158,8 @@ struct PunctualLight {
   float range = kInfinity;            ///< metres; the extension's window function is 0 beyond it
   float cos_inner = 1.0f;             ///< spot: cosine of the inner cone angle
   float cos_outer = 0.70710678f;      ///< spot: cosine of the outer cone angle
-  /// Of a point light: the intensity is that of the brightest direction. The profile aims along `direction`,
-  /// with its x along `side` (world, unit, perpendicular).
+  /// Only for a point light, whose intensity is then that of the brightest direction. The profile aims along
+  /// `direction`, with its x along `side` (world, unit, perpendicular).
   std::shared_ptr<const IesProfile> profile;
   Vec3 side{1.0f, 0.0f, 0.0f};
 };

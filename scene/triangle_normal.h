@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::scene {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What an application prints when a run of several ranks ends early.
+// Callbacks that print when a run of several ranks ends early.
 
 #include <functional>
 #include <string>
@@ -9,11 +9,11 @@ namespace gatelight::apps {
 /// Another thread calls them while the main thread computes or waits. They print and return; the ranks are
 /// ended afterwards.
 struct RankCallbacks {
-  /// Rank 0 calls it where ranks ended with an error. `line` names the rank, unless all of them had the same.
-  /// A rank calls it itself where rank 0 does not answer.
+  /// Rank 0 calls it where ranks ended with an error. `line` names the rank, unless all of them had the same
+  /// error. A rank calls it itself where rank 0 does not answer.
   std::function<void(int code, const std::string& line)> on_fault;
 
-  /// No sign of life came from a rank for this time.
+  /// Called when no heartbeat came from a rank for this time.
   std::function<void(int rank, const std::string& host, double seconds)> on_lost;
 
   int lost_code = 1;  ///< the program's exit code where the connection is lost

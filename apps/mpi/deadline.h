@@ -1,6 +1,6 @@
 #pragma once
-// An end for calls of MPI that wait for other ranks and cannot be asked whether they are done: its start and
-// its end.
+// A deadline for the MPI calls that wait for other ranks and cannot be polled: initialisation and
+// finalisation.
 
 #include <condition_variable>
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace gatelight::apps {
 
-/// Calls a function on another thread, unless it is gone before.
+/// Calls `late` on another thread after `seconds`, unless the object is destroyed before.
 class Deadline {
  public:
   Deadline(double seconds, std::function<void()> late);
@@ -24,7 +24,8 @@ class Deadline {
   std::thread thread_;
 };
 
-/// This process's rank as its launcher tells it, before MPI does; 0 where it does not.
+/// Rank of this process in the launcher's environment variables, which exist before MPI is initialised; 0
+/// where there is none.
 int rank_of_launcher();
 
 }  // namespace gatelight::apps

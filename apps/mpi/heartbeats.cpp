@@ -8,7 +8,8 @@ namespace {
 constexpr double kBeatSeconds = 1.0;
 constexpr double kPatienceWithFirst = 5.0;  // seconds
 
-/// Where this process was stopped itself, it has not listened, and nobody else is to blame.
+/// Limit of the silence that one step adds. A longer step means that this process itself was stopped and did
+/// not receive.
 constexpr double kLongestStep = 0.5;  // seconds
 
 }  // namespace
@@ -19,7 +20,7 @@ Heartbeats::Heartbeats(const MpiWorld& world, Mailbox& mailbox, double silence)
     for (int rank = 1; rank < world.count; ++rank) peers_.push_back({.rank = rank});
   } else {
     peers_.push_back({.rank = 0});
-    // One after the other, so that one line is printed and not one by each rank.
+    // Ranks give up one after the other, so that only one of them prints a line.
     silence_ += kPatienceWithFirst + std::min(world.rank - 1, 10);
   }
 }

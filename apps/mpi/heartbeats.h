@@ -1,13 +1,13 @@
 #pragma once
-// Rank 0 and each other rank tell each other once a second that they live. A process that hangs, is stopped
-// or lost its network sends nothing, and MPI would wait for it forever.
+// Rank 0 and each other rank exchange heartbeats once a second. A process that hangs, is stopped or lost its
+// network sends nothing, and MPI would wait for it forever.
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
 #include "apps/mpi/mailbox.h"
 #include "apps/mpi/mpi_world.h"
+#include "base/clock.h"
 
 namespace gatelight::apps {
 
@@ -15,25 +15,24 @@ class Heartbeats {
  public:
   static constexpr int kTag = 1;
 
-  /// Rank 0 gives up others after `silence` seconds. They give it up later, because it may be about to end
-  /// them with a better reason.
+  /// Rank 0 gives up other ranks after `silence` seconds. They give up rank 0 later, because it may be about
+  /// to end them with a better message.
   Heartbeats(const MpiWorld& world, Mailbox& mailbox, double silence);
 
   void receive(const Mailbox::Message& beat);
 
   struct Lost {
     int rank = 0;
-    double seconds = 0.0;  ///< without a sign of life
+    double seconds = 0.0;  ///< without a heartbeat
   };
-  /// Sends what is due. Tells who is silent for too long.
+  /// Sends the heartbeats that are due. Returns a rank that is silent for too long.
   std::optional<Lost> step();
 
-  /// This rank expects and needs nothing more. Its last beat says so.
+  /// Sends the last heartbeats, which say that this rank needs no more messages.
   void say_goodbye();
   bool all_said_goodbye() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Peer {
     int rank = 0;
     double silent = 0.0;  // seconds

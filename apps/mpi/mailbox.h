@@ -1,11 +1,11 @@
 #pragma once
-// Small messages between ranks, sent and received in passing. The caller holds the mutex.
+// Small messages between ranks, sent and received without waiting. The caller holds the mutex.
 
 #include <optional>
 #include <vector>
 
 #include "apps/mpi/mpi_calls.h"
-#include "renderer/ranks/ranks.h"
+#include "renderer/distributed/ranks.h"
 
 namespace gatelight::apps {
 
@@ -19,12 +19,12 @@ class Mailbox {
     renderer::Bytes bytes;
   };
   void send(int to, int tag, renderer::Bytes bytes);
-  /// The next one that is there.
+  /// Returns the next message that has arrived, if any.
   std::optional<Message> receive();
 
-  /// Whether such a message is still on its way out.
+  /// Whether a message with this rank and tag is still being sent.
   bool sending(int to, int tag) const;
-  /// Messages that are out need no memory.
+  /// Frees the memory of messages that have been sent.
   void forget_sent();
   bool sending_any();
 

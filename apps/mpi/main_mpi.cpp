@@ -1,4 +1,4 @@
-// gatelight with its pictures made by several ranks.
+// gatelight-mpi: gatelight with several ranks that make one picture.
 
 #include <fmt/format.h>
 
@@ -12,20 +12,20 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
-#include "neural/base/flush_denormals.h"
+#include "base/platform/flush_denormals.h"
 
 namespace gatelight::apps {
 namespace {
 
-/// Failures travel from rank to rank as one text.
+/// Separates message and advice: ranks send a failure as one text.
 constexpr char kSeparator = '\x1f';
 
 void print_fault(int code, const std::string& line) {
-  // A rank that speaks for rank 0 was silent.
+  // A rank that prints in place of rank 0 was set silent.
   set_silent(false);
   const std::size_t at = line.find(kSeparator);
   const std::string advice = at == std::string::npos ? "" : line.substr(at + 1);
-  tell_failure({code, line.substr(0, at), advice});
+  print_failure_line({code, line.substr(0, at), advice});
 }
 
 RankCallbacks make_callbacks() {
@@ -66,14 +66,15 @@ int run_ranks(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace gatelight;
   // TBB copies this state to its threads at its first use.
-  const neural::FlushDenormals flush;
+  const gatelight::FlushDenormals flush;
   std::set_terminate(apps::end_program);
   apps::ignore_write_signals();
   try {
     return apps::run_ranks(argc, argv);
   } catch (const std::exception& error) {
     apps::set_silent(false);
-    apps::tell_failure({apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
+    apps::print_failure_line(
+        {apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
     return apps::kUnavailable;
   }
 }

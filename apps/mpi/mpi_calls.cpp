@@ -7,9 +7,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 #include <thread>
+
+#include "base/errors.h"
 
 namespace gatelight::apps {
 namespace {
@@ -31,7 +32,7 @@ void check(int result, const char* function) {
   std::array<char, MPI_MAX_ERROR_STRING> text{};
   int length = 0;
   if (MPI_Error_string(result, text.data(), &length) != MPI_SUCCESS) length = 0;
-  throw std::runtime_error(
+  throw MpiError(
       fmt::format("{} failed: {}", function, std::string(text.data(), static_cast<std::size_t>(length))));
 }
 
@@ -70,7 +71,7 @@ void abort_all(int code) {
   // MPI_Abort may call exit(), whose destructors would meet threads that still compute.
   std::atexit([] { std::_Exit(abort_code); });
   const std::unique_lock lock(mpi_mutex(), std::chrono::seconds(2));
-  // Where a call of another thread hangs, the launcher sees from the code that the job failed.
+  // Where a call of another thread hangs, the exit code shows the launcher that the job failed.
   if (lock) MPI_Abort(kWorld, code);
   std::_Exit(code);
 }

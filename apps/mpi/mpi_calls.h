@@ -1,6 +1,6 @@
 #pragma once
-// How MPI is called here: by one thread at a time, and by calls that do not wait. MPI's own waiting keeps a
-// core busy, which another rank may need.
+// MPI is called by one thread at a time, and only by non-blocking calls. MPI's own waiting keeps a core busy,
+// which another rank may need.
 
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
@@ -31,20 +31,19 @@ inline MPI_Status* const kNoStatuses = MPI_STATUSES_IGNORE;
 
 using Requests = std::vector<MPI_Request>;
 
-/// The thread that calls MPI holds it.
+/// The mutex that a thread holds while it calls MPI.
 std::timed_mutex& mpi_mutex();
 
-/// Throws std::runtime_error where an MPI function failed.
+/// Throws MpiError where an MPI function failed.
 void check(int result, const char* function);
 
-/// Whether all are done. The caller holds the mutex.
+/// Whether all requests are complete. The caller holds the mutex.
 bool all_done(Requests& requests);
 
-/// Waits for all. The caller does not hold the mutex.
+/// Waits for all requests. The caller does not hold the mutex.
 void wait_for(Requests& requests);
 
-/// A thread that asks again and again whether something is done sleeps in between: short at first, then
-/// longer.
+/// Sleeps between the polls of a thread that waits: short at first, then longer.
 class Pauses {
  public:
   Pauses();
@@ -57,14 +56,14 @@ class Pauses {
   double microseconds_ = 100.0;
 };
 
-/// Whether a thread waits so.
+/// Whether a thread waits with Pauses.
 bool any_waiting();
 
 /// Ends all ranks.
 [[noreturn]] void abort_all(int code);
 
-/// Memory that MPI reads or writes after a call returned. It stays where an exception leaves the scope,
-/// because MPI may still use it.
+/// Memory that MPI reads or writes after a call returned. It is not freed where an exception leaves the
+/// scope, because MPI may still use it.
 template <class T>
 class MpiMemory {
  public:

@@ -14,30 +14,29 @@
 #include <optional>
 #include <utility>
 
-#include "apps/mpi/attendant.h"
+#include "apps/mpi/all_gather.h"
 #include "apps/mpi/chunks.h"
 #include "apps/mpi/deadline.h"
-#include "apps/mpi/gatherings.h"
 #include "apps/mpi/mpi_calls.h"
 #include "apps/mpi/mpi_world.h"
+#include "apps/mpi/progress_thread.h"
 
 namespace gatelight::apps {
 namespace {
 
 using renderer::Bytes;
-using Clock = std::chrono::steady_clock;
 
-/// The start of all ranks may take so many times the silence that tells a lost one.
+/// Time limit for the start of all ranks, as a multiple of the silence after which a rank is lost.
 constexpr double kStartTimes = 2.0;
 
-/// After a fault, a gathering that some ranks have not begun cannot end.
-constexpr std::chrono::seconds kGatheringsAfterFault(2);
+/// Time limit for all-gathers after an error: one that some ranks have not begun cannot end.
+constexpr std::chrono::seconds kAllGathersAfterError(2);
 
 std::size_t index(int rank) {
   return static_cast<std::size_t>(rank);
 }
 
-/// Adds the time of its life.
+/// Adds its lifetime to a counter.
 class WaitingTime {
  public:
   explicit WaitingTime(std::atomic<std::int64_t>& nanoseconds) : nanoseconds_(nanoseconds) {}
@@ -52,8 +51,8 @@ class WaitingTime {
   Clock::time_point begin_ = Clock::now();
 };
 
-/// Ends this process where others do not come. Its launcher then ends them. One that is later lets rank 0
-/// speak.
+/// Returns a function that ends this process where other ranks do not answer; the launcher then ends those.
+/// Other ranks wait longer than rank 0 (patience()), so that rank 0 prints the line.
 std::function<void()> give_up(const RankCallbacks& callbacks, const std::string& line) {
   return [&callbacks, line] {
     callbacks.on_fault(callbacks.lost_code, line);
@@ -71,14 +70,14 @@ struct MpiRanks::Connection {
   Connection(int* argc, char*** argv) : world(argc, argv) {}
   bool gatherings_over() const {
     const std::lock_guard lock(mpi_mutex());
-    return gatherings.idle();
+    return all_gathers.idle();
   }
 
   MpiWorld world;
-  Gatherings gatherings{world};
-  std::optional<Attendant> attendant;  ///< a process alone has none
+  AllGathers all_gathers{world};
+  std::optional<ProgressThread> progress_thread;  ///< empty for a single process
   Callbacks callbacks;
-  std::optional<int> fault;  ///< its code
+  std::optional<int> fault;  ///< exit code of the error
   bool ended = false;
   double silence = 0.0;
   int exceptions = std::uncaught_exceptions();
@@ -97,19 +96,20 @@ MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_
   Connection& mpi = *connection_;
   mpi.callbacks = std::move(callbacks);
   mpi.silence = silence_seconds;
-  if (count() > 1) mpi.attendant.emplace(mpi.world, mpi.gatherings, mpi.callbacks, silence_seconds);
+  if (count() > 1) mpi.progress_thread.emplace(mpi.world, mpi.all_gathers, mpi.callbacks, silence_seconds);
 }
 
 MpiRanks::~MpiRanks() {
   Connection& mpi = *connection_;
   if (mpi.ended) return;
   // The others would wait forever.
-  if (mpi.attendant && !mpi.fault && std::uncaught_exceptions() > mpi.exceptions)
-    mpi.attendant->abort({.code = mpi.callbacks.lost_code, .line = "ended by an exception"});
+  if (mpi.progress_thread && !mpi.fault && std::uncaught_exceptions() > mpi.exceptions)
+    mpi.progress_thread->abort({.code = mpi.callbacks.lost_code, .line = "ended by an exception"});
   try {
     end();
   } catch (const std::exception& error) {
-    if (mpi.attendant) mpi.attendant->abort({.code = mpi.callbacks.lost_code, .line = error.what()});
+    if (mpi.progress_thread)
+      mpi.progress_thread->abort({.code = mpi.callbacks.lost_code, .line = error.what()});
   }
 }
 
@@ -132,7 +132,7 @@ const std::string& MpiRanks::host(int rank) const {
 std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
   Connection& mpi = *connection_;
   assert(outgoing.size() == index(count()));
-  if (alone()) return outgoing;
+  if (is_single()) return outgoing;
   const WaitingTime time(mpi.waiting);
   struct Exchange {
     std::vector<Bytes> outgoing, incoming;
@@ -161,7 +161,7 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
     const std::lock_guard lock(mpi_mutex());
     for (int other = 0; other < count(); ++other)
       begin_receive(mpi.world.data, other, all->incoming[index(other)], all->requests);
-    // Each rank begins with its next, so that they do not all send to the same one.
+    // Each rank begins with the next rank, so that they do not all send to the same one.
     for (int i = 1; i < count(); ++i) {
       const int to = (rank() + i) % count();
       begin_send(mpi.world.data, to, all->outgoing[index(to)], all->requests);
@@ -174,7 +174,7 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
 
 void MpiRanks::broadcast(Bytes& bytes) {
   Connection& mpi = *connection_;
-  if (alone()) return;
+  if (is_single()) return;
   const WaitingTime time(mpi.waiting);
   struct Broadcast {
     Bytes bytes;
@@ -201,26 +201,26 @@ void MpiRanks::broadcast(Bytes& bytes) {
   if (first()) mpi.bytes_sent += all->size * static_cast<std::uint64_t>(count() - 1);
 }
 
-std::unique_ptr<renderer::Ranks::Gathering> MpiRanks::begin_gather(Bytes mine) {
-  struct Running : Gathering {
+std::unique_ptr<renderer::Ranks::AllGather> MpiRanks::begin_gather(Bytes mine) {
+  struct Running : AllGather {
     explicit Running(Connection& connection) : mpi(connection) {}
     std::vector<Bytes> wait() override {
       const WaitingTime time(mpi.waiting);
       for (Pauses pauses;; pauses.sleep()) {
         const std::lock_guard lock(mpi_mutex());
-        mpi.gatherings.advance();
-        if (Gatherings::over(*gather)) break;
+        mpi.all_gathers.advance();
+        if (AllGathers::over(*gather)) break;
       }
-      return Gatherings::take(*gather);
+      return AllGathers::take(*gather);
     }
     Connection& mpi;
-    std::shared_ptr<Gatherings::Gather> gather;
+    std::shared_ptr<AllGathers::Gather> gather;
   };
-  if (alone()) return renderer::OneRank().begin_gather(std::move(mine));
+  if (is_single()) return renderer::OneRank().begin_gather(std::move(mine));
   auto running = std::make_unique<Running>(*connection_);
   connection_->bytes_sent += mine.size() * static_cast<std::uint64_t>(count() - 1);
   const std::lock_guard lock(mpi_mutex());
-  running->gather = connection_->gatherings.begin(std::move(mine));
+  running->gather = connection_->all_gathers.begin(std::move(mine));
   return running;
 }
 
@@ -232,8 +232,8 @@ renderer::Ranks::Traffic MpiRanks::traffic() const {
 void MpiRanks::fail(int code, const std::string& line) {
   Connection& mpi = *connection_;
   mpi.fault = code;
-  if (mpi.attendant) {
-    mpi.attendant->fail({.code = code, .line = line});
+  if (mpi.progress_thread) {
+    mpi.progress_thread->fail({.code = code, .line = line});
   } else {
     mpi.callbacks.on_fault(code, line);
   }
@@ -242,8 +242,8 @@ void MpiRanks::fail(int code, const std::string& line) {
 void MpiRanks::end() {
   Connection& mpi = *connection_;
   if (mpi.ended) return;
-  if (mpi.attendant) {
-    const auto give_up = Clock::now() + kGatheringsAfterFault;
+  if (mpi.progress_thread) {
+    const auto give_up = Clock::now() + kAllGathersAfterError;
     for (Pauses pauses; !mpi.gatherings_over(); pauses.sleep()) {
       if (mpi.fault && Clock::now() > give_up) abort_all(*mpi.fault);
     }
@@ -259,7 +259,7 @@ void MpiRanks::end() {
   const Deadline deadline(
       seconds, give_up(mpi.callbacks,
                        fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
-  if (mpi.attendant) mpi.attendant->stop();
+  if (mpi.progress_thread) mpi.progress_thread->stop();
   mpi.world.finalize();
 }
 

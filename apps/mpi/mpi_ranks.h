@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "apps/mpi/callbacks.h"
-#include "renderer/ranks/ranks.h"
+#include "renderer/distributed/ranks.h"
 
 namespace gatelight::apps {
 
-/// One at a time in a process. Where mpirun has not started it, the process is alone.
+/// At most one object at a time in a process. A process that mpirun has not started is the only rank.
 class MpiRanks final : public renderer::Ranks {
  public:
   using Callbacks = RankCallbacks;
 
-  /// Starts MPI. Throws std::runtime_error where it cannot be used. A rank of which nothing is heard for
-  /// `silence_seconds` is lost, and with it the run.
+  /// Starts MPI. Throws MpiError where it cannot be used. A rank without a heartbeat for `silence_seconds`
+  /// is lost, which ends the run.
   MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds = 20.0);
-  /// Like end(), but an exception that passes by or a failure ends all ranks.
+  /// Calls end(). Ends all ranks where an exception is in flight or end() fails.
   ~MpiRanks() override;
   MpiRanks(const MpiRanks&) = delete;
   MpiRanks& operator=(const MpiRanks&) = delete;
@@ -30,11 +30,11 @@ class MpiRanks final : public renderer::Ranks {
 
   std::vector<renderer::Bytes> exchange(std::vector<renderer::Bytes> outgoing) override;
   void broadcast(renderer::Bytes& bytes) override;
-  std::unique_ptr<Gathering> begin_gather(renderer::Bytes mine) override;
+  std::unique_ptr<AllGather> begin_gather(renderer::Bytes mine) override;
   Traffic traffic() const override;
 
-  /// This rank ends with an error. Where all ranks say the same within a second, the line is printed once,
-  /// and each of them returns and is to end with the code. Else the program ends here, and all ranks with it.
+  /// This rank ends with an error. Where all ranks report the same error within a second, the line is printed
+  /// once, and each rank returns and must end with the code. Otherwise all ranks end here.
   void fail(int code, const std::string& line);
 
   /// All ranks call it when they are done, or when fail() has returned. It waits for the others and stops

@@ -1,9 +1,9 @@
 #include "apps/mpi/mpi_world.h"
 
 #include <array>
-#include <stdexcept>
 
 #include "apps/rank_group.h"
+#include "base/errors.h"
 
 namespace gatelight::apps {
 namespace {
@@ -51,13 +51,13 @@ MpiWorld::MpiWorld(int* argc, char*** argv) {
     check(MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &threads), "MPI_Init_thread");
     if (threads < MPI_THREAD_SERIALIZED) {
       MPI_Finalize();
-      throw std::runtime_error("this MPI cannot be called by several threads (MPI_THREAD_SERIALIZED)");
+      throw MpiError("this MPI cannot be called by several threads (MPI_THREAD_SERIALIZED)");
     }
     check(MPI_Comm_set_errhandler(kWorld, kReturnErrors), "MPI_Comm_set_errhandler");
     check(MPI_Comm_rank(kWorld, &rank), "MPI_Comm_rank");
     check(MPI_Comm_size(kWorld, &count), "MPI_Comm_size");
     local_count = ranks_of_this_machine(rank);
-    for (MPI_Comm* comm : {&data, &gatherings, &messages}) {
+    for (MPI_Comm* comm : {&data, &all_gathers, &messages}) {
       check(MPI_Comm_dup(kWorld, comm), "MPI_Comm_dup");
       check(MPI_Comm_set_errhandler(*comm, kReturnErrors), "MPI_Comm_set_errhandler");
     }
@@ -67,7 +67,7 @@ MpiWorld::MpiWorld(int* argc, char*** argv) {
 
 void MpiWorld::finalize() {
   const std::lock_guard lock(mpi_mutex());
-  for (MPI_Comm* comm : {&data, &gatherings, &messages}) check(MPI_Comm_free(comm), "MPI_Comm_free");
+  for (MPI_Comm* comm : {&data, &all_gathers, &messages}) check(MPI_Comm_free(comm), "MPI_Comm_free");
   check(MPI_Finalize(), "MPI_Finalize");
 }
 

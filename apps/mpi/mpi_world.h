@@ -1,5 +1,5 @@
 #pragma once
-// MPI's start and end, and what each process knows of the others.
+// MPI's initialisation and finalisation, and the ranks and hosts of all processes.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace gatelight::apps {
 
-/// Collectives of one communicator must be called in the same order everywhere, so what runs at the same time
-/// has its own.
+/// Collectives of one communicator must be called in the same order on all ranks, so collectives that run at
+/// the same time have separate communicators.
 struct MpiWorld {
-  /// All processes call it. Throws std::runtime_error where this MPI cannot be used by several threads.
+  /// All processes call it. Throws MpiError where this MPI cannot be used by several threads.
   MpiWorld(int* argc, char*** argv);
   /// All processes call it, and none of them calls MPI afterwards.
   void finalize();
@@ -21,8 +21,8 @@ struct MpiWorld {
   int local_count = 1;             ///< processes of this machine
   std::vector<std::string> hosts;  ///< of each rank
   MPI_Comm data = kNoComm;         ///< exchanges and broadcasts
-  MPI_Comm gatherings = kNoComm;
-  MPI_Comm messages = kNoComm;  ///< heartbeats and faults
+  MPI_Comm all_gathers = kNoComm;
+  MPI_Comm messages = kNoComm;  ///< heartbeats and errors
 };
 
 /// "rank 3 of 5 (host)"

@@ -11,7 +11,7 @@
 #include "apps/reports/cache_statistics.h"
 #include "apps/settings/render_settings.h"
 #include "apps/terminal/text.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -73,8 +73,8 @@ std::string instances_text(const std::vector<CacheInstanceReport>& instances) {
 std::string cache_report_text(const CacheReport& report, const renderer::RenderOptions& options) {
   const CacheStatistics& s = report.statistics;
   std::string text = "\n";
-  text += row("cache", fmt::format("{}, {}, {} nodes", renderer::word(options.integrator),
-                                   renderer::word(options.cache.encoding), format_integer(s.nodes)));
+  text += row("cache", fmt::format("{}, {}, {} nodes", renderer::enum_name(options.integrator),
+                                   renderer::enum_name(options.cache.encoding), format_integer(s.nodes)));
   text += row("cache memory",
               fmt::format("parameters {}, optimiser {}, layout {}; parameters without scouting {}",
                           format_bytes(s.parameter_bytes), format_bytes(s.optimizer_bytes),
@@ -92,8 +92,8 @@ std::string cache_report_text(const CacheReport& report, const renderer::RenderO
 
 ordered_json cache_report_json(const CacheReport& report, const renderer::RenderOptions& options) {
   const CacheStatistics& s = report.statistics;
-  ordered_json json = {{"integrator", renderer::word(options.integrator)},
-                       {"encoding", renderer::word(options.cache.encoding)}};
+  ordered_json json = {{"integrator", renderer::enum_name(options.integrator)},
+                       {"encoding", renderer::enum_name(options.cache.encoding)}};
   json["memory_bytes"] = cache_memory_json(s);
   json["memory_bytes"]["parameters_without_scouting"] = report.bytes_without_scouting;
   json["inputs"] = {{"direction", s.direction_input}, {"normal", s.normal_input}, {"albedo", s.albedo_input}};

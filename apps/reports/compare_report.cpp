@@ -6,7 +6,7 @@
 
 #include "apps/reports/json.h"
 #include "apps/terminal/text.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -39,7 +39,7 @@ ordered_json ssim_json(const CompareReport& report) {
   if (!report.ssim) return nullptr;
   return {{"mean", *report.ssim},
           {"exposure", report.flip_options.exposure},
-          {"tonemap", word(report.flip_options.tonemap)}};
+          {"tonemap", enum_name(report.flip_options.tonemap)}};
 }
 
 ordered_json flip_json(const CompareReport& report, Metric metric) {
@@ -54,7 +54,7 @@ ordered_json flip_json(const CompareReport& report, Metric metric) {
                        {"pixels_per_degree", report.flip_options.pixels_per_degree}};
   if (metric == Metric::flip) {
     json["exposure"] = report.flip_options.exposure;
-    json["tonemap"] = word(report.flip_options.tonemap);
+    json["tonemap"] = enum_name(report.flip_options.tonemap);
   } else {
     json["start_exposure"] = flip.start_exposure;
     json["stop_exposure"] = flip.stop_exposure;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/settings/parsing.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/flip.h"
-#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 

@@ -14,22 +14,6 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
-using renderer::InRecipe;
-using renderer::Option;
-
-/// New options follow these, so that recipes of two versions differ only in new options.
-constexpr const char* kOrder =
-    "integrator size region spp time-limit max-depth min-depth seed sampler filter filter-width direct "
-    "mis light-selection clamp ao-distance aov nan isa eye target up camera fov environment "
-    "environment-rotation environment-scale scene-index variant missing allow-external exposure "
-    "tonemap exr preset train-steps train-time batch train-path-length samples-per-point "
-    "training-points candidates self-training self-training-vertices self-training-full "
-    "self-training-attenuation learning-rate learning-decay loss update average encoding hash-levels "
-    "hash-features hash-log2-size hash-base hash-growth features stack resolution resolution-scale "
-    "node-spacing max-resolution cluster storage feature-step cache-memory feature-precision hidden "
-    "layers bias direction-input normal-input albedo-input scout cache-holds query-at view "
-    "cache-roughness spread-threshold query-precision device cache-in cache-out threads memory-limit "
-    "output checkpoint checkpoint-every resume";
 
 /// The value of an option as JSON, which has no infinity.
 struct Json {
@@ -49,8 +33,7 @@ struct Json {
 }  // namespace
 
 ordered_json resolved_options(RenderSettings settings) {
-  std::vector<Option> table = option_table(settings);
-  put_first(table, kOrder);
+  const std::vector<Option> table = option_table(settings);
   const std::set<std::string> without_effect = flags_without_effect(settings);
   ordered_json json;
   for (const Option& option : table) {
@@ -74,7 +57,7 @@ std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
   std::map<std::string, std::string> recipe = {
       {"version", version()},
       {"scene", settings.scene},
-      {"integrator", word(settings.render.integrator)},
+      {"integrator", enum_name(settings.render.integrator)},
       {"seed", std::to_string(settings.render.seed)},
       {"spp", std::to_string(statistics.spp)},
       {"isa", statistics.isa},

@@ -19,7 +19,7 @@ struct RunReport {
   double total_seconds = 0.0;
   float exposure = 0.0f;  ///< of the PNG files, in stops
   std::vector<std::string> warnings;
-  int signal = 0;  ///< that stopped the run; 0: none
+  int signal = 0;  ///< signal that stopped the run; 0: none
 };
 
 /// Largest resident memory of this process so far, in bytes.

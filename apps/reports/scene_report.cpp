@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
-#include "renderer/settings/values.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::apps {
@@ -19,11 +19,11 @@ namespace {
 using nlohmann::ordered_json;
 using scene::SceneRequirements;
 
-struct Requirement {
+struct NamedRequirement {
   const char* key;
   bool SceneRequirements::*flag;
 };
-constexpr Requirement kRequirements[] = {
+constexpr NamedRequirement kRequirements[] = {
     {"two_sided", &SceneRequirements::two_sided},
     {"view_dependent", &SceneRequirements::view_dependent},
     {"alpha_mask", &SceneRequirements::alpha_mask},
@@ -77,7 +77,7 @@ class Rows {
   std::string text_;
 };
 
-/// The file's numbers as they are (KHR_lights_punctual has candela and lux).
+/// Unit of an intensity. The file's numbers are not converted (KHR_lights_punctual has candela and lux).
 const char* unit_of(const scene::PunctualLight& light) {
   return light.type == scene::LightType::directional ? "W/m2" : "W/sr";
 }
@@ -114,7 +114,7 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
     const scene::Camera& camera = scene.cameras[i];
     const std::string lens = camera.orthographic
                                  ? fmt::format("{:.4g} m high", 2.0f * camera.half_height)
-                                 : fmt::format("{:.4g} degrees", camera.vertical_fov * 180.0f / scene::kPi);
+                                 : fmt::format("{:.4g} degrees", camera.vertical_fov * 180.0f / kPi);
     const std::string node =
         camera.node.empty() || camera.node == camera.name ? "" : fmt::format(", node '{}'", camera.node);
     lines.push_back(fmt::format("{} '{}'{}, {}, {}", i, camera.name, node, name_of_type(camera), lens));
@@ -147,16 +147,16 @@ std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRe
   return lines;
 }
 
-ordered_json triple(const scene::Vec3& v) {
+ordered_json triple(const Vec3& v) {
   return {shortest(v.x()), shortest(v.y()), shortest(v.z())};
 }
 
 double degrees(double radians) {
-  return radians * 180.0 / static_cast<double>(scene::kPi);
+  return radians * 180.0 / static_cast<double>(kPi);
 }
 
 /// Places are in the file's coordinates.
-ordered_json light_json(const scene::PunctualLight& light, const scene::Vec3& origin) {
+ordered_json light_json(const scene::PunctualLight& light, const Vec3& origin) {
   using scene::LightType;
   ordered_json json = {{"name", light.name},
                        {"type", renderer::name_of(kLightTypes, light.type)},
@@ -173,7 +173,7 @@ ordered_json light_json(const scene::PunctualLight& light, const scene::Vec3& or
   return json;
 }
 
-ordered_json camera_json(const scene::Camera& camera, const scene::Vec3& origin) {
+ordered_json camera_json(const scene::Camera& camera, const Vec3& origin) {
   ordered_json json = {{"name", camera.name}, {"node", camera.node}, {"type", name_of_type(camera)}};
   if (camera.orthographic) {
     json["height"] = 2.0 * shortest(camera.half_height);
@@ -182,7 +182,7 @@ ordered_json camera_json(const scene::Camera& camera, const scene::Vec3& origin)
     json["vertical_fov_degrees"] = degrees(shortest(camera.vertical_fov));
   }
   if (camera.aspect > 0.0f) json["aspect"] = shortest(camera.aspect);
-  scene::Affine placed = camera.transform;
+  Affine placed = camera.transform;
   placed.translation() += origin;
   json["transform"] = ordered_json::array();
   for (Eigen::Index column = 0; column < 4; ++column) {
@@ -194,23 +194,23 @@ ordered_json camera_json(const scene::Camera& camera, const scene::Vec3& origin)
 }
 
 /// The bounds in the file's coordinates.
-scene::Box file_bounds(const scene::Scene& scene) {
-  scene::Box bounds = scene.bounds;
+Box file_bounds(const scene::Scene& scene) {
+  Box bounds = scene.bounds;
   if (!bounds.isEmpty()) bounds.translate(scene.origin);
   return bounds;
 }
 
-std::string describe_bounds(const scene::Box& bounds) {
+std::string describe_bounds(const Box& bounds) {
   if (bounds.isEmpty()) return "empty";
-  const scene::Vec3& low = bounds.min();
-  const scene::Vec3& high = bounds.max();
+  const Vec3& low = bounds.min();
+  const Vec3& high = bounds.max();
   return fmt::format("{:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m, diagonal {:.4g} m", low.x(), low.y(),
                      low.z(), high.x(), high.y(), high.z(), (high - low).norm());
 }
 
 std::string describe_requirements(const SceneRequirements& requirements) {
   std::vector<std::string_view> names;
-  for (const Requirement& requirement : kRequirements) {
+  for (const NamedRequirement& requirement : kRequirements) {
     if (requirements.*requirement.flag) names.emplace_back(requirement.key);
   }
   return names.empty() ? "nothing special" : fmt::format("{}", fmt::join(names, ", "));
@@ -264,7 +264,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   json["materials"] = scene.materials.size();
   json["textures"] = scene.textures.size();
   json["images"] = scene.images.size();
-  const auto rgb = [](const scene::Color& c) { return ordered_json{c.x(), c.y(), c.z()}; };
+  const auto rgb = [](const Color& c) { return ordered_json{c.x(), c.y(), c.z()}; };
   json["lights"] = ordered_json::array();
   for (const scene::PunctualLight& light : scene.lights) {
     json["lights"].push_back(light_json(light, scene.origin));
@@ -291,10 +291,10 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   }
   json["variants"] = scene.variants;
   if (!scene.bounds.isEmpty()) {
-    const scene::Box bounds = file_bounds(scene);
+    const Box bounds = file_bounds(scene);
     json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};
   }
-  for (const Requirement& requirement : kRequirements) {
+  for (const NamedRequirement& requirement : kRequirements) {
     json["requirements"][requirement.key] = requirements.*requirement.flag;
   }
   json["requirements"]["emissive_triangles"] = requirements.emissive_triangles;
@@ -303,7 +303,8 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
                           {"images", scene::image_bytes(scene)},
                           {"render_estimate", render_bytes(scene)}};
   json["seconds"] = {{"load", load_seconds}};
-  json["warnings"] = scene.warnings;
+  json["warnings"] = ordered_json::array();
+  for (const std::string& warning : scene.warnings) json["warnings"].push_back(with_flags(warning));
   return json;
 }
 

@@ -5,9 +5,9 @@
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
+#include "apps/settings/parsing.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {

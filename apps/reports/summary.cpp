@@ -7,8 +7,8 @@
 
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/run_report.h"
+#include "apps/settings/parsing.h"
 #include "apps/terminal/text.h"
-#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 namespace {
@@ -45,13 +45,13 @@ double ray_seconds(const renderer::RenderStatistics& s) {
   return s.render_seconds + s.cache.scout_seconds + s.cache.train_trace_seconds;
 }
 
-/// Of the picture as a whole: samples, rays and this time add up over the runs that --resume joins.
+/// Render time of the whole picture: samples, rays and this time are sums over the runs that --resume joins.
 std::string render_seconds_text(const renderer::RenderStatistics& s) {
   if (s.resumed_seconds <= 0.0) return fmt::format("render {:.2f}", s.render_seconds);
   return fmt::format("render {:.2f} ({:.2f} of them before --resume)", s.render_seconds, s.resumed_seconds);
 }
 
-/// "ranks     5 with 10 threads on 2 machines; waiting 3.1 %, sent 12 MiB\n"; empty for a process alone.
+/// "ranks     5 with 10 threads on 2 machines; waiting 3.1 %, sent 12 MiB\n"; empty for a single process.
 std::string ranks_text(const RunReport& report) {
   const std::vector<renderer::RankStatistics>& ranks = report.statistics.ranks;
   if (ranks.empty()) return "";
@@ -125,7 +125,7 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   if (s.bounces_of_paths) {
     text +=
         fmt::format("integrator {}, chosen because light paths have {:.1f} bounces; --integrator {} {}\n",
-                    word(settings.render.integrator), *s.bounces_of_paths,
+                    enum_name(settings.render.integrator), *s.bounces_of_paths,
                     renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
                     renderer::uses_cache(settings.render.integrator) ? "is without a cache" : "has a cache");
   }

@@ -12,8 +12,8 @@
 #include "apps/settings/view_file.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
+#include "base/platform/threads.h"
 #include "renderer/image/image_read.h"
-#include "renderer/machine/threads.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using namespace renderer;
 
-/// 16384 x 16384: beyond it the film alone needs more than 4 GiB.
+/// 16384 x 16384: beyond it the film by itself needs more than 4 GiB.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 
-scene::Vec3 vector(const std::array<float, 3>& v) {
+Vec3 vector(const std::array<float, 3>& v) {
   return {v[0], v[1], v[2]};
 }
 
@@ -92,24 +92,24 @@ void check_picture(const RenderOptions& options) {
 
 std::string no_cache(const RenderOptions& o) {
   return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                     word(o.integrator));
+                     enum_name(o.integrator));
 }
 
 /// Why an option has no effect here; empty where it has one.
 std::string why_without_effect(const Option& option, const RenderOptions& options) {
   if (option.of_cache && !uses_cache(options.integrator)) return no_cache(options);
-  for (const Need& need : option.needs) {
+  for (const Requirement& need : option.needs) {
     if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
   }
   return "";
 }
 
-/// A flag of the cache asks for one; groups of lights want paths.
-void settle_integrator(RenderSettings& settings) {
+/// A flag of the cache selects an integrator with a cache; light groups need path tracing.
+void resolve_integrator(RenderSettings& settings) {
   RenderOptions& o = settings.render;
   if (settings.given.contains("--spp")) o.spp_of_paths = 0;
   if (o.choose_integrator && !o.light_groups.empty()) o.integrator = Integrator::path;
-  if (o.integrator == Integrator::path) renderer::settle_on(o, Integrator::path);
+  if (o.integrator == Integrator::path) renderer::use_integrator(o, Integrator::path);
   if (!o.choose_integrator) return;
   for (const Option& option : option_table(settings)) {
     if (option.of_cache && settings.given.contains(option.flag())) o.choose_integrator = false;
@@ -133,12 +133,12 @@ void open_samples(RenderSettings& settings) {
   if (timed && settings.preset && !settings.given.contains("--train-steps")) o.cache.train_steps.reset();
   if (settings.given.contains("--spp") || (!timed && o.max_error <= 0.0)) return;
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
-    o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // of the usual number of samples
+    o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // for the usual number of samples
   o.spp = timed ? kOpenSpp : kMostForError;
   o.spp_of_paths = 0;
 }
 
-/// Sets what defaults and presets leave open or wrong for this encoding and integrator.
+/// Sets the values that defaults and presets leave open or wrong for this encoding and integrator.
 void adapt_cache(RenderSettings& settings) {
   CacheOptions& o = settings.render.cache;
   if (!uses_cache(settings.render.integrator)) return;
@@ -174,18 +174,18 @@ std::string why_black(Aov aov, const RenderOptions& o) {
   }
   const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
   if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid) {
-    return "the encoding 'hashgrid' knows no triangles, expected --encoding gate";
+    return "the encoding 'hashgrid' does not store by triangle, expected --encoding gate";
   }
   return "";
 }
 
 /// Layers that would be black are left out of `all`, and refused otherwise.
 void complete_aovs(RenderOptions& o) {
-  if (o.aovs.size() == std::size(kWords<Aov>))
+  if (o.aovs.size() == std::size(kEnumNames<Aov>))
     std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o).empty(); });
   for (const Aov aov : o.aovs) {
     const std::string why = why_black(aov, o);
-    if (!why.empty()) throw UsageError(fmt::format("--aov: '{}' would be black: {}", word(aov), why));
+    if (!why.empty()) throw UsageError(fmt::format("--aov: '{}' would be black: {}", enum_name(aov), why));
   }
 }
 
@@ -226,7 +226,7 @@ void complete_settings(RenderSettings& settings) {
   if (settings.render.environment.sky && settings.given.contains("--environment"))
     throw UsageError("--sky and --environment exclude each other, expected one of them");
   check_picture(settings.render);
-  settle_integrator(settings);
+  resolve_integrator(settings);
   check_light_groups(settings.render);
   refuse_without_effect(settings);
   adapt_cache(settings);
@@ -237,6 +237,7 @@ void complete_settings(RenderSettings& settings) {
   check_camera_names(settings);
   check_file_names({&settings, 1});
   if (settings.render.threads == 0) settings.render.threads = available_threads();
+  settings.load.threads = settings.render.threads;
 }
 
 void check_inputs(const RenderSettings& settings) {

@@ -19,7 +19,7 @@ void complete_settings(RenderSettings& settings);
 /// Checks before the long work that inputs exist. Throws InputError.
 void check_inputs(const RenderSettings& settings);
 
-/// The same: that outputs can be written. Throws renderer::OutputError or renderer::UnknownFormat.
+/// Checks before the long work that outputs can be written. Throws OutputError or UnknownFormat.
 void check_outputs(const RenderSettings& settings);
 
 }  // namespace gatelight::apps

@@ -105,14 +105,14 @@ std::shared_ptr<const ConfigFile> accept_config_file(CLI::App& root) {
 
 std::string with_config_file(const std::string& message, const ConfigFile& config) {
   std::size_t first = std::string::npos;
-  std::string told;
+  std::string origin;
   for (const std::string& flag : config.flags) {
     const std::size_t at = find_flag(message, flag);
     if (at >= first) continue;
     first = at;
-    told = fmt::format(" ('{}' sets {})", config.name, flag);
+    origin = fmt::format(" ('{}' sets {})", config.name, flag);
   }
-  return message + told;
+  return message + origin;
 }
 
 }  // namespace gatelight::apps

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "apps/terminal/errors.h"
-#include "renderer/machine/atomic_file.h"
+#include "base/file/atomic_file.h"
 
 namespace gatelight::apps {
 namespace {
@@ -19,7 +19,7 @@ bool is_file(const std::string& name) {
 /// A path that cannot be resolved stays as it is named; opening it will fail later.
 fs::path place_of(const std::string& name) {
   std::error_code error;
-  const fs::path file = renderer::replaced_file(fs::absolute(name, error));
+  const fs::path file = replaced_file(fs::absolute(name, error));
   const fs::path folder = fs::weakly_canonical(file.parent_path(), error);
   return error ? file.lexically_normal() : folder / file.filename();
 }

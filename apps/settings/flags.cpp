@@ -8,8 +8,6 @@
 namespace gatelight::apps {
 namespace {
 
-using renderer::Option;
-
 CLI::Option* bind(CLI::App& app, const Option& option) {
   std::string name = option.positional ? option.name : option.flag();
   if (!option.letter.empty()) name = option.letter + "," + name;
@@ -46,7 +44,7 @@ CLI::App* add_subcommand(CLI::App& root, const char* name, const char* descripti
 
 void add_flags(CLI::App& app, const std::vector<Option>& options) {
   for (const Option& option : options) {
-    if (option.has_flag()) add_flag(app, option);
+    add_flag(app, option);
   }
 }
 
@@ -77,7 +75,7 @@ RenderSettings read_render_words(const std::string& scene, const std::vector<std
   RenderSettings settings;
   add_flags(app, option_table(settings));
   app.get_option("--output")->required(false);
-  // The library wants the last word first.
+  // CLI11 expects the arguments in reverse order.
   std::vector<std::string> reversed(words.rbegin(), words.rend());
   reversed.push_back(scene);
   try {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/settings/option.h"
 #include "apps/settings/render_settings.h"
-#include "renderer/settings/option.h"
 
 namespace CLI {
 class App;
@@ -18,7 +18,7 @@ namespace gatelight::apps {
 CLI::App* add_subcommand(CLI::App& root, const char* name, const char* description, const char* footer);
 
 /// Adds flags. The members that the options are bound to must outlive the parsing.
-void add_flags(CLI::App& app, const std::vector<renderer::Option>& options);
+void add_flags(CLI::App& app, const std::vector<Option>& options);
 
 /// After parsing: the flags given on the command line or in --config, with their dashes.
 std::vector<std::string> given_flags(const CLI::App& app);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "apps/settings/light_words.h"
-#include "renderer/settings/option_table.h"
+#include "apps/settings/light_flags.h"
+#include "apps/settings/picture_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 using namespace renderer;
 
 /// Beyond this 2^EV leaves the range of float.
-constexpr renderer::RealRange kStops{-100.0, 100.0};
-constexpr renderer::IntegerRange kScenes{-1, 1 << 30};
-constexpr renderer::RealRange kKelvin{1667.0, 25000.0};
+constexpr RealRange kStops{-100.0, 100.0};
+constexpr IntegerRange kScenes{-1, 1 << 30};
+constexpr RealRange kKelvin{1667.0, 25000.0};
 constexpr Choice<int> kBits[] = {{"8", 8}, {"16", 16}};
 constexpr Choice<bool> kExr[] = {{"half", false}, {"float", true}};
 constexpr Choice<scene::BackFaces> kBackFaces[] = {
@@ -28,48 +28,49 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 /// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
                       bool& quiet, bool& verbose) {
-  const auto add = [&](Option option) { group.add(std::move(option)).in_recipe = InRecipe::never; };
-  add(toggle(
+  const auto add = [&](Option option) { group.add(in_recipe(std::move(option), InRecipe::never)); };
+  add(not_in_sweep(toggle(
       "reproducible", reproducible,
-      "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
-  add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"));
+      "Leave times, threads and the command line out of the EXR header: equal renders give equal files")));
+  add(common(not_in_sweep(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"))));
   add(progress_option(progress));
-  add(toggle("quiet", quiet, "Print errors only"));
-  add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
+  add(common(not_in_sweep(toggle("quiet", quiet, "Print errors only"))));
+  add(not_in_sweep(
+      toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options")));
 }
 
 /// A part of the view of --eye. Recipes have the complete view.
 Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
-               const renderer::CameraOptions& camera, scene::Vec3 LookAt::*part, const char* help) {
+               const renderer::CameraOptions& camera, Vec3 LookAt::*part, const char* help) {
   const auto value = [&camera, part]() -> OptionValue {
     if (!camera.look_at) return {};
-    const scene::Vec3& v = (*camera.look_at).*part;
+    const Vec3& v = (*camera.look_at).*part;
     return std::vector<float>{v.x(), v.y(), v.z()};
   };
   const auto read = [&member, flag = std::string("--") + name](const std::string& text) {
-    member = renderer::parse_triple(flag, text, renderer::kAnyFloat);
+    member = parse_triple(flag, text, kAnyFloat);
   };
   return {.name = name, .unit = "x,y,z", .help = help, .value = value, .read = read};
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, profiles, bake_transforms] =
-      load;  // all are baked
-  group.add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
-  group.add(any_word("variant", variant, "NAME", "Material variant of the file, by name")).value = [&load] {
-    return load.variant;
-  };
-  group.add(choice(
+  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, profiles, bake_transforms,
+         threads] = load;  // all transforms are baked; --threads of the picture sets the threads
+  group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
+  group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
+      .value = [&load] { return load.variant; };
+  group.add(of_scene(choice(
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
-      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
+      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling")));
   group.add(
       {.name = "lights",
        .unit = "NAME=off|X|r,g,b;...",
-       .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' ends a "
-               "name that only begins so, and the last that fits a light counts: \"*=off;lamp=2\"",
+       .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
+               "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
        .value = [&lights]() -> OptionValue { return lights.empty() ? OptionValue() : text_of(lights); },
-       .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); }});
+       .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); },
+       .in_sweep = SweepUse::scene});
   group.add(
       {.name = "ies",
        .unit = "NAME=FILE;...",
@@ -78,25 +79,27 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
            "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
            "and loses its cone",
        .value = [&profiles]() -> OptionValue { return profiles.empty() ? OptionValue() : text_of(profiles); },
-       .read = [&profiles](const std::string& text) { profiles = read_profiles("--ies", text); }});
-  group.add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
+       .read = [&profiles](const std::string& text) { profiles = read_profiles("--ies", text); },
+       .in_sweep = SweepUse::scene});
+  group.add(of_scene(choice("missing", missing_is_error, kMissing, "When a texture cannot be read")));
   group.add(external_option(allow_external));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {
   const auto read = [&preset](const std::string& text) {
-    preset = renderer::parse_choice("--preset", text, kWords<CachePreset>);
+    preset = parse_choice("--preset", text, kEnumNames<CachePreset>);
   };
   return {
       .name = "preset",
-      .unit = renderer::choice_names(kWords<CachePreset>),
+      .unit = choice_names(kEnumNames<CachePreset>),
       .help =
           "Values for many flags at once; flags beside it win: the cache's bare answers; finished pictures "
-          "in seconds, with little grain, or to keep; or the paper's nao and nrc (with its size and "
+          "in seconds, with little grain, or of final quality; or the paper's nao and nrc (with its size and "
           "samples)",
-      .value = [&preset] { return preset ? word(*preset) : OptionValue(); },
+      .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
       .read = read,
       .group = "Light transport",
+      .common = true,
       .in_recipe = InRecipe::unless_reproducible};
 }
 
@@ -107,24 +110,24 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display] = image;
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output =
-      group.add(any_words("output", outputs, "FILE",
-                          "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"));
+  Option& output = group.add(common(not_in_sweep(
+      any_words("output", outputs, "FILE",
+                "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"))));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
-  group.add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"));
-  group.add(number_or(
+  group.add(not_in_sweep(choice("exr", exr_float, kExr, "Precision of colours in EXR files")));
+  group.add(common(number_or(
       "auto", "exposure", stops, kStops, "EV",
       "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto: by the picture's own light, "
-      "told at the end; the presets of radiance have auto"));
-  group.add(number("white-balance", white_balance, kKelvin, "KELVIN",
-                   "Colour of light that displayed pictures show as white"));
-  group.add(
-      choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx"));
-  group.add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"));
+      "printed at the end; the presets of radiance have auto")));
+  group.add(not_in_sweep(number("white-balance", white_balance, kKelvin, "KELVIN",
+                                "Colour of light that displayed pictures show as white")));
+  group.add(common(
+      choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx")));
+  group.add(not_in_sweep(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files")));
   const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
-    group.add(any_word(name, member, unit, help)).value = [&] {
+    group.add(not_in_sweep(any_word(name, member, unit, help))).value = [&] {
       return member.empty() ? OptionValue() : member;
     };
   };
@@ -140,7 +143,8 @@ Option external_option(bool& allowed) {
 }
 
 Option progress_option(ProgressMode& mode) {
-  return choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal");
+  return common(not_in_sweep(
+      choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal")));
 }
 
 Option positional(const char* name, std::string& member, const char* help) {
@@ -160,16 +164,19 @@ std::vector<Option> option_table(RenderSettings& settings) {
   add_picture_files(output, outputs, image, exposure);
   add_call_options(output, stats, progress, reproducible, quiet, verbose);
   OptionGroup view{table, "Scene and view"};
-  for (Option& option : renderer::option_table(render)) {
+  for (Option& option : picture_options(render)) {
     const std::string name = option.name;
     table.push_back(std::move(option));
     if (name == "integrator") table.push_back(preset_option(preset));
     if (name == "environment-scale") add_load_options(view, load);
     if (name != "camera") continue;
     const auto& camera = render.camera;
-    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"));
-    view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"));
-    view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye")).default_text = "0,1,0";
+    view.add(common(
+        of_view(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"))));
+    view.add(common(of_view(
+        by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"))));
+    view.add(of_view(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye"))).default_text =
+        "0,1,0";
     view.add(any_word(
                  "view-file", view_file, "FILE",
                  "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "

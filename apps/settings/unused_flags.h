@@ -1,5 +1,5 @@
 #pragma once
-// Flags of outputs that no output reads.
+// Flags of outputs that have no effect on the given outputs.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace gatelight::apps {
 
-/// A line for each flag that was given and changes none of the outputs, as --exposure of an EXR. They harm
-/// nothing, so they are told and not refused.
+/// A line for each flag that was given and changes none of the outputs, as --exposure of an EXR. Such flags
+/// are harmless, so they are reported and not refused.
 std::vector<std::string> unused_output_flags(const RenderSettings& settings);
 
 /// Whether some output is a picture as a screen shows it: PNG, JPEG or TIFF.

@@ -15,10 +15,6 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::json;
-using renderer::Option;
-
-constexpr const char* kMembers[] = {"camera",     "eye",         "target",   "up",    "fov",   "lens",
-                                    "projection", "view-height", "aperture", "focus", "blades"};
 
 std::string text_of(const json& value) {
   if (value.is_string()) return value;
@@ -54,17 +50,21 @@ json read_object(const std::string& path) {
 void read_view_file(RenderSettings& settings) {
   if (settings.view_file.empty()) return;
   const json view = read_object(settings.view_file);
-  const std::vector<Option> table = option_table(settings);
+  std::vector<Option> table = option_table(settings);
+  std::erase_if(table, [](const Option& option) { return !option.of_view; });
   for (const auto& [name, value] : view.items()) {
-    if (std::find(std::begin(kMembers), std::end(kMembers), name) == std::end(kMembers))
-      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}",
-                                   settings.view_file, name, fmt::join(kMembers, ", ")));
     const auto option =
         std::find_if(table.begin(), table.end(), [&](const Option& o) { return o.name == name; });
+    if (option == table.end()) {
+      std::vector<std::string> names;
+      for (const Option& o : table) names.push_back(o.name);
+      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}",
+                                   settings.view_file, name, fmt::join(names, ", ")));
+    }
     if (value.is_null() || replaced(settings.given, name)) continue;
     try {
       option->read(text_of(value));
-    } catch (const std::invalid_argument& error) {
+    } catch (const BadOption& error) {
       throw InputError(fmt::format("the view '{}': {}", settings.view_file, error.what()));
     }
   }

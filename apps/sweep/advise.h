@@ -40,7 +40,7 @@ struct Advice {
 };
 
 /// Chooses among configurations with one reference, at least one: the fastest within max_error (with every
-/// seed), or with max_seconds alone the one with the smallest error. Where none meets the limits: the
+/// seed), or with only max_seconds the one with the smallest error. Where none meets the limits: the
 /// smallest error among those that are fast enough, or else the fastest.
 Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits);
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
-#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
@@ -17,7 +17,7 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
   if (values_are_lists && separator == ',') {
     values.push_back(text);
   } else {
-    values = renderer::split(text, separator);
+    values = split(text, separator);
   }
   std::set<std::string> seen;
   for (const std::string& value : values) {
@@ -33,11 +33,10 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
   return values;
 }
 
-std::vector<int> split_integers(const std::string& flag, const std::string& text,
-                                const renderer::IntegerRange& range) {
+std::vector<int> split_integers(const std::string& flag, const std::string& text, const IntegerRange& range) {
   std::vector<int> values;
   for (const std::string& word : split_values(flag, text)) {
-    values.push_back(static_cast<int>(renderer::parse_integer(flag, word, range)));
+    values.push_back(static_cast<int>(parse_integer(flag, word, range)));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

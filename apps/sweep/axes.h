@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/settings/values.h"
+#include "apps/settings/parsing.h"
 
 namespace gatelight::apps {
 
@@ -19,8 +19,7 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
                                       bool values_are_lists = false);
 
 /// The values in ascending order, each once.
-std::vector<int> split_integers(const std::string& flag, const std::string& text,
-                                const renderer::IntegerRange& range);
+std::vector<int> split_integers(const std::string& flag, const std::string& text, const IntegerRange& range);
 
 /// Parses "NAME=V1,V2", the text of --vary. NAME is a flag of `render`, with or without its dashes. Which
 /// flags may be varied is not checked here.

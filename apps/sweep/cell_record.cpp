@@ -10,13 +10,13 @@
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/json.h"
 #include "apps/reports/recipe.h"
+#include "apps/settings/option.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "renderer/settings/option.h"
+#include "base/image/png_read.h"
 #include "renderer/settings/resolved_options.h"
-#include "scene/png_read.h"
 
 namespace gatelight::apps {
 namespace {
@@ -93,9 +93,9 @@ void add_found(ordered_json& options, const CellPlace& place, const renderer::Re
   const auto set = [&](const char* key, const ordered_json& value) {
     if (options.contains(key)) options[key] = value;
   };
-  set("direction-input", renderer::name_of(renderer::kOnOff, s.cache.direction_input));
-  set("normal-input", renderer::name_of(renderer::kOnOff, s.cache.normal_input));
-  set("albedo-input", renderer::name_of(renderer::kOnOff, s.cache.albedo_input));
+  set("direction-input", renderer::name_of(kOnOff, s.cache.direction_input));
+  set("normal-input", renderer::name_of(kOnOff, s.cache.normal_input));
+  set("albedo-input", renderer::name_of(kOnOff, s.cache.albedo_input));
   set("node-spacing", found_number(s.cache.node_spacing));
 }
 
@@ -148,7 +148,7 @@ bool names_its_files(const ordered_json& record, const std::string& id) {
 /// Whether the file is complete; after a power failure it may not be.
 bool is_whole_png(const std::filesystem::path& path) {
   try {
-    scene::open_png(path).read_8();
+    open_png(path).read_8();
     return true;
   } catch (const std::runtime_error&) {
     return false;
@@ -167,8 +167,8 @@ ordered_json planned_record(const CellPlace& place) {
   return {{"id", place.id},
           {"scene", place.scene.name},
           {"series", series.label},
-          {"integrator", renderer::word(o.integrator)},
-          {"encoding", has_cache ? ordered_json(renderer::word(o.cache.encoding)) : nullptr},
+          {"integrator", renderer::enum_name(o.integrator)},
+          {"encoding", has_cache ? ordered_json(renderer::enum_name(o.cache.encoding)) : nullptr},
           {"axes", axes},
           {"seed", place.seed},
           {"train_steps", has_cache ? ordered_json(place.point) : nullptr},

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -72,9 +72,9 @@ std::optional<double> SweepClock::left(double elapsed, double fraction) const {
 
 SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
   const RenderOptions& o = series.settings.render;
-  const std::string integrator = renderer::word(o.integrator);
+  const std::string integrator = renderer::enum_name(o.integrator);
   if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
-  const std::string encoding = renderer::word(o.cache.encoding);
+  const std::string encoding = renderer::enum_name(o.cache.encoding);
   // Camera paths and training paths.
   const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
                       static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "apps/terminal/errors.h"
-#include "renderer/machine/atomic_file.h"
+#include "base/file/atomic_file.h"
 
 namespace gatelight::apps {
 
@@ -18,8 +18,7 @@ FolderLock::FolderLock(const std::string& folder) {
   const std::string file = (std::filesystem::path(folder) / ".lock").string();
   descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (descriptor_ < 0) {
-    throw renderer::OutputError(
-        fmt::format("cannot write '{}': {}", file, std::generic_category().message(errno)));
+    throw OutputError(fmt::format("cannot write '{}': {}", file, std::generic_category().message(errno)));
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);

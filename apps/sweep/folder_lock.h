@@ -8,7 +8,7 @@ namespace gatelight::apps {
 /// Holds the lock until it is destroyed or the program ends, however it ends.
 class FolderLock {
  public:
-  /// Throws InputError where another process has the lock, renderer::OutputError where FOLDER/.lock cannot be
+  /// Throws InputError where another process has the lock, OutputError where FOLDER/.lock cannot be
   /// opened. On a file system without locks there is no protection.
   explicit FolderLock(const std::string& folder);
   ~FolderLock();

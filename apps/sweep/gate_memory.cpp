@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/reports/json.h"
-#include "renderer/machine/atomic_file.h"
+#include "base/file/atomic_file.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
@@ -23,10 +23,10 @@ std::uint64_t GateMemoryStore::bytes(const std::string& key, const scene::Scene&
   if (found != known_.end()) return found->second;
   const std::uint64_t nodes = renderer::Renderer(scene, options).set_up_cache().nodes;
   const bool fp32 = options.cache.training.precision == neural::FeaturePrecision::fp32;
-  // Features alone: the network's weights are no part of --cache-memory.
+  // Only the features: the network's weights are no part of --cache-memory.
   const std::uint64_t bytes = nodes * options.cache.gate.features * (fp32 ? 4u : 2u);
   known_[key] = bytes;
-  renderer::write_file_atomically(file_, nlohmann::json(known_).dump(1) + "\n");
+  write_file_atomically(file_, nlohmann::json(known_).dump(1) + "\n");
   return bytes;
 }
 

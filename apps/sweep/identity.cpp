@@ -4,19 +4,19 @@
 
 #include <fstream>
 
-#include "apps/settings/light_words.h"
-#include "neural/file/digest.h"
+#include "apps/settings/light_flags.h"
+#include "base/errors.h"
+#include "base/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/film/camera_choice.h"
-#include "renderer/identity/deciding_options.h"
-#include "renderer/machine/errors.h"
-#include "renderer/settings/words.h"
+#include "renderer/fingerprint/deciding_options.h"
+#include "renderer/settings/enum_names.h"
 #include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
 namespace {
 
-std::string text_of(const scene::Vec3& v) {
+std::string text_of(const Vec3& v) {
   return fmt::format("{},{},{}", v.x(), v.y(), v.z());
 }
 
@@ -32,7 +32,7 @@ std::string scene_options(const RenderSettings& settings) {
   if (camera.fov_degrees) text += fmt::format(" fov {}", *camera.fov_degrees);
   if (camera.focal_mm) text += fmt::format(" lens {}", *camera.focal_mm);
   if (camera.projection != renderer::Projection::camera)
-    text += fmt::format(" projection {}", renderer::word(camera.projection));
+    text += fmt::format(" projection {}", renderer::enum_name(camera.projection));
   if (camera.view_height) text += fmt::format(" height {}", *camera.view_height);
   if (const renderer::LensOptions& lens = camera.lens; lens.aperture > 0.0f || lens.f_stop > 0.0f)
     text += fmt::format(" aperture {} f/{} focus '{}' blades {}", lens.aperture, lens.f_stop, lens.focus,
@@ -65,8 +65,9 @@ std::string deciding_text(const RenderSettings& settings, const renderer::View& 
     text += fmt::format("background {}\n", renderer::file_digest(o.background.file));
   // FLIP depends on the display options; threads and memory limit decide the time, or whether it succeeds.
   return text + fmt::format("spp {}\nexposure {}\ntonemap {}\nthreads {}\nmemory-limit {}\nnan {}\n", o.spp,
-                            settings.image.display.exposure, renderer::word(settings.image.display.tonemap),
-                            o.threads, o.memory_limit_bytes, renderer::word(o.nan_policy));
+                            settings.image.display.exposure,
+                            renderer::enum_name(settings.image.display.tonemap), o.threads,
+                            o.memory_limit_bytes, renderer::enum_name(o.nan_policy));
 }
 
 std::string deciding_text(const RenderSettings& settings) {
@@ -74,10 +75,10 @@ std::string deciding_text(const RenderSettings& settings) {
 }
 
 std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts) {
-  neural::DigestRecord record;
+  DigestRecord record;
   for (const renderer::NamedText& part : scene) record.add_text(part.text);
   for (const std::string& text : texts) record.add_text(text);
-  return neural::hexadecimal(record.digest()).substr(0, 16);
+  return hexadecimal(record.digest()).substr(0, 16);
 }
 
 std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
@@ -102,7 +103,7 @@ std::string machine_text(const renderer::RenderOptions& options) {
   if (renderer::uses_cache(options.integrator)) {
     try {
       kernels = renderer::cache_machine(options);
-    } catch (const renderer::Unavailable&) {
+    } catch (const Unavailable&) {
       // Its cells will fail with this error.
     }
   }

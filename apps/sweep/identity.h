@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/settings/render_settings.h"
-#include "renderer/identity/scene_fingerprint.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/settings/view.h"
 #include "scene/scene.h"
 

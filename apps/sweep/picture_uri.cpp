@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/image/jpeg_write.h"
 #include "renderer/image/image_library.h"
-#include "renderer/image/jpeg_write.h"
 #include "renderer/image/srgb.h"
 
 namespace gatelight::apps {
@@ -63,7 +63,7 @@ EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::
   const bool map = kind == PictureKind::map;
   // Noise is coloured, so subsampled colour would change what is compared.
   const std::vector<std::uint8_t> jpeg =
-      renderer::encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
+      encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
   return {.size = {picture.width, picture.height},
           .width = pixels.width,
           .uri = "data:image/jpeg;base64," + encode_base64(jpeg)};

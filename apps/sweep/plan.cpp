@@ -12,7 +12,7 @@
 #include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
 #include "apps/terminal/errors.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -38,9 +38,9 @@ RenderSettings settle(FlagValues& flags) {
     dropped = false;
     settings = read_render_words(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
-    // A sweep compares both.
+    // A sweep does not choose: it compares integrators with and without a cache.
     if (o.choose_integrator) {
-      set_flag(flags, "--integrator", renderer::word(o.integrator));
+      set_flag(flags, "--integrator", renderer::enum_name(o.integrator));
       dropped = true;
       continue;
     }
@@ -54,8 +54,7 @@ RenderSettings settle(FlagValues& flags) {
   if (!settings.exposure) {
     throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
   }
-  // A preset alone would let each picture choose its exposure.
-  // So would its command, with a curve of its own.
+  // With only a preset, `render` would choose an exposure for each picture, and another curve.
   if (find_flag(flags, "--preset")) {
     for (const auto& [flag, value] : {std::pair("--exposure", "0"), {"--tonemap", "none"}}) {
       if (!find_flag(flags, flag)) set_flag(flags, flag, value);
@@ -79,8 +78,7 @@ std::optional<double> take_same_as_gate(FlagValues& flags) {
       throw UsageError(
           fmt::format("--cache-memory: '{}' is not {} or {}/DIVISOR", *value, kSameAsGate, kSameAsGate));
     }
-    divisor =
-        renderer::parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), renderer::kPositive);
+    divisor = parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), kPositive);
   }
   drop_flag(flags, "--cache-memory");
   return divisor;
@@ -178,7 +176,7 @@ class Planner {
     FlagValues named = series.flags;
     const bool hash = series.settings.render.cache.encoding == neural::FeatureEncoding::hash_grid;
     if (divisor && series.has_cache() && hash) {
-      // What decides the memory of GATE also decides the memory and the name of this series.
+      // Flags that decide the memory of GATE also decide the memory and the name of this series.
       set_flag(gate, "--encoding", "gate");
       series.memory = GateMemory{settle(gate), *divisor};
       for (const auto& [flag, value] : gate) set_flag(named, flag, value);
@@ -207,8 +205,8 @@ class Planner {
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
 
-  /// Integrators also vary where those without a cache are measured too, and presets decide what is
-  /// denoised.
+  /// Makes axes of integrator, encoding and denoiser where they vary: integrators without a cache may be
+  /// measured too, and presets decide about denoising.
   void name_integrators() {
     std::set<std::string> integrators, encodings;
     std::set<std::string> denoisers;
@@ -250,13 +248,13 @@ class Planner {
     return s.settings.render.denoise.denoiser != renderer::DenoiserKind::none;
   }
   static std::string denoiser_of(const PlannedSeries& s) {
-    return renderer::word(s.settings.render.denoise.denoiser);
+    return renderer::enum_name(s.settings.render.denoise.denoiser);
   }
   static std::string integrator_of(const PlannedSeries& s) {
-    return renderer::word(s.settings.render.integrator);
+    return renderer::enum_name(s.settings.render.integrator);
   }
   static std::string encoding_of(const PlannedSeries& s) {
-    return renderer::word(s.settings.render.cache.encoding);
+    return renderer::enum_name(s.settings.render.cache.encoding);
   }
 
   const SweepRequest& request_;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/settings/parsing.h"
 #include "apps/settings/render_settings.h"
 #include "apps/sweep/flag_values.h"
-#include "renderer/settings/values.h"
 
 namespace gatelight::apps {
 
@@ -32,7 +32,7 @@ struct GateMemory {
 /// seed it is a run: one training, or one rendering.
 struct PlannedSeries {
   std::string label;        ///< "nrc gate features 8"
-  FlagValues axes;          ///< values of what varies in this sweep, without dashes
+  FlagValues axes;          ///< values of the flags that vary in this sweep, without dashes
   FlagValues flags;         ///< flags of a cell, without seed and point
   RenderSettings settings;  ///< complete except for scene, seed and point
   ReferenceKind reference = ReferenceKind::path;

@@ -1,6 +1,6 @@
 #include "apps/sweep/presets.h"
 
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -82,7 +82,7 @@ std::vector<SweepBlock> inputs() {
   return blocks;
 }
 
-/// What the paper leaves open or does not measure; each row changes one thing.
+/// Choices that the paper leaves open or does not measure; each row changes one.
 std::vector<SweepBlock> extra() {
   std::vector<SweepBlock> blocks = both({{"as in the paper", {}},
                                          {"storage per triangle", {{"--storage", "per-triangle"}}},
@@ -141,7 +141,7 @@ std::vector<SweepBlock> default_rows() {
 std::vector<std::string_view> sweep_preset_names() {
   std::vector<std::string_view> names;
   for (const Preset& preset : kPresets) names.push_back(preset.name);
-  for (const auto& choice : renderer::kWords<renderer::CachePreset>) names.push_back(choice.name);
+  for (const auto& choice : renderer::kEnumNames<renderer::CachePreset>) names.push_back(choice.name);
   return names;
 }
 

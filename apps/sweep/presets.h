@@ -1,6 +1,6 @@
 #pragma once
-// Blocks of a sweep that have names: those of a sweep of which nothing else is said, and the experiments of
-// the GATE paper (Boksansky, Meister, Benthin, HPG 2025).
+// Named blocks of a sweep: those of a sweep without flags, and the experiments of the GATE paper (Boksansky,
+// Meister, Benthin, HPG 2025).
 
 #include <string>
 #include <string_view>
@@ -12,11 +12,11 @@ namespace gatelight::apps {
 
 inline constexpr int kPresetSeeds = 3;
 
-/// Of a cache, where nothing else is said.
+/// Default training steps of integrators with a cache.
 inline const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 
-/// What can be had for a time: the bare cache after more and more steps, and the finished picture of more and
-/// more steps and samples. Rows are named after their presets of `render`.
+/// The rows of a sweep without flags: the bare cache with rising steps, and the finished picture with rising
+/// steps and samples. Rows are named after their presets of `render`.
 std::vector<SweepBlock> default_rows();
 
 /// paper-table1, paper-table2 ..., then those of `render`.

@@ -13,14 +13,14 @@
 #include "apps/terminal/log.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
-#include "neural/base/errors.h"
-#include "neural/file/digest.h"
+#include "base/errors.h"
+#include "base/file/atomic_file.h"
+#include "base/file/digest.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "renderer/machine/atomic_file.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/merge.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -40,7 +40,7 @@ std::optional<Picture> read_made(const std::string& file) {
   if (!fs::exists(file)) return std::nullopt;
   try {
     return renderer::read_image(file);
-  } catch (const renderer::ImageError& error) {
+  } catch (const InputError& error) {
     log_warning(fmt::format("{}; the reference is made anew", error.what()));
     return std::nullopt;
   }
@@ -60,7 +60,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
     if (statistics.interrupted) return std::nullopt;
     picture.metadata = {{"version", version()},
                         {"scene", cell.scene},
-                        {"integrator", renderer::word(options.integrator)},
+                        {"integrator", renderer::enum_name(options.integrator)},
                         {"seed", std::to_string(seed)},
                         {"spp", std::to_string(statistics.spp)},
                         {"render_seconds", fmt::format("{:.3f}", statistics.render_seconds)}};
@@ -69,7 +69,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
   std::optional<Picture> picture;
   try {
     picture = render();
-  } catch (const neural::CacheFileError& error) {
+  } catch (const CacheFileError& error) {
     log_warning(fmt::format("{}; the reference is begun anew", error.what()));
     fs::remove(options.checkpoint.file);
     picture = render();
@@ -80,7 +80,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
   return picture;
 }
 
-/// Checks early what a comparison with a cell would refuse only after hours.
+/// Checks a given reference early, because a comparison with a cell would refuse it only after hours.
 void check_given(const renderer::NamedPicture& given, const RenderOptions& cell) {
   Picture blank{.width = cell.width, .height = cell.height};
   if (cell.region) {
@@ -117,7 +117,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   o.direct = defaults.direct;
   o.light_selection = defaults.light_selection;
   o.watertight = defaults.watertight;
-  // The cache is compared with what it should have learned, a picture with the true light.
+  // The view of the cache is compared with its training target, a picture with the true light.
   if (kind != ReferenceKind::cache) o.glass_shadows = defaults.glass_shadows;
   o.min_depth = defaults.min_depth;
   o.clamp = 0.0f;
@@ -176,16 +176,16 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
 Reference given_reference(ReferenceKind kind, const std::string& file, const RenderOptions& cell) {
   const Picture picture = renderer::read_image(file);
   check_given({picture, file}, cell);
-  neural::DigestRecord record;
+  DigestRecord record;
   for (const renderer::Layer& layer : picture.layers) {
-    record.add(neural::digest_of(std::as_bytes(std::span(layer.values))));
+    record.add(digest_of(std::as_bytes(std::span(layer.values))));
   }
   Reference reference{
-      .kind = kind, .key = neural::hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
+      .kind = kind, .key = hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
   const auto spp = picture.metadata.find("spp");
   if (spp != picture.metadata.end()) {
-    reference.spp = static_cast<int>(renderer::parse_integer("--reference: samples per pixel in its header",
-                                                             spp->second, {1, std::int64_t{1} << 30}));
+    reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
+                                                   spp->second, {1, std::int64_t{1} << 30}));
   }
   return reference;
 }
@@ -237,7 +237,7 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
                              {"spp", *reference.spp},
                              {"rel_mse_noise", *reference.rel_mse_noise},
                              {"seconds", *reference.seconds}};
-  renderer::write_file_atomically(beside(reference.file, ".json"), json_text(json) + "\n");
+  write_file_atomically(beside(reference.file, ".json"), json_text(json) + "\n");
   return mean;
 }
 

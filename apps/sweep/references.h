@@ -8,7 +8,7 @@
 #include <string>
 
 #include "apps/sweep/plan.h"
-#include "renderer/identity/scene_fingerprint.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/image/picture.h"
 #include "renderer/render.h"
 #include "scene/scene.h"
@@ -24,7 +24,7 @@ renderer::RenderOptions reference_options(const renderer::RenderOptions& cell, R
 
 struct Reference {
   ReferenceKind kind = ReferenceKind::path;
-  std::string key;     ///< 16 hexadecimal digits; of a given one a digest of its pixels
+  std::string key;     ///< 16 hexadecimal digits; for a given reference a digest of its pixels
   std::string file;    ///< of the mean of both halves
   bool given = false;  ///< by --reference
   std::optional<int> spp;
@@ -39,8 +39,8 @@ nlohmann::ordered_json reference_json(const Reference& reference, const std::str
 Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
                          const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder);
 
-/// A reference from a given file. Throws renderer::ImageError; renderer::CompareError where it does not fit
-/// pictures of `cell`; InputError where pixels are not finite.
+/// A reference from a given file. Throws InputError where it cannot be read, does not fit pictures of `cell`,
+/// or has pixels that are not finite.
 Reference given_reference(ReferenceKind kind, const std::string& file, const renderer::RenderOptions& cell);
 
 /// Reads the reference, or renders what is missing or cannot be read. Halves resume from their checkpoints

@@ -13,7 +13,7 @@
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
 #include "renderer/image/image_read.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -34,7 +34,7 @@ std::string word(const ordered_json& object, const char* key) {
 /// A picture that the page shows.
 struct Wanted {
   std::string file;      ///< as results.json names it
-  ordered_json display;  ///< of a reference: {"exposure", "tonemap"} of its cells; null for a PNG
+  ordered_json display;  ///< for a reference {"exposure", "tonemap"} of its cells; null for a PNG
   PictureKind kind = PictureKind::light;
 
   bool operator==(const Wanted&) const = default;
@@ -83,7 +83,7 @@ std::vector<Wanted> list_pictures(const ordered_json& results) {
 renderer::ImageWriteOptions write_options(const ordered_json& display) {
   renderer::ImageWriteOptions options;
   if (at(display, "exposure").is_number()) options.display.exposure = at(display, "exposure").get<float>();
-  for (const renderer::Choice<renderer::Tonemap>& choice : renderer::kWords<renderer::Tonemap>) {
+  for (const renderer::Choice<renderer::Tonemap>& choice : renderer::kEnumNames<renderer::Tonemap>) {
     if (choice.name == word(display, "tonemap")) options.display.tonemap = choice.value;
   }
   return options;
@@ -109,9 +109,9 @@ std::optional<PagePicture> read_picture(const Wanted& wanted, const std::filesys
     // operator/ keeps an absolute path.
     picture = embed_picture(renderer::read_image(folder / wanted.file), write_options(wanted.display),
                             wanted.kind, max_width(wanted.kind, count));
-  } catch (const renderer::ImageError&) {
+  } catch (const InputError&) {
     return std::nullopt;
-  } catch (const renderer::UnknownFormat&) {
+  } catch (const UnknownFormat&) {
     return std::nullopt;
   }
   PagePicture embedded{.entry = {{"file", wanted.file}}, .uri = std::move(picture.uri)};

@@ -12,25 +12,18 @@
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
-#include "scene/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace gatelight::apps {
 namespace {
 
-constexpr renderer::IntegerRange kSteps{1, std::numeric_limits<int>::max()};
-constexpr renderer::IntegerRange kSpp{1, 1 << 24};
-constexpr renderer::IntegerRange kSeeds{1, 1000};
-constexpr renderer::IntegerRange kSeed{0, 4294967295};
+constexpr IntegerRange kSteps{1, std::numeric_limits<int>::max()};
+constexpr IntegerRange kSpp{1, 1 << 24};
+constexpr IntegerRange kSeeds{1, 1000};
+constexpr IntegerRange kSeed{0, 4294967295};
 
 const std::vector<int> kDefaultPlainSpp = {1, 4, 16, 64};
 constexpr const char* kDefaultCacheSpp = "4";
-
-/// Flags of files, of the progress of one picture, and of what ends one early.
-constexpr const char* kNoBaseFlags[] = {
-    "--output",    "--stats",       "--checkpoint",   "--checkpoint-every", "--resume",     "--cache-in",
-    "--cache-out", "--exr",         "--reproducible", "--progress",         "--quiet",      "--verbose",
-    "--aov",       "--cryptomatte", "--time-limit",   "--max-error",        "--train-time", "--white-balance",
-    "--bits",      "--ocio",        "--ocio-display", "--ocio-view"};
 
 /// With any of these a row named after a preset of `render` would not be what its name promises.
 constexpr const char* kNoRowFlags[] = {"--denoiser", "--view", "--query-at", "--cache-holds"};
@@ -45,9 +38,6 @@ struct Instead {
 constexpr Instead kInstead[] = {{"--train-steps", "--train-steps LIST"},
                                 {"--spp", "--cache-spp LIST, and --spp LIST for integrators without a cache"},
                                 {"--seed", "--seeds N"}};
-/// These decide which scene is loaded.
-constexpr const char* kOfTheScene[] = {"--scene-index", "--variant", "--missing",
-                                       "--lights",      "--ies",     "--backfaces"};
 
 template <std::size_t N>
 bool contains(const char* const (&list)[N], const std::string& word) {
@@ -59,12 +49,21 @@ bool is_base_flag(const std::string& flag) {
   return std::find(names.begin(), names.end(), flag) != names.end();
 }
 
+/// Whether a flag decides which scene is loaded.
+bool is_of_scene(const std::string& flag) {
+  RenderSettings settings;
+  const std::vector<Option> table = option_table(settings);
+  return std::any_of(table.begin(), table.end(), [&](const Option& option) {
+    return option.flag() == flag && option.in_sweep == SweepUse::scene;
+  });
+}
+
 void check_vary(const std::string& flag) {
   for (const Instead& other : kInstead) {
     if (flag == other.flag)
       throw UsageError(fmt::format("--vary: '{}' has a flag of its own, expected {}", flag, other.use));
   }
-  if (contains(kOfTheScene, flag)) {
+  if (is_of_scene(flag)) {
     throw UsageError(
         fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
   }
@@ -75,7 +74,7 @@ void check_vary(const std::string& flag) {
     for (std::string& name : names) name.erase(0, 2);
     throw UsageError(fmt::format(
         "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help-all{}", flag,
-        scene::did_you_mean(flag.substr(2), names)));
+        did_you_mean(flag.substr(2), names)));
   }
 }
 
@@ -123,7 +122,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   if (scene == request.scenes.end()) {
     std::vector<std::string_view> names;
     for (const SweepScene& s : request.scenes) names.push_back(s.name);
-    renderer::refuse_choice("--for", name, renderer::join_names(names));
+    refuse_choice("--for", name, join_names(names));
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
@@ -189,10 +188,9 @@ void add_defaults(SweepBlock& block) {
 
 void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   request.seeds = preset ? kPresetSeeds : 1;
-  if (!words.seeds.empty())
-    request.seeds = static_cast<int>(renderer::parse_integer("--seeds", words.seeds, kSeeds));
+  if (!words.seeds.empty()) request.seeds = static_cast<int>(parse_integer("--seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
-    request.first_seed = static_cast<std::uint32_t>(renderer::parse_integer("--seed", *seed, kSeed));
+    request.first_seed = static_cast<std::uint32_t>(parse_integer("--seed", *seed, kSeed));
   }
   const std::uint64_t last =
       std::uint64_t{request.first_seed} + static_cast<std::uint64_t>(request.seeds) - 1;
@@ -207,7 +205,7 @@ void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
   }
 }
 
-/// Whether nothing says which pictures are wanted.
+/// Whether no flag selects the pictures.
 bool wants_default_rows(const SweepWords& words) {
   return words.preset.empty() && words.axes.empty() && words.vary.empty() &&
          std::none_of(std::begin(kNoRowFlags), std::end(kNoRowFlags),
@@ -217,12 +215,12 @@ bool wants_default_rows(const SweepWords& words) {
 std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
   RenderSettings settings;
-  for (const renderer::Option& option : option_table(settings)) {
-    if (!option.has_flag() || option.positional || option.unit.empty()) continue;
+  for (const Option& option : option_table(settings)) {
+    if (option.in_sweep == SweepUse::none || option.positional || option.unit.empty()) continue;
     const std::string flag = option.flag();
     const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                   [&](const AxisFlag& f) { return flag == f.name; });
-    if (!axis && !contains(kOwnFlags, flag) && !contains(kNoBaseFlags, flag)) names.push_back(flag);
+    if (!axis && !contains(kOwnFlags, flag)) names.push_back(flag);
   }
   return names;
 }
@@ -269,7 +267,7 @@ SweepRequest make_request(const SweepWords& words) {
   if (!words.preset.empty() && !preset) {
     const std::vector<std::string_view> names = sweep_preset_names();
     if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
-      renderer::refuse_choice("--preset", words.preset, renderer::join_names(names));
+      refuse_choice("--preset", words.preset, join_names(names));
     }
     base.emplace_back("--preset", words.preset);
   }

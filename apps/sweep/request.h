@@ -1,5 +1,5 @@
 #pragma once
-// Converts the words of `gatelight sweep` into the request of a sweep.
+// Converts the arguments of `gatelight sweep` into the request of a sweep.
 
 #include <string>
 #include <vector>

@@ -9,12 +9,12 @@
 #include <set>
 
 #include "apps/reports/json.h"
+#include "apps/settings/parsing.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/identity.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
-#include "renderer/machine/threads.h"
-#include "renderer/settings/values.h"
+#include "base/platform/threads.h"
 #include "renderer/surface/embree.h"
 
 namespace gatelight::apps {
@@ -72,7 +72,7 @@ ordered_json machine_json(const ordered_json& cells) {
   }
   const std::set<std::string> isas = words_of_cells(cells, "isa");
   return {{"cpu", cpu_name()},
-          {"threads", threads > 0 ? threads : renderer::available_threads()},
+          {"threads", threads > 0 ? threads : available_threads()},
           {"isa", isas.empty() ? renderer::best_isa() : fmt::format("{}", fmt::join(isas, ", "))}};
 }
 
@@ -96,7 +96,7 @@ ordered_json make_results(const std::vector<std::string>& command, const std::ve
 }
 
 std::string results_csv(const ordered_json& results) {
-  const std::vector<std::string> columns = renderer::split_list("columns", kColumns);
+  const std::vector<std::string> columns = split_list("columns", kColumns);
   std::vector<std::string> axes;
   for (const ordered_json& cell : results.at("cells")) {
     for (const auto& [axis, value] : cell.at("axes").items()) {

@@ -79,7 +79,7 @@ bool SceneSweep::decide_memory() {
       series.settings.render.cache.memory_bytes = wanted;
       // With all digits, so that the command gives the same bytes.
       set_flag(series.flags, "--cache-memory", fmt::format("{}", static_cast<double>(wanted) / 1048576.0));
-    } catch (const renderer::OutputError&) {
+    } catch (const OutputError&) {
       throw;
     } catch (...) {
       series_errors_[i] = one_line(describe_current_exception().message);
@@ -197,7 +197,7 @@ const Picture* SceneSweep::reference_picture(std::size_t series) {
     if (!picture) return nullptr;
     if (!made) progress_.end();
     return &reference_pictures_.emplace(reference.key, std::move(*picture)).first->second;
-  } catch (const renderer::OutputError&) {
+  } catch (const OutputError&) {
     throw;
   } catch (...) {
     reference_errors_[reference.key] =
@@ -254,7 +254,7 @@ bool SceneSweep::make(Run run) {
           },
           callbacks());
       finished = next == run.missing.size();
-    } catch (const renderer::OutputError&) {
+    } catch (const OutputError&) {
       throw;
     } catch (...) {
       fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()},
@@ -272,7 +272,7 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
   // Occlusion lies between 0 and 1, so it needs no exposures.
   const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
   if (!statistics.denoise_failure.empty() && stop_signal() == 0)
-    throw renderer::MissingDenoiser(statistics.denoise_failure);
+    throw MissingDenoiser(statistics.denoise_failure);
   progress_.phase("measure");
   const auto go_on = [this](double fraction) {
     progress_.phase("measure", fraction);
@@ -309,7 +309,7 @@ void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& 
 }
 
 void SceneSweep::keep(Cell& cell) const {
-  renderer::write_file_atomically(in_folder(cell_file(cell.place.id)), json_text(cell.record) + "\n");
+  write_file_atomically(in_folder(cell_file(cell.place.id)), json_text(cell.record) + "\n");
   progress_.cell(cell.place.id, cell.record["status"].get<std::string>());
 }
 

@@ -29,7 +29,7 @@ class SceneSweep {
   /// The tasks of missing cells; empty where all cells are done.
   std::vector<SweepTask> tasks() const;
   /// Makes the missing cells and calls `after_run` after each run. Returns false where a signal ended it. An
-  /// exception of a cell is recorded as its failure, except renderer::OutputError: other files could not be
+  /// exception of a cell is recorded as its failure, except OutputError: other files could not be
   /// written either.
   bool run(const std::function<void()>& after_run);
   /// The cells that are done or have failed.
@@ -62,7 +62,7 @@ class SceneSweep {
   /// Removes cells that another run has made meanwhile.
   void take_done(Run& run);
   bool make(Run run);
-  /// Answers false where a signal ended it.
+  /// Returns false where a signal ended it.
   bool finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
                    const renderer::Picture& reference, const Reference& named);
   void fail(const std::vector<std::size_t>& cells, const std::string& error);

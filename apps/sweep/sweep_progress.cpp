@@ -11,8 +11,6 @@
 namespace gatelight::apps {
 namespace {
 
-using renderer::seconds_since;
-
 std::string describe(const renderer::Progress& p) {
   switch (p.phase) {
     case renderer::Phase::scout:
@@ -50,7 +48,7 @@ void SweepProgress::begin(const std::string& task, bool one_piece) {
   const std::lock_guard lock(mutex_);
   task_ = task;
   one_piece_ = one_piece;
-  task_start_ = renderer::Clock::now();
+  task_start_ = Clock::now();
   cells_ = 0;
   show("", 0.0, true);
 }
@@ -82,10 +80,10 @@ void SweepProgress::end() {
     if (left) line["eta_seconds"] = *left;
     print_json_line(line);
   } else if (words_) {
-    tell(fmt::format("{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
-                     cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "",
-                     seconds_since(task_start_),
-                     clock_.done() == clock_.count() ? "nothing" : eta_text(left)));
+    print_status(fmt::format("{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
+                             cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "",
+                             seconds_since(task_start_),
+                             clock_.done() == clock_.count() ? "nothing" : eta_text(left)));
   }
 }
 
@@ -99,9 +97,9 @@ void SweepProgress::done(const std::string& folder, std::size_t cells, std::size
                      {"failed", failed},
                      {"seconds", seconds_since(start_)}});
   } else if (words_) {
-    tell(fmt::format("{} cells{} in '{}', {} in this call\n", cells,
-                     failed > 0 ? fmt::format(", {} of them failed,", failed) : "", folder,
-                     format_duration(seconds_since(start_))));
+    print_status(fmt::format("{} cells{} in '{}', {} in this call\n", cells,
+                             failed > 0 ? fmt::format(", {} of them failed,", failed) : "", folder,
+                             format_duration(seconds_since(start_))));
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "apps/sweep/eta.h"
 #include "apps/terminal/progress.h"
-#include "renderer/machine/clock.h"
+#include "base/clock.h"
 
 namespace gatelight::apps {
 
@@ -34,8 +34,8 @@ class SweepProgress : public ProgressLine {
   SweepClock clock_;
   std::string task_;
   bool one_piece_ = false;
-  renderer::Clock::time_point start_ = renderer::Clock::now();
-  renderer::Clock::time_point task_start_ = start_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point task_start_ = start_;
   int cells_ = 0;  ///< of the task
 };
 

@@ -22,11 +22,11 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "base/clock.h"
+#include "base/file/atomic_file.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_library.h"
 #include "renderer/image/image_write.h"
-#include "renderer/machine/atomic_file.h"
-#include "renderer/machine/clock.h"
 
 namespace gatelight::apps {
 namespace {
@@ -41,8 +41,8 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {
-    throw renderer::OutputError(fmt::format("cannot make the folder '{}': {}", folder.string(),
-                                            error ? error.message() : "there is a file of this name"));
+    throw OutputError(fmt::format("cannot make the folder '{}': {}", folder.string(),
+                                  error ? error.message() : "there is a file of this name"));
   }
 }
 
@@ -94,7 +94,7 @@ class SweepRun {
           kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
     }
-    tell_versions();
+    print_versions();
     bool finished = true;
     bool written = false;
     for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
@@ -138,12 +138,11 @@ class SweepRun {
     const fs::path folder = settings_.folder;
     for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
     if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
-    for (const char* file : {"results.json", "results.csv", "report.html"})
-      renderer::check_writable(folder / file);
+    for (const char* file : {"results.json", "results.csv", "report.html"}) check_writable(folder / file);
   }
 
-  /// Finds what is done in all scenes, so that results are always complete. Returns false where a signal
-  /// ended it.
+  /// Finds the cells of all scenes that are done, so that results are always complete. Returns false where a
+  /// signal ended it.
   bool survey() {
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
       tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
@@ -165,7 +164,7 @@ class SweepRun {
     auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
     try {
       if (!scene->open()) return;
-    } catch (const renderer::OutputError&) {
+    } catch (const OutputError&) {
       throw;
     } catch (...) {
       // With a single scene this is an ordinary error.
@@ -188,7 +187,7 @@ class SweepRun {
     progress_.plan_rest(rest);
   }
 
-  void tell_versions() const {
+  void print_versions() const {
     std::size_t count = 0;
     std::set<std::string> others;
     for (const SceneResults& scene : scenes_) {
@@ -204,18 +203,18 @@ class SweepRun {
                             (fs::path(settings_.folder) / "cells").string()));
   }
 
-  /// Answers false where a signal ended it.
+  /// Returns false where a signal ended it.
   bool run_scene(std::size_t index) {
     // The file may have changed since the survey, so it is opened again.
     if (!open_ || open_index_ != index) open_scene(index);
     if (!open_) return stop_signal() == 0;
     plan_tasks(index);
-    renderer::Clock::time_point written = renderer::Clock::now();
+    Clock::time_point written = Clock::now();
     const bool finished = open_->run([&] {
       scenes_[index] = open_->results();
-      if (renderer::seconds_since(written) < kResultsInterval) return;
+      if (seconds_since(written) < kResultsInterval) return;
       write_results();
-      written = renderer::Clock::now();
+      written = Clock::now();
     });
     scenes_[index] = open_->results();
     return finished;
@@ -242,13 +241,13 @@ class SweepRun {
   void write_results() const {
     const fs::path folder = settings_.folder;
     const ordered_json all = results();
-    renderer::write_file_atomically(folder / "results.json", json_text(all) + "\n");
-    renderer::write_file_atomically(folder / "results.csv", results_csv(all));
+    write_file_atomically(folder / "results.json", json_text(all) + "\n");
+    write_file_atomically(folder / "results.csv", results_csv(all));
   }
 
   void write_report() const {
     const fs::path folder = settings_.folder;
-    renderer::write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
+    write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
   }
 
   const SweepSettings& settings_;
@@ -271,8 +270,8 @@ AdviceReport advice_of_folder(const std::string& folder, const AdviceLimits& lim
   }
 }
 
-/// Prints the advice. Answers the exit code.
-int tell_advice(const AdviceReport& advice) {
+/// Prints the advice. Returns the exit code.
+int print_advice(const AdviceReport& advice) {
   write_text("-", advice.text);
   if (advice.unmet.empty()) return kDone;
   print_failure({kNoAdvice, "--advise: " + advice.unmet,
@@ -290,7 +289,7 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
   }
   set_log_level(settings.quiet, settings.verbose);
   if (settings.request.scenes.empty()) {
-    return tell_advice(advice_of_folder(settings.folder, settings.limits));
+    return print_advice(advice_of_folder(settings.folder, settings.limits));
   }
   const SweepPlan plan = make_plan(settings.request);
   check_inputs(settings, plan);
@@ -298,14 +297,14 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
     write_text("-", plan_text(plan));
     return kDone;
   }
-  renderer::image_library();  // scales pictures for the report: if it is missing, say so now
+  renderer::image_library();  // scales pictures for the report: throws now if it is missing
   install_signal_handlers();
   SweepRun run(settings, plan, command);
   const int code = run.run();
   if (!settings.advise || code >= kSignalBase) return code;
   const AdviceReport advice = give_advice(run.results(), settings.limits);
-  if (code == kDone) return tell_advice(advice);
-  // What failed was said already, in the last line.
+  if (code == kDone) return print_advice(advice);
+  // The failure was printed already, in the last line of stderr.
   write_text("-", advice.text);
   return code;
 }

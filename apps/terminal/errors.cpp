@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -13,16 +15,51 @@
 
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
-#include "neural/base/errors.h"
+#include "apps/terminal/text.h"
+#include "base/errors.h"
+#include "base/file/atomic_file.h"
 #include "renderer/image/image_write.h"
-#include "renderer/machine/atomic_file.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
 namespace {
 
-/// What oneTBB throws where it cannot start a thread.
-constexpr std::string_view kThreadFailed = "pthread_create has failed";
+struct Answer {
+  ErrorKind kind;
+  ExitCode code;
+  const char* advice;
+};
+
+constexpr Answer kAnswers[] = {
+    {ErrorKind::option, kUsage, "see --help"},
+    {ErrorKind::model, kUsage, "see gatelight render --help cache"},
+    {ErrorKind::format, kUsage, "choose another file name"},
+    {ErrorKind::input, kInput, "check the input file"},
+    {ErrorKind::cache_file, kInput, "use the scene and flags that it was written with, or begin anew"},
+    {ErrorKind::output, kOutput, "choose another place or make room"},
+    {ErrorKind::memory, kMemory, "raise that limit, or use a smaller picture or scene, or fewer --threads"},
+    {ErrorKind::device_memory, kMemory, "lower --cache-memory or --batch, or use --device cpu"},
+    {ErrorKind::unavailable, kUnavailable, "use --isa auto or --device cpu"},
+    {ErrorKind::denoiser, kUnavailable,
+     "check --oidn and GATELIGHT_OIDN, run scripts/setup, or use --denoiser none"},
+    {ErrorKind::library, kUnavailable, "install it, or use pictures in EXR or PNG"},
+    {ErrorKind::device_lost, kUnavailable, "use --device cpu"},
+    {ErrorKind::numerical, kNumerical, "use --nan drop to leave such samples out"},
+    {ErrorKind::training_diverged, kNumerical, "lower --learning-rate"},
+    {ErrorKind::mpi, kLost, "check that all ranks run under the same MPI"},
+};
+
+Failure failure_of(const Error& error) {
+  const Answer& answer = *std::find_if(std::begin(kAnswers), std::end(kAnswers),
+                                       [&](const Answer& a) { return a.kind == error.kind(); });
+  const char* const about = error.kind() == ErrorKind::model ? "the cache cannot have these options: " : "";
+  return {answer.code, about + with_flags(error.what()), answer.advice};
+}
+
+/// oneTBB throws an error of no kind where it cannot start a thread.
+bool is_without_threads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create has failed");
+}
 
 std::function<void(const Failure&)>& failure_handler() {
   static std::function<void(const Failure&)> handler;
@@ -32,54 +69,20 @@ std::function<void(const Failure&)>& failure_handler() {
 }  // namespace
 
 Failure describe_current_exception() {
+  constexpr const char* kFewerThreads = "use fewer --threads, or a machine with more memory";
   try {
     throw;
-  } catch (const UsageError& error) {
-    return {kUsage, error.what(), "see --help"};
-  } catch (const neural::BadConfiguration& error) {
-    return {kUsage, fmt::format("the cache cannot be as asked: {}", error.what()),
-            "see gatelight render --help cache"};
-  } catch (const renderer::UnknownFormat& error) {
-    return {kUsage, error.what(), "choose another file name"};
-  } catch (const renderer::OutputError& error) {
-    return {kOutput, error.what(), "choose another place or make room"};
-  } catch (const renderer::OutOfMemory& error) {
-    return {kMemory, error.what(), "raise that limit, or use a smaller picture or scene, or fewer --threads"};
-  } catch (const neural::OutOfDeviceMemory& error) {
-    return {kMemory, error.what(), "lower --cache-memory or --batch, or use --device cpu"};
+  } catch (const Error& error) {
+    return failure_of(error);
   } catch (const std::bad_alloc&) {
     return {kMemory, "out of memory", "use a smaller picture or scene, or a machine with more memory"};
   } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again ||
-        error.code() == std::errc::not_enough_memory) {
-      return {kMemory, fmt::format("no more threads or memory to be had: {}", error.what()),
-              "use fewer --threads, or a machine with more memory"};
-    }
-    return {kInput, error.what(), "check the input file"};
-  } catch (const renderer::MissingDenoiser& error) {
-    return {kUnavailable, error.what(),
-            "check --oidn and GATELIGHT_OIDN, run scripts/setup, or use --denoiser none"};
-  } catch (const renderer::Unavailable& error) {
-    return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
-  } catch (const renderer::MissingLibrary& error) {
-    return {kUnavailable, error.what(), "install it, or use pictures in EXR or PNG"};
-  } catch (const neural::DeviceLost& error) {
-    return {kUnavailable, error.what(), "use --device cpu"};
-  } catch (const neural::Unavailable& error) {
-    return {kUnavailable, error.what(), "use --isa auto or --device cpu"};
-  } catch (const renderer::TrainingDiverged& error) {
-    return {kNumerical, error.what(), "lower --learning-rate"};
-  } catch (const renderer::NumericalError& error) {
-    return {kNumerical, error.what(), "use --nan drop to leave such samples out"};
-  } catch (const neural::CacheFileError& error) {
-    return {kInput, error.what(), "use the scene and flags that it was written with, or begin anew"};
-  } catch (const std::runtime_error& error) {
-    if (std::string_view(error.what()).starts_with(kThreadFailed)) {
-      return {kMemory, error.what(), "use fewer --threads, or a machine with more memory"};
-    }
-    // Libraries throw these for files: scene::SceneError, renderer::ImageError and the environment's errors.
-    return {kInput, error.what(), "check the input file"};
+    const bool is_full = error.code() == std::errc::resource_unavailable_try_again ||
+                         error.code() == std::errc::not_enough_memory;
+    if (!is_full) return {kInput, error.what(), "check the input file"};
+    return {kMemory, fmt::format("no more threads or memory available: {}", error.what()), kFewerThreads};
   } catch (const std::exception& error) {
+    if (is_without_threads(error)) return {kMemory, error.what(), kFewerThreads};
     return {kUsage, fmt::format("internal error: {}", error.what()), "please report it"};
   }
 }
@@ -93,7 +96,7 @@ std::string one_line(std::string text) {
 }
 
 void end_program() {
-  Failure failure{kUsage, "ended by a failure of its own", "please report it"};
+  Failure failure{kUsage, "ended by an internal error", "please report it"};
   if (std::current_exception()) failure = describe_current_exception();
   print_failure(failure);
   std::_Exit(failure.code);
@@ -104,10 +107,10 @@ void handle_failures(std::function<void(const Failure&)> handler) {
 }
 
 void print_failure(const Failure& failure) {
-  failure_handler() ? failure_handler()(failure) : tell_failure(failure);
+  failure_handler() ? failure_handler()(failure) : print_failure_line(failure);
 }
 
-void tell_failure(const Failure& failure) {
+void print_failure_line(const Failure& failure) {
   const std::string message = one_line(failure.message);
   if (json_messages()) {
     print_json_line(
@@ -115,14 +118,14 @@ void tell_failure(const Failure& failure) {
     return;
   }
   const char* const link = failure.advice.empty() ? "" : message.ends_with('?') ? " " : "; ";
-  tell(fmt::format("gatelight: error: {}{}{}\n", message, link, failure.advice));
+  print_status(fmt::format("gatelight: error: {}{}{}\n", message, link, failure.advice));
 }
 
 void print_notice(const std::string& text, int code) {
   if (json_messages()) {
     print_json_line({{"event", "notice"}, {"message", one_line(text)}, {"code", code}});
   } else {
-    tell(fmt::format("gatelight: {}\n", text));
+    print_status(fmt::format("gatelight: {}\n", text));
   }
 }
 

@@ -2,10 +2,9 @@
 // Failures of the program: an exit code for each kind of reason, and one last line on stderr.
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::apps {
 
@@ -25,12 +24,7 @@ enum ExitCode : int {
 };
 
 /// The command line is wrong. The message names the flag, the value and what was expected.
-using UsageError = renderer::BadOption;
-
-/// An input file that cannot be used. The message names the file.
-struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using UsageError = BadOption;
 
 struct Failure {
   int code = kUsage;
@@ -50,12 +44,13 @@ std::string one_line(std::string text);
 [[noreturn]] void end_program();
 
 /// Prints the last line of stderr.
-void tell_failure(const Failure& failure);
+void print_failure_line(const Failure& failure);
 
-/// The same, or gives it to the handler.
+/// Gives the failure to the handler; without one, prints the last line of stderr.
 void print_failure(const Failure& failure);
 
-/// Where several ranks run one command, one of them prints. None: this process prints its failures itself.
+/// Sets the handler: where several ranks run one command, one of them prints. Without a handler this process
+/// prints its failures itself.
 void handle_failures(std::function<void(const Failure&)> handler);
 
 /// Prints the last line of stderr after a signal, which is no failure. The code is the program's.

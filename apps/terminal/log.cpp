@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 namespace {
@@ -46,7 +47,7 @@ bool json_messages() {
 }
 
 void log_warning(const std::string& text) {
-  log(spdlog::level::warn, "warning", text);
+  log(spdlog::level::warn, "warning", with_flags(text));
 }
 
 void log_detail(const std::string& text) {

@@ -10,7 +10,7 @@
 
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
-#include "renderer/settings/values.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -24,7 +24,7 @@ constexpr renderer::Choice<renderer::Phase> kPhases[] = {{"scout", renderer::Pha
                                                          {"render", renderer::Phase::render},
                                                          {"denoise", renderer::Phase::denoise}};
 
-/// What the bar shows of a phase beside its fraction.
+/// The numbers that the bar shows of a phase besides its fraction.
 std::string measures(const renderer::Progress& progress, double samples_per_second) {
   if (progress.phase == renderer::Phase::train) {
     // Before the first step there is no loss.
@@ -55,22 +55,22 @@ void ProgressLine::clear() {
 
 void ProgressLine::show_line(const std::string& text) {
   clear_line();
-  tell(text);
+  print_status(text);
   std::fflush(stderr);
   line_shown_ = true;
 }
 
 void ProgressLine::clear_line() {
   if (!line_shown_) return;
-  tell("\r\x1b[K");
+  print_status("\r\x1b[K");
   std::fflush(stderr);
   line_shown_ = false;
 }
 
 bool ProgressLine::due(bool must) {
   const double interval = mode_ == ProgressMode::json ? kJsonInterval : kBarInterval;
-  if (!must && renderer::seconds_since(last_) < interval) return false;
-  last_ = renderer::Clock::now();
+  if (!must && seconds_since(last_) < interval) return false;
+  last_ = Clock::now();
   return true;
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "renderer/machine/clock.h"
+#include "base/clock.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
@@ -42,7 +42,7 @@ class ProgressLine {
 
  private:
   bool line_shown_ = false;
-  renderer::Clock::time_point last_;
+  Clock::time_point last_;
 };
 
 /// Thread-safe.

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "apps/terminal/text.h"
-#include "renderer/machine/atomic_file.h"
+#include "base/file/atomic_file.h"
 
 namespace gatelight::apps {
 namespace {
@@ -29,24 +29,24 @@ int terminal_columns() {
   return 80;
 }
 
-void tell(std::string_view text) {
+void print_status(std::string_view text) {
   if (is_silent) return;
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
 void print_json_line(const nlohmann::ordered_json& object) {
-  tell(json_text(object, -1) + "\n");
+  print_status(json_text(object, -1) + "\n");
   std::fflush(stderr);
 }
 
 void write_text(const std::string& target, const std::string& text) {
   if (target != "-") {
-    renderer::write_file_atomically(target, text);
+    write_file_atomically(target, text);
     return;
   }
   if (is_silent) return;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw renderer::OutputError("cannot write to stdout: " + std::generic_category().message(errno));
+    throw OutputError("cannot write to stdout: " + std::generic_category().message(errno));
   }
 }
 

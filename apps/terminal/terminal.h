@@ -1,5 +1,5 @@
 #pragma once
-// What the program prints: lines on stderr, results on stdout.
+// Output of the program: lines on stderr, results on stdout.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,16 +9,16 @@ namespace gatelight::apps {
 
 int terminal_columns();
 
-/// Nothing is written to the terminal from now on: neither to stderr nor to stdout. Other ranks speak.
+/// silent: from now on nothing is written to stderr and stdout, because another rank prints.
 void set_silent(bool silent);
 
 /// Writes to stderr. Write errors (a full disk, a pipe without a reader) are ignored.
-void tell(std::string_view text);
+void print_status(std::string_view text);
 
 /// Writes the object as one line to stderr and flushes it.
 void print_json_line(const nlohmann::ordered_json& object);
 
-/// Writes a result. `target` is a file or "-" for stdout. Throws renderer::OutputError, for a closed or full
+/// Writes a result. `target` is a file or "-" for stdout. Throws OutputError, for a closed or full
 /// stdout too.
 void write_text(const std::string& target, const std::string& text);
 

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
+#include "base/errors.h"
 #include "gatelight_revision.inc"
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/machine/errors.h"
 
 namespace gatelight::apps {
 
@@ -24,7 +24,7 @@ std::string denoiser_text() {
   try {
     const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place());
     return fmt::format("Open Image Denoise {}, {}", oidn.version, oidn.path);
-  } catch (const renderer::MissingDenoiser& error) {
+  } catch (const MissingDenoiser& error) {
     return fmt::format("none: {}", error.what());
   }
 }

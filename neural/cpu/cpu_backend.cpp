@@ -5,29 +5,22 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <limits>
 
-#include "neural/base/errors.h"
-#include "neural/base/flush_denormals.h"
+#include "base/clock.h"
+#include "base/errors.h"
+#include "base/platform/flush_denormals.h"
 #include "neural/cpu/adam_table.h"
 #include "neural/cpu/feature_store.h"
 #include "neural/cpu/kernel_model.h"
+#include "neural/cpu/network_store.h"
 #include "neural/cpu/node_references.h"
-#include "neural/cpu/packed_network.h"
 #include "neural/learning/start_mean.h"
 #include "neural/model/checks.h"
 
 namespace gatelight::neural::cpu {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // A thread's memory for one bucket of nodes.
 struct BucketScratch {
@@ -46,19 +39,13 @@ class CpuBackend final : public Backend {
         layout_(model_->parameters),
         encoder_(kernel_encoder(*model_)),
         features_(*model_, options_),
-        network_(initial_network(*model_, options_)),
-        network_average_(network_),
-        network_m_(network_.size(), 0.0f),
-        network_v_(network_.size(), 0.0f),
-        raw_(*model_),
-        averaged_(*model_),
+        network_(*model_, options_),
         adam_table_(adam_table(options_)),
         buckets_(make_buckets(layout_.node_count)) {
     if (options_.counts_triangles()) {
       triangle_steps_.assign(model_->gate.triangle_count, 0);
       triangle_stamps_.assign(triangle_steps_.size(), 0);
     }
-    raw_.pack(network_);
   }
 
   StepStatistics train(const TrainingBatch& batch) override;
@@ -81,7 +68,6 @@ class CpuBackend final : public Backend {
   void start_output_at_mean(const TrainingBatch& batch);
   StepStatistics run_network(const KernelPoints& points, const float* targets, const float* inputs,
                              std::uint32_t records, bool references);
-  void update_network(double scale, StepStatistics& statistics);
   void update_features(double scale, const TrainingBatch& batch, StepStatistics& statistics);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
@@ -93,10 +79,7 @@ class CpuBackend final : public Backend {
   const ParameterLayout& layout_;
   KernelEncoder encoder_;
   FeatureStore features_;
-  std::vector<float> network_, network_average_, network_m_, network_v_;
-  PackedNetwork raw_;
-  mutable PackedNetwork averaged_;
-  mutable bool averaged_packed_ = false;
+  NetworkStore network_;
   std::vector<KernelAdamStep> adam_table_;
   std::uint64_t steps_ = 0;
   std::vector<std::uint32_t> triangle_steps_;
@@ -109,7 +92,7 @@ class CpuBackend final : public Backend {
   HugeBuffer<float> chunk_gradients_;
   std::vector<std::uint8_t> accepted_;
   std::vector<KernelChunkStatistics> chunk_statistics_;
-  std::vector<float> packed_gradient_, network_gradient_;
+  std::vector<float> packed_gradient_;
   mutable tbb::enumerable_thread_specific<HugeBuffer<float>> scratch_;
   tbb::enumerable_thread_specific<BucketScratch> bucket_scratch_;
 };
@@ -123,10 +106,7 @@ float* CpuBackend::scratch(std::uint64_t floats) const {
 // Sets the output biases, so that the network starts with the right brightness.
 void CpuBackend::start_output_at_mean(const TrainingBatch& batch) {
   const std::vector<double> means = start_mean(*model_, batch, options_.max_target);
-  if (means.empty()) return;
-  float* biases = network_.data() + (layout_.layers.back().biases - layout_.network);
-  for (std::size_t c = 0; c < means.size(); ++c) biases[c] = static_cast<float>(means[c]);
-  raw_.pack(network_);
+  if (!means.empty()) network_.set_output_biases(means);
 }
 
 StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* targets, const float* inputs,
@@ -141,11 +121,11 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   }
   references_.start(chunks, buckets_, encoder.levels * encoder.nodes_per_level);
   reserve(feature_gradients_, std::size_t{records} * layout_.feature_inputs);
-  const std::uint64_t gradient_size = raw_.gradient_size();
+  const std::uint64_t gradient_size = network_.packed().gradient_size();
   reserve(chunk_gradients_, chunks.count() * gradient_size);
   if (!triangle_steps_.empty()) accepted_.resize(records);
   chunk_statistics_.assign(chunks.count(), {});
-  const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, raw_.kernel());
+  const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, network_.packed().kernel());
 
   tbb::parallel_for(0u, chunks.count(), [&](std::uint32_t chunk) {
     const FlushDenormals flush;
@@ -153,7 +133,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     std::fill_n(gradients, gradient_size, 0.0f);
     KernelTraining t = {};
     t.encoder = &encoder;
-    t.network = &raw_.kernel();
+    t.network = &network_.packed().kernel();
     t.points = points;
     t.targets = targets;
     t.begin = chunks.begin(chunk);
@@ -192,34 +172,6 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     for (std::uint64_t i = 0; i < gradient_size; ++i) packed_gradient_[i] += g[i];
   }
   return statistics;
-}
-
-void CpuBackend::update_network(double scale, StepStatistics& statistics) {
-  network_gradient_.resize(network_.size());
-  raw_.unpack_gradients(packed_gradient_.data(), network_gradient_);
-  const KernelAdamStep adam = adam_step(options_, steps_);
-  const float beta1 = options_.adam.beta1, beta2 = options_.adam.beta2;
-  const auto update = [&](std::uint64_t i, float l2) {
-    const float g = network_gradient_[i] * static_cast<float>(scale) + l2 * network_[i];
-    if (!std::isfinite(g * g)) {
-      ++statistics.skipped_updates;
-      return;
-    }
-    network_m_[i] = beta1 * network_m_[i] + (1.0f - beta1) * g;
-    network_v_[i] = beta2 * network_v_[i] + (1.0f - beta2) * g * g;
-    network_[i] -= adam.step * network_m_[i] / (std::sqrt(network_v_[i]) + adam.epsilon);
-    if (options_.average.network)
-      network_average_[i] += adam.average_rate * (network_[i] - network_average_[i]);
-  };
-  for (const LayerLayout& layer : layout_.layers) {
-    for (std::uint64_t i = layer.weights; i < layer.biases; ++i)
-      update(i - layout_.network, options_.adam.l2_network);
-    if (layout_.biases)
-      for (std::uint64_t i = layer.biases; i < layer.biases + layer.outputs; ++i)
-        update(i - layout_.network, 0.0f);
-  }
-  raw_.pack(network_);
-  averaged_packed_ = false;
 }
 
 // Increments the count of each triangle with an accepted record, once per step. Returns the count of each
@@ -313,7 +265,7 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch) {
     references_.sort(encoder_.nodes_per_level, layout_.features, layout_.feature_inputs);
     statistics.seconds_sort = seconds_since(phase);
     phase = Clock::now();
-    update_network(scale, statistics);
+    statistics.skipped_updates += network_.update(packed_gradient_.data(), static_cast<float>(scale), steps_);
     update_features(scale, batch, statistics);
     statistics.seconds_update = seconds_since(phase);
   }
@@ -323,9 +275,9 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch) {
 
 NetworkPass CpuBackend::network_pass(std::span<const float> inputs, std::span<const float> targets) {
   const std::size_t records = targets.size() / model_->config.mlp.outputs;
-  if (inputs.size() != records * raw_.kernel().input_stride)
+  if (inputs.size() != records * network_.packed().kernel().input_stride)
     throw BadConfiguration(fmt::format("inputs: {} floats, expected {} rows of {}", inputs.size(), records,
-                                       raw_.kernel().input_stride));
+                                       network_.packed().kernel().input_stride));
   const Clock::time_point start = Clock::now();
   const StepStatistics statistics =
       run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false);
@@ -336,12 +288,7 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   check_batch(*model_, batch, out);
   KernelEncoder encoder = encoder_;
   features_.set_query_view(encoder, options.averaged);
-  const bool averaged = options.averaged && options_.average.network;
-  if (averaged && !averaged_packed_) {
-    averaged_.pack(network_average_);
-    averaged_packed_ = true;
-  }
-  const KernelNetwork& network = averaged ? averaged_.kernel() : raw_.kernel();
+  const KernelNetwork& network = network_.query_kernel(options.averaged);
   const KernelPoints points = kernel_points(*model_, batch);
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
   constexpr std::size_t kChunk = 64 * kTile;
@@ -364,14 +311,7 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
 ModelState CpuBackend::export_state() const {
   ModelState state;
   features_.export_to(state);
-  const auto put = [&](std::vector<float>& to, const std::vector<float>& from) {
-    to.resize(layout_.count);
-    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(layout_.network));
-  };
-  put(state.parameters, network_);
-  put(state.averages, options_.average.network ? network_average_ : network_);
-  put(state.first_moments, network_m_);
-  put(state.second_moments, network_v_);
+  network_.export_to(state);
   state.triangle_steps = triangle_steps_;
   state.steps = steps_;
   return state;
@@ -380,24 +320,15 @@ ModelState CpuBackend::export_state() const {
 void CpuBackend::import_state(const ModelState& state) {
   check_state(*model_, options_, state);
   check_state_numbers(state);
-  const auto take = [&](const std::vector<float>& from) {
-    return std::vector<float>(from.begin() + static_cast<std::ptrdiff_t>(layout_.network), from.end());
-  };
   // Allocate first, so that nothing is changed if memory runs out.
-  std::vector<float> network = take(state.parameters), average = take(state.averages),
-                     m = take(state.first_moments), v = take(state.second_moments);
+  NetworkStore::Arrays network = network_.arrays_of(state);
   std::vector<std::uint32_t> triangle_steps = state.triangle_steps;
   std::vector<std::uint64_t> stamps(triangle_steps.size(), 0);
-  network_ = std::move(network);
-  network_average_ = std::move(average);
-  network_m_ = std::move(m);
-  network_v_ = std::move(v);
+  network_.set(std::move(network));
   triangle_steps_ = std::move(triangle_steps);
   triangle_stamps_ = std::move(stamps);
   features_.import_from(state);
   steps_ = state.steps;
-  raw_.pack(network_);
-  averaged_packed_ = false;
 }
 
 }  // namespace

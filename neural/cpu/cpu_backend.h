@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/simd/isa.h"
 #include "neural/model/backend.h"
-#include "neural/simd/isa.h"
 
 namespace gatelight::neural::cpu {
 
@@ -19,7 +19,7 @@ struct NetworkPass {
   double loss = 0.0;
   double seconds = 0.0;
 };
-/// Runs the network alone, for benchmarks: forward, loss, backward and weight gradients, without lookups and
+/// Runs only the network, for benchmarks: forward, loss, backward and weight gradients, without lookups and
 /// update. A row of `inputs` has the model's inputs, padded to a power of two of at least 16. `backend` must
 /// come from make_cpu_backend.
 NetworkPass network_pass(Backend& backend, std::span<const float> inputs, std::span<const float> targets);

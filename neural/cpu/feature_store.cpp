@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "neural/base/half.h"
+#include "base/half.h"
 
 namespace gatelight::neural::cpu {
 

@@ -13,8 +13,7 @@ namespace {
 #if defined(MADV_HUGEPAGE)
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 #else
-constexpr std::size_t kHugePage =
-    std::numeric_limits<std::size_t>::max();  // the system cannot be asked for any
+constexpr std::size_t kHugePage = std::numeric_limits<std::size_t>::max();  // huge pages cannot be requested
 #endif
 constexpr std::size_t kPage = 4096;
 }  // namespace

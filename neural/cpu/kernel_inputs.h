@@ -2,9 +2,9 @@
 // The inputs besides the features: one-blob, frequency and identity encodings of positions, directions,
 // normals, albedos and roughness. Part of kernel_table.cpp.
 
+#include "base/simd/fused.h"
+#include "base/simd/groups.h"
 #include "neural/cpu/kernels.h"
-#include "neural/simd/fused.h"
-#include "neural/simd/groups.h"
 
 namespace {
 
@@ -55,7 +55,7 @@ GATELIGHT_INLINE Float sine_pi(Float x) {
 }
 
 // Replaces directions by theta / pi, measured from the z axis, and phi / 2 pi in [0, 1).
-GATELIGHT_ALONE void spherical(TileCoordinates& tile) {
+GATELIGHT_NOINLINE void spherical(TileCoordinates& tile) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float x = load(tile.lanes[0] + s), y = load(tile.lanes[1] + s), z = load(tile.lanes[2] + s);
     const Float theta = arctangent(sqrt(fma(x, x, y * y)), z);
@@ -87,8 +87,8 @@ GATELIGHT_INLINE Float bin_share(Float distance, float size) {
 
 // One-blob (Mueller et al. 2019, 2021): each bin holds the part of a quartic kernel of radius 1/size around
 // the coordinate. A lane is a bin. The azimuth (the second spherical coordinate) wraps.
-GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
-                                     uint32_t stride) {
+GATELIGHT_NOINLINE void encode_one_blob(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                        uint32_t stride) {
   const bool wraps = a.transform == KernelTransform::spherical_one_blob;
   const float size = static_cast<float>(a.size);
   const int log2_size = __builtin_ctz(a.size);
@@ -116,8 +116,8 @@ GATELIGHT_ALONE void encode_one_blob(const KernelAuxiliary& a, const TileCoordin
   }
 }
 
-GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
-                                      uint32_t stride) {
+GATELIGHT_NOINLINE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
+                                         uint32_t stride) {
   alignas(64) float sines[kLanes], cosines[kLanes];
   for (uint32_t c = 0; c < a.coordinates; ++c) {
     float scale = 1.0f;
@@ -140,9 +140,9 @@ GATELIGHT_ALONE void encode_frequency(const KernelAuxiliary& a, const TileCoordi
 
 // Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points count as zeros. `last`
 // means that memory behind these points must not be read.
-GATELIGHT_ALONE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                      uint32_t count, bool last, const float* valid, float* inputs,
-                                      uint32_t stride) {
+GATELIGHT_NOINLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                         uint32_t count, bool last, const float* valid, float* inputs,
+                                         uint32_t stride) {
   TileCoordinates tile;
   for (uint32_t i = 0; i < e.auxiliary_count; ++i) {
     const KernelAuxiliary& a = e.auxiliary[i];

@@ -10,9 +10,9 @@ namespace {
 using namespace gatelight::neural::cpu;
 
 template <uint32_t kNodes, class Element>
-GATELIGHT_ALONE void interpolate_rows(const Element* features, uint64_t feature_stride, uint32_t length,
-                                      uint32_t levels, const uint32_t* nodes, const float* weights,
-                                      float* inputs, uint32_t stride) {
+GATELIGHT_NOINLINE void interpolate_rows(const Element* features, uint64_t feature_stride, uint32_t length,
+                                         uint32_t levels, const uint32_t* nodes, const float* weights,
+                                         float* inputs, uint32_t stride) {
   for (uint32_t s = 0; s < kTile; ++s) {
     float* row = inputs + s * stride;
     for (uint32_t l = 0; l < levels; ++l, row += length) {

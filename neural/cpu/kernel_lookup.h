@@ -1,10 +1,10 @@
 #pragma once
 // Maps points to nodes of mesh colours or the hash grid, one point per lane. Part of kernel_table.cpp.
 
+#include "base/simd/fused.h"
+#include "base/simd/groups.h"
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernels.h"
-#include "neural/simd/fused.h"
-#include "neural/simd/groups.h"
 
 namespace {
 
@@ -138,8 +138,8 @@ GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, In
 
 // Writes nodes and weights [slot][kTile]. Points without storage get weight 0, and their `valid` becomes 0.
 // Returns the number of valid points without storage.
-GATELIGHT_ALONE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
-                                     float* weights) {
+GATELIGHT_NOINLINE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
+                                        float* weights) {
   uint32_t unstored = 0;
   const uint32_t* words = &e.surfaces->topology_offset;
   for (uint32_t s = 0; s < kTile; s += kLanes) {
@@ -245,8 +245,8 @@ GATELIGHT_INLINE Int modulo(Int number, const KernelHashLevel& level) {
 }
 
 // The grid of instant-ngp: points lie at x scale + 0.5 and have eight corners with trilinear weights.
-GATELIGHT_ALONE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
-                                      float* weights) {
+GATELIGHT_NOINLINE void lookup_hash_grid(const KernelEncoder& e, const TilePoints& points, uint32_t* nodes,
+                                         float* weights) {
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
     const Int triples = lane_numbers() * 3u;
@@ -291,9 +291,9 @@ GATELIGHT_INLINE void prefetch_rows(const float* p, uint32_t width, uint64_t beg
   for (uint64_t i = begin * width; i < end * width; i += 16) prefetch(p + i);
 }
 
-// Prefetches what the lookups of points [begin, end) read first.
-GATELIGHT_ALONE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
-                                     uint64_t end) {
+// Prefetches the data that the lookups of points [begin, end) read first.
+GATELIGHT_NOINLINE void prefetch_points(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
+                                        uint64_t end) {
   prefetch_rows(points.barycentrics, 2, begin, end);
   prefetch_rows(points.positions, 3, begin, end);
   prefetch_rows(points.directions, 3, begin, end);

@@ -118,8 +118,9 @@ GATELIGHT_INLINE double loss_of(uint32_t outputs, bool relative, float max_targe
   return loss_rows<kOutputs>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
 }
 
-GATELIGHT_ALONE double loss(uint32_t outputs, bool relative, float max_target, const float* targets,
-                            const float* valid, uint32_t count, uint32_t rows, float* y, uint32_t& clipped) {
+GATELIGHT_NOINLINE double loss(uint32_t outputs, bool relative, float max_target, const float* targets,
+                               const float* valid, uint32_t count, uint32_t rows, float* y,
+                               uint32_t& clipped) {
   if (outputs == 3) return loss_of<3>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
   if (outputs == 1) return loss_of<1>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);
   return loss_of<0>(outputs, relative, max_target, targets, valid, count, rows, y, clipped);

@@ -1,10 +1,10 @@
 #pragma once
 // Converts the model's structs to those of the kernels.
 
-#include "neural/base/batch.h"
+#include "base/simd/isa.h"
 #include "neural/cpu/kernels.h"
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
-#include "neural/simd/isa.h"
 
 namespace gatelight::neural::cpu {
 

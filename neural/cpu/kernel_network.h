@@ -1,11 +1,11 @@
 #pragma once
 // Forward and backward pass of the network for one tile. Part of kernel_table.cpp.
 
+#include "base/simd/fused.h"
+#include "base/simd/groups.h"
 #include "neural/cpu/kernel_prefetch.h"
 #include "neural/cpu/kernel_products.h"
 #include "neural/cpu/kernels.h"
-#include "neural/simd/fused.h"
-#include "neural/simd/groups.h"
 
 namespace {
 
@@ -72,8 +72,8 @@ constexpr bool kFewOutputs = kLanes > 4;
 // With up to four outputs most lanes of a vector would be idle. Here lanes are inputs: each lane of a group
 // of four sums one output over every fourth input, and the groups are added at the end.
 template <bool kRounded, uint32_t kVectors>
-GATELIGHT_ALONE void forward_few_outputs(const KernelLayer& layer, const float* x, uint32_t x_stride,
-                                         float* y, uint32_t rows) {
+GATELIGHT_NOINLINE void forward_few_outputs(const KernelLayer& layer, const float* x, uint32_t x_stride,
+                                            float* y, uint32_t rows) {
   Float w[4 * kVectors];
   const float* packed = kRounded ? layer.forward_groups_rounded : layer.forward_groups;
 #pragma GCC unroll 8
@@ -148,9 +148,9 @@ GATELIGHT_INLINE void forward(const KernelNetwork& n, const TileBuffers& b, uint
 // Backward pass of a last layer with up to four outputs, in one pass over the activations below. Their
 // gradients overwrite them, and weight gradients stay in registers.
 template <uint32_t kVectors>
-GATELIGHT_ALONE void backward_few_outputs(const KernelLayer& layer, const float* d, float* h, uint32_t width,
-                                          uint32_t rows, float slope, float* gradients,
-                                          float* bias_gradients) {
+GATELIGHT_NOINLINE void backward_few_outputs(const KernelLayer& layer, const float* d, float* h,
+                                             uint32_t width, uint32_t rows, float slope, float* gradients,
+                                             float* bias_gradients) {
   const Float one = 1.0f, leak = slope;
   for (uint32_t c = 0; c < width; c += kVectors * kLanes) {
     Float w[4][kVectors], g[4][kVectors];

@@ -37,8 +37,9 @@ GATELIGHT_INLINE void copy_rows(Word* to, const Word* from, uint32_t width, uint
 
 // Sets up points [begin, begin + count). `valid` and `finite` become 1 if all inputs, and the target if there
 // is one, are finite. Returns the number of points that are not.
-GATELIGHT_ALONE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points, const float* targets,
-                                     uint32_t outputs, uint64_t begin, uint32_t count, TilePoints& tile) {
+GATELIGHT_NOINLINE uint32_t take_points(const KernelEncoder& e, const KernelPoints& points,
+                                        const float* targets, uint32_t outputs, uint64_t begin,
+                                        uint32_t count, TilePoints& tile) {
   const FiniteSpan spans[7] = {{points.barycentrics, 2}, {points.positions, 3}, {points.directions, 3},
                                {points.normals, 3},      {points.albedos, 3},   {points.roughnesses, 1},
                                {targets, outputs}};

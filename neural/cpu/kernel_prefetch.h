@@ -1,8 +1,8 @@
 #pragma once
 // Prefetches memory at the pace of the arithmetic. Part of kernel_table.cpp.
 
+#include "base/simd/vectors.h"
 #include "neural/cpu/kernels.h"
-#include "neural/simd/vectors.h"
 
 namespace {
 

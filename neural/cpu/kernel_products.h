@@ -4,8 +4,8 @@
 // (records in rows) or, for weight gradients, their transpose. Nothing is transposed in memory. Part of
 // kernel_table.cpp.
 
+#include "base/simd/fused.h"
 #include "neural/cpu/kernel_prefetch.h"
-#include "neural/simd/fused.h"
 
 namespace {
 
@@ -76,9 +76,10 @@ constexpr uint32_t kPack = sizeof(float) / sizeof(Element);
 // Computes y = x w (+ bias) for `rows` rows, a multiple of kBlockRows; `depth` counts packs. Calls
 // finish(row, column, value) to store a vector and between_blocks() after each block.
 template <uint32_t kRowStride, uint32_t kVectors, class Element, class Finish>
-GATELIGHT_ALONE void multiply_block_columns(const Element* x, uint32_t rows, uint32_t depth, const Element* w,
-                                            uint32_t w_stride, const float* bias, uint32_t columns,
-                                            Finish&& finish, const Between& between_blocks) {
+GATELIGHT_NOINLINE void multiply_block_columns(const Element* x, uint32_t rows, uint32_t depth,
+                                               const Element* w, uint32_t w_stride, const float* bias,
+                                               uint32_t columns, Finish&& finish,
+                                               const Between& between_blocks) {
   for (uint32_t c = 0; c < columns; c += kVectors * kLanes) {
     Float start[kVectors];
 #pragma GCC unroll 4
@@ -120,8 +121,8 @@ GATELIGHT_INLINE void multiply(const Element* x, uint32_t rows, uint32_t depth, 
 // g[i][c] += sum over s of x[s][i] d[s][c] for i in [0, kRows). With kSums also sums[c] += sum over s of
 // d[s][c]; these additions cost nothing beside the multiply-adds.
 template <uint32_t kRows, uint32_t kVectors, bool kSums>
-GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
-                                     const float* d, uint32_t d_stride, uint32_t samples, float* sums) {
+GATELIGHT_NOINLINE void add_outer_block(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
+                                        const float* d, uint32_t d_stride, uint32_t samples, float* sums) {
   Float acc[kRows][kVectors];
 #pragma GCC unroll 16
   for (uint32_t r = 0; r < kRows; ++r)
@@ -147,9 +148,9 @@ GATELIGHT_ALONE void add_outer_block(float* g, uint32_t g_stride, const float* x
 
 // Adds weight gradients: g[i][c] += sum over samples s of x[s][i] d[s][c] for i < rows and c < columns (a
 // multiple of 16). Adds bias gradients: sums[c] += sum over s of d[s][c].
-GATELIGHT_ALONE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride, uint32_t rows,
-                               const float* d, uint32_t d_stride, uint32_t columns, uint32_t samples,
-                               float* sums, const Between& between_blocks) {
+GATELIGHT_NOINLINE void add_outer(float* g, uint32_t g_stride, const float* x, uint32_t x_stride,
+                                  uint32_t rows, const float* d, uint32_t d_stride, uint32_t columns,
+                                  uint32_t samples, float* sums, const Between& between_blocks) {
   constexpr uint32_t kPair = kBlockVectors * kLanes;
   const auto sweep = [&](auto size, auto summed, uint32_t i) __attribute__((always_inline)) {
     constexpr uint32_t kRows = decltype(size)::value;

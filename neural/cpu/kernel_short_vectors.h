@@ -2,10 +2,10 @@
 // Vectors of 8, 4, 2 or 1 floats for feature vectors and their parts, loaded from floats or halves. The
 // compiler maps them to the instruction set. Part of kernel_table.cpp.
 
-#include "neural/simd/vectors.h"
+#include "base/simd/vectors.h"
 
 #if !defined(__F16C__)
-#include "neural/base/half.h"
+#include "base/half.h"
 #endif
 
 namespace {
@@ -81,12 +81,12 @@ GATELIGHT_INLINE float lane_of(const V& v, uint32_t i) {
 template <class V>
 GATELIGHT_INLINE V load_short(const uint16_t* p) {
   float lanes[kShort<V>];
-  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = gatelight::neural::half_to_float(p[i]);
+  for (uint32_t i = 0; i < kShort<V>; ++i) lanes[i] = gatelight::half_to_float(p[i]);
   return load_short<V>(lanes);
 }
 template <class V>
 GATELIGHT_INLINE void store_short(uint16_t* p, V v) {
-  for (uint32_t i = 0; i < kShort<V>; ++i) p[i] = gatelight::neural::float_to_half(lane_of(v, i));
+  for (uint32_t i = 0; i < kShort<V>; ++i) p[i] = gatelight::float_to_half(lane_of(v, i));
 }
 template <class V>
 GATELIGHT_INLINE V sqrt_short(V v) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "neural/base/flush_denormals.h"
+#include "base/platform/flush_denormals.h"
 
 namespace gatelight::neural::cpu {
 

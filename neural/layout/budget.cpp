@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural {
 
@@ -55,8 +55,8 @@ std::pair<float, float> scale_bounds(const PlanScene& scene) {
 /// time then.
 constexpr std::uint32_t kClusterTolerance = 1u << 17;
 
-/// Bisects between a value that fits and one that does not until they are at most `step` units in the last
-/// place apart; returns the one that fits. It works on the bits of positive floats, which have the same order
+/// Bisects between a value that fits and one that does not until they differ by at most `step` units in the
+/// last place; returns the one that fits. It works on the bits of positive floats, which have the same order
 /// as the floats.
 template <class Fits>
 float bisect(float good_value, float bad_value, std::uint32_t step, const Fits& fits) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/layout/budget.h"
 #include "neural/layout/layout_checks.h"
 #include "neural/layout/mesh_colors.h"

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/layout/cluster_table.h"
 #include "neural/layout/prefix_sum.h"
 

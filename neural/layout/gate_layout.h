@@ -7,6 +7,7 @@
 // tables.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "neural/layout/gate_tables.h"
@@ -45,6 +46,9 @@ constexpr bool is_adaptive(std::uint32_t level) {
 constexpr std::uint32_t adaptive_divisor(std::uint32_t level) {
   return level < 0x10000u ? 1 : level >> 16;
 }
+
+/// The name of a level: "adaptive", "adaptive/4" or "1".
+std::string level_text(std::uint32_t level);
 
 struct GateOptions {
   std::uint32_t features = 8;                         ///< L: floats in a feature vector, 1 to 16

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "neural/base/errors.h"
-#include "neural/base/require.h"
+#include "base/errors.h"
+#include "base/require.h"
 
 namespace gatelight::neural {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "neural/base/batch.h"
+#include "neural/layout/vector_types.h"
 
 namespace gatelight::neural {
 

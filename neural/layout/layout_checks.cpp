@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "neural/base/errors.h"
-#include "neural/base/require.h"
+#include "base/errors.h"
+#include "base/require.h"
 
 namespace gatelight::neural {
 
@@ -110,6 +110,12 @@ void check_surfaces(const SurfaceLayout& surfaces) {
   });
   for (const std::string& message : messages)
     if (!message.empty()) throw BadConfiguration(message);
+}
+
+std::string level_text(std::uint32_t level) {
+  if (!is_adaptive(level)) return fmt::format("{}", level);
+  const std::uint32_t divisor = adaptive_divisor(level);
+  return divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
 }
 
 }  // namespace gatelight::neural

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/layout/mesh_colors.h"
 #include "neural/layout/resolution.h"
 #include "neural/layout/surface_areas.h"
@@ -111,7 +111,7 @@ bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clus
     for (const Clusterable& levels : groups) {
       if (over) return;
       const std::uint64_t per_cluster = sides * static_cast<std::uint64_t>(std::popcount(levels.levels));
-      // As many clusters as vertices are of no use.
+      // Clustering is useless with as many clusters as vertices.
       const std::uint64_t most = std::min(vertices - 1, (limit - counted) / per_cluster);
       const ClusterGrid grid = cluster_grid(scene, plan.density, levels.first());
       const bool finest = grid.divisor == 1;

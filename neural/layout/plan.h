@@ -24,7 +24,7 @@ struct PlanScene {
 
 PlanScene make_plan_scene(const SurfaceLayout& surfaces, const GateOptions& options);
 
-/// Which vertices of one cell are kept separate.
+/// The vertices of one cell that are kept separate.
 enum class ClusterScope : std::uint8_t {
   instance_and_normal,  ///< vertices of different instances or normals
   instance,             ///< vertices of different instances

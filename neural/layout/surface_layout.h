@@ -1,12 +1,12 @@
 #pragma once
-// The geometry that the cache knows.
+// The geometry of the surfaces that a cache covers.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "neural/base/batch.h"
+#include "neural/layout/vector_types.h"
 
 namespace gatelight::neural {
 
@@ -18,7 +18,7 @@ struct SurfaceMesh {
 };
 
 /// The sides of an instance that have their own storage. A side without storage uses the other side's. With
-/// `none` the instance has no storage: its points encode to zero and its records are not learned.
+/// `none` the instance has no storage: its points encode to zero and training ignores its records.
 enum class Sides : std::uint8_t { none = 0, front = 1, back = 2, both = 3 };
 
 struct SurfaceInstance {

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "neural/base/errors.h"
-#include "neural/base/random.h"
+#include "base/errors.h"
+#include "base/random.h"
 #include "neural/layout/surface_layout.h"
 
 namespace gatelight::neural {

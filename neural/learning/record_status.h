@@ -1,10 +1,10 @@
 #pragma once
-// The definition of the records that are learned from, for all backends.
+// The definition of the records that training accepts, for all backends.
 
 #include <cstddef>
 #include <cstdint>
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
 
 namespace gatelight::neural {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
 
 namespace gatelight::neural {

@@ -1,6 +1,6 @@
 #include "neural/model/backend.h"
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "neural/model/state.h"
 
 namespace gatelight::neural {

@@ -14,7 +14,8 @@ enum class FeatureEncoding : std::uint8_t { none, gate, hash_grid };
 
 enum class InputSource : std::uint8_t { position, direction, normal, albedo, roughness };
 
-/// How a source becomes network inputs. `size` is the number of bins or of frequencies for each coordinate.
+/// The encoding of a source as network inputs. `size` is the number of bins or of frequencies for each
+/// coordinate.
 /// - identity: the coordinates themselves. A position has 3 in [0,1], direction, normal and albedo have 3,
 ///   roughness has 1.
 /// - one_blob: `size` bins per coordinate, with a quartic kernel. Directions and normals use the spherical

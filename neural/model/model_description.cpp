@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 
 namespace gatelight::neural {
 
@@ -29,7 +29,7 @@ ordered_json number(float value) {
   return std::isfinite(value) ? ordered_json::parse(text) : ordered_json(text);
 }
 
-/// The word of an enumerator; `words` are in the order of the enumeration.
+/// The name of an enumerator; `words` are in the order of the enumeration.
 template <class Enumeration>
 const char* word(Enumeration value, std::initializer_list<const char*> words) {
   return words.begin()[static_cast<std::size_t>(value)];
@@ -138,12 +138,6 @@ void describe_bounds(const HashGridOptions& options, ordered_json& out) {
 }
 
 }  // namespace
-
-std::string level_text(std::uint32_t level) {
-  if (!is_adaptive(level)) return fmt::format("{}", level);
-  const std::uint32_t divisor = adaptive_divisor(level);
-  return divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
-}
 
 ordered_json describe_network(const Model& model) {
   const MlpOptions& mlp = model.config.mlp;

@@ -10,9 +10,6 @@
 
 namespace gatelight::neural {
 
-/// The name of a level of GateOptions::stack: "adaptive", "adaptive/4" or "1".
-std::string level_text(std::uint32_t level);
-
 /// Encoding, inputs and network: together with the layout they define the meaning of the parameters.
 nlohmann::ordered_json describe_network(const Model& model);
 /// The options and the size of the layout. layout_digest covers its tables.

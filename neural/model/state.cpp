@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "neural/base/half.h"
+#include "base/half.h"
 
 namespace gatelight::neural {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/model/model.h"
 #include "neural/model/training_options.h"
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
 
 namespace gatelight::neural::reference {

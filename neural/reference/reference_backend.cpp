@@ -1,12 +1,12 @@
 #include "neural/reference/reference_backend.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "neural/base/half.h"
+#include "base/clock.h"
+#include "base/half.h"
 #include "neural/learning/adam.h"
 #include "neural/learning/record_status.h"
 #include "neural/learning/start_mean.h"
@@ -24,9 +24,6 @@ struct Record {
   std::vector<double> targets;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 double round_to_half(double value) {
   return half_to_float(float_to_finite_half(static_cast<float>(value)));
@@ -36,7 +33,7 @@ void count_up(std::uint32_t& counter) {
   if (counter != std::numeric_limits<std::uint32_t>::max()) ++counter;
 }
 
-/// Returns the records to learn from and counts the others.
+/// Returns the accepted records and counts the others.
 std::vector<Record> accept_records(const Model& model, const TrainingBatch& batch, double max_target,
                                    StepStatistics& statistics) {
   std::vector<Record> records;
@@ -112,7 +109,7 @@ class ReferenceBackend final : public Backend {
 
 StepStatistics ReferenceBackend::train(const TrainingBatch& batch) {
   check_batch(*model_, batch);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   StepStatistics statistics;
   const std::vector<Record> records = accept_records(*model_, batch, options_.max_target, statistics);
   if (records.empty()) return statistics;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/vulkan/instance.h"
 
 namespace gatelight::neural::vulkan {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ std::vector<DeviceListing> list_devices();
 /// The name of the device that open_machine would use for MachineOptions::device. Throws Unavailable as it
 /// does.
 std::string device_name(const std::string& wanted);
+
+/// Vulkan's validation layer found a mistake of the program.
+struct ValidationFailed : std::logic_error {
+  using std::logic_error::logic_error;
+};
 
 struct MachineOptions {
   /// Index, or part of a name, ignoring case. Empty means the first usable device of the best kind.

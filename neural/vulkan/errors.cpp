@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

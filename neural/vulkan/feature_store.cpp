@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "neural/base/half.h"
+#include "base/half.h"
 
 namespace gatelight::neural::vulkan {
 

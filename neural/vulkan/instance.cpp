@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural::vulkan {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/vulkan/errors.h"
 
 namespace gatelight::neural::vulkan {

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/cpu/adam_table.h"
 #include "neural/cpu/kernel_model.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Packs a batch for one copy to the device: its block, followed by its spans.
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "neural/vulkan/blocks.h"
 
 namespace gatelight::neural::vulkan {

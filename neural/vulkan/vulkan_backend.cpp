@@ -10,7 +10,7 @@
 #include <deque>
 #include <optional>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/model/checks.h"
 #include "neural/vulkan/barrier.h"
 #include "neural/vulkan/errors.h"

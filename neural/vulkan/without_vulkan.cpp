@@ -1,6 +1,6 @@
 // Replaces this folder's sources in builds without Vulkan.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/vulkan/measured_limits.h"
 #include "neural/vulkan/vulkan_backend.h"
 

@@ -8,11 +8,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Half vectors and Smith's terms need a wo that does not lie in the surface plane.
-constexpr float kMinCosine = 1e-5f;
-/// Rough boundaries with a smaller difference of the indices do not refract; light goes straight on. The half
-/// vector of a refraction would suffer from cancellation, and the microfacet model loses most of the light
-/// there.
+/// Rough boundaries with a smaller difference of the indices transmit light unrefracted. The half vector of a
+/// refraction would suffer from cancellation, and the microfacet model loses most of the light there.
 constexpr float kMinRoughIorStep = 0.02f;
 
 /// Bends n towards ng until the mirror direction of wo is above the surface. The new n is half-way between wo
@@ -77,65 +74,93 @@ void Bsdf::normalize_chances() {
               (ggx_.delta || p_microfacet_ == 0.0f) && (p_coat_ == 0.0f || coat_.delta);
 }
 
-void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
-  const Color base = material.base_color.max(0.0f).min(1.0f);
-  const float metallic = std::clamp(material.metallic, 0.0f, 1.0f);
-  const float transmission = std::clamp(material.transmission, 0.0f, 1.0f);
-  const float roughness = std::clamp(material.roughness, 0.0f, 1.0f);
-  const float specular = std::clamp(material.specular, 0.0f, 1.0f);
-  const float ior = std::max(material.ior, 0.0f);
+/// The clamped parameters of the base, and terms that its lobes share.
+struct Bsdf::Base {
+  Color color;
+  float metallic, roughness, specular, ior;
+  float glass, opaque;  ///< shares of the base; the rest is metal
+  float ior_f0 = 0.0f;
+  Color f0;  ///< of the dielectric
+  float largest_f0 = 0.0f;
+  float part = 0.0f;  ///< multiple_part() of the dielectric
+  GgxAlbedo out, mean;
 
-  const float glass = (1.0f - metallic) * transmission;
-  const float opaque = (1.0f - metallic) * (1.0f - transmission);
-  if (glass > 0.0f) {
-    if (material.thin_walled || ior == 0.0f) {
-      glass_ = Glass::thin;
-    } else {
-      const bool bends = roughness < kDeltaRoughness || std::abs(ior - 1.0f) >= kMinRoughIorStep;
-      glass_ = bends ? Glass::refracting : Glass::clear;
-      eta_ = front ? ior : 1.0f / ior;
-      transmit_scale_ = 1.0f / (eta_ * eta_);
-    }
+  explicit Base(const SurfaceMaterial& material)
+      : color(material.base_color.max(0.0f).min(1.0f)),
+        metallic(std::clamp(material.metallic, 0.0f, 1.0f)),
+        roughness(std::clamp(material.roughness, 0.0f, 1.0f)),
+        specular(std::clamp(material.specular, 0.0f, 1.0f)),
+        ior(std::max(material.ior, 0.0f)) {
+    const float transmission = std::clamp(material.transmission, 0.0f, 1.0f);
+    glass = (1.0f - metallic) * transmission;
+    opaque = (1.0f - metallic) * (1.0f - transmission);
   }
+};
 
-  ggx_ = GgxLobe(roughness * roughness, std::max(wo_.dot(ns_), kMinCosine));
+void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
+  Base base(material);
+  if (base.glass > 0.0f) choose_glass(base, material.thin_walled, front);
+  set_up_facets(base, material);
+  set_up_reflection(base, material);
+  // The diffuse base receives and emits only light that the dielectric transmits.
+  if (base.opaque > 0.0f) set_up_diffuse(base, material);
+  if (glass_ != Glass::none) set_up_glass(base);
+}
+
+void Bsdf::choose_glass(const Base& base, bool thin_walled, bool front) {
+  if (thin_walled || base.ior == 0.0f) {
+    glass_ = Glass::thin;
+    return;
+  }
+  const bool bends = base.roughness < kDeltaRoughness || std::abs(base.ior - 1.0f) >= kMinRoughIorStep;
+  glass_ = bends ? Glass::refracting : Glass::clear;
+  eta_ = front ? base.ior : 1.0f / base.ior;
+  transmit_scale_ = 1.0f / (eta_ * eta_);
+}
+
+void Bsdf::set_up_facets(Base& base, const SurfaceMaterial& material) {
+  ggx_ = GgxLobe(base.roughness * base.roughness, std::max(wo_.dot(ns_), kMinCosine));
   const float anisotropy = glass_ == Glass::refracting ? 0.0f : std::clamp(material.anisotropy, 0.0f, 1.0f);
   if (anisotropy > 0.0f) {
-    brushed_.emplace(roughness, anisotropy, material.brushed, ns_);
-    // The narrower side of the lobe tells whether it is narrow.
-    ggx_ = GgxLobe(brushed_->alpha_y, ggx_.cos_o);
+    anisotropic_.emplace(base.roughness, anisotropy, material.anisotropy_direction, ns_);
+    // The lobe counts as narrow if its narrower side is.
+    ggx_ = GgxLobe(anisotropic_->alpha_y, ggx_.cos_o);
     ggx_.delta = false;
-    ggx_.root_o = brushed_->root(wo_);
+    ggx_.root_o = anisotropic_->root(wo_);
     ggx_.pdf_scale = 0.5f / (ggx_.cos_o + ggx_.root_o);
   } else if (!ggx_.delta) {
-    row_ = GgxTables::get().row(roughness);
+    row_ = GgxTables::get().row(base.roughness);
   }
-  const GgxAlbedo out = facets_albedo(wo_, ggx_.cos_o);
-  const GgxAlbedo& mean = mean_albedo();
-  scale_o_ = out.scale;
+  base.out = facets_albedo(wo_, ggx_.cos_o);
+  base.mean = mean_albedo();
+  scale_o_ = base.out.scale;
+}
 
+void Bsdf::set_up_reflection(Base& base, const SurfaceMaterial& material) {
   // KHR_materials_specular: the colour scales f0, the factor scales f0 and f90.
-  const float ior_f0 = dielectric_f0(ior);
-  const Color f0 = (ior_f0 * material.specular_color).max(0.0f).min(1.0f) * specular;
+  base.ior_f0 = dielectric_f0(base.ior);
+  base.f0 = (base.ior_f0 * material.specular_color).max(0.0f).min(1.0f) * base.specular;
+  const auto& [color, metallic, roughness, specular, ior, glass, opaque, ior_f0, f0, largest_f0, part, out,
+               mean] = base;
   const float thin = glass_ == Glass::thin ? glass : 0.0f;
-  f0_ = metallic * base + (opaque + thin) * f0;
+  f0_ = metallic * color + (opaque + thin) * f0;
   f90_ = metallic + (opaque + thin) * specular;
 
   // The largest channel decides, so that a tinted layer does not give the base its complementary colour.
-  const float largest_f0 = f0.maxCoeff();
-  const float part = multiple_part(schlick_mean(largest_f0, specular), mean.loss);
+  base.largest_f0 = f0.maxCoeff();
+  base.part = multiple_part(schlick_mean(largest_f0, specular), mean.loss);
   // A sheet transmits all that it does not reflect, so nothing is lost.
   multiple_f0_ = (opaque * part + thin) * f0;
   multiple_f90_.setConstant((opaque * part + thin) * specular);
   if (metallic > 0.0f) {
-    const Color metal_part = metallic * multiple_part(schlick_mean(base, 1.0f), mean.loss);
-    multiple_f0_ += metal_part * base;
+    const Color metal_part = metallic * multiple_part(schlick_mean(color, 1.0f), mean.loss);
+    multiple_f0_ += metal_part * color;
     multiple_f90_ += metal_part;
   }
   if (material.iridescence > 0.0f) {
     film_ = {{std::min(material.iridescence, 1.0f), std::max(material.film_ior, 1.0f),
               std::max(material.film_thickness, 0.0f), material.clearcoat > 0.0f ? kCoatIor : 1.0f},
-             base,
+             color,
              f0,
              specular,
              metallic,
@@ -145,69 +170,70 @@ void Bsdf::set_up_base(const SurfaceMaterial& material, bool front) {
   albedo_ = f0_ * a + f90_ * out.b + multiple_f0_ * (1.0f - out.b_scaled - a) +
             multiple_f90_ * (out.b_scaled - out.b);
   if (film_) albedo_ = (albedo_ + film_change(ggx_.cos_o) * (1.0f - out.loss)).max(0.0f);
-  p_microfacet_ = scene::luminance(albedo_);
+  p_microfacet_ = luminance(albedo_);
+}
 
-  // The diffuse base receives and emits only what the dielectric transmits.
-  if (opaque > 0.0f) {
-    coupling_[0] = 1.0f - largest_f0;
-    coupling_[1] = (1.0f - part) * largest_f0;
-    coupling_[2] = (1.0f - part) * (largest_f0 - specular);
-    coupling_[3] = part * (largest_f0 - specular);
-    // Of the light that comes from all directions of a denser medium, 1 / eta^2 leaves it.
-    const float through =
-        std::clamp(material.diffuse_transmission, 0.0f, 1.0f) / std::max(transmit_scale_, 1.0f);
-    mean_passed_ = std::max(passed(mean), 1e-6f);
-    if (film_) {
-      mean_passed_ = 1e-6f;
-      constexpr int kSteps = 8;
-      for (int i = 0; i < kSteps; ++i) {
-        const float x = (static_cast<float>(i) + 0.5f) / kSteps, cosine = x * x;
-        const GgxAlbedo albedo = brushed_ ? brushed_->row.at(cosine, 0.5f) : row_.at(cosine);
-        mean_passed_ += passed(albedo, cosine) * (4.0f * x * x * x / kSteps);
-      }
-    }
-    const float coupled = kInvPi / mean_passed_;
-    const float passed_out = passed(out, ggx_.cos_o);
-    const Color diffuse_albedo = base * ((1.0f - through) * opaque * passed_out);
-    diffuse_ = diffuse_albedo * coupled;
-    p_diffuse_ = scene::luminance(diffuse_albedo);
-    albedo_ += diffuse_albedo;
-    if (through > 0.0f) {
-      lets_through_ = true;
-      const Color color = material.diffuse_transmission_color.max(0.0f).min(1.0f);
-      const Color transmitted = color * (through * opaque * passed_out);
-      diffuse_through_ = transmitted * (coupled * transmit_scale_);
-      p_diffuse_through_ = scene::luminance(transmitted);
-      albedo_ += transmitted;
+void Bsdf::set_up_diffuse(const Base& base, const SurfaceMaterial& material) {
+  const float part = base.part, largest_f0 = base.largest_f0;
+  coupling_[0] = 1.0f - largest_f0;
+  coupling_[1] = (1.0f - part) * largest_f0;
+  coupling_[2] = (1.0f - part) * (largest_f0 - base.specular);
+  coupling_[3] = part * (largest_f0 - base.specular);
+  // Only 1 / eta^2 of the light from all directions of a denser medium leaves it.
+  const float through =
+      std::clamp(material.diffuse_transmission, 0.0f, 1.0f) / std::max(transmit_scale_, 1.0f);
+  mean_passed_ = std::max(passed(base.mean), 1e-6f);
+  if (film_) {
+    mean_passed_ = 1e-6f;
+    constexpr int kSteps = 8;
+    for (int i = 0; i < kSteps; ++i) {
+      const float x = (static_cast<float>(i) + 0.5f) / kSteps, cosine = x * x;
+      const GgxAlbedo albedo = anisotropic_ ? anisotropic_->row.at(cosine, 0.5f) : row_.at(cosine);
+      mean_passed_ += passed(albedo, cosine) * (4.0f * x * x * x / kSteps);
     }
   }
-  if (glass_ == Glass::none) return;
+  const float coupled = kInvPi / mean_passed_;
+  const float passed_out = passed(base.out, ggx_.cos_o);
+  const Color diffuse_albedo = base.color * ((1.0f - through) * base.opaque * passed_out);
+  diffuse_ = diffuse_albedo * coupled;
+  p_diffuse_ = luminance(diffuse_albedo);
+  albedo_ += diffuse_albedo;
+  if (!(through > 0.0f)) return;
+  lets_through_ = true;
+  const Color color = material.diffuse_transmission_color.max(0.0f).min(1.0f);
+  const Color transmitted = color * (through * base.opaque * passed_out);
+  diffuse_through_ = transmitted * (coupled * transmit_scale_);
+  p_diffuse_through_ = luminance(transmitted);
+  albedo_ += transmitted;
+}
 
-  glass_weight_ = glass;
-  glass_tint_ = glass * base;
-  glass_f0_ = f0;
-  glass_f90_ = specular;
+void Bsdf::set_up_glass(const Base& base) {
+  glass_weight_ = base.glass;
+  glass_tint_ = base.glass * base.color;
+  glass_f0_ = base.f0;
+  glass_f90_ = base.specular;
   if (glass_ == Glass::clear) {
     albedo_ += glass_tint_;
-    p_clear_ = scene::luminance(glass_tint_);
+    p_clear_ = luminance(glass_tint_);
   } else if (glass_ == Glass::thin) {
     eta_ = 1.0f;
-    Color transmitted = glass_tint_ * (1.0f - f0 * (1.0f - out.b_scaled) - specular * out.b_scaled);
+    Color transmitted =
+        glass_tint_ * (1.0f - base.f0 * (1.0f - base.out.b_scaled) - base.specular * base.out.b_scaled);
     if (film_) transmitted = (transmitted - glass_tint_ * film_on_dielectric(ggx_.cos_o)).max(0.0f);
     albedo_ += transmitted;
-    p_microfacet_ += scene::luminance(transmitted);
+    p_microfacet_ += luminance(transmitted);
   } else {
-    set_up_refraction(roughness, ior_f0);
+    set_up_refraction(base.roughness, base.ior_f0);
   }
 }
 
 void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   fresnel_base_ = ior_f0;
-  const Facet straight = facet(ggx_.cos_o);
+  const Facet perpendicular = facet(ggx_.cos_o);
   if (ggx_.delta) {
-    const Color added = straight.reflected + straight.transmitted;
+    const Color added = perpendicular.reflected + perpendicular.transmitted;
     albedo_ += added;
-    p_microfacet_ += scene::luminance(added);
+    p_microfacet_ += luminance(added);
     return;
   }
   const GlassTables& tables = GlassTables::get();
@@ -215,15 +241,16 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   glass_there_ = tables.rows(roughness, 1.0f / eta_);
   const float k = glass_f90_;
   const GlassAlbedo out = glass_here_.at(ggx_.cos_o);
-  // The reflectance of the smooth interface, scaled to what is not lost, plus the difference from the table.
+  // The reflectance of the smooth interface, scaled to the power that is not lost, plus the difference from
+  // the table.
   const Color reflected_once =
-      (straight.reflected * (1.0f - out.lost) + glass_weight_ * (k * out.reflected + out.total))
+      (perpendicular.reflected * (1.0f - out.lost) + glass_weight_ * (k * out.reflected + out.total))
           .max(0.0f)
           .min(glass_weight_ * (1.0f - out.loss(k)));
   const Color single =
       reflected_once + glass_tint_ * (1.0f - out.loss(k) - reflected_once * (1.0f / glass_weight_));
   albedo_ += single;
-  p_microfacet_ += scene::luminance(single);
+  p_microfacet_ += luminance(single);
 
   const float mean_here = glass_here_.mean_loss(k);
   const float mean_there = glass_there_.mean_loss(k);
@@ -240,7 +267,7 @@ void Bsdf::set_up_refraction(float roughness, float ior_f0) {
   glass_multiple_transmit_ = transmitted * (kInvPi / (mean_there * eta_ * eta_));
   albedo_ += reflected + transmitted;
   p_loss_reflect_ = reflected;
-  p_loss_transmit_ = scene::luminance(transmitted);
+  p_loss_transmit_ = luminance(transmitted);
   loss_lobe_ = LossLobe(roughness * roughness);
 }
 
@@ -252,7 +279,7 @@ void Bsdf::set_up_layers(const SurfaceMaterial& material) {
     const float roughness = std::clamp(material.sheen_roughness, kMinSheenRoughness, 1.0f);
     sheen_ = SheenLobe(roughness, SheenTables::get().row(roughness));
     const float reflected = sheen_.row.albedo(ggx_.cos_o);
-    p_sheen_ = scene::luminance(sheen) * reflected;
+    p_sheen_ = luminance(sheen) * reflected;
     base_scale_ = 1.0f - sheen.maxCoeff() * reflected;
     albedo_ = albedo_ * base_scale_ + sheen * reflected;
   }

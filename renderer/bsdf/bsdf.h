@@ -16,19 +16,15 @@
 #include <cstdint>
 #include <optional>
 
-#include "renderer/bsdf/brushed.h"
+#include "base/math.h"
+#include "renderer/bsdf/anisotropic.h"
 #include "renderer/bsdf/ggx.h"
 #include "renderer/bsdf/glass_tables.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
 #include "renderer/bsdf/thin_film.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
-
-using scene::Color;
-using scene::Vec2;
-using scene::Vec3;
 
 /// All parameters of the lobes, with textures and vertex colours applied.
 struct SurfaceMaterial {
@@ -40,17 +36,17 @@ struct SurfaceMaterial {
   Color specular_color{1.0f, 1.0f, 1.0f};
   float transmission = 0.0f;
   bool thin_walled = true;  ///< a thin sheet: transmission does not refract
-  // From here on zeros, which are set at once: every surface has them, and few have more.
+  // All members from here on are zero by default, so that they are cleared together. Few surfaces set them.
   float dispersion = 0.0f;  ///< of `ior`, for the path that chooses a wavelength (sampling/wavelength.h)
   float diffuse_transmission = 0.0f;  ///< the share of the diffuse light that leaves on the other side
   Color diffuse_transmission_color{0.0f, 0.0f, 0.0f};
-  float iridescence = 0.0f;     ///< KHR_materials_iridescence: how much of it
-  float film_ior = 0.0f;        ///< where there is a film
+  float iridescence = 0.0f;     ///< KHR_materials_iridescence: the factor
+  float film_ior = 0.0f;        ///< used only where there is a film
   float film_thickness = 0.0f;  ///< nanometres
-  /// In [0, 1]: GGX alpha grows with its square from that of the roughness to 1 along `brushed`, a unit
+  /// In [0, 1]: GGX alpha grows with its square from that of the roughness to 1 along `anisotropic`, a unit
   /// vector in world space across the normal. Refraction does not follow it.
   float anisotropy = 0.0f;
-  Vec3 brushed{0.0f, 0.0f, 0.0f};
+  Vec3 anisotropy_direction{0.0f, 0.0f, 0.0f};
   float clearcoat = 0.0f;
   float clearcoat_roughness = 0.0f;
   Color sheen_color{0.0f, 0.0f, 0.0f};
@@ -65,7 +61,7 @@ struct BsdfValue {
 struct BsdfSample {
   Vec3 wi = Vec3::Zero();
   Color weight{0.0f, 0.0f, 0.0f};  ///< f * |cos| / pdf of all lobes together; zero ends the path
-  float pdf = 0.0f;                ///< per solid angle; of a delta lobe: the lobe's probability
+  float pdf = 0.0f;                ///< per solid angle; for a delta lobe the lobe's probability
   bool delta = false;
   bool transmitted = false;
   /// (n_o / n_i)^2 if the sample refracts, otherwise 1. The weight contains it. Russian roulette should
@@ -92,19 +88,19 @@ class Bsdf {
   const Color& albedo() const { return albedo_; }
   /// Whether light can arrive from behind the surface.
   bool transmits() const { return glass_ != Glass::none || lets_through_; }
-  /// The fraction of light that goes straight through, from -wo to wo: the delta transmission of a smooth
+  /// The fraction of light that passes unrefracted, from -wo to wo: the delta transmission of a smooth
   /// thin-walled surface. Zero for all others. It equals sample() on average.
-  Color straight_transmittance() const;
+  Color unrefracted_transmittance() const;
   /// Whether all lobes are deltas, so that next-event estimation is useless.
   bool is_delta() const { return is_delta_; }
 
-  /// Whether some lobe is narrower than this perceptual roughness. Deltas always are, so 0 means deltas
-  /// alone. Microfacets and clearcoat are if their roughness is smaller.
+  /// Whether some lobe is narrower than this perceptual roughness. Deltas always are, so 0 means only deltas.
+  /// Microfacets and clearcoat are if their roughness is smaller.
   bool has_narrow(float roughness) const { return has(roughness, true); }
   /// Whether some lobe is not narrower.
   bool has_wide(float roughness) const { return has(roughness, false); }
   /// Two surfaces with the wide and with the narrow lobes. Their values and albedos add up to those of this
-  /// surface. Each lobe keeps its value, between the same layers. Each part samples its own lobes alone, and
+  /// surface. Each lobe keeps its value, between the same layers. Each part samples only its own lobes, and
   /// transmits only if one of them does. A part without lobes is black.
   Bsdf wide_part(float roughness) const { return part(roughness, false); }
   Bsdf narrow_part(float roughness) const { return part(roughness, true); }
@@ -114,10 +110,10 @@ class Bsdf {
     none,
     thin,        ///< a sheet: the reflection lobe mirrored to the other side
     refracting,  ///< the boundary of a medium
-    clear,       ///< the boundary of a medium with the outside's index: light goes straight on
+    clear,       ///< the boundary of a medium with the outside's index: light passes unrefracted
   };
-  /// What a microfacet of glass reflects and transmits, with tint and weight. The reflection of thin glass is
-  /// in the lobe of the opaque part.
+  /// Reflectance and transmittance of a microfacet of glass, with tint and weight. The reflection of thin
+  /// glass is in the lobe of the opaque part.
   struct Facet {
     float schlick = 0.0f;  ///< weight between f0 and f90
     Color reflected = Color::Zero();
@@ -126,7 +122,13 @@ class Bsdf {
     float probability_reflect = 1.0f;  ///< of choosing reflection
   };
 
+  struct Base;
   void set_up_base(const SurfaceMaterial& material, bool front);
+  void choose_glass(const Base& base, bool thin_walled, bool front);
+  void set_up_facets(Base& base, const SurfaceMaterial& material);
+  void set_up_reflection(Base& base, const SurfaceMaterial& material);
+  void set_up_diffuse(const Base& base, const SurfaceMaterial& material);
+  void set_up_glass(const Base& base);
   void set_up_refraction(float roughness, float ior_f0);
   void set_up_layers(const SurfaceMaterial& material);
   /// Scales the probabilities of the lobes to the sum one, and sets is_delta_.
@@ -140,12 +142,12 @@ class Bsdf {
 
   /// Albedos of the microfacets for a direction of this cosine.
   GgxAlbedo facets_albedo(const Vec3& w, float cosine) const {
-    return brushed_ ? brushed_->albedo(w, cosine) : row_.at(cosine);
+    return anisotropic_ ? anisotropic_->albedo(w, cosine) : row_.at(cosine);
   }
-  const GgxAlbedo& mean_albedo() const { return brushed_ ? brushed_->row.mean : row_.mean(); }
+  const GgxAlbedo& mean_albedo() const { return anisotropic_ ? anisotropic_->row.mean : row_.mean(); }
   GgxLobe::Terms facets_terms(const Vec3& h, float h2, const Vec3& wi, float cos_i) const {
-    return brushed_ ? brushed_->terms(h, h2, ggx_.cos_o, ggx_.root_o, wi, cos_i)
-                    : ggx_.terms(ns_, h, h2, cos_i);
+    return anisotropic_ ? anisotropic_->terms(h, h2, ggx_.cos_o, ggx_.root_o, wi, cos_i)
+                        : ggx_.terms(ns_, h, h2, cos_i);
   }
 
   /// The power that the dielectric layer transmits.
@@ -153,15 +155,16 @@ class Bsdf {
     return std::max(0.0f, coupling_[0] + coupling_[1] * albedo.loss + coupling_[2] * albedo.b +
                               coupling_[3] * albedo.b_scaled);
   }
-  /// The same for a direction of this cosine, with what a film changes.
+  /// The same for a direction of this cosine, with the change by a film.
   float passed(const GgxAlbedo& albedo, float cosine) const {
     return film_ ? film_passed(albedo, cosine) : passed(albedo);
   }
   float film_passed(const GgxAlbedo& albedo, float cosine) const;
-  /// What a film changes of the reflectance of the dielectric, and of metal and dielectric as they are mixed.
+  /// The change by a film of the reflectance of the dielectric.
   Color film_on_dielectric(float cosine) const {
     return film_->film.change(cosine, film_->dielectric_f0, film_->dielectric_f90);
   }
+  /// The same for the mix of metal and dielectric.
   Color film_change(float cosine) const;
   Facet facet(float cos_h) const;
   void add_reflection(const Vec3& wi, float cos_i, BsdfValue& result) const;
@@ -180,7 +183,7 @@ class Bsdf {
   // of the scales over one.
   GgxLobe ggx_;
   GgxTables::Row row_;
-  std::optional<BrushedLobe> brushed_;  ///< in place of the distribution of ggx_ and of row_
+  std::optional<AnisotropicLobe> anisotropic_;  ///< in place of the distribution of ggx_ and of row_
   float scale_o_ = 1.0f;
   Color f0_, multiple_f0_, multiple_f90_;
   float f90_ = 0.0f;
@@ -191,7 +194,7 @@ class Bsdf {
   float coupling_[4];
 
   Glass glass_ = Glass::none;
-  float transmit_scale_ = 1.0f;  ///< BsdfSample::radiance_scale of what is transmitted
+  float transmit_scale_ = 1.0f;  ///< BsdfSample::radiance_scale of transmitted light
   bool lets_through_ = false;    ///< has a diffuse base on the other side
   bool is_delta_ = false;
   bool has_layers_ = false;
@@ -199,7 +202,7 @@ class Bsdf {
   struct FilmOnBase {
     ThinFilm film;
     Color metal_f0, dielectric_f0;
-    float dielectric_f90, metallic, dielectric;  ///< and the shares of both in the reflection lobe
+    float dielectric_f90, metallic, dielectric;  ///< the last two are shares in the reflection lobe
   };
   std::optional<FilmOnBase> film_;
   float mean_passed_ = 1.0f;  ///< passed(), over the hemisphere

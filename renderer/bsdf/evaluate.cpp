@@ -7,12 +7,6 @@
 #include "renderer/bsdf/fresnel.h"
 
 namespace gatelight::renderer {
-namespace {
-
-/// A shorter half vector has no reliable direction: wo and wi are opposite, both in the surface plane.
-constexpr float kMinHalf2 = 1e-10f;
-
-}  // namespace
 
 Bsdf::Facet Bsdf::facet(float cos_h) const {
   Facet result;
@@ -40,8 +34,8 @@ Bsdf::Facet Bsdf::facet(float cos_h) const {
   }
   Color reflected = f0_ + (f90_ - f0_) * result.schlick + result.reflected;
   if (film_) reflected = (reflected + film_change(cos_h)).max(0.0f);
-  const float r = scene::luminance(reflected);
-  const float t = scene::luminance(result.transmitted);
+  const float r = luminance(reflected);
+  const float t = luminance(result.transmitted);
   result.probability_reflect = t > 0.0f ? r / (r + t) : 1.0f;
   return result;
 }
@@ -58,7 +52,7 @@ float Bsdf::film_passed(const GgxAlbedo& albedo, float cosine) const {
   return std::max(0.0f, passed(albedo) - film_on_dielectric(cosine).maxCoeff() * (1.0f - albedo.loss));
 }
 
-Color Bsdf::straight_transmittance() const {
+Color Bsdf::unrefracted_transmittance() const {
   if (glass_ != Glass::thin || !ggx_.delta) return Color::Zero();
   return facet(ggx_.cos_o).transmitted * base_scale_;
 }

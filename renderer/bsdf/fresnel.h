@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/math.h"
+#include "base/math.h"
+#include "renderer/bsdf/bsdf_constants.h"
 
 namespace gatelight::renderer {
 
@@ -14,9 +15,6 @@ inline float schlick_weight(float cos_theta) {
   const float x2 = x * x;
   return x2 * x2 * x;
 }
-
-/// The cosine-weighted mean of Schlick's weight over the hemisphere.
-inline constexpr float kSchlickMean = 1.0f / 21.0f;
 
 /// The unpolarised Fresnel reflectance. `eta` is the index behind the interface divided by the index on the
 /// side of the ray. Sets `cos_t`, the cosine of the refracted ray. At total internal reflection cos_t is 0
@@ -33,8 +31,6 @@ inline float fresnel_dielectric(float cos_i, float eta, float& cos_t) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-inline constexpr float kCoatIor = 1.5f;  ///< of clearcoat
-inline constexpr float kCoatF0 = 0.04f;
 inline float coat_fresnel(float cos_theta) {
   return kCoatF0 + (1.0f - kCoatF0) * schlick_weight(cos_theta);
 }

@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+#include "renderer/bsdf/bsdf_constants.h"
 #include "renderer/sampling/warp.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
-
-using scene::kInvPi;
-using scene::kPi;
-
-/// Below this perceptual roughness a lobe is a delta. Such a lobe is at most half a pixel wide and looks like
-/// a mirror in a picture. Directions in single precision cannot resolve its peak 1 / (pi alpha^2).
-inline constexpr float kDeltaRoughness = 0.03f;
-inline constexpr float kDeltaAlpha = kDeltaRoughness * kDeltaRoughness;
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2): Smith's Lambda is (this / cos - 1) / 2.
 inline float smith_root(float alpha2, float cosine) {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
-/// Albedos for a microfacet reflectance of k F, which is 1 at total internal reflection. The table holds the
-/// difference between the reflected power and that of a smooth interface, scaled to what is not lost. A table
-/// could not represent the edge of the smooth interface at the critical angle.
+/// Albedos for a microfacet reflectance of k F, which is 1 at total internal reflection. The table stores the
+/// difference between the reflected power and that of a smooth interface, scaled to the power that is not
+/// lost. A table could not represent the edge of the smooth interface at the critical angle.
 struct GlassAlbedo {
   float lost = 0.0f;       ///< lost power for k = 1
   float change = 0.0f;     ///< with k: the lost power is lost + (1 - k) change
@@ -22,8 +22,8 @@ struct GlassAlbedo {
 };
 
 /// A table over roughness, cosine (with the coordinate of GgxTables) and the signed root of the normal
-/// reflectance, (eta - 1) / (eta + 1), for eta in [1/3, 3]. It has 80 KiB and is built when the first rough
-/// refracting surface is met.
+/// reflectance, (eta - 1) / (eta + 1), for eta in [1/3, 3]. It has 80 KiB and is built at the first hit on a
+/// rough refracting surface.
 class GlassTables {
  public:
   static constexpr int kEta = 17;  // odd: the middle node is eta = 1

@@ -43,14 +43,14 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   const bool narrow_coat = is_narrow(coat_, roughness);
   const bool keeps_facets = narrow_facets == narrow;
   // The albedo of the part without the microfacets. The other part has the rest.
-  Color apart = Color::Zero();
+  Color split = Color::Zero();
   if (narrow_facets) {
-    apart += diffuse_albedo() + sheen_albedo();
+    split += diffuse_albedo() + sheen_albedo();
   } else if (p_clear_ > 0.0f) {
-    apart += glass_tint_ * base_scale_;
+    split += glass_tint_ * base_scale_;
   }
-  if (p_coat_ > 0.0f && narrow_coat != narrow_facets) apart += coat_albedo_;
-  apart = apart.min(albedo_);
+  if (p_coat_ > 0.0f && narrow_coat != narrow_facets) split += coat_albedo_;
+  split = split.min(albedo_);
 
   Bsdf result = *this;
   if (!keeps_facets) result.p_microfacet_ = result.p_loss_reflect_ = result.p_loss_transmit_ = 0.0f;
@@ -63,7 +63,7 @@ Bsdf Bsdf::part(float roughness, bool narrow) const {
   if (narrow_coat != narrow) result.p_coat_ = 0.0f;
   const bool keeps_glass = glass_ == Glass::clear ? narrow : keeps_facets;
   if (!keeps_glass) result.glass_ = Glass::none;
-  result.albedo_ = keeps_facets ? Color(albedo_ - apart) : apart;
+  result.albedo_ = keeps_facets ? Color(albedo_ - split) : split;
   // A remainder from rounding is not light.
   if (!has(roughness, narrow)) result.albedo_.setZero();
   result.normalize_chances();

@@ -12,8 +12,8 @@ struct LatticePoint {
   float weight;
 };
 
-/// Points of the unit square for sample_visible_normal(), on one side of the plane of wo, whose other side is
-/// alike: u.x is in [0, 0.5]. A Fibonacci lattice of `count` points; `previous` is the Fibonacci number
+/// Points of the unit square for sample_visible_normal(), on one side of the plane of wo (the other side is
+/// symmetric): u.x is in [0, 0.5]. A Fibonacci lattice of `count` points; `previous` is the Fibonacci number
 /// before `count`. A smooth step v^2 (3 - 2 v) maps both coordinates. It puts more points into the
 /// corners of the square, where the integrand is singular at grazing incidence, and makes the integrand
 /// periodic, which suits lattices. The kink at total reflection does no harm; a product rule with as many

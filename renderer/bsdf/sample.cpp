@@ -75,8 +75,10 @@ BsdfSample Bsdf::sample_microfacet(float u_lobe, const Vec2& u) const {
     const Facet half = facet(ggx_.cos_o);
     return sample_delta(u_lobe >= half.probability_reflect, half);
   }
-  const Vec3 h = brushed_ ? brushed_->sample_half(wo_, ggx_.cos_o, u) : sample_half(ggx_, ns_, wo_, u);
-  const float spread = brushed_ ? std::sqrt(brushed_->alpha_x * brushed_->alpha_y) : std::sqrt(ggx_.alpha2);
+  const Vec3 h =
+      anisotropic_ ? anisotropic_->sample_half(wo_, ggx_.cos_o, u) : sample_half(ggx_, ns_, wo_, u);
+  const float spread =
+      anisotropic_ ? std::sqrt(anisotropic_->alpha_x * anisotropic_->alpha_y) : std::sqrt(ggx_.alpha2);
   if (glass_ == Glass::none || glass_ == Glass::clear) return finish(mirror(wo_, h), ns_, spread);
   const float oh = wo_.dot(h);
   if (!(oh > 0.0f)) return {};

@@ -3,9 +3,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using scene::kPi;
-using scene::Vec3;
-
 /// The integral of f(sin2_h, cos_i) cos_i over the hemisphere, for wo = (sin, 0, cosine).
 template <class F>
 float integrate(float cosine, F&& f) {

@@ -6,21 +6,19 @@
 #include <array>
 #include <cmath>
 
-#include "scene/math.h"
+#include "base/math.h"
+#include "renderer/bsdf/bsdf_constants.h"
 
 namespace gatelight::renderer {
 
-/// The smallest roughness. Narrower distributions put all sheen into the last degrees above the horizon.
-inline constexpr float kMinSheenRoughness = 0.2f;
-
-/// A table over roughness and the root of the cosine, built when the first surface with sheen is met. The
+/// A table over roughness and the root of the cosine, built at the first hit on a surface with sheen. The
 /// model reflects up to twice the incident light (small roughness, grazing angles). So it is divided by the
 /// larger of its directional albedos for wo and wi where that exceeds one. The result is reciprocal and never
 /// gains energy.
 class SheenTables {
  public:
-  static constexpr int kRoughness = 16;
-  static constexpr int kCosine = 32;
+  static constexpr int kRoughness = kSheenRoughness;
+  static constexpr int kCosine = kSheenCosine;
 
   struct Row {
     /// The divisor for one of the two directions. The larger divisor applies.
@@ -50,7 +48,7 @@ class SheenTables {
 
  private:
   SheenTables();
-  std::array<std::array<std::array<float, 2>, kCosine>, kRoughness> values_;
+  std::array<std::array<std::array<float, kSheenParts>, kCosine>, kRoughness> values_;
 };
 
 /// A lobe of white sheen.
@@ -63,7 +61,7 @@ struct SheenLobe {
   /// The roughness is at least kMinSheenRoughness.
   SheenLobe(float roughness, const SheenTables::Row& table_row) : row(table_row) {
     exponent = 1.0f / (roughness * roughness);
-    scale = (2.0f + exponent) * (0.125f * scene::kInvPi);
+    scale = (2.0f + exponent) * (0.125f * kInvPi);
   }
   /// The value before the division. sin2_h is the squared sine of the half vector.
   float undivided(float sin2_h, float cos_o, float cos_i) const {

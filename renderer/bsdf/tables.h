@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/bsdf/bsdf_constants.h"
 #include "renderer/bsdf/fresnel.h"
 
 namespace gatelight::renderer {
@@ -20,13 +21,13 @@ struct GgxAlbedo {
   float reflect(float f0, float f90) const { return f0 * (1.0f - loss - b) + f90 * b; }
 };
 
-/// A table over roughness and cosine, of 16 KiB. Near the horizon the loss is a function of cosine / alpha
-/// alone. So the coordinate of the cosine is u = cosine (1 + alpha) / (cosine + alpha), and few nodes resolve
-/// a dip of width alpha.
+/// A table over roughness and cosine, of 16 KiB. Near the horizon the loss depends only on cosine / alpha. So
+/// the coordinate of the cosine is u = cosine (1 + alpha) / (cosine + alpha), and few nodes resolve a dip of
+/// width alpha.
 class GgxTables {
  public:
-  static constexpr int kRoughness = 32;
-  static constexpr int kCosine = 32;
+  static constexpr int kRoughness = kGgxRoughness;
+  static constexpr int kCosine = kGgxCosine;
 
   /// The interpolated rows for one roughness. A delta lobe loses nothing.
   class Row {
@@ -87,7 +88,7 @@ class GgxTables {
  private:
   GgxTables();
   // With the Schlick weight w of the cosine itself: loss; b - w (1 - loss); b_scaled - w; scale.
-  std::array<std::array<std::array<float, 4>, kCosine>, kRoughness> values_;
+  std::array<std::array<std::array<float, kGgxParts>, kCosine>, kRoughness> values_;
   std::array<GgxAlbedo, kRoughness> means_;
 };
 

@@ -9,9 +9,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using scene::Color;
-using scene::kPi;
-
 constexpr float kThinnest = 0.03f;  ///< nanometres
 
 /// The reflectance at normal incidence between two indices.
@@ -70,7 +67,7 @@ Color ThinFilm::reflectance(float cosine, const Color& base_f0) const {
 
 Color ThinFilm::change(float cosine, const Color& base_f0, float base_f90) const {
   const Color without = base_f0 + (base_f90 - base_f0) * schlick_weight(cosine);
-  // Without thickness there is no film; the simplified curves would not tell.
+  // Without thickness there is no film, which the simplified curves do not reproduce.
   const float there = std::min(thickness / kThinnest, 1.0f);
   return weight * there * (reflectance(cosine, base_f0) - without);
 }

@@ -6,18 +6,17 @@
 #include <string_view>
 #include <utility>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/cpu/cpu_backend.h"
 #include "neural/vulkan/vulkan_backend.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
-std::optional<neural::simd::Isa> forced_isa(const RenderOptions& options) {
+std::optional<simd::Isa> forced_isa(const RenderOptions& options) {
   if (options.isa == "auto") return std::nullopt;
-  return neural::simd::parse_isa(options.isa);
+  return simd::parse_isa(options.isa);
 }
 
 constexpr std::string_view kVulkan = "vulkan";
@@ -29,17 +28,17 @@ std::optional<std::string> vulkan_device(const RenderOptions& options) {
   if (device == kVulkan) return "";
   if (device.starts_with(kVulkan) && device.size() > kVulkan.size() && device[kVulkan.size()] == ':')
     return std::string(device.substr(kVulkan.size() + 1));
-  throw Unavailable(fmt::format("--device {}: expected cpu or vulkan", device));
+  throw Unavailable(fmt::format("`device` {}: expected cpu or vulkan", device));
 }
 
-/// Turns refusals of `neural` into the renderer's, which name the flag.
+/// Rethrows Unavailable of `neural` with the name of the flag.
 template <typename Function>
 auto on_device(const RenderOptions& options, Function function) {
   try {
     return function();
-  } catch (const neural::Unavailable& error) {
+  } catch (const Unavailable& error) {
     if (options.cache.device == "cpu") throw Unavailable(error.what());
-    throw Unavailable(fmt::format("--device {}: {}", options.cache.device, error.what()));
+    throw Unavailable(fmt::format("`device` {}: {}", options.cache.device, error.what()));
   }
 }
 
@@ -60,7 +59,7 @@ std::string cache_machine(const RenderOptions& options) {
   return on_device(options, [&] {
     if (const std::optional<std::string> device = vulkan_device(options))
       return fmt::format("vulkan {}", neural::vulkan::device_name(*device));
-    return std::string(neural::simd::isa_name(neural::simd::select_isa(forced_isa(options))));
+    return std::string(simd::isa_name(simd::select_isa(forced_isa(options))));
   });
 }
 

@@ -13,7 +13,8 @@ namespace gatelight::renderer {
 std::unique_ptr<neural::Backend> make_cache_backend(std::shared_ptr<const neural::Model> model,
                                                     const RenderOptions& options);
 
-/// The instruction set or device of that backend as text for files: another one gives other last bits.
+/// The instruction set or device of that backend as text for files. Results of another one differ in the last
+/// bits.
 std::string cache_machine(const RenderOptions& options);
 
 }  // namespace gatelight::renderer

@@ -11,9 +11,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using neural::SafetensorsReader;
-using neural::TensorType;
-
 constexpr const char* kSides = "renderer.sides";
 constexpr const char* kSpacingScales = "renderer.spacing_scales";
 constexpr const char* kScales = "renderer.scales";
@@ -71,8 +68,8 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
   read_positive(file, kScales, scales);
   std::tie(setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path) =
       std::tuple_cat(scales);
-  // Scouting keeps this bound. A step traces paths for its records, and a file must not demand any number of
-  // them.
+  // Scouting keeps this bound. The number of paths of a step follows from it, so a file must not set it
+  // arbitrarily low.
   for (const float records : {setup.records_per_path, setup.records_per_short_path}) {
     if (records < kLeastRecordsPerPath)
       file.fail(fmt::format("tensor '{}': {} records of a path, expected at least 1/64", kScales, records));

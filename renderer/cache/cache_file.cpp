@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "neural/file/content_digest.h"
+#include "base/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
-#include "renderer/identity/named_texts.h"
-#include "renderer/settings/words.h"
+#include "renderer/fingerprint/named_texts.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -19,11 +19,12 @@ constexpr const char* kMeaning = "cache";
 
 NamedTexts texts_of(const CacheMeaning& meaning) {
   const auto& [options, ao_distance] = meaning;
-  NamedTexts texts = {{"integrator", word(options.integrator)}, {"encoding", word(options.cache.encoding)}};
+  NamedTexts texts = {{"integrator", enum_name(options.integrator)},
+                      {"encoding", enum_name(options.cache.encoding)}};
   if (options.integrator == Integrator::nao) {
     texts.push_back({"ao-distance", fmt::format("{}", ao_distance)});
   } else {
-    texts.push_back({"cache-holds", word(options.cache.holds)});
+    texts.push_back({"cache-holds", enum_name(options.cache.holds)});
     texts.push_back({"cache-roughness", fmt::format("{}", options.cache.min_roughness)});
   }
   return texts;
@@ -36,13 +37,13 @@ void write_cache_file(const std::filesystem::path& path, const CacheState& state
                       const SceneFingerprint& scene) {
   CacheContent content;
   fill_cache_content(content, model, options, state);
-  neural::Metadata& metadata = content.model.metadata;
+  Metadata& metadata = content.model.metadata;
   metadata["format"] = kFormat;
   metadata["version"] = fmt::format("{}", kVersion);
   add_texts(metadata, kMeaning, texts_of(meaning));
   add_texts(metadata, kScene, scene);
-  metadata[neural::kDigestKey] = neural::content_digest(content.tensors, metadata);
-  neural::write_safetensors(path, content.tensors, metadata);
+  metadata[kDigestKey] = content_digest(content.tensors, metadata);
+  write_safetensors(path, content.tensors, metadata);
 }
 
 CacheFile::CacheFile(const std::filesystem::path& path) : file_(path) {

@@ -1,30 +1,31 @@
 #pragma once
 // A trained cache in a file of its own (--cache-out, --cache-in): for another camera of the same scene.
-// renderer/run/README.md lists what must be equal.
+// renderer/driver/README.md lists what must be equal.
 
 #include <filesystem>
 
-#include "neural/file/model_file.h"
+#include "neural/model/model_file.h"
 #include "renderer/cache/cache_state.h"
-#include "renderer/identity/scene_fingerprint.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
-/// What decides the meaning of a cache's answers. Network and layout describe themselves.
+/// The options that decide the meaning of a cache's answers. The model's metadata describe network and
+/// layout.
 struct CacheMeaning {
   const RenderOptions& options;
   float ao_distance = 0.0f;  ///< metres, resolved
 };
 
-/// Writes the file atomically and fsyncs it. Throws OutputError, neural::CacheFileError, and
-/// neural::BadConfiguration for a state that is not the model's.
+/// Writes the file atomically and fsyncs it. Throws OutputError, CacheFileError, and
+/// BadConfiguration for a state that is not the model's.
 void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
                       const neural::TrainingOptions& options, const CacheMeaning& meaning,
                       const SceneFingerprint& scene);
 
 /// A file that is read in two stages, because the model is built from its setup. Its content is untrusted:
-/// all members throw neural::CacheFileError, which names the file, the value and what was expected.
+/// all members throw CacheFileError, which names the file, the value and what was expected.
 class CacheFile {
  public:
   explicit CacheFile(const std::filesystem::path& path);
@@ -38,7 +39,7 @@ class CacheFile {
   CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options);
 
  private:
-  neural::SafetensorsReader file_;
+  SafetensorsReader file_;
   CacheSetup setup_;
 };
 

@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 /// Inputs beside the position that the options and the scene require.
 neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options);
 
-/// Throws neural::BadConfiguration.
+/// Throws BadConfiguration.
 std::shared_ptr<const neural::Model> make_cache_model(const World& world, const RenderOptions& options,
                                                       const CacheSetup& setup);
 

@@ -26,10 +26,10 @@ struct CacheInstanceReport {
 struct CacheReport {
   CacheStatistics statistics;  ///< memory, nodes, sides, node spacing, seconds of scouting and setting up
   std::vector<CacheInstanceReport> instances;  ///< in the scene's order; empty for a hash grid
-  std::uint64_t bytes_without_scouting = 0;    ///< parameters, had all possible sides storage
+  std::uint64_t bytes_without_scouting = 0;    ///< parameters if all possible sides had storage
 };
 
-/// For integrators with a cache. Throws what CacheSession throws.
+/// For integrators with a cache. Throws the exceptions of CacheSession.
 CacheReport report_cache(const World& world, const Camera& camera, const PixelRect& region,
                          const RenderOptions& options);
 

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/clock.h"
+#include "base/errors.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/occlusion_records.h"
@@ -18,10 +20,8 @@
 #include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/scouting.h"
+#include "renderer/distributed/packing.h"
 #include "renderer/film/memory_estimate.h"
-#include "renderer/machine/clock.h"
-#include "renderer/machine/errors.h"
-#include "renderer/ranks/packing.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -30,14 +30,14 @@ namespace {
 /// The reported loss is the mean over this many last steps.
 constexpr std::size_t kLossWindow = 64;
 
-/// Largest number of paths that a step holds at once.
+/// Largest number of paths of a step.
 constexpr double kMostPaths = 1 << 24;
 
 /// Records whose paths are traced together. Paths of several batches are more coherent, and threads wait less
 /// often (5 to 10 % faster than single batches of 16384).
 constexpr std::uint64_t kTracedRecords = 1 << 16;
 
-/// Shares of the ranks are looked at after so much work of one of them.
+/// Work of the slowest rank after which the shares of the ranks are adjusted.
 constexpr double kRebalanceSeconds = 0.5;
 
 void check_options(const RenderOptions& all) {
@@ -98,7 +98,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
                            const RenderOptions& options, const CacheSetup* setup,
                            const std::function<void(const neural::Model&)>& expect_model,
                            const RankTiles* ranks)
-    : options_(options), ranks_(ranks && !ranks->ranks.alone() ? ranks : nullptr) {
+    : options_(options), ranks_(ranks && !ranks->ranks.is_single() ? ranks : nullptr) {
   check_options(options);
   Clock::time_point start = Clock::now();
   if (setup) {
@@ -192,10 +192,10 @@ void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
   ++steps_;
   ++steps_under_way_;
   statistics_.steps += 1;
-  if (!trainer_->backend().runs_alongside()) settle();
+  if (!trainer_->backend().runs_alongside()) synchronize();
 }
 
-void CacheSession::settle() {
+void CacheSession::synchronize() {
   const Clock::time_point begin = Clock::now();
   while (steps_under_way_ > 0) {
     const neural::StepStatistics step = trainer_->finish();
@@ -265,7 +265,7 @@ void CacheSession::learn_from(Group& group, const Watch& watch) {
       work_[r].rays += work[r].rays;
     }
   }
-  records_->deal(group.request, records);
+  records_->split(group.request, records);
   statistics_.training_paths += records.paths_traced;
   samples_ += group.samples();
   if (watch.samples && group.samples() > 0) watch.samples(records);
@@ -286,8 +286,8 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
-  // With ranks a group is traced while the records of the one before travel. Candidates are chosen by what
-  // was learned before.
+  // With ranks a group is traced while the records of the one before are exchanged. This is not possible
+  // with candidates, which depend on the counts of the group before.
   const bool ahead = ranks_ && options_.cache.candidates == 1;
   const auto give_up = [&] {
     const double limit = options_.cache.train_seconds;
@@ -320,25 +320,25 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     if (learning) goes_on = learn_now();
     if (!group) continue;
     if (!goes_on) {
-      // What was traced ahead will be traced again.
+      // The group that was traced ahead will be traced again.
       unlearned_rays_.subtract(group->rays);
       abandoned_rays_.add(group->rays);
       break;
     }
-    settle();  // the steps of the group before, which a device computed meanwhile
+    synchronize();  // the steps of the group before, which a device computed meanwhile
     look_at_answers(last->records);
     finish(*group);
     learning = group;
     std::swap(next, last);
     if (!ahead) goes_on = learn_now();
   }
-  settle();
+  synchronize();
   look_at_answers(last->records);
   statistics_.train_seconds = before + seconds_since(start);
 }
 
 void CacheSession::start_anew() {
-  Bookmark start{{.setup = setup_}, first_statistics_, 0, 0, scout_rays_, {}};
+  Snapshot start{{.setup = setup_}, first_statistics_, 0, 0, scout_rays_, {}};
   start.state.model = neural::initial_state(model(), trainer_->options());
   start.state.triangle_counts.assign(counts_.values().size(), 0);
   return_to(start);
@@ -362,7 +362,7 @@ CacheState CacheSession::export_state() const {
 }
 
 void CacheSession::import_state(const CacheState& state) {
-  // After training that ended with an exception a device may still compute some.
+  // After training that ended with an exception a device may still compute steps.
   for (; steps_under_way_ > 0; --steps_under_way_) trainer_->finish();
   trainer_->backend().import_state(state.model);
   steps_ = state.steps;
@@ -371,20 +371,20 @@ void CacheSession::import_state(const CacheState& state) {
   guard_ = state.guard;
 }
 
-CacheSession::Bookmark CacheSession::bookmark() const {
+CacheSession::Snapshot CacheSession::snapshot() const {
   return {export_state(), statistics_, paths_of_rank_, record_bytes_, rays(), last_losses_};
 }
 
-void CacheSession::return_to(const Bookmark& bookmark) {
-  import_state(bookmark.state);
+void CacheSession::return_to(const Snapshot& snapshot) {
+  import_state(snapshot.state);
   unlearned_rays_ = {};  // of training that ended with an exception
   RayCounts abandoned = rays();
-  abandoned.subtract(bookmark.rays);
+  abandoned.subtract(snapshot.rays);
   abandoned_rays_.add(abandoned);
-  statistics_ = bookmark.statistics;
-  paths_of_rank_ = bookmark.paths_of_rank;
-  record_bytes_ = bookmark.record_bytes;
-  last_losses_ = bookmark.last_losses;
+  statistics_ = snapshot.statistics;
+  paths_of_rank_ = snapshot.paths_of_rank;
+  record_bytes_ = snapshot.record_bytes;
+  last_losses_ = snapshot.last_losses;
 }
 
 RayCounts CacheSession::rays() const {

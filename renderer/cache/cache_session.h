@@ -16,9 +16,10 @@ class CacheSession {
  public:
   /// Scouts unless a setup is given, and builds the model. World, camera and options must outlive the
   /// session. All functions run in the caller's arena. A setup from a file decides the size of the model:
-  /// `expect_model` is called before memory is allocated, and throws where the file holds less. Throws
-  /// neural::BadConfiguration, Unavailable.
-  /// `ranks`: several that train together; they must outlive it. All call the same functions.
+  /// `expect_model` is called before memory is allocated, and throws where the file has other tensors. Throws
+  /// BadConfiguration, Unavailable.
+  /// `ranks`: the ranks that train together, which must outlive the session; null for one. All ranks call the
+  /// same functions.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, const CacheSetup* setup = nullptr,
                const std::function<void(const neural::Model&)>& expect_model = {},
@@ -32,40 +33,40 @@ class CacheSession {
     std::function<void()> after_group;  ///< a state exported here resumes with the same bits
     /// Receives the paths of a group that are samples of the picture too.
     std::function<void(const RecordBatch& group)> samples;
-    /// Receives what each rank has done since the last call, about once a second. Shares may be dealt anew.
+    /// Receives the work of each rank since the last call, about once a second. May redistribute the shares.
     std::function<void(const std::vector<RankWork>& work)> rebalance;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
   /// of threads. Throws TrainingDiverged when the loss or the answers grow without bound.
   void train(std::uint64_t steps, const Watch& watch);
-  /// The last step between groups at which training was as good as ever. After divergence, training from the
-  /// start up to it gives a good state. 0: there is none.
+  /// The last step at the end of a group at which the loss was near its least value. After divergence,
+  /// training from the start up to it gives a good state. 0: there is none.
   std::uint64_t good_steps() const { return guard_.good_steps; }
   /// Resets to the state before the first step.
   void start_anew();
   std::uint64_t steps() const { return steps_; }
-  /// Of the picture, that training has used.
+  /// Number of the picture's samples that training has used.
   std::uint64_t samples() const { return samples_; }
   /// Waits for the steps that a device is still computing, so that statistics and an exported state belong to
   /// the same step. Call it between groups only; train() ends with it. Throws as train() does.
-  void settle();
+  void synchronize();
   /// The end of the group of steps that begins at `step`.
   std::uint64_t group_end(std::uint64_t step) const;
   /// The last step, at most `steps`, that lies between groups of the training from here on.
   std::uint64_t last_group_end(std::uint64_t steps) const;
 
-  /// All that training changes. After a return to it, training gives the same bits as if it had never gone
-  /// on.
-  struct Bookmark {
+  /// All state that training changes. After return_to(), training gives the same bits as if it had not
+  /// continued.
+  struct Snapshot {
     CacheState state;
     CacheStatistics statistics;
     std::uint64_t paths_of_rank = 0, record_bytes = 0;
     RayCounts rays;
     std::vector<double> last_losses;
   };
-  Bookmark bookmark() const;
-  void return_to(const Bookmark& bookmark);
+  Snapshot snapshot() const;
+  void return_to(const Snapshot& snapshot);
 
   /// Answers in the picture's units: radiance over reflectance (3 floats per point) or transmittance of
   /// occlusion rays (1). Negative answers and those that are not finite become zero; returns the number of
@@ -82,32 +83,32 @@ class CacheSession {
   const CacheSetup& setup() const { return setup_; }
   std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
-  /// Whether a device of its own computes what the model answers.
+  /// Whether the model runs on a separate device.
   bool on_device() const { return trainer_->backend().runs_alongside(); }
   /// Rays of scouting and training, of this rank.
   RayCounts rays() const;
   /// Paths of training that this rank has traced.
   std::uint64_t paths_of_rank() const { return paths_of_rank_; }
-  /// Bytes of the records that this rank gave to others.
+  /// Bytes of the records that this rank sent to others.
   std::uint64_t record_bytes() const { return record_bytes_; }
   /// All statistics of the cache except those of rendering.
   const CacheStatistics& statistics() const { return statistics_; }
 
  private:
-  /// The records of some steps on their way.
+  /// A group of steps whose records are being traced, exchanged or learned.
   struct Group {
     RecordRequest request;
     RecordBatch records;
     RankWork work;   ///< of this rank
-    RayCounts rays;  ///< the same
-    std::unique_ptr<Ranks::Gathering> coming;
+    RayCounts rays;  ///< of this rank
+    std::unique_ptr<Ranks::AllGather> coming;
     std::uint64_t steps() const { return request.batches; }
     std::uint64_t samples() const { return records.starts.samples.size(); }
   };
   RecordRequest request(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample) const;
   void trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
   void finish(Group& group);
-  /// With the records of all ranks.
+  /// Trains with the records of all ranks.
   void learn_from(Group& group, const Watch& watch);
   void learn(const RecordBatch& group, std::uint64_t batch);
   void look_at_answers(const RecordBatch& group);
@@ -126,7 +127,7 @@ class CacheSession {
   std::unique_ptr<RecordSource> records_;
   std::uint64_t steps_ = 0;
   std::uint64_t samples_ = 0;
-  std::uint64_t steps_under_way_ = 0;  ///< of steps_: given to a device, not finished
+  std::uint64_t steps_under_way_ = 0;  ///< part of steps_: submitted to a device, not finished
   TriangleCounts counts_;
   TrainingGuard guard_;
   std::vector<double> last_losses_;

@@ -1,6 +1,6 @@
 #pragma once
-// The state of a cache: what was decided before the first step, and what training has changed. Checkpoints
-// and cache files store it.
+// The state of a cache: the setup, which is fixed before the first step, and the results of training.
+// Checkpoints and cache files store it.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace gatelight::renderer {
 /// At most 64 paths are traced for one record.
 inline constexpr float kLeastRecordsPerPath = 1.0f / 64.0f;
 
-/// Found by scouting. Decides the layout of the features and the scale of targets.
+/// Results of scouting. They decide the layout of the features and the scale of targets.
 struct CacheSetup {
   std::vector<neural::Sides> sides;     ///< which sides of each instance of the scene have storage
   float node_spacing = 0.1f;            ///< metres; of the layout before any memory budget
@@ -28,7 +28,7 @@ struct CacheState {
   CacheSetup setup;
   neural::ModelState model;
   std::uint64_t steps = 0;    ///< of this training; keys the next step's random numbers
-  std::uint64_t samples = 0;  ///< of the picture that it learned from; the next ones follow in SampleOrder
+  std::uint64_t samples = 0;  ///< of the picture, used in training; the next ones follow in SampleOrder
   /// For each triangle with storage: steps that trained it or, where candidates are compared, that began a
   /// path there. Empty unless counted.
   std::vector<std::uint32_t> triangle_counts;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
+#include "base/finite_float.h"
 #include "neural/layout/mesh_colors.h"
-#include "renderer/machine/clock.h"
-#include "renderer/machine/finite_float.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -16,7 +16,7 @@ namespace {
 
 /// Tiles whose queries are answered together: enough for all threads between two barriers, and so few that
 /// the paths of two threads stay in their second-level caches (64 take 5 % less time than 256). A device
-/// wants many points at once.
+/// needs many points at once.
 int tiles_together(bool on_device) {
   constexpr int kFewest = 64, kOfThread = 8, kOfDevice = 256;
   if (on_device) return kOfDevice;
@@ -36,8 +36,8 @@ Color color_of(std::uint32_t number) {
 float relative_error(const Color& answer, const Color& target, float scale) {
   const Eigen::Array3d y = answer.cast<double>() * static_cast<double>(scale);
   const Eigen::Array3d t = target.cast<double>() * static_cast<double>(scale);
-  const double luminance = static_cast<double>(scene::luminance(answer)) * static_cast<double>(scale);
-  return finite_float((y - t).square().mean() / (luminance * luminance + neural::kRelativeLossEpsilon));
+  const double y_luminance = static_cast<double>(luminance(answer)) * static_cast<double>(scale);
+  return finite_float((y - t).square().mean() / (y_luminance * y_luminance + neural::kRelativeLossEpsilon));
 }
 
 template <typename Function>
@@ -56,7 +56,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
     : world_(world),
       context_(context),
       session_(session),
-      // The view of the cache shows its answers everywhere, even where it has never learned.
+      // The view of the cache shows its answers everywhere, even where it was not trained.
       stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
       paths_(world, cached_paths_options(context.options), stored_),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
@@ -141,7 +141,7 @@ void CachedPass::finish_paths(Tile& tile) const {
   tile.radiance.resize(tile.samples.size());
   const std::span<const float> answers =
       std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
-  if (plan_.guides && !tile.first_hits.empty()) tile.paths.tell_guides(answers, tile.first_hits);
+  if (plan_.guides && !tile.first_hits.empty()) tile.paths.write_guides(answers, tile.first_hits);
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {
     // Paths without a record or an answer are black.

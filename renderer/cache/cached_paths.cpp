@@ -10,18 +10,18 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Where the cache answers the wide lobes, the narrow ones are followed with a probability of this times the
-/// square root of their throughput. What the camera sees in a varnish of 4 % is always followed once and
-/// rarely twice: one ray and one query cost less than the noise of leaving them out. After a wide bounce it
-/// is noise among more.
-constexpr Roulette kSeenNarrow{5.0f, 1.0f}, kLaterNarrow{1.5f, 1.0f};
+/// Where the cache answers the wide lobes, the narrow ones are followed with a probability of this factor
+/// times the square root of their throughput. A reflection that is visible in a varnish of 4 % is always
+/// followed once and rarely twice: one ray and one query cost less than the noise of leaving them out. After
+/// a wide bounce other noise is larger.
+constexpr Roulette kPrimaryNarrow{5.0f, 1.0f}, kLaterNarrow{1.5f, 1.0f};
 
 const Roulette& narrow_roulette(const PathPlan& plan) {
-  return plan.query_at == QueryAt::primary ? kSeenNarrow : kLaterNarrow;
+  return plan.query_at == QueryAt::primary ? kPrimaryNarrow : kLaterNarrow;
 }
 
 /// Light at a vertex is summed up in units of the path's start. With hundreds of nested media between the
-/// two, single precision does not hold both, and the vertex makes no record.
+/// two, single precision cannot represent both, and the vertex makes no record.
 constexpr float kLeastScale = 1e-20f;
 
 }  // namespace
@@ -52,7 +52,7 @@ CachedPaths::BlockKind CachedPaths::kind_of_end(const SurfaceMaterial& m) const 
   return has_wide ? kSplits : kScatters;
 }
 
-bool CachedPaths::may_teach(const Path& path, const PathPlan& plan) const {
+bool CachedPaths::may_record(const Path& path, const PathPlan& plan) const {
   return plan.records && (plan.most_records == kNone || path.records < plan.most_records);
 }
 
@@ -83,26 +83,26 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatc
     return;
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
-  from.known += path.links.emission * emission;
-  if (from.record != kNone && options_.held.emission())
-    batch.target(from.record) += path.links.held * emission;
+  from.direct += path.links.emission * emission;
+  if (from.record != kNone && options_.cached.emission())
+    batch.target(from.record) += path.links.cached * emission;
 }
 
-void CachedPaths::add_light(const Path& path, const Meeting& m, const Bsdf& bsdf, LightKinds kinds,
+void CachedPaths::add_light(const Path& path, const SurfaceInteraction& m, const Bsdf& bsdf, LightKinds kinds,
                             const Bsdf* wide, std::int32_t vertex, Scratch& scratch) const {
-  const LightAt at = path.light_at(walk_, m, bsdf, kinds);
+  const NeeSample at = path.sample_light(walk_, m, bsdf, kinds);
   const float weight = at.weight * path.scale();
   const Color direct = at.value.value * at.light.radiance * weight;
   if (!(direct > 0.0f).any()) return;
-  Color held = Color::Zero();
-  Color apart = Color::Zero();
-  const bool holds = options_.held.light_sample(at.light.delta);
+  Color cached = Color::Zero();
+  Color separate = Color::Zero();
+  const bool holds = options_.cached.light_sample(at.light.delta);
   if (wide && (holds || at.light.delta)) {
-    (holds ? held : apart) =
+    (holds ? cached : separate) =
         wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
   }
   scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
-  scratch.pending.push_back({vertex, direct, held, apart});
+  scratch.pending.push_back({vertex, direct, cached, separate});
 }
 
 PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit,
@@ -110,15 +110,15 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
   if (!hit || path.looks_through(walk_, hit)) {
-    if (first) leave_guide(path, *first);
+    if (first) record_background(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
     add_emission(path, sky, batch);
     return nullptr;
   }
-  Meeting m = path.meet(walk_, ray, hit, plan.max_depth);
+  SurfaceInteraction m = path.intersect(walk_, ray, hit, plan.max_depth);
   path.links *= m.passed;
   if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
-  if (first) meet_guide(path, m, *first);
+  if (first) record_guide(path, m, *first);
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;
 
@@ -136,7 +136,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   const bool has_storage = stored_(neural::surface_index(hit.instance, side));
   if (path.shades_wide(m)) {
     const BlockKind kind = has_storage && ends_here(path, plan) ? kind_of_end(m.surface.material) : kScatters;
-    if (kind == kScatters || options_.held.emission()) {
+    if (kind == kScatters || options_.cached.emission()) {
       PathBlock& block = scratch.blocks[kind];
       // Where a path splits, Russian roulette applies at every depth (narrow_roulette).
       path.wait(m, number, kind == kScatters ? plan.min_depth : path.depth, block);
@@ -146,16 +146,16 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   const Bsdf& bsdf = m.set_up_bsdf();
   if (first) set_albedo(path, bsdf.albedo(), *first);
   if (path.emission_only) {
-    std::optional<Drawn> drawn = path.draw(m, bsdf);
-    if (drawn && path.survives(plan.min_depth, *drawn) &&
-        advance(path, m, *drawn, {drawn->weight, drawn->weight}, kNone))
+    std::optional<DirectionSample> sampled = path.sample_bsdf(m, bsdf);
+    if (sampled && path.survives(plan.min_depth, *sampled) &&
+        advance(path, m, *sampled, {sampled->weight, sampled->weight}, kNone))
       scratch.go_on(number, ray);
     return nullptr;
   }
   const bool wide = bsdf.has_wide(options_.min_roughness);
   const bool ends = wide && ends_here(path, plan);
   if (ends && !has_storage) ++batch.unstored_hits;
-  const bool teaches = wide && has_storage && may_teach(path, plan);
+  const bool teaches = wide && has_storage && may_record(path, plan);
   if (ends && has_storage ? answer(path, m, side, plan, batch, scratch)
                           : continue_from(path, m, side, teaches, plan, batch, scratch))
     scratch.go_on(number, ray);
@@ -168,7 +168,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   const bool goes_on = &block == &scratch.blocks[kScatters], splits = &block == &scratch.blocks[kSplits];
   if (goes_on) {
     walk_.shading.scatter(points);
-  } else if (delta_apart_) {
+  } else if (separate_delta_) {
     walk_.shading.delta_light(points);
   } else if (splits) {
     walk_.shading.scatter_narrow(points, narrow_roulette(plan));
@@ -188,17 +188,17 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     vertices[lane] = ask(path, point, batch);
     const bool guides = seeks_guide(path, batch);
     if (guides) set_guide(path, point, true, vertices[lane], batch);
-    if (delta_apart_) add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
+    if (separate_delta_) add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
   }
   if (!splits) return;
-  if (delta_apart_) walk_.shading.scatter_narrow(points, narrow_roulette(plan));
+  if (separate_delta_) walk_.shading.scatter_narrow(points, narrow_roulette(plan));
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
-    if (!delta_apart_ || !points.light_is_delta[lane])
+    if (!separate_delta_ || !points.light_is_delta[lane])
       add_light(path, points, lane, false, false, vertices[lane], plan, scratch);
     if (!points.alive[lane]) continue;
-    const Drawn drawn = drawn_at(points, lane);
-    follow(path, block, lane, drawn, {drawn.weight, drawn.weight}, vertices[lane], scratch);
+    const DirectionSample sampled = direction_sample_at(points, lane);
+    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], scratch);
   }
 }
 
@@ -231,8 +231,8 @@ void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool st
 
 std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const {
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
-  PathVertex& v =
-      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
+  PathVertex& v = batch.vertices.emplace_back(
+      PathVertex{path.vertex, path.index, path.links.scattered, path.links.cached});
   if (!worth_caching(point.albedo)) return index;
   v.reflectance = cache_reflectance(point.albedo) * path.scale();
   v.query = static_cast<std::int32_t>(batch.queries.size());
@@ -246,8 +246,8 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
   record = record && worth_caching(point.albedo) && path.scale() > kLeastScale &&
            path.scale() < 1.0f / kLeastScale;
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
-  PathVertex& v =
-      batch.vertices.emplace_back(PathVertex{path.vertex, path.index, path.links.scattered, path.links.held});
+  PathVertex& v = batch.vertices.emplace_back(
+      PathVertex{path.vertex, path.index, path.links.scattered, path.links.cached});
   if (!record) return index;
   v.reflectance = cache_reflectance(point.albedo) * path.scale();
   v.record = static_cast<std::int32_t>(batch.records.size());
@@ -260,7 +260,7 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
   return index;
 }
 
-bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, const PathPlan& plan,
+bool CachedPaths::answer(Path& path, const SurfaceInteraction& m, std::uint32_t side, const PathPlan& plan,
                          PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.min_roughness;
   const bool has_narrow = m.bsdf->has_narrow(roughness);
@@ -273,35 +273,35 @@ bool CachedPaths::answer(Path& path, const Meeting& m, std::uint32_t side, const
   if (guides) set_guide(path, point, true, index, batch);
   const Bsdf* const wide = guides ? (part ? &*part : &*m.bsdf) : nullptr;
 
-  if (!options_.held.emission()) {
+  if (!options_.cached.emission()) {
     // All direct light of all lobes is sampled here. Indirect light of the sampled direction counts only for
     // the narrow lobes.
     add_light(path, m, *m.bsdf, LightKinds::all, wide, index, scratch);
-    const std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
-    if (!drawn) return false;
+    const std::optional<DirectionSample> sampled = path.sample_bsdf(m, *m.bsdf);
+    if (!sampled) return false;
     Color scattered = Color::Zero();
-    if (drawn->delta) {
-      scattered = drawn->weight;
+    if (sampled->delta) {
+      scattered = sampled->weight;
     } else if (has_narrow) {
-      scattered = drawn->weight_of(m.bsdf->narrow_part(roughness));
+      scattered = sampled->weight_of(m.bsdf->narrow_part(roughness));
     }
     path.emission_only = !(scattered > 0.0f).any();
-    return advance(path, m, *drawn, {drawn->weight, scattered}, index);
+    return advance(path, m, *sampled, {sampled->weight, scattered}, index);
   }
 
-  if (delta_apart_) add_light(path, m, *m.bsdf, LightKinds::delta, wide, index, scratch);
+  if (separate_delta_) add_light(path, m, *m.bsdf, LightKinds::delta, wide, index, scratch);
   if (!has_narrow) return false;
   const Bsdf narrow = m.bsdf->narrow_part(roughness);
-  add_light(path, m, narrow, delta_apart_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
-  std::optional<Drawn> drawn = path.draw(m, narrow);
-  if (!drawn) return false;
+  add_light(path, m, narrow, separate_delta_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
+  std::optional<DirectionSample> sampled = path.sample_bsdf(m, narrow);
+  if (!sampled) return false;
   const Roulette& roulette = narrow_roulette(plan);
   const float survival = std::min(roulette.most, roulette.factor * std::sqrt(path.throughput.maxCoeff()));
-  return path.survives_by(survival, *drawn) &&
-         advance(path, m, *drawn, {drawn->weight, drawn->weight}, index);
+  return path.survives_by(survival, *sampled) &&
+         advance(path, m, *sampled, {sampled->weight, sampled->weight}, index);
 }
 
-bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side, bool record,
+bool CachedPaths::continue_from(Path& path, const SurfaceInteraction& m, std::uint32_t side, bool record,
                                 const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
   const float roughness = options_.min_roughness;
   std::optional<Bsdf> part;  // a copy of a surface is not cheap
@@ -312,13 +312,13 @@ bool CachedPaths::continue_from(Path& path, const Meeting& m, std::uint32_t side
   const std::int32_t index = add_vertex(path, point, record, plan, batch);
   if (guides) set_guide(path, point, stored_(neural::surface_index(m.hit.instance, side)), index, batch);
   add_light(path, m, *m.bsdf, LightKinds::all, record || guides ? &wide : nullptr, index, scratch);
-  std::optional<Drawn> drawn = path.draw(m, *m.bsdf);
-  if (!drawn) return false;
-  if (!drawn->delta && !(drawn->spread < roughness * roughness)) path.wide_events += 1;
-  if (!path.survives(plan.min_depth, *drawn)) return false;
-  Color held = Color::Zero();
-  if (record && !drawn->delta) held = part ? drawn->weight_of(wide) : drawn->weight;
-  return advance(path, m, *drawn, {drawn->weight, drawn->weight, held}, index);
+  std::optional<DirectionSample> sampled = path.sample_bsdf(m, *m.bsdf);
+  if (!sampled) return false;
+  if (!sampled->delta && !(sampled->spread < roughness * roughness)) path.wide_events += 1;
+  if (!path.survives(plan.min_depth, *sampled)) return false;
+  Color cached = Color::Zero();
+  if (record && !sampled->delta) cached = part ? sampled->weight_of(wide) : sampled->weight;
+  return advance(path, m, *sampled, {sampled->weight, sampled->weight, cached}, index);
 }
 
 void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan,
@@ -330,17 +330,17 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   const bool stored = stored_(neural::surface_index(hit.instance, point.side));
   const bool wide = (wide_albedo > 0.0f).any();
   if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
-  bool record = stored && wide && may_teach(path, plan);
+  bool record = stored && wide && may_record(path, plan);
   const std::int32_t index = add_vertex(path, point, record, plan, batch);
   const bool guides = wide && seeks_guide(path, batch);
   if (guides) set_guide(path, point, stored, index, batch);
   add_light(path, p, lane, record, guides, index, plan, scratch);
   if (!p.alive[lane]) return;
-  const Drawn drawn = drawn_at(p, lane);
-  if (!drawn.delta && !(drawn.spread < options_.min_roughness * options_.min_roughness))
+  const DirectionSample sampled = direction_sample_at(p, lane);
+  if (!sampled.delta && !(sampled.spread < options_.min_roughness * options_.min_roughness))
     path.wide_events += 1;
-  const Color held = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
-  follow(path, block, lane, drawn, {drawn.weight, drawn.weight, held}, index, scratch);
+  const Color cached = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
+  follow(path, block, lane, sampled, {sampled.weight, sampled.weight, cached}, index, scratch);
 }
 
 void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
@@ -348,13 +348,14 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
   const Color passed = path.transmittance(walk_, p.shadow_length[lane]) * path.scale();
   const Color direct = lane_color(p.direct, lane) * passed;
   const float weight =
-      plan.faint > 0.0f
-          ? path.shadow_weight(
-                direct.maxCoeff(),
-                plan.faint * cache_reflectance(lane_color(p.wide_albedo, lane)).maxCoeff() * path.scale())
-          : path.shadow_weight((path.throughput * direct).maxCoeff(), path.faint);
+      plan.contribution_threshold > 0.0f
+          ? path.shadow_weight(direct.maxCoeff(),
+                               plan.contribution_threshold *
+                                   cache_reflectance(lane_color(p.wide_albedo, lane)).maxCoeff() *
+                                   path.scale())
+          : path.shadow_weight((path.throughput * direct).maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
-  const bool delta = p.light_is_delta[lane] != 0, holds = options_.held.light_sample(delta);
+  const bool delta = p.light_is_delta[lane] != 0, holds = options_.cached.light_sample(delta);
   const Color wide = lane_color(p.wide_direct, lane) * passed * weight;
   const Color none = Color::Zero();
   scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
@@ -362,17 +363,19 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
       {vertex, direct * weight, record && holds ? wide : none, guides && delta && !holds ? wide : none});
 }
 
-void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const Drawn& drawn, const Links& links,
-                         std::int32_t vertex, Scratch& scratch) const {
+void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
+                         const Links& links, std::int32_t vertex, Scratch& scratch) const {
   const std::uint32_t number = block.path[lane];
-  link(path, drawn, links, vertex);
+  link(path, sampled, links, vertex);
   Ray next;
-  if (path.Walker::advance(block, lane, drawn, scratch.hits[number].t, next)) scratch.go_on(number, next);
+  if (path.PathState::advance(block, lane, sampled, scratch.hits[number].t, next))
+    scratch.go_on(number, next);
 }
 
-void CachedPaths::link(Path& path, const Drawn& drawn, const Links& links, std::int32_t vertex) const {
-  if (drawn.through_pane) {
-    // Light from behind the pane belongs to the vertex before the pane, whose light samples saw it too.
+void CachedPaths::link(Path& path, const DirectionSample& sampled, const Links& links,
+                       std::int32_t vertex) const {
+  if (sampled.through_pane) {
+    // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
     path.links *= links.emission;
   } else {
     path.vertex = vertex;
@@ -380,10 +383,10 @@ void CachedPaths::link(Path& path, const Drawn& drawn, const Links& links, std::
   }
 }
 
-bool CachedPaths::advance(Path& path, const Meeting& m, const Drawn& drawn, const Links& links,
-                          std::int32_t vertex) const {
-  link(path, drawn, links, vertex);
-  return path.Walker::advance(walk_, m, drawn);
+bool CachedPaths::advance(Path& path, const SurfaceInteraction& m, const DirectionSample& sampled,
+                          const Links& links, std::int32_t vertex) const {
+  link(path, sampled, links, vertex);
+  return path.PathState::advance(walk_, m, sampled);
 }
 
 void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,
@@ -407,10 +410,10 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
       [&](PathBlock& block) { shade(block, plan, batch, first_hits, scratch); },
       [&](const Pending& light, const Color& transmittance) {
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
-        v.known += light.direct * transmittance;
-        if (v.record != kNone) batch.target(v.record) += light.held * transmittance;
+        v.direct += light.direct * transmittance;
+        if (v.record != kNone) batch.target(v.record) += light.cached * transmittance;
         if (!batch.guides.empty() && batch.guides[v.path].vertex == light.vertex)
-          batch.guides[v.path].apart += light.apart * transmittance;
+          batch.guides[v.path].separate += light.separate * transmittance;
       });
 }
 

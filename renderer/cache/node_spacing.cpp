@@ -10,11 +10,11 @@ namespace {
 constexpr int kLeastExponent = -7;
 constexpr int kGreatestExponent = 3;
 
-/// Nodes of an instance for each point on it. This is a hundred times what a wholly visible instance needs;
-/// it keeps a facade beside the camera from taking all memory.
+/// Largest number of nodes of an instance for each point on it. This is a hundred times what a wholly visible
+/// instance needs; it keeps a facade beside the camera from taking all memory.
 constexpr double kMostNodes = 3.0;
 
-/// Zero where there are no values.
+/// The median of the values; zero where there are none.
 float median(std::vector<float> values) {
   if (values.empty()) return 0.0f;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -30,18 +30,18 @@ bool is_width(float width) {
 
 NodeSpacing PixelWidths::spacing(float pixels, std::span<const double> areas) const {
   std::vector<float> all;
-  for (const auto* widths : {&seen_, &met_}) {
+  for (const auto* widths : {&camera_, &bounce_}) {
     for (const std::vector<float>& of_instance : *widths)
       all.insert(all.end(), of_instance.begin(), of_instance.end());
     if (!all.empty()) break;
   }
   NodeSpacing result;
-  result.scales.assign(seen_.size(), 1.0f);
+  result.scales.assign(camera_.size(), 1.0f);
   const float typical = median(std::move(all));
   if (!is_width(typical)) return result;
   result.spacing = pixels * typical;
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    const std::vector<float>& points = seen_[i].empty() ? met_[i] : seen_[i];
+  for (std::size_t i = 0; i < camera_.size(); ++i) {
+    const std::vector<float>& points = camera_[i].empty() ? bounce_[i] : camera_[i];
     const float width = median(points);
     if (!is_width(width)) continue;
     const double least = std::sqrt(areas[i] / (kMostNodes * static_cast<double>(points.size())));

@@ -18,12 +18,12 @@ struct NodeSpacing {
 /// Widths of a pixel on the instances of a scene.
 class PixelWidths {
  public:
-  explicit PixelWidths(std::size_t instances) : seen_(instances), met_(instances) {}
+  explicit PixelWidths(std::size_t instances) : camera_(instances), bounce_(instances) {}
 
-  /// A point that the camera sees, straight or through panes.
-  void add_seen(std::uint32_t instance, float pixel_width) { seen_[instance].push_back(pixel_width); }
+  /// A point that the camera sees, directly or through panes.
+  void add_camera(std::uint32_t instance, float pixel_width) { camera_[instance].push_back(pixel_width); }
   /// A vertex of a path; used for instances that the camera does not see.
-  void add_met(std::uint32_t instance, float pixel_width) { met_[instance].push_back(pixel_width); }
+  void add_met(std::uint32_t instance, float pixel_width) { bounce_[instance].push_back(pixel_width); }
 
   /// The spacing of an instance is `pixels` times the median width of a pixel on it, rounded to the overall
   /// spacing times a power of two. So paths begin about equally often in each of its patches, at any
@@ -33,7 +33,7 @@ class PixelWidths {
   NodeSpacing spacing(float pixels, std::span<const double> areas) const;
 
  private:
-  std::vector<std::vector<float>> seen_, met_;
+  std::vector<std::vector<float>> camera_, bounce_;
 };
 
 }  // namespace gatelight::renderer

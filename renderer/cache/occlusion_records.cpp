@@ -53,7 +53,7 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
       rays.add(surface, start, distance_, targets.size() - 1);
     }
     rays.trace(world_, counts, [&](std::size_t record, const Color& open) {
-      targets[record] += scene::luminance(open) / static_cast<float>(times);
+      targets[record] += luminance(open) / static_cast<float>(times);
     });
     const std::lock_guard lock(mutex);
     rays_.add(counts);

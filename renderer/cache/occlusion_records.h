@@ -1,5 +1,5 @@
 #pragma once
-// Records of ambient occlusion at training points: what AoIntegrator estimates, with one or more rays per
+// Records of ambient occlusion at training points: the estimate of AoIntegrator, with one or more rays per
 // point.
 
 #include "renderer/cache/cache_state.h"

@@ -25,8 +25,8 @@ void PathBatch::begin(std::size_t paths) {
   unstored_hits = 0;
 }
 
-void PathBatch::tell_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const {
-  // Emission that mirrors and glass before the surface show, or without such a surface all that they show.
+void PathBatch::write_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const {
+  // The last vertex of each path before its guide, or of the whole path without a guide.
   std::vector<std::int32_t> last(paths(), kNone);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const PathVertex& v = vertices[i];
@@ -38,7 +38,7 @@ void PathBatch::tell_guides(std::span<const float> answers, std::span<FirstHit> 
     std::int32_t at = last[p];
     Color light = Color::Zero();
     if (guide.vertex != kNone) {
-      light = guide.apart;
+      light = guide.separate;
       if (guide.query != kNone) light += guide.reflectance * color_at(answers, guide.query);
       const PathVertex& v = vertices[static_cast<std::size_t>(guide.vertex)];
       light *= v.link;
@@ -46,7 +46,7 @@ void PathBatch::tell_guides(std::span<const float> answers, std::span<FirstHit> 
     }
     while (at != kNone) {
       const PathVertex& v = vertices[static_cast<std::size_t>(at)];
-      light = v.link * (v.known + light);
+      light = v.link * (v.direct + light);
       at = v.previous;
     }
     FirstHit& first = first_hits[p];
@@ -60,15 +60,15 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
   for (std::size_t i = vertices.size(); i-- > 0;) {
     const PathVertex& v = vertices[i];
     if (v.record != kNone) target(v.record) /= v.reflectance;
-    Color reflected = v.known;
+    Color reflected = v.direct;
     if (v.query != kNone) reflected += v.reflectance * color_at(answers, v.query);
     if (v.previous == kNone) {
       if (!radiance.empty()) radiance[v.path] += v.link * reflected;
       continue;
     }
     PathVertex& previous = vertices[static_cast<std::size_t>(v.previous)];
-    previous.known += v.link * reflected;
-    if (previous.record != kNone) target(previous.record) += v.held_link * reflected;
+    previous.direct += v.link * reflected;
+    if (previous.record != kNone) target(previous.record) += v.cached_link * reflected;
   }
 }
 

@@ -13,8 +13,9 @@ namespace {
 /// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
 constexpr int kEndless = 1000;
 
-/// PathPlan::faint over the mean target. The error of what is learned does not show it (transport/README.md).
-constexpr float kFaintShare = 0.3f;
+/// PathPlan::contribution_threshold over the mean target. It does not change the error of the trained cache
+/// (transport/README.md).
+constexpr float kThresholdShare = 0.3f;
 
 }  // namespace
 
@@ -27,8 +28,9 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
 RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,
                                        std::uint64_t records) const {
   const int start = options_.cache.self_training.start_step;
-  RecordRequest request{
-      .step = step, .target_scale = setup.target_scale, .faint = kFaintShare / setup.target_scale};
+  RecordRequest request{.step = step,
+                        .target_scale = setup.target_scale,
+                        .contribution_threshold = kThresholdShare / setup.target_scale};
   request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
   request.samples = options_.cache.source == TrainingSource::picture &&
                     step >= static_cast<std::uint64_t>(options_.cache.samples_from_step);
@@ -62,7 +64,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
   plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;
-  plan.faint = request.faint;
+  plan.contribution_threshold = request.contribution_threshold;
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());
   tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
@@ -106,7 +108,7 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
       const std::size_t first = batch.starts.offsets[b];
       radiance = std::span(batch.radiance).subspan(first, batch.paths[b].paths());
       if (guides_)
-        batch.paths[b].tell_guides(answers, std::span(batch.first_hits).subspan(first, radiance.size()));
+        batch.paths[b].write_guides(answers, std::span(batch.first_hits).subspan(first, radiance.size()));
     }
     batch.paths[b].resolve(answers, radiance);
     const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
@@ -115,7 +117,7 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   if (samples) end_samples(answer, batch);
 }
 
-/// The picture's samples end in the cache where its other samples will.
+/// Ends the picture's samples in the cache, at the same vertices as its other samples.
 void RadianceRecords::end_samples(const AnswerPoints& answer, RecordBatch& batch) const {
   const std::vector<std::size_t> offsets =
       offsets_of(batch.paths, [](const PathBatch& p) { return p.count_ends(); });

@@ -30,7 +30,7 @@ class RadianceRecords : public RecordSource {
   const TrainingPoints& points_;
   const RenderOptions& options_;
   PointInputs inputs_;
-  bool guides_ = false;  ///< samples of the picture tell what the cache alone gives
+  bool guides_ = false;  ///< samples of the picture write the cache's own radiance (PathPlan::guides)
   struct Worker {
     CachedPaths::Scratch scratch;
     RayCounts rays;

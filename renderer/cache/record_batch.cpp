@@ -29,18 +29,18 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTil
   keep_first(counts.located);
 }
 
-void RecordBatch::deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs) {
+void RecordBatch::split(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs) {
   const std::vector<std::size_t> offsets =
       offsets_of(paths, [](const PathBatch& p) { return p.records.size(); });
-  dealing = Dealing(offsets.back(), request.most_records, request.batches);
+  batch_split = BatchSplit(offsets.back(), request.most_records, request.batches);
   if (records.inputs() != inputs) records = SurfacePoints(inputs);
-  records.resize(dealing.kept());
-  targets.resize(outputs * dealing.kept());
+  records.resize(batch_split.kept());
+  targets.resize(outputs * batch_split.kept());
   tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t b) {
     for (std::size_t i = 0; i < paths[b].records.size(); ++i) {
       const std::size_t record = offsets[b] + i;
-      if (!dealing.keeps(record)) continue;
-      const std::size_t at = dealing.place(record);
+      if (!batch_split.keeps(record)) continue;
+      const std::size_t at = batch_split.place(record);
       records.copy(paths[b].records, i, 1, at);
       for (std::size_t o = 0; o < outputs; ++o)
         targets[outputs * at + o] = paths[b].targets[outputs * i + o] * request.target_scale;

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 #include "renderer/film/film_samples.h"
@@ -19,12 +19,12 @@ namespace gatelight::renderer {
 
 struct CacheSetup;
 
-/// Deals records to batches. Of n records at most `most` (0: all) are kept, evenly spread. They go to the
-/// batches in turn, so that each batch has records from the whole picture.
-class Dealing {
+/// Splits records into batches. Of n records at most `most` (0: all) are kept, evenly spread. They are
+/// assigned to the batches round-robin, so that each batch has records from the whole picture.
+class BatchSplit {
  public:
-  Dealing() = default;
-  Dealing(std::uint64_t n, std::uint64_t most, std::uint64_t batches)
+  BatchSplit() = default;
+  BatchSplit(std::uint64_t n, std::uint64_t most, std::uint64_t batches)
       : n_(n), most_(most > 0 && most < n ? most : n), batches_(batches) {}
   std::uint64_t kept() const { return most_; }
   std::uint64_t batches() const { return batches_; }
@@ -53,16 +53,16 @@ struct RecordRequest {
   bool samples = false;            ///< the points are samples of the picture
   std::uint64_t first_sample = 0;  ///< the first of them, in SampleOrder
   std::size_t points = 0;          ///< training points
-  std::size_t most_records = 0;    ///< more are thinned out evenly; 0: all are kept
+  std::size_t most_records = 0;    ///< limit; excess records are left out evenly; 0: all are kept
   std::uint64_t batches = 1;       ///< one for each step
   bool self_training = false;
   float target_scale = 1.0f;
-  float faint = 0.0f;                     ///< PathPlan::faint
-  std::span<const std::uint32_t> counts;  ///< of training, for each triangle with storage; may be empty
-  const RankTiles* ranks = nullptr;       ///< that share the work
+  float contribution_threshold = 0.0f;    ///< PathPlan::contribution_threshold
+  std::span<const std::uint32_t> counts;  ///< training steps of each triangle with storage; may be empty
+  const RankTiles* ranks = nullptr;       ///< the ranks that share the work
 };
 
-/// Where each block begins in an array of the points of all blocks; the last entry is their number.
+/// The start of each block in an array of the points of all blocks; the last entry is their number.
 template <typename Size>
 std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size size) {
   std::vector<std::size_t> offsets(blocks.size() + 1, 0);
@@ -73,22 +73,22 @@ std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size s
 /// Records of one or more batches.
 struct RecordBatch {
   TrainingStarts starts;
-  /// Of the starts that are the picture's samples; else empty.
+  /// First hits and radiance of starts that are the picture's samples; else empty.
   std::vector<FirstHit> first_hits;
   std::vector<Color> radiance;
   std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
-  SurfacePoints queries;         ///< of all blocks: where paths ended in the cache
+  SurfacePoints queries;         ///< of all blocks, where paths end in the cache
   std::vector<float> answers;
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
-  Dealing dealing;           ///< of `records`
-  std::vector<int> tracers;  ///< of blocks, where several ranks share them; else empty
+  BatchSplit batch_split;    ///< of `records`
+  std::vector<int> tracers;  ///< rank of each block where several ranks share them; else empty
   int self = 0;              ///< this rank
 
   neural::TrainingBatch batch(std::uint64_t m) const {
-    const std::uint64_t begin = dealing.begin(m);
-    const std::uint64_t size = dealing.begin(m + 1) - begin;
+    const std::uint64_t begin = batch_split.begin(m);
+    const std::uint64_t size = batch_split.begin(m + 1) - begin;
     const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
     return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
   }
@@ -96,11 +96,11 @@ struct RecordBatch {
   bool mine(std::size_t block) const { return tracers.empty() || tracers[block] == self; }
   /// Adds the starts that are the picture's samples to its film: all, or those of the rank's own pixels.
   void add_to(Film& film, const RenderOptions& options, const RankTiles* ranks, SampleCounts& counts) const;
-  /// Deals the records of all `paths` to the batches, with `outputs` targets each, times the request's scale.
-  void deal(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
+  /// Splits the records of all `paths` into batches, with `outputs` targets each, times the request's scale.
+  void split(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
 };
 
-/// The number of points that make about so many records.
+/// The number of points that make about `records` records.
 inline std::size_t points_for(double records, double records_per_point) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(records / records_per_point)));
 }
@@ -115,14 +115,14 @@ struct AnswerUnits {
 using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
 
 /// Makes records in two parts, so that tracing can overlap with the training of the steps before: trace()
-/// does not use the cache, finish() queries it. Both work on the rank's own blocks. Then the caller deals the
-/// records. Gives the same bits for any number of threads.
+/// does not use the cache, finish() queries it. Both work on the rank's own blocks. Then the caller splits
+/// the records into batches. Gives the same bits for any number of threads.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
   /// A request for about `records` records, from `step` on. The caller sets most_records, batches and counts.
   virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
-  /// The units of answers of a cache that learned these records.
+  /// The units of answers of a cache that is trained with these records.
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual std::size_t outputs() const = 0;  ///< targets of a record
   virtual const PointInputs& inputs() const = 0;
@@ -130,9 +130,9 @@ class RecordSource {
   virtual void finish(const AnswerPoints& answer, RecordBatch& batch) = 0;
   virtual RayCounts rays() const = 0;
 
-  /// Deals the records of all blocks to the batches.
-  void deal(const RecordRequest& request, RecordBatch& batch) const {
-    batch.deal(request, inputs(), outputs());
+  /// Splits the records of all blocks into batches.
+  void split(const RecordRequest& request, RecordBatch& batch) const {
+    batch.split(request, inputs(), outputs());
   }
 };
 

@@ -1,6 +1,6 @@
 #include "renderer/cache/record_exchange.h"
 
-#include "renderer/ranks/packing.h"
+#include "renderer/distributed/packing.h"
 
 namespace gatelight::renderer {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The records of a group of steps, of which each rank traces its share.
+// Exchanges the records of a group of steps, of which each rank traces a share.
 
 #include <vector>
 
@@ -8,15 +8,14 @@
 
 namespace gatelight::renderer {
 
-/// Says which rank traces which block of the starts: the owner of its first pixel, or for points that are no
-/// samples of the picture, ranks in turn by their shares.
+/// Assigns each block of the starts to a rank: to the owner of its first pixel, or by the shares of the ranks
+/// where the points are no samples of the picture.
 void choose_tracers(RecordBatch& batch, const RankTiles& ranks);
 
-/// What this rank has traced, for all ranks: its records, the samples that belong to pixels of others, and
-/// how much work it was.
+/// Packs the results of this rank for all ranks: its records, its samples of pixels of others, and its work.
 Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankWork& work);
 
-/// Completes `batch` by what all ranks sent. Returns the work of each.
+/// Completes `batch` by the results of all ranks. Returns the work of each.
 std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTiles& ranks,
                                      RecordBatch& batch);
 

@@ -11,7 +11,7 @@ WeldedMeshes::WeldedMeshes(const scene::Scene& scene)
   tbb::parallel_for(std::size_t{0}, scene.meshes.size(), [&](std::size_t i) {
     const scene::Mesh& mesh = scene.meshes[i];
     positions_[i].reserve(mesh.positions.size());
-    for (const scene::Vec3& p : mesh.positions) positions_[i].push_back({p.x(), p.y(), p.z()});
+    for (const Vec3& p : mesh.positions) positions_[i].push_back({p.x(), p.y(), p.z()});
     const std::vector<std::uint32_t> welded = neural::weld_vertices(positions_[i]);
     triangles_[i].reserve(mesh.triangles.size());
     for (const std::array<std::uint32_t, 3>& t : mesh.triangles)
@@ -41,7 +41,7 @@ neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& i
   return instance.mirrors ? neural::Sides::back : neural::Sides::front;
 }
 
-std::uint32_t seen_surface(const scene::Scene& scene, const Hit& hit, const Vec3& direction) {
+std::uint32_t surface_of_hit(const scene::Scene& scene, const Hit& hit, const Vec3& direction) {
   const scene::Instance& instance = scene.instances[hit.instance];
   const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
   return neural::surface_index(hit.instance, side_of(front, instance.mirrors));

@@ -27,7 +27,7 @@ class WeldedMeshes {
 neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& instance);
 
 /// The surface (neural::surface_index) that a ray in `direction` hit.
-std::uint32_t seen_surface(const scene::Scene& scene, const Hit& hit, const Vec3& direction);
+std::uint32_t surface_of_hit(const scene::Scene& scene, const Hit& hit, const Vec3& direction);
 
 inline bool has_side(neural::Sides sides, std::uint32_t side) {
   return ((static_cast<unsigned>(sides) >> side) & 1u) != 0;

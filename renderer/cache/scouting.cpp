@@ -9,20 +9,20 @@
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
-#include "renderer/ranks/packing.h"
+#include "renderer/distributed/packing.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Paths that are followed to their ends, and additional camera rays. An object of a thousandth of the
-/// picture is missed by the former with a probability of 1e-14.
+/// Numbers of paths that are followed to their ends, and of additional camera rays. An object of a thousandth
+/// of the picture is missed by the former with a probability of 1e-14.
 constexpr std::size_t kPaths = std::size_t{1} << 15;
 constexpr std::size_t kCameraRays = std::size_t{1} << 17;
 /// No training step has this number, so scouting has random numbers of its own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
-/// Node spacing over the height of the picture (README.md, "What a scene requires"). Occlusion is sharper
-/// than radiance and cheaper to learn.
+/// Node spacing over the height of the picture (README.md, "Scene requirements"). Occlusion is sharper than
+/// radiance and cheaper to learn.
 constexpr float kRadianceSpacing = 0.03f;
 constexpr float kOcclusionSpacing = 0.015f;
 
@@ -75,111 +75,147 @@ void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
   met[surface / 2] = static_cast<std::uint8_t>(met[surface / 2] | (1u << (surface % 2)));
 }
 
+/// The surfaces that scouting paths hit, and the width of pixels there.
+struct Scouted {
+  std::vector<std::uint8_t> sides;  ///< bits of the sides of each instance
+  PixelWidths widths;
+
+  explicit Scouted(std::size_t instances) : sides(instances, 0), widths(instances) {}
+};
+
+/// The options of scouting: plain paths from camera rays.
+RenderOptions plain_options(const RenderOptions& options) {
+  RenderOptions plain = options;
+  plain.cache.source = TrainingSource::camera;
+  plain.cache.candidates = 1;
+  plain.cache.samples_per_point = 1;
+  return plain;
+}
+
+/// Returns the records of a camera ray: the share that hits a surface.
+float scout_camera_rays(const World& world, const TrainingPoints& points, RayCounts& rays, Scouted& scouted) {
+  TrainingStarts starts;
+  points.choose(kStep, kCameraRays, true, {}, starts, rays);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < starts.starts.size(); ++i) {
+    const Hit& hit = starts.hits[i];
+    if (!hit) continue;
+    const CameraRay& camera_ray = starts.starts[i].sample.camera_ray;
+    mark(scouted.sides, surface_of_hit(world.scene, hit, camera_ray.ray.direction));
+    scouted.widths.add_camera(hit.instance, camera_ray.cone.width + camera_ray.cone.spread * hit.t);
+    ++hits;
+  }
+  return records_per_path(static_cast<double>(hits), static_cast<double>(starts.starts.size()));
+}
+
+/// Numbers of records: of all paths, and of paths that end after the vertices of self-training.
+struct RecordCounts {
+  double all = 0.0;
+  double few = 0.0;
+};
+
+RecordCounts count_records(const RecordBatch& batch, int vertices, const RankTiles* ranks) {
+  RecordCounts counts;
+  for (const PathBatch& block : batch.paths) {
+    for (const int n : records_by_path(block)) {
+      counts.all += n;
+      counts.few += std::min(n, vertices);
+    }
+  }
+  if (ranks) {  // the numbers are integers, so their sums are exact
+    counts.all = sum_of_all(ranks->ranks, counts.all);
+    counts.few = sum_of_all(ranks->ranks, counts.few);
+  }
+  return counts;
+}
+
+void scout_paths(const World& world, const Camera& camera, const RenderOptions& options,
+                 const TrainingPoints& points, const RankTiles* ranks, ScoutReport& report,
+                 Scouted& scouted) {
+  const RenderOptions plain = plain_options(options);
+  const StoredSurfaces everything;
+  const CachedPaths paths(world, cached_paths_options(plain), everything);
+  PointInputs inputs;
+  inputs.positions = true;
+  RadianceRecords records(paths, points, plain, inputs);
+  RecordBatch batch;
+  const RecordRequest request{.step = kStep - 1, .points = kPaths, .ranks = ranks};
+  records.trace(request, batch);
+  records.finish({}, batch);
+  if (ranks) {
+    Bytes mine = pack_records(batch, *ranks, {});
+    unpack_records(ranks->ranks.gather(std::move(mine)), *ranks, batch);
+  }
+  records.split(request, batch);
+  report.rays.add(records.rays());
+
+  const RecordCounts counts = count_records(batch, options.cache.self_training.vertices, ranks);
+  const CameraRay eye =
+      camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
+  std::vector<double> luminances;
+  for (std::size_t i = 0; i < batch.records.size(); ++i) {
+    mark(scouted.sides, batch.records.surface(i));
+    const double l = static_cast<double>(luminance(Color(Eigen::Map<const Color>(&batch.targets[3 * i]))));
+    if (std::isfinite(l)) luminances.push_back(l);
+    const Eigen::Map<const Vec3> position(batch.records.batch().positions[i].data());
+    const float distance = (position - eye.ray.origin).norm();
+    scouted.widths.add_met(batch.records.surface(i) / 2, eye.cone.width + eye.cone.spread * distance);
+  }
+  const double traced = static_cast<double>(batch.paths_traced);
+  const double full = static_cast<double>(options.cache.self_training.full_fraction);
+  report.setup.records_per_path = records_per_path(counts.all, traced);
+  report.setup.records_per_short_path =
+      records_per_path(full * counts.all + (1.0 - full) * counts.few, traced);
+  const double mean = robust_mean(luminances);
+  if (mean > 0.0) report.setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
+}
+
+/// The sides of an instance that get storage; `hit`: those that scouting paths hit.
+neural::Sides stored_sides(const scene::Scene& scene, const scene::Instance& instance, unsigned hit,
+                           bool scouted) {
+  const auto possible = static_cast<unsigned>(possible_sides(scene, instance));
+  if (!scouted) return static_cast<neural::Sides>(possible);
+  // A back that materials do not distinguish from the front shares its storage.
+  const bool shares = hit != 0 && (hit & possible) == 0;
+  return static_cast<neural::Sides>(shares ? possible : hit & possible);
+}
+
+void choose_spacing(const scene::Scene& scene, const RenderOptions& options, const Scouted& scouted,
+                    CacheSetup& setup) {
+  const float of_height = options.integrator == Integrator::nao ? kOcclusionSpacing : kRadianceSpacing;
+  NodeSpacing found = scouted.widths.spacing(of_height * static_cast<float>(options.height), areas_of(scene));
+  if (options.cache.node_spacing) {
+    // The given spacing applies to all instances.
+    found.spacing = *options.cache.node_spacing;
+    std::fill(found.scales.begin(), found.scales.end(), 1.0f);
+  }
+  const float diagonal = scene.bounds.isEmpty() ? 1.0f : scene.bounds.diagonal().norm();
+  setup.node_spacing = found.spacing > 0.0f ? found.spacing : std::max(0.01f * diagonal, 1e-30f);
+  setup.spacing_scales = std::move(found.scales);
+}
+
 }  // namespace
 
 ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
                   const RenderOptions& options, const RankTiles* ranks) {
   ScoutReport report;
   const scene::Scene& scene = world.scene;
-  RenderOptions plain = options;
-  plain.cache.source = TrainingSource::camera;
-  plain.cache.candidates = 1;
-  plain.cache.samples_per_point = 1;
-  const StoredSurfaces everything;
+  const RenderOptions plain = plain_options(options);
   const TrainingPoints points(world, camera, region, plain, {}, nullptr);
-  std::vector<std::uint8_t> met(scene.instances.size(), 0);
-  PixelWidths widths(scene.instances.size());
-  std::size_t hits = 0;
-
-  TrainingStarts starts;
-  points.choose(kStep, kCameraRays, true, {}, starts, report.rays);
+  Scouted scouted(scene.instances.size());
+  const float records_per_ray = scout_camera_rays(world, points, report.rays, scouted);
   if (ranks && !ranks->ranks.first()) report.rays = {};  // all ranks trace them
-  for (std::size_t i = 0; i < starts.starts.size(); ++i) {
-    const Hit& hit = starts.hits[i];
-    if (!hit) continue;
-    const Ray& ray = starts.starts[i].sample.camera_ray.ray;
-    mark(met, seen_surface(scene, hit, ray.direction));
-    const RayCone& cone = starts.starts[i].sample.camera_ray.cone;
-    widths.add_seen(hit.instance, cone.width + cone.spread * hit.t);
-    ++hits;
-  }
-
   if (options.integrator == Integrator::nrc) {
-    const CachedPaths paths(world, cached_paths_options(plain), everything);
-    PointInputs inputs;
-    inputs.positions = true;
-    RadianceRecords records(paths, points, plain, inputs);
-    RecordBatch batch;
-    const RecordRequest request{.step = kStep - 1, .points = kPaths, .ranks = ranks};
-    records.trace(request, batch);
-    records.finish({}, batch);
-    if (ranks) {
-      Bytes mine = pack_records(batch, *ranks, {});
-      unpack_records(ranks->ranks.gather(std::move(mine)), *ranks, batch);
-    }
-    records.deal(request, batch);
-    report.rays.add(records.rays());
-
-    double all = 0.0;
-    double few = 0.0;
-    std::vector<double> luminances;
-    for (const PathBatch& block : batch.paths) {
-      for (const int n : records_by_path(block)) {
-        all += n;
-        few += std::min(n, options.cache.self_training.vertices);
-      }
-    }
-    if (ranks) {  // the numbers are whole, so their sums are exact
-      all = sum_of_all(ranks->ranks, all);
-      few = sum_of_all(ranks->ranks, few);
-    }
-    for (std::size_t i = 0; i < batch.records.size(); ++i) {
-      mark(met, batch.records.surface(i));
-      const Color target = Eigen::Map<const Color>(&batch.targets[3 * i]);
-      const double l = static_cast<double>(scene::luminance(target));
-      if (!std::isfinite(l)) continue;
-      luminances.push_back(l);
-    }
-    const CameraRay eye =
-        camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
-    for (std::size_t i = 0; i < batch.records.size(); ++i) {
-      const Eigen::Map<const Vec3> position(batch.records.batch().positions[i].data());
-      const float distance = (position - eye.ray.origin).norm();
-      widths.add_met(batch.records.surface(i) / 2, eye.cone.width + eye.cone.spread * distance);
-    }
-    const double traced = static_cast<double>(batch.paths_traced);
-    const double full = static_cast<double>(options.cache.self_training.full_fraction);
-    report.setup.records_per_path = records_per_path(all, traced);
-    report.setup.records_per_short_path = records_per_path(full * all + (1.0 - full) * few, traced);
-    const double mean = robust_mean(luminances);
-    if (mean > 0.0) report.setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
+    scout_paths(world, camera, options, points, ranks, report, scouted);
   } else {
-    report.setup.records_per_path =
-        records_per_path(static_cast<double>(hits), static_cast<double>(starts.starts.size()));
-    report.setup.records_per_short_path = report.setup.records_per_path;
+    report.setup.records_per_path = records_per_ray;
+    report.setup.records_per_short_path = records_per_ray;
   }
-
-  report.setup.sides.resize(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const auto possible = static_cast<unsigned>(possible_sides(scene, scene.instances[i]));
-    unsigned sides = possible;
-    if (options.cache.scout) {
-      sides = met[i] & possible;
-      // A back that materials do not distinguish from the front shares its storage.
-      if (met[i] != 0 && sides == 0) sides = possible;
-    }
-    report.setup.sides[i] = static_cast<neural::Sides>(sides);
+    report.setup.sides.push_back(
+        stored_sides(scene, scene.instances[i], scouted.sides[i], options.cache.scout));
   }
-  const float of_height = options.integrator == Integrator::nao ? kOcclusionSpacing : kRadianceSpacing;
-  NodeSpacing found = widths.spacing(of_height * static_cast<float>(options.height), areas_of(scene));
-  if (options.cache.node_spacing) {
-    // The given spacing holds for all instances.
-    found.spacing = *options.cache.node_spacing;
-    std::fill(found.scales.begin(), found.scales.end(), 1.0f);
-  }
-  const float diagonal = scene.bounds.isEmpty() ? 1.0f : scene.bounds.diagonal().norm();
-  report.setup.node_spacing = found.spacing > 0.0f ? found.spacing : std::max(0.01f * diagonal, 1e-30f);
-  report.setup.spacing_scales = std::move(found.scales);
+  choose_spacing(scene, options, scouted, report.setup);
   return report;
 }
 

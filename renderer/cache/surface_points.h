@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "neural/base/batch.h"
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
-#include "renderer/ranks/packing.h"
+#include "renderer/distributed/packing.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 
@@ -30,13 +30,13 @@ constexpr std::uint32_t side_of(bool front, bool mirrors) {
   return front != mirrors ? 0u : 1u;
 }
 
-/// A point with all that a model may read.
+/// A point with all inputs that a model may read.
 struct SurfacePoint {
   const Hit& hit;
   std::uint32_t side;  ///< 0 or 1
   Vec3 wo;             ///< unit, away from the surface, in world space
   Vec3 position;
-  Vec3 normal;  ///< that of shading
+  Vec3 normal;  ///< shading normal
   Color albedo;
   float roughness;
 };
@@ -58,9 +58,9 @@ class SurfacePoints {
 
   void push_back(const SurfacePoint& point);
 
-  /// All points, for another rank.
+  /// Packs all points, for another rank.
   void pack(Packer& packer) const;
-  /// Replaces all points by so many.
+  /// Replaces all points by `size` unpacked ones.
   void unpack(Unpacker& unpacker, std::size_t size);
 
   /// Copies `count` points of another with the same inputs: from its `begin` to our `at`. Ranges that do not
@@ -74,7 +74,7 @@ class SurfacePoints {
   /// Whether point i equals point j of `other`, up to rounding.
   bool same_point(std::size_t i, const SurfacePoints& other, std::size_t j) const;
 
-  /// Valid until the next change. The second: `count` points from `begin` on.
+  /// A view of all points, or of `count` points from `begin` on. Valid until the next change.
   neural::QueryBatch batch() const { return batch(0, size_); }
   neural::QueryBatch batch(std::size_t begin, std::size_t count) const;
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/errors.h"
 #include "neural/learning/record_status.h"
-#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -16,14 +16,15 @@ namespace {
 // raise one step's loss a thousandfold; so the mean is slow, and a step counts for at most ten times the
 // mean. Losses below kFloor may vary freely.
 constexpr double kDecay = 0.995;
-constexpr std::uint64_t kFirstLooked = 200;  ///< steps of this run; another camera or batch has another loss
+/// First step of this run that is checked: another camera or batch has another loss.
+constexpr std::uint64_t kFirstLooked = 200;
 constexpr double kFactor = 10.0;
 constexpr double kFloor = 1e-2;
 
-// Bounds that training which learns anything stays within, checked between groups: answers 100 times as
-// bright as any group's targets, and a loss 130 times that of the constant answer 1. (Answers of zero where
-// rare light of t arrives reach 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) The loss alone is
-// not enough: the relative loss tends to one for unbounded answers.
+// Bounds that only diverged training exceeds, checked between groups: answers 100 times as bright as any
+// group's targets, and a loss 130 times that of the constant answer 1. (Answers of zero where rare light of t
+// arrives reach 101 t^2 / (t - 1)^2, as the relative loss divides by 0.01.) The loss by itself is not enough:
+// the relative loss tends to one for unbounded answers.
 constexpr double kGreatestBrightness = 100.0;
 constexpr double kGreatestLoss = 130.0;
 /// A state is good where the running mean is within this factor of its least value, and the group's mean

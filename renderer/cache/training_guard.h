@@ -11,9 +11,9 @@ namespace gatelight::renderer {
 
 /// Running statistics of training. Both functions throw TrainingDiverged.
 struct TrainingGuard {
-  double loss_average = 0.0;  ///< a slow mean
+  double loss_average = 0.0;  ///< slow running mean of the loss
   double loss_least = 0.0;    ///< least value of loss_average
-  std::uint64_t steps = 0;    ///< seen by look_at_loss()
+  std::uint64_t steps = 0;    ///< passed to look_at_loss()
   double group_loss = 0.0;    ///< sum over the steps since look_at_answers()
   std::uint64_t group_steps = 0;
   double brightest = 1.0;        ///< greatest mean magnitude of a group's targets
@@ -24,8 +24,8 @@ struct TrainingGuard {
   void look_at_loss(const neural::StepStatistics& step, std::uint64_t number);
   /// Largest number of points that look_at_answers() queries.
   static constexpr std::size_t kLookedAt = 1024;
-  /// Call it between groups, after `steps_done` steps. Throws for losses and answers beyond what training can
-  /// reach. `targets` are those of the group, `some` are some of its points.
+  /// Call it between groups, after `steps_done` steps. Throws for losses and answers that only diverged
+  /// training reaches. `targets` are those of the group, `some` are some of its points.
   void look_at_answers(std::span<const float> targets, const neural::QueryBatch& some,
                        const neural::Trainer& trainer, std::uint64_t steps_done);
 };

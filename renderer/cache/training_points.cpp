@@ -110,7 +110,7 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
   });
   result.starts.resize(count);
   result.samples.resize(count);
-  // Samples of one pixel stay in one block: they are added to the film in turn.
+  // Samples of one pixel stay in one block: they are added to the film in order.
   constexpr std::size_t kBlock = kTile * kTile;
   result.offsets.assign(1, 0);
   for (std::size_t end = 0; end < count;) {
@@ -214,7 +214,7 @@ void TrainingPoints::trace(TrainingStarts& result, const std::function<bool(std:
 }
 
 std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direction) const {
-  const neural::GateSurface& s = layout_->surfaces[seen_surface(world_.scene, hit, direction)];
+  const neural::GateSurface& s = layout_->surfaces[surface_of_hit(world_.scene, hit, direction)];
   return s.triangle_count > 0 ? s.first_triangle + hit.primitive : kNoTriangle;
 }
 
@@ -237,7 +237,7 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
     for (std::size_t c = 0; c < most; ++c) {
       random = hash(random + 0x9e3779b9u);
       const auto place = static_cast<std::size_t>((std::uint64_t{random} * size) >> 32);
-      // A triangle without storage is never counted, so it would always win.
+      // A triangle without storage is never counted, so it would always be chosen.
       if (numbers[place] == kNoTriangle) continue;
       candidates.push_back(numbers[place]);
       places.push_back(place);

@@ -22,18 +22,18 @@ struct TrainingStarts {
   std::vector<PathStart> starts;
   std::vector<Hit> hits;  ///< of the starts' rays; empty where they are not traced yet
   std::vector<std::size_t> offsets;
-  std::vector<PixelSample> samples;  ///< that the starts are, where they are samples of the picture
+  std::vector<PixelSample> samples;  ///< of the starts, where they are samples of the picture; else empty
 
   std::size_t blocks() const { return offsets.size() - 1; }
 };
 
-/// Samples of the picture, points of it that are stratified anew each step, or points on surfaces. Samples of
-/// the picture have their own random numbers; those of other points are keyed by (seed, step, start,
-/// dimension).
+/// Chooses the starts: samples of the picture, points of it that are stratified anew each step, or points on
+/// surfaces. Samples of the picture have their own random numbers; those of other points are keyed by (seed,
+/// step, start, dimension).
 class TrainingPoints {
  public:
-  /// World, camera, options and layout must outlive it. sides: those of each instance that have storage.
-  /// layout: of the features; null for a hash grid.
+  /// World, camera, options and layout must outlive it. sides: the sides of each instance that have storage.
+  /// layout: the layout of the features; null for a hash grid.
   TrainingPoints(const World& world, const Camera& camera, const PixelRect& region,
                  const RenderOptions& options, std::span<const neural::Sides> sides,
                  const neural::GateLayout* layout);

@@ -14,7 +14,7 @@ void TriangleCounts::add(const RecordBatch& group, std::uint64_t batch, std::uin
     counted_at_[triangle] = step + 1;
     if (counts_[triangle] != ~0u) ++counts_[triangle];
   };
-  for (std::size_t i = group.dealing.begin(batch); i < group.dealing.begin(batch + 1); ++i) {
+  for (std::size_t i = group.batch_split.begin(batch); i < group.batch_split.begin(batch + 1); ++i) {
     const neural::GateSurface& surface = layout_->surfaces[group.records.surface(i)];
     if (surface.triangle_count > 0) count(surface.first_triangle + group.records.triangle(i));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// How many steps have trained each triangle with storage.
+// Counts the training steps of each triangle with storage.
 
 #include <cstdint>
 #include <vector>

@@ -7,8 +7,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The networks halve images several times, so what they make of a row depends on its place in blocks of
-/// these.
+/// The networks halve images several times, so the result of a row depends on its place in blocks of this
+/// many rows.
 constexpr int kAlignment = 64;
 /// Pixels of a band, with its margins, before they are scaled: some 72 bytes each.
 constexpr std::int64_t kBandPixels = std::int64_t{1} << 22;
@@ -19,7 +19,7 @@ int rows_of_band(int width, int height, const ScaleDown& scale) {
   constexpr int kMargin = RowsToDenoise().margin;
   const std::int64_t rows = kBandPixels / width;
   if (height <= rows) return height / scale.factor();
-  // No less than the margins have.
+  // At least as many rows as the margins have.
   return static_cast<int>(std::max<std::int64_t>(rows - 2 * (kMargin + scale.reach()), 2 * kMargin)) /
          scale.factor();
 }

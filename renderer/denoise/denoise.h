@@ -39,8 +39,8 @@ std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPi
                                          const RowsToDenoise& rows, const FilterOptions& options,
                                          const ScaleDown& scale, const DenoiseProgress& progress = {});
 
-/// The rows of the scaled picture that denoise() takes at a time, to bound memory. `width` and `height`: of
-/// the picture before scaling.
+/// The rows of the scaled picture that denoise() takes at a time, to bound memory. `width` and `height` are
+/// those of the picture before scaling.
 int rows_of_band(int width, int height, const ScaleDown& scale);
 
 /// All rows, with exposure_of() the picture as FilterOptions::scale.

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "renderer/machine/clock.h"
+#include "base/clock.h"
 
 namespace gatelight::renderer {
 namespace {
 
 /// Large enough that the time grows with the pixels.
 constexpr int kEdge = 256;
-/// What comes on top: the estimate of the error, scaling, and memory that is touched for the first time.
+/// Factor for the estimate of the error, scaling, and memory that is touched for the first time.
 constexpr double kMore = 1.4;
 
 NoisyImage image_of_noise(int width, int height) {

@@ -1,5 +1,5 @@
 #pragma once
-// How long the denoiser takes on this machine.
+// Measures the denoiser's time on this machine.
 
 #include "renderer/denoise/denoiser.h"
 #include "renderer/settings/denoise_options.h"

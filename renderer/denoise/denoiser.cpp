@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -21,7 +21,7 @@ struct Progress {
   const DenoiseProgress& report;
   double begin;
   double end;
-  bool cancelled = false;  ///< the library finishes what is nearly done, and says so
+  bool cancelled = false;  ///< the library may still finish, and report success
 };
 
 bool monitor(void* user, double done) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
 
@@ -34,13 +34,13 @@ struct FilterOptions {
 /// Called with the share that is done, in [0, 1]; false cancels.
 using DenoiseProgress = std::function<bool(double done)>;
 
-/// Runs what denoises. Returns why it could not, where the denoiser or memory failed; else an empty text.
+/// Runs a function that denoises. Returns the reason where the denoiser or memory failed, else an empty text.
 std::string failure_to_denoise(const std::function<void()>& run);
 
 class Denoiser {
  public:
-  /// `threads`: as many as filters use. memory_limit_bytes: of a filter, at the cost of time; 0: the
-  /// library's own. The library must outlive the object. Throws MissingDenoiser.
+  /// Filters use `threads` threads. `memory_limit_bytes` limits the memory of a filter, at the cost of time;
+  /// 0: the library's own limit. The library must outlive the object. Throws MissingDenoiser.
   Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes = 0);
 
   /// Replaces colours and alpha by denoised ones, and the guides by denoised ones if they are filtered. Alpha
@@ -50,7 +50,7 @@ class Denoiser {
   bool filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress = {}) const;
 
  private:
-  /// 3 floats a pixel, which are replaced.
+  /// Filters `color`, 3 floats a pixel, in place.
   bool filter_plane(std::vector<float>& color, NoisyImage& guides, const FilterOptions& options,
                     const DenoiseProgress& progress, double begin, double end) const;
   bool filter_alpha(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress,

@@ -48,14 +48,14 @@ const Layer* find_layer(const Picture& picture, std::initializer_list<const char
 
 const Layer* named_layer(const Picture& picture, const std::string& name) {
   if (const Layer* const layer = picture.find(name)) return layer;
-  throw ImageError(fmt::format("has no layer '{}'", name));
+  throw InputError(fmt::format("has no layer '{}'", name));
 }
 
 std::vector<float> values_of(const Layer& layer, std::size_t channels) {
   const std::size_t has = layer.channels.size();
   // A fourth channel is alpha.
   if (has != channels && !(channels == 3 && has == 4)) {
-    throw ImageError(
+    throw InputError(
         fmt::format("has {} channels in its layer '{}', expected {}", has, layer.name, channels));
   }
   std::vector<float> values;
@@ -153,7 +153,7 @@ Samples samples_of(const Picture& picture, const LayerNames& names) {
   const Layer* const albedo = find(names.albedo, {"denoising albedo", "albedo"});
   const Layer* const normal = find(names.normal, {"denoising normal", "normal", "n"});
   if (!albedo != !normal) {
-    throw ImageError(fmt::format("has the layer '{}' but no {}, expected both or none",
+    throw InputError(fmt::format("has the layer '{}' but no {}, expected both or none",
                                  (albedo ? albedo : normal)->name, albedo ? "normals" : "albedo"));
   }
   Samples samples{1, picture.width, picture.height, values_of(*color, 3)};

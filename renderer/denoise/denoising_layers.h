@@ -1,5 +1,5 @@
 #pragma once
-// What a denoiser reads, as layers of a picture.
+// Writes and reads a denoiser's inputs as layers of a picture.
 
 #include <optional>
 #include <string>
@@ -20,7 +20,7 @@ bool is_denoising_layer(const std::string& name);
 
 /// The samples of a picture.
 struct Samples {
-  int factor = 1;  ///< of their size over that of the picture
+  int factor = 1;  ///< their size over that of the picture
   int width = 0;
   int height = 0;
   std::vector<float> color, albedo, normal;  ///< 3 floats a pixel; without guides the last two are empty
@@ -39,9 +39,9 @@ struct LayerNames {
 
 /// Reads the layers of add_denoising_layers(), or where there are none, those that other renderers write for
 /// a denoiser: colour "Noisy Image" (Blender), "raw", "Combined" or the beauty; albedo "Denoising Albedo" or
-/// "albedo"; normal "Denoising Normal", "normal" or "N". Capitals do not count, nor what stands before the
-/// last dot. Values that are not finite become 0. Throws ImageError, without the file's name, for a layer
-/// that was named and is not there, one without three channels, and one guide without the other.
+/// "albedo"; normal "Denoising Normal", "normal" or "N". Case and all before the last dot are ignored. Values
+/// that are not finite become 0. Throws InputError, without the file's name, for a named layer that is
+/// missing, one without three channels, and one guide without the other.
 Samples samples_of(const Picture& picture, const LayerNames& names = {});
 
 }  // namespace gatelight::renderer

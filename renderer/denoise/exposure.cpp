@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -21,7 +21,7 @@ void add_bins(const std::vector<float>& color, int width, int height, std::vecto
         for (int x = left; x < std::min(left + kBin, width); ++x, ++pixels) {
           const float* const c = &color[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                              static_cast<std::size_t>(x))];
-          sum += static_cast<double>(scene::luminance({c[0], c[1], c[2]}));
+          sum += static_cast<double>(luminance({c[0], c[1], c[2]}));
         }
       }
       means.push_back(sum / pixels);

@@ -1,5 +1,5 @@
 #pragma once
-// How bright a picture is, for a filter that wants to know.
+// Measures the brightness of a picture, for the input scale of a filter.
 
 #include <functional>
 #include <vector>
@@ -10,7 +10,8 @@ namespace gatelight::renderer {
 using ReadRows = std::function<std::vector<float>(int first, int end)>;
 
 /// The factor by which the geometric mean of a picture's luminance becomes 0.18, over bins of 16x16 pixels
-/// that are not black; 1 where all are. Open Image Denoise chooses its input scale so where none is given.
+/// that are not black; 1 where all are. Open Image Denoise chooses its input scale in this way where none is
+/// given.
 float exposure_of(int width, int height, const ReadRows& color);
 
 }  // namespace gatelight::renderer

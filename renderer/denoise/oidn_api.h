@@ -1,7 +1,7 @@
 #pragma once
-// What is called of Open Image Denoise 2 (Apache-2.0, Intel), which is loaded at run time. Names, types and
-// values are those of its C interface, "OpenImageDenoise/oidn.h", which is stable within version 2 and
-// described in "Open Image Denoise API" of its documentation.
+// The functions that are called of Open Image Denoise 2 (Apache-2.0, Intel), which is loaded at run time.
+// Names, types and values are those of its C interface, "OpenImageDenoise/oidn.h", which is stable within
+// version 2 and described in "Open Image Denoise API" of its documentation.
 
 #include <cstddef>
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -44,7 +44,7 @@ std::vector<fs::path> cache_folders() {
   return folders;
 }
 
-/// What to give to the loader, in the order in which it is tried.
+/// Files for the loader, in the order in which they are tried.
 std::vector<fs::path> candidates(const std::string& place) {
   std::error_code error;
   if (!place.empty()) {
@@ -94,7 +94,7 @@ oidn::Api resolve_api(void* library, const fs::path& file) {
   return api;
 }
 
-/// The version as a device tells it; a device that cannot be made is another reason to refuse.
+/// The version that a device reports. Throws MissingDenoiser for another version, or without a device.
 std::string version_of(const oidn::Api& api, const fs::path& file) {
   const std::unique_ptr<oidn::DeviceHandle, void (*)(oidn::Device)> device(api.NewDevice(oidn::kCpuDevice),
                                                                            api.ReleaseDevice);

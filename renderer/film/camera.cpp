@@ -9,13 +9,13 @@ namespace gatelight::renderer {
 namespace {
 
 /// Uniform on a regular polygon with corners on the unit circle, one of them at the top.
-scene::Vec2 polygon_point(const scene::Vec2& u, int corners) {
+Vec2 polygon_point(const Vec2& u, int corners) {
   const auto count = static_cast<float>(corners);
   const float scaled = std::min(u.x() * count, std::nextafter(count, 0.0f));
   const float side = std::floor(scaled);
   const auto corner = [&](float k) {
-    const float angle = 0.5f * scene::kPi + 2.0f * scene::kPi * k / count;
-    return scene::Vec2(std::cos(angle), std::sin(angle));
+    const float angle = 0.5f * kPi + 2.0f * kPi * k / count;
+    return Vec2(std::cos(angle), std::sin(angle));
   };
   // Uniform in the triangle of the middle and two corners.
   const float root = std::sqrt(scaled - side);
@@ -45,7 +45,7 @@ Camera::Camera(const View& view, int width, int height)
   corner_ = unit_up_ * half_height - unit_right_ * half_width;
   const float pixel = 2.0f * half_height / height_;
   if (panorama_) {
-    cone_ = {0.0f, scene::kPi / height_};
+    cone_ = {0.0f, kPi / height_};
   } else if (orthographic_) {
     corner_ += origin_;
     cone_ = {pixel, 0.0f};
@@ -57,7 +57,7 @@ Camera::Camera(const View& view, int width, int height)
 
 CameraRay Camera::panorama_ray(float x, float y) const {
   // The filter may reach beyond the poles.
-  const float azimuth = (x / width_ - 0.5f) * 2.0f * scene::kPi, polar = y / height_ * scene::kPi;
+  const float azimuth = (x / width_ - 0.5f) * 2.0f * kPi, polar = y / height_ * kPi;
   const float level = std::sin(polar);
   CameraRay result;
   result.ray.origin = origin_;
@@ -78,10 +78,9 @@ CameraRay Camera::ray(float x, float y) const {
   return result;
 }
 
-CameraRay Camera::ray(float x, float y, const scene::Vec2& lens) const {
+CameraRay Camera::ray(float x, float y, const Vec2& lens) const {
   if (!has_lens()) return ray(x, y);
-  const scene::Vec2 p =
-      lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : sample_concentric_disk(lens));
+  const Vec2 p = lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : sample_concentric_disk(lens));
   const Vec3 offset = p.x() * unit_right_ + p.y() * unit_up_;
   CameraRay result;
   result.ray.origin = origin_ + offset;

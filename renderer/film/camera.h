@@ -22,11 +22,11 @@ class Camera {
   bool has_lens() const { return lens_radius_ > 0.0f && focus_distance_ > 0.0f; }
   /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
   /// lens; that of a pinhole is ignored.
-  CameraRay ray(float x, float y, const scene::Vec2& lens) const;
+  CameraRay ray(float x, float y, const Vec2& lens) const;
   /// The ray through the middle of the lens.
   CameraRay ray(float x, float y) const;
 
-  /// For points in the file's coordinates, whose origin is at -`origin`. A panorama has none.
+  /// The matrices for points in the file's coordinates, whose origin is at -`origin`. A panorama has none.
   std::optional<ViewMatrices> matrices(const Vec3& origin) const;
 
  private:

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/errors.h"
+#include "base/nearest_word.h"
 #include "renderer/film/framing.h"
-#include "renderer/machine/errors.h"
-#include "scene/nearest_word.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -17,22 +17,22 @@ namespace {
 /// distances would leave single precision.
 constexpr float kFurthest = 1e12f;
 
-/// Millimetres across the wider side of the picture, as of a full-frame film.
+/// Millimetres across the wider side of the picture, as on full-frame film.
 constexpr float kSensor = 36.0f;
 
 /// Computed in double, because the square of a float may overflow or become zero.
-scene::Affine look_at(const LookAt& view) {
+Affine look_at(const LookAt& view) {
   using Eigen::Vector3d;
   const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
   if (!(z.squaredNorm() > 0.0))
-    throw BadOption("--eye and --target are the same point; expected two different ones");
+    throw BadOption("`eye` and `target` are the same point; expected two different ones");
   const Vector3d back = z.normalized();
   const Vector3d up = view.up.cast<double>();
   Vector3d x = up.cross(back);
   // For a view along `up`, any perpendicular vector can be the right one.
   if (!(x.squaredNorm() > 1e-12 * up.squaredNorm())) x = back.unitOrthogonal();
   x.normalize();
-  scene::Affine transform = scene::Affine::Identity();
+  Affine transform = Affine::Identity();
   transform.linear().col(0) = x.cast<float>();
   transform.linear().col(1) = back.cross(x).cast<float>();
   transform.linear().col(2) = back.cast<float>();
@@ -58,7 +58,7 @@ std::string meant(const scene::Scene& scene, const std::string& name) {
     names.push_back(camera.name);
     names.push_back(camera.node);
   }
-  return scene::did_you_mean(name, names);
+  return did_you_mean(name, names);
 }
 
 /// A name of a camera wins over that of a node, both win over an index.
@@ -69,21 +69,21 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::string& na
     const auto found = std::find_if(cameras.begin(), cameras.end(), has_name);
     if (found == cameras.end()) continue;
     if (std::find_if(found + 1, cameras.end(), has_name) != cameras.end())
-      throw BadOption(fmt::format("--camera {}: several cameras in {} have this name; {}", name, scene.path,
+      throw BadOption(fmt::format("`camera` {}: several cameras in {} have this name; {}", name, scene.path,
                                   names_of(scene)));
     return *found;
   }
   std::size_t index = cameras.size();
   const char* const end = name.data() + name.size();
   if (std::from_chars(name.data(), end, index).ptr != end || index >= cameras.size())
-    throw BadOption(fmt::format("--camera {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
+    throw BadOption(fmt::format("`camera` {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
                                 meant(scene, name)));
   return cameras[index];
 }
 
 /// Throws BadOption for a camera that is too far away or shows too much. `named` describes it in the message.
 void require_near(const scene::Camera& camera, float aspect, const std::string& named) {
-  const scene::Vec3 eye = camera.transform.translation();
+  const Vec3 eye = camera.transform.translation();
   if (!(eye.cwiseAbs().maxCoeff() <= kFurthest)) {
     throw BadOption(fmt::format("{} is at ({:g}, {:g}, {:g}), expected coordinates of at most {:g} m", named,
                                 eye.x(), eye.y(), eye.z(), kFurthest));
@@ -111,7 +111,7 @@ scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& option
 
 /// The vertical field of view that the options set, in radians; 0: none.
 float chosen_fov(const CameraOptions& options, float aspect) {
-  if (options.fov_degrees) return *options.fov_degrees * scene::kPi / 180.0f;
+  if (options.fov_degrees) return *options.fov_degrees * kPi / 180.0f;
   if (!options.focal_mm) return 0.0f;
   return 2.0f * std::atan(0.5f * kSensor / (*options.focal_mm * std::max(1.0f, aspect)));
 }
@@ -125,10 +125,10 @@ void project(const scene::Scene& scene, const CameraOptions& options, View& view
   const bool has_angle = !view.orthographic && options.projection != Projection::panorama;
   if (!has_angle && (options.fov_degrees || options.focal_mm))
     throw BadOption(fmt::format("{}: the view is {}, expected a perspective one",
-                                options.fov_degrees ? "--fov" : "--lens",
+                                options.fov_degrees ? "`fov`" : "`lens`",
                                 view.orthographic ? "orthographic" : "a panorama"));
   if (options.projection == Projection::orthographic && !view.orthographic) {
-    // As large as the perspective shows the subject.
+    // The subject is as large as in the perspective view.
     view.half_height = distance_to_subject(scene, options, view) * std::tan(0.5f * view.vertical_fov);
     view.half_width = 0.0f;
   }
@@ -137,37 +137,36 @@ void project(const scene::Scene& scene, const CameraOptions& options, View& view
   view.panorama = options.projection == Projection::panorama;
   if (!options.view_height) return;
   if (!view.orthographic)
-    throw BadOption("--view-height: the view is not orthographic, expected --projection orthographic");
+    throw BadOption("`view-height`: the view is not orthographic, expected `projection` orthographic");
   view.half_height = 0.5f * *options.view_height;
 }
 
-scene::Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
-  scene::Box box;
-  for (const scene::Vec3& p : scene.mesh_of(instance).positions)
-    box.extend(scene::Vec3(instance.transform * p));
+Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
+  Box box;
+  for (const Vec3& p : scene.mesh_of(instance).positions) box.extend(Vec3(instance.transform * p));
   return box;
 }
 
-/// Metres along the view.
+/// The focus distance in metres along the view direction; 0 if `focus` is empty.
 float focus_distance(const scene::Scene& scene, const std::string& focus, const View& view) {
   if (focus.empty()) return 0.0f;
   float distance = 0.0f;
   const char* const end = focus.data() + focus.size();
   if (std::from_chars(focus.data(), end, distance).ptr != end) {
-    scene::Box box;
+    Box box;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
     }
     if (box.isEmpty())
-      throw BadOption(fmt::format("--focus {}: no object of {} has this name, expected one or metres", focus,
+      throw BadOption(fmt::format("`focus` {}: no object of {} has this name, expected one or metres", focus,
                                   scene.path));
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
     if (!(distance > 0.0f))
-      throw BadOption(fmt::format("--focus {}: it is behind the camera '{}'", focus, view.name));
+      throw BadOption(fmt::format("`focus` {}: it is behind the camera '{}'", focus, view.name));
   }
   if (!(distance > 0.0f && distance <= kFurthest))
     throw BadOption(
-        fmt::format("--focus {}: expected a node, or metres above 0 and at most {:g}", focus, kFurthest));
+        fmt::format("`focus` {}: expected a node, or metres above 0 and at most {:g}", focus, kFurthest));
   return distance;
 }
 
@@ -175,7 +174,7 @@ void set_lens(const scene::Scene& scene, const LensOptions& lens, float aspect, 
   const bool any = lens.aperture > 0.0f || lens.f_stop > 0.0f;
   if (!any) return;
   if (view.orthographic || view.panorama)
-    throw BadOption("--aperture: the view has no lens, expected --projection perspective");
+    throw BadOption("`aperture`: the view has no lens, expected `projection` perspective");
   // The focal length that shows this field of view on a sensor of 36 mm.
   const float focal = 0.5e-3f * kSensor / (std::tan(0.5f * view.vertical_fov) * std::max(1.0f, aspect));
   view.lens_radius = 0.5f * (lens.f_stop > 0.0f ? focal / lens.f_stop : lens.aperture);
@@ -191,7 +190,7 @@ View choose_camera(const scene::Scene& scene, const CameraOptions& options, floa
   if (fov > 0.0f) view.vertical_fov = fov;
   project(scene, options, view);
   require_near(view, aspect,
-               options.look_at ? "--eye" : fmt::format("the camera '{}' of {}", view.name, scene.path));
+               options.look_at ? "`eye`" : fmt::format("the camera '{}' of {}", view.name, scene.path));
   set_lens(scene, options.lens, aspect, view);
   return view;
 }

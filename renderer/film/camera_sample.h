@@ -15,7 +15,7 @@ struct CameraSample {
   Sampler sampler;
   std::uint32_t seed = 0;  ///< a hash of (seed, pixel, sample), for decisions that need no low discrepancy
   /// A light sample that adds less radiance than this is traced by Russian roulette. 0: all are traced.
-  float faint = 0.0f;
+  float contribution_threshold = 0.0f;
 
   /// The camera's ray.
   Ray ray() const {
@@ -25,12 +25,12 @@ struct CameraSample {
   }
 };
 
-/// The first surface that is neither a mirror nor clear, for the denoiser: behind mirrors and glass the
-/// primary hit tells nothing of the picture. It is the last one that was met where there is none.
+/// The first surface on the path that is neither a mirror nor clear, for the denoiser: a primary hit on a
+/// mirror or glass does not describe the picture. If there is none, it is the last surface on the path.
 struct GuideSurface {
   bool hit = false;
   std::int32_t surface = -1;       ///< its number on the path
-  Color tint{1.0f, 1.0f, 1.0f};    ///< of those before it
+  Color tint{1.0f, 1.0f, 1.0f};    ///< of the surfaces before it
   Color albedo{0.0f, 0.0f, 0.0f};  ///< times the tint
   Vec3 normal = Vec3::Zero();
 };
@@ -38,7 +38,7 @@ struct GuideSurface {
 /// The surface at the primary hit, for the output variables.
 struct FirstHit {
   bool hit = false;
-  float alpha = 1.0f;  ///< 1 less what of the background is seen
+  float alpha = 1.0f;  ///< 1 minus the visible share of the background
   Color albedo{0.0f, 0.0f, 0.0f};
   Vec3 normal = Vec3::Zero();
   Vec3 position = Vec3::Zero();
@@ -46,8 +46,8 @@ struct FirstHit {
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
   GuideSurface guide;
-  bool guided = false;                     ///< cache_radiance is known
-  Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, as the cache alone gives it
+  bool guided = false;                     ///< cache_radiance is set
+  Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, computed only from the cache
   // These come from the first cache query of the path.
   bool asked = false;
   Color answer{0.0f, 0.0f, 0.0f};
@@ -88,7 +88,7 @@ inline constexpr std::uint32_t kLightChoice = 2;
 inline constexpr std::uint32_t kLightPoint = 3;
 }  // namespace dimension
 
-/// The camera's ray through a point of the picture. Without a lens no point of it is drawn.
+/// The camera's ray through a point of the picture. Without a lens no lens point is sampled.
 inline CameraRay camera_ray(const Camera& camera, float x, float y, const Sampler& sampler) {
   return camera.has_lens() ? camera.ray(x, y, sampler.get_2d(dimension::kLens)) : camera.ray(x, y);
 }

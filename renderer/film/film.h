@@ -8,51 +8,37 @@
 #include <vector>
 
 #include "renderer/film/camera_sample.h"
+#include "renderer/film/film_sums.h"
 #include "renderer/film/tiles.h"
 #include "renderer/image/picture.h"
 #include "renderer/image/pixel_rect.h"
-#include "renderer/ranks/packing.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
-/// The exact sums of a film, pixel after pixel. Members are empty where the film does not keep them.
-struct FilmState {
-  std::vector<double> radiance;
-  std::vector<std::uint32_t> radiance_counts;
-  std::vector<double> half;
-  std::vector<std::uint32_t> half_counts;
-  std::vector<float> guides;
-  std::vector<double> alpha;
-  std::vector<double> first;
-  std::vector<std::uint32_t> first_counts;
-  std::vector<float> first_ids;
-  std::vector<double> parts;  ///< of groups of lights
-};
-
-/// What a film keeps beside the sums of its samples.
+/// The data that a film keeps in addition to the sums of its samples.
 struct FilmContents {
   std::vector<Aov> aovs;                  ///< layers of resolve()
   bool half = false;                      ///< the mean of every other sample
   bool guides = false;                    ///< albedo and normal behind mirrors and clear glass
-  bool alpha = false;                     ///< 1 less what of the background is seen
+  bool alpha = false;                     ///< 1 minus the visible share of the background
   std::vector<std::string> light_groups;  ///< names of groups, whose parts it keeps
 };
 
-/// What these options need. A denoiser that is not chosen yet counts as one.
+/// The contents that these options need. A denoiser that is not chosen yet counts as one.
 FilmContents film_contents(const RenderOptions& options, std::vector<std::string> light_groups = {});
 
 /// Planes of a film that are no layers of resolve().
 enum class Plane : std::uint8_t {
   mean,    ///< 3 floats a pixel
-  half_a,  ///< the same of the samples with even numbers
-  half_b,  ///< of those with odd numbers
+  half_a,  ///< the mean of the samples with even numbers
+  half_b,  ///< the mean of the samples with odd numbers
   albedo,  ///< of the guides, 3 floats
   normal,  ///< the same
   alpha,   ///< 1 float
 };
 
-/// The layers of groups of lights begin with it.
+/// Prefix of the names of the layers of groups of lights.
 inline constexpr const char* kLightLayer = "light-";
 
 class Film {
@@ -60,30 +46,32 @@ class Film {
   Film(PixelRect rect, int full_width, int full_height, FilmContents contents);
 
   const PixelRect& rect() const { return rect_; }
-  std::size_t pixels() const { return radiance_.size(); }
-  /// Whether it keeps anything of primary hits.
-  bool needs_first_hits() const { return !guides_.empty() || !alpha_.empty() || !first_.empty(); }
+  std::size_t pixels() const { return sums_.radiance.size(); }
+  /// Whether it keeps data of primary hits.
+  bool needs_first_hits() const {
+    return !sums_.guides.empty() || !sums_.alpha.empty() || !sums_.first_hits.empty();
+  }
   const std::vector<std::string>& light_groups() const { return contents_.light_groups; }
 
-  /// Samples of a pixel so far, those that were dropped among them.
-  std::uint32_t taken(const Pixel& p) const { return radiance_[at(p)].taken; }
-  /// Of these, the samples that count.
-  std::uint32_t count(const Pixel& p) const { return radiance_[at(p)].count; }
-  /// Counts the pixel's next sample.
-  PixelSample take(const Pixel& p) { return {p, radiance_[at(p)].taken++}; }
+  /// Number of samples of a pixel so far, including dropped ones.
+  std::uint32_t taken(const Pixel& p) const { return sums_.radiance[at(p)].taken; }
+  /// Number of these samples that were not dropped.
+  std::uint32_t count(const Pixel& p) const { return sums_.radiance[at(p)].count; }
+  /// Returns the pixel's next sample and counts it as taken.
+  PixelSample take(const Pixel& p) { return {p, sums_.radiance[at(p)].taken++}; }
   /// The same for each pixel. Replaces `samples`.
   void take(std::span<const Pixel> pixels, std::vector<PixelSample>& samples);
 
-  /// Of samples that were taken, in the order of their numbers.
+  /// Adds a sample that was taken. The samples of a pixel come in the order of their numbers.
   void add(const PixelSample& sample, const Color& radiance);
   void add(const PixelSample& sample, const FirstHit& first);
-  /// What each group of lights gives a sample that was added, times `scale`.
+  /// Adds the light of each group, times `scale`, for a sample that was added.
   void add_parts(const Pixel& p, std::span<const Color> parts, float scale);
 
   /// The means so far, and the layers of the output variables but Aov::denoising. A pixel without samples is
   /// black. Runs in the caller's arena.
   Picture resolve() const { return resolve(rect_.y0, rect_.y1); }
-  /// The same of the rows first <= y < end.
+  /// The same for the rows first <= y < end.
   Picture resolve(int first, int end) const;
 
   /// A plane of the rows first <= y < end. The film must keep it. A pixel without samples is 0, and one
@@ -91,62 +79,28 @@ class Film {
   std::vector<float> plane(Plane plane, int first, int end) const;
   /// The layer of an output variable. Those of the primary hit need a film that keeps it.
   Layer layer(Aov aov) const { return layer(aov, {0, pixels()}); }
-  /// Mean number of samples of a pixel that count.
+  /// Mean number of samples of a pixel that were not dropped.
   double samples_per_pixel() const;
 
-  /// CameraSample::faint for a pixel's next sample: a share of its mean so far.
-  float faint(const Pixel& p) const;
+  /// CameraSample::contribution_threshold for a pixel's next sample: a share of its mean so far.
+  float contribution_threshold(const Pixel& p) const;
 
-  FilmState export_state() const;
-  /// The state comes from a film with the same size and output variables.
-  void import_state(const FilmState& state);
+  const FilmSums& sums() const { return sums_; }
+  /// `sums` has the planes of this film.
+  void set_sums(FilmSums sums);
 
   /// The exact sums of some pixels, for a film of the same kind in another process.
   void pack(std::span<const Pixel> pixels, Packer& packer) const;
-  /// Replaces those of the same pixels.
+  /// Replaces the sums of the same pixels.
   void unpack(std::span<const Pixel> pixels, Unpacker& unpacker);
 
   static std::size_t bytes_per_pixel(const FilmContents& contents);
 
  private:
-  struct Radiance {
-    std::array<double, 3> sum{};
-    std::array<double, 3> square{};
-    std::uint32_t count = 0;
-    std::uint32_t taken = 0;  ///< with those that were dropped
-  };
-  struct Half {
-    std::array<double, 3> sum{};
-    std::uint32_t count = 0;
-  };
-  /// Sums in single precision: a filter that reads them does not see their rounding.
-  struct Guide {
-    std::array<float, 3> albedo{};
-    std::array<float, 3> normal{};
-  };
-  /// What output variables show of primary hits.
-  struct First {
-    std::array<double, 3> albedo{};
-    std::array<double, 3> normal{};
-    std::array<double, 3> position{};
-    std::array<double, 3> answer{};
-    std::array<double, 3> node{};
-    std::array<double, 3> cache{};
-    double depth = 0.0;
-    double error = 0.0;
-    double training_count = 0.0;
-    double resolution = 0.0;
-    std::uint32_t count = 0;  ///< number of samples
-    std::uint32_t asked = 0;
-    std::uint32_t hits = 0;
-    std::uint32_t cached = 0;
-    float instance = -1.0f;
-    float primitive = -1.0f;
-  };
-  static void add_first(First& p, const FirstHit& first);
-  static double mean(const Radiance& p, std::size_t channel);
+  static void add_first_hit(FirstHitSum& p, const FirstHit& first);
+  static double mean(const RadianceSum& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
-  static double variance_of_mean(const Radiance& p, std::size_t channel);
+  static double variance_of_mean(const RadianceSum& p, std::size_t channel);
   double half_mean(std::size_t pixel, bool second, std::size_t channel) const;
   std::size_t at(const Pixel& p) const { return rect_.index(p.x, p.y); }
   /// Pixels in rows from the top.
@@ -160,12 +114,7 @@ class Film {
   int full_width_;
   int full_height_;
   FilmContents contents_;
-  std::vector<Radiance> radiance_;
-  std::vector<Half> half_;  ///< of the samples with even numbers; empty where it is not kept, as those below
-  std::vector<Guide> guides_;
-  std::vector<double> alpha_;
-  std::vector<First> first_;
-  std::vector<std::array<double, 3>> parts_;  ///< sums of all groups of a pixel, then those of the next
+  FilmSums sums_;
 };
 
 }  // namespace gatelight::renderer

@@ -1,4 +1,4 @@
-// The layers of a film: what its sums say, as a picture.
+// The layers of a film, computed from its sums.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/finite_float.h"
 #include "renderer/film/film.h"
-#include "renderer/machine/finite_float.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -28,89 +28,88 @@ void fill(Layer& layer, const Range& all, Value value) {
                     });
 }
 
-/// The mean of so many, or 0.
+/// The mean of `count` values with this sum, or 0.
 double over(double sum, std::uint32_t count) {
   return count > 0 ? sum / count : 0.0;
 }
+
+/// Layers that are means of primary hits. The background counts as black where samples are counted, as in the
+/// beauty layer, so edges stay soft.
+struct VectorLayer {
+  Aov aov;
+  const char* channels;
+  std::array<double, 3> FirstHitSum::*sum;
+  std::uint32_t FirstHitSum::*count;
+};
+constexpr VectorLayer kVectors[] = {
+    {Aov::albedo, "RGB", &FirstHitSum::albedo, &FirstHitSum::count},
+    {Aov::normal, "XYZ", &FirstHitSum::normal, &FirstHitSum::count},
+    {Aov::position, "XYZ", &FirstHitSum::position, &FirstHitSum::hits},
+    {Aov::cache_radiance, "RGB", &FirstHitSum::cache, &FirstHitSum::cached},
+    {Aov::cache_answer, "RGB", &FirstHitSum::answer, &FirstHitSum::count},
+    {Aov::nearest_node, "RGB", &FirstHitSum::node, &FirstHitSum::count},
+};
+struct NumberLayer {
+  Aov aov;
+  const char* channel;
+  double FirstHitSum::*sum;
+  std::uint32_t FirstHitSum::*count;
+};
+constexpr NumberLayer kNumbers[] = {
+    {Aov::depth, "Z", &FirstHitSum::depth, &FirstHitSum::hits},
+    {Aov::cache_error, "error", &FirstHitSum::error, &FirstHitSum::queried},
+    {Aov::training_count, "count", &FirstHitSum::training_count, &FirstHitSum::queried},
+    {Aov::resolution, "R", &FirstHitSum::resolution, &FirstHitSum::queried},
+};
 
 }  // namespace
 
 Layer Film::layer(Aov aov, Range range) const {
   Layer layer;
-  layer.name = word(aov);
+  layer.name = enum_name(aov);
   layer.full_precision =
       aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
   const auto fill_with = [&](std::vector<std::string> channels, auto&& value) {
     layer.channels = std::move(channels);
     fill(layer, range, value);
   };
-  // The means of first hits. The background counts as black where samples are counted, as in the beauty
-  // layer, so edges stay soft.
-  const auto fill_vector = [&](std::vector<std::string> channels, std::array<double, 3> First::*sum,
-                               std::uint32_t First::*count) {
-    fill_with(std::move(channels), [&, sum, count](std::size_t p, std::size_t i) {
-      return over((first_[p].*sum)[i], first_[p].*count);
-    });
-  };
-  const auto fill_number = [&](const char* channel, double First::*sum, std::uint32_t First::*count) {
-    fill_with({channel},
-              [&, sum, count](std::size_t p, std::size_t) { return over(first_[p].*sum, first_[p].*count); });
-  };
+  const std::vector<FirstHitSum>& first = sums_.first_hits;
+  const std::vector<RadianceSum>& radiance = sums_.radiance;
+  for (const VectorLayer& v : kVectors) {
+    if (v.aov != aov) continue;
+    fill_with({std::string(1, v.channels[0]), std::string(1, v.channels[1]), std::string(1, v.channels[2])},
+              [&](std::size_t p, std::size_t i) { return over((first[p].*v.sum)[i], first[p].*v.count); });
+  }
+  for (const NumberLayer& n : kNumbers) {
+    if (n.aov != aov) continue;
+    fill_with({n.channel},
+              [&](std::size_t p, std::size_t) { return over(first[p].*n.sum, first[p].*n.count); });
+  }
+  const std::vector<std::string> rgb = {"R", "G", "B"};
   switch (aov) {
-    case Aov::albedo:
-      fill_vector({"R", "G", "B"}, &First::albedo, &First::count);
-      break;
-    case Aov::normal:
-      fill_vector({"X", "Y", "Z"}, &First::normal, &First::count);
-      break;
-    case Aov::depth:
-      fill_number("Z", &First::depth, &First::hits);
-      break;
-    case Aov::position:
-      fill_vector({"X", "Y", "Z"}, &First::position, &First::hits);
-      break;
     case Aov::primitive_id:
-      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].primitive; });
+      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first[p].primitive; });
       break;
     case Aov::instance_id:
-      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first_[p].instance; });
-      break;
-    case Aov::cache_radiance:
-      fill_vector({"R", "G", "B"}, &First::cache, &First::cached);
-      break;
-    case Aov::cache_answer:
-      fill_vector({"R", "G", "B"}, &First::answer, &First::count);
-      break;
-    case Aov::nearest_node:
-      fill_vector({"R", "G", "B"}, &First::node, &First::count);
-      break;
-    case Aov::cache_error:
-      fill_number("error", &First::error, &First::asked);
-      break;
-    case Aov::training_count:
-      fill_number("count", &First::training_count, &First::asked);
-      break;
-    case Aov::resolution:
-      fill_number("R", &First::resolution, &First::asked);
+      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first[p].instance; });
       break;
     case Aov::alpha:
-      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(alpha_[p], radiance_[p].taken); });
+      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(sums_.alpha[p], radiance[p].taken); });
       break;
     case Aov::sample_count:
-      fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance_[p].count; });
+      fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance[p].count; });
       break;
     case Aov::variance:
-      fill_with({"R", "G", "B"},
-                [&](std::size_t p, std::size_t i) { return variance_of_mean(radiance_[p], i); });
+      fill_with(rgb, [&](std::size_t p, std::size_t i) { return variance_of_mean(radiance[p], i); });
       break;
     case Aov::raw:
-      fill_with({"R", "G", "B"}, [&](std::size_t p, std::size_t i) { return mean(radiance_[p], i); });
+      fill_with(rgb, [&](std::size_t p, std::size_t i) { return mean(radiance[p], i); });
       break;
     case Aov::error:
-      fill_with({"R", "G", "B"},
-                [&](std::size_t p, std::size_t i) { return std::sqrt(variance_of_mean(radiance_[p], i)); });
+      fill_with(rgb,
+                [&](std::size_t p, std::size_t i) { return std::sqrt(variance_of_mean(radiance[p], i)); });
       break;
-    case Aov::denoising:
+    default:
       break;
   }
   return layer;
@@ -122,7 +121,7 @@ std::vector<float> Film::plane(Plane plane, int first, int end) const {
   Layer layer{.channels = single ? std::vector<std::string>{"A"} : std::vector<std::string>{"R", "G", "B"}};
   switch (plane) {
     case Plane::mean:
-      fill(layer, range, [&](std::size_t p, std::size_t i) { return mean(radiance_[p], i); });
+      fill(layer, range, [&](std::size_t p, std::size_t i) { return mean(sums_.radiance[p], i); });
       break;
     case Plane::half_a:
     case Plane::half_b:
@@ -132,12 +131,13 @@ std::vector<float> Film::plane(Plane plane, int first, int end) const {
     case Plane::albedo:
     case Plane::normal:
       fill(layer, range, [&](std::size_t p, std::size_t i) {
-        const auto& sum = plane == Plane::albedo ? guides_[p].albedo : guides_[p].normal;
-        return over(static_cast<double>(sum[i]), radiance_[p].taken);
+        const auto& sum = plane == Plane::albedo ? sums_.guides[p].albedo : sums_.guides[p].normal;
+        return over(static_cast<double>(sum[i]), sums_.radiance[p].taken);
       });
       break;
     case Plane::alpha:
-      fill(layer, range, [&](std::size_t p, std::size_t) { return over(alpha_[p], radiance_[p].taken); });
+      fill(layer, range,
+           [&](std::size_t p, std::size_t) { return over(sums_.alpha[p], sums_.radiance[p].taken); });
       break;
   }
   return std::move(layer.values);
@@ -160,8 +160,9 @@ Picture Film::resolve(int first, int end) const {
   for (std::size_t g = 0; g < groups; ++g) {
     Layer light{
         .name = kLightLayer + contents_.light_groups[g], .channels = {"R", "G", "B"}, .full_precision = true};
-    fill(light, range,
-         [&](std::size_t p, std::size_t i) { return over(parts_[p * groups + g][i], radiance_[p].count); });
+    fill(light, range, [&](std::size_t p, std::size_t i) {
+      return over(sums_.light_groups[p * groups + g][i], sums_.radiance[p].count);
+    });
     picture.layers.push_back(std::move(light));
   }
   return picture;

@@ -18,7 +18,7 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   CameraSample s;
   s.sampler = Sampler(options.sampler, options.seed, x, y, number);
   s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
-  const scene::Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
+  const Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
   s.camera_ray = camera_ray(camera, static_cast<float>(pixel.x) + 0.5f + offset.x(),
                             static_cast<float>(pixel.y) + 0.5f + offset.y(), s.sampler);
   return s;
@@ -30,7 +30,7 @@ void make_camera_samples(std::span<const PixelSample> wanted, const Film& film, 
   samples.clear();
   for (const PixelSample& s : wanted) {
     samples.push_back(make_camera_sample(s, options, camera, filter));
-    samples.back().faint = film.faint(s.pixel);
+    samples.back().contribution_threshold = film.contribution_threshold(s.pixel);
   }
 }
 
@@ -63,7 +63,7 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
     }
     float scale = 1.0f;
     if (options.clamp > 0.0f) {
-      const float l = scene::luminance(radiance);
+      const float l = luminance(radiance);
       if (l > options.clamp) {
         scale = options.clamp / l;
         radiance *= scale;

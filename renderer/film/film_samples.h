@@ -14,11 +14,12 @@
 
 namespace gatelight::renderer {
 
-/// CameraSample::faint stays 0.
+/// CameraSample::contribution_threshold stays 0.
 CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& options, const Camera& camera,
                                 const FilterSampler& filter);
 
-/// Makes samples that were taken from the film. CameraSample::faint follows from those that it has.
+/// Makes samples that were taken from the film. CameraSample::contribution_threshold follows from the samples
+/// that the film has.
 void make_camera_samples(std::span<const PixelSample> wanted, const Film& film, const RenderOptions& options,
                          const Camera& camera, const FilterSampler& filter,
                          std::vector<CameraSample>& samples);
@@ -35,8 +36,8 @@ struct SampleCounts {
 /// Keeps the first 16 in the order of (y, x, sample), for the statistics.
 void keep_first(std::vector<NonFiniteSample>& samples);
 
-/// Adds the results of samples that were taken from the film. `first_hits` is empty or as long as these.
-/// `parts` is empty, or has for each of them the light of each group of the film.
+/// Adds the results of samples that were taken from the film. `first_hits` is empty or as long as `samples`.
+/// `parts` is empty, or has for each sample the light of each group of the film.
 void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts, std::span<const Color> parts = {});

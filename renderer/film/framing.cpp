@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far two planes through the eye lie from the origin that just hold all points between them, to both
-/// sides of an axis. The tangent of each plane's angle to the view is `slope`.
+/// The two planes through the eye that just enclose all points, one on each side of an axis. `slope` is the
+/// tangent of each plane's angle to the view; `most` and `least` are the offsets of the planes.
 struct Wedge {
   explicit Wedge(double slope_in) : slope(slope_in) {}
 
@@ -47,8 +47,7 @@ scene::Camera frame_scene(const scene::Scene& scene, float vertical_fov, float a
   for (const scene::Instance& instance : scene.instances) {
     const std::size_t triangles = scene.mesh_of(instance).triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) {
-      for (const scene::Vec3& corner :
-           scene::world_triangle(scene, instance, static_cast<std::uint32_t>(t))) {
+      for (const Vec3& corner : scene::world_triangle(scene, instance, static_cast<std::uint32_t>(t))) {
         const Vector3d p = corner.cast<double>() - middle;
         across.add(p.dot(right), p.dot(back));
         upwards.add(p.dot(up), p.dot(back));

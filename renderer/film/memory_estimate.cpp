@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "base/errors.h"
+#include "base/platform/memory.h"
 #include "renderer/film/film.h"
 #include "renderer/image/cryptomatte.h"
-#include "renderer/machine/errors.h"
-#include "renderer/machine/memory.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -61,7 +61,7 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
 
 void require_memory(std::string_view what, const RenderOptions& options, std::size_t all, std::size_t more) {
   if (options.memory_limit_bytes > 0 && all > options.memory_limit_bytes) {
-    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than --memory-limit {}", what, all >> 20,
+    throw OutOfMemory(fmt::format("{} needs about {} MiB, more than `memory-limit` {}", what, all >> 20,
                                   options.memory_limit_bytes >> 20));
   }
   const MemoryRoom room = memory_room();

@@ -19,7 +19,7 @@ struct MemoryEstimate {
   std::size_t total() const { return geometry + bvh + textures + lights + film; }
 };
 
-/// What Open Image Denoise has at least. Less makes it slow, and saves nothing.
+/// The least memory of Open Image Denoise. Less makes it slow, and saves nothing.
 inline constexpr std::size_t kDenoiserBytes = std::size_t{256} << 20;
 
 MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& options);

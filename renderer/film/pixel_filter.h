@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "renderer/settings/choices.h"
-#include "scene/math.h"
+#include "base/math.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
 
@@ -20,7 +20,7 @@ class FilterSampler {
 
   /// The offset from the pixel's centre in pixels. It is distributed as the filter, which is not negative,
   /// when `u` is uniform.
-  scene::Vec2 sample(const scene::Vec2& u) const { return {sample_1d(u.x()), sample_1d(u.y())}; }
+  Vec2 sample(const Vec2& u) const { return {sample_1d(u.x()), sample_1d(u.y())}; }
   float width() const { return width_; }
 
  private:

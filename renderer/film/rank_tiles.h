@@ -1,9 +1,9 @@
 #pragma once
-// Whose pixel is it, where several ranks make one picture.
+// The rank that owns a pixel, where several ranks make one picture.
 
+#include "renderer/distributed/ranks.h"
+#include "renderer/distributed/shares.h"
 #include "renderer/film/tiles.h"
-#include "renderer/ranks/ranks.h"
-#include "renderer/ranks/shares.h"
 
 namespace gatelight::renderer {
 

@@ -6,7 +6,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The inverse of the plastic number squared, and itself.
+/// The inverse of the plastic number's square, and the inverse of the plastic number.
 constexpr double kRowStep = 0.5698402909980532;
 constexpr double kColumnStep = 0.7548776662466927;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The order in which single samples of a picture are taken while a cache learns from them.
+// The order in which single samples of a picture are taken while a cache is trained on them.
 
 #include <cstdint>
 

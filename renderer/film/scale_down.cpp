@@ -39,7 +39,7 @@ std::vector<float> ScaleDown::scale(std::span<const float> values, int channels,
   const int columns = width / factor_;
   const std::size_t row = size(width) * size(channels), small_row = size(columns) * size(channels);
   std::vector<float> result(size(end - begin) * small_row);
-  // Weighs what the large picture has of the pixels around a small one.
+  // Calls add(pixel, weight) for the pixels of the large picture around a pixel of the small one.
   const auto gather = [&](int small, int limit, const auto& add) {
     const int first = small * factor_ - reach_;
     float sum = 0.0f;

@@ -1,10 +1,10 @@
 #pragma once
-// A picture from one of a multiple of its size, by the pixel filter.
+// Reduces a picture by an integer factor with the pixel filter.
 
 #include <span>
 #include <vector>
 
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
 
@@ -15,7 +15,8 @@ class ScaleDown {
   ScaleDown(int factor, PixelFilter filter, float width);
 
   int factor() const { return factor_; }
-  /// Rows of the large picture beyond its own that a row of the small one depends on, in each direction.
+  /// Number of rows of the large picture beyond its own that a row of the small one depends on, in each
+  /// direction.
   int reach() const { return reach_; }
 
   /// The rows begin <= y < end of the small picture. `values`: rows of the large one from `top` on,

@@ -30,7 +30,8 @@ struct PixelSample {
   bool in_first_half() const { return number % 2 == 0; }
 };
 
-/// Pixels in this order are near each other where their numbers are. Coordinates are below 2^16.
+/// The number of a pixel in Morton order, in which pixels with near numbers are near each other. Coordinates
+/// are below 2^16.
 std::uint32_t morton(const Pixel& pixel);
 
 /// Tiles lie on the grid of the full picture, so that a region has the same batches as the full picture.
@@ -44,7 +45,7 @@ class TileGrid {
   int count() const { return end_ - begin_; }
   /// The tile that holds a pixel of the region.
   int tile_at(const Pixel& pixel) const;
-  /// The pixels first <= x < end of a row of the picture that are in these tiles. They are in one piece.
+  /// The pixels first <= x < end of a row of the picture that are in these tiles. They are contiguous.
   std::pair<int, int> columns(int y) const;
   /// Sets `result` to the tile's pixels within the region, in Morton order, which keeps packets of 16 rays
   /// square.
@@ -55,7 +56,7 @@ class TileGrid {
   int first_column_;
   int first_row_;
   int columns_;
-  int begin_ = 0;  ///< of the tiles of the whole region, in rows from the top
+  int begin_ = 0;  ///< number of the first tile among those of the whole region, in rows from the top
   int end_;
 };
 

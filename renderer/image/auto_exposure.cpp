@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
 float auto_exposure(const Picture& picture) {
   constexpr double kGrey = 0.18;
-  /// What a share of the pixels does not exceed, and where it is to be at most: sunlit floors just below
-  /// white without a curve, windows within the reach of AgX, whose white is at 16.
+  /// The luminance that a share of the pixels does not exceed, and its upper bound after exposure: sunlit
+  /// floors just below white without a curve, windows within the range of AgX, whose white is at 16.
   struct Bound {
     double share;
     double greatest;
@@ -23,7 +23,7 @@ float auto_exposure(const Picture& picture) {
   double logs = 0.0;
   for (std::size_t i = 0; i + channels <= beauty.values.size(); i += channels) {
     const float* v = &beauty.values[i];
-    const float y = channels < 3 ? v[0] : scene::luminance(scene::Color(v[0], v[1], v[2]));
+    const float y = channels < 3 ? v[0] : luminance(Color(v[0], v[1], v[2]));
     if (!(y > 1e-6f) || !std::isfinite(y)) continue;
     lit.push_back(y);
     logs += std::log(static_cast<double>(y));

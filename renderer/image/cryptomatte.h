@@ -15,22 +15,22 @@
 
 namespace gatelight::renderer {
 
-/// Of all entries of the header.
+/// Prefix of all entries of the header.
 inline constexpr std::string_view kCryptomattePrefix = "cryptomatte/";
 
 /// The bits of the float that stands for a name: its hash, with the exponent's last bit flipped where the
 /// float would be a denormal number, infinite or NaN. Never 0, which means nothing.
 std::uint32_t cryptomatte_id(std::string_view name);
 
-/// What one id covers of a pixel.
+/// The share of a pixel that one id covers.
 struct IdCoverage {
   std::uint32_t id = 0;
   float coverage = 0.0f;
 };
 
-/// Ids that a pixel keeps.
+/// Number of ids that a pixel keeps.
 inline constexpr std::size_t kCryptomatteRanks = 6;
-/// Two of them in each layer: id, coverage, id, coverage.
+/// Number of layers. Each has two ids: id, coverage, id, coverage.
 inline constexpr std::size_t kCryptomatteLayers = kCryptomatteRanks / 2;
 
 /// Layers of one or several kinds of names, and their entries of the header.
@@ -40,7 +40,7 @@ struct Cryptomattes {
 };
 
 /// Adds the empty layers of a kind of names, as "CryptoObject", and its entries: all names with their ids,
-/// seen or not. Returns the number of its first layer.
+/// visible or not. Returns the number of its first layer.
 std::size_t add_kind(Cryptomattes& mattes, const std::string& kind, std::span<const std::string> names,
                      std::size_t pixels);
 

@@ -22,12 +22,12 @@ std::vector<float> displayed(const Picture& picture, const DisplayOptions& optio
   for (std::size_t p = 0; p < pixels; ++p) {
     const float* const value = &beauty.values[p * channels];
     const float alpha = with_alpha ? std::clamp(value[colors], 0.0f, 1.0f) : 1.0f;
-    scene::Color color;
+    Color color;
     for (std::size_t c = 0; c < 3; ++c) {
       const float v = value[std::min(c, colors - 1)];
       color[static_cast<Eigen::Index>(c)] = alpha > 0.0f ? v / alpha : 0.0f;
     }
-    color = balanced ? scene::Color((balance * color.matrix()).array()) : color * balance(0, 0);
+    color = balanced ? Color((balance * color.matrix()).array()) : color * balance(0, 0);
     if (!by_ocio) color = display_color(color, options.tonemap);
     for (std::size_t c = 0; c < 3; ++c) rgb[3 * p + c] = color[static_cast<Eigen::Index>(c)];
     if (with_alpha) result[shown * p + 3] = alpha;

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "renderer/image/claimed_size.h"
+#include "base/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/cryptomatte.h"
 #include "renderer/image/short_name.h"
@@ -36,7 +36,7 @@ struct StoredLayer {
   std::vector<std::string> channels;  ///< their full names in the part
 };
 
-/// Empty where there is none.
+/// The first subsampled channel; empty where there is none.
 std::string subsampled_channel(const Imf::ChannelList& channels) {
   for (auto it = channels.begin(); it != channels.end(); ++it) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) return it.name();
@@ -44,7 +44,7 @@ std::string subsampled_channel(const Imf::ChannelList& channels) {
   return "";
 }
 
-/// Adds the layers of a part that are not there yet: views of the same names are not told apart. Channels
+/// Adds the layers of a part that are not there yet: views of the same names are not distinguished. Channels
 /// without a layer belong to one with the name of their part, where the file has several.
 void add_layers(const Imf::Header& header, int part, const std::string& part_name,
                 std::vector<StoredLayer>& layers) {
@@ -74,7 +74,7 @@ void add_layers(const Imf::Header& header, int part, const std::string& part_nam
   }
 }
 
-/// The last component of a layer's name is one that renderers give the picture itself.
+/// Whether the last component of a layer's name is one that renderers give the picture itself.
 bool is_called_beauty(const std::string& layer) {
   const std::string name = short_name(layer);
   return name.empty() || name == "rgba" || name == "beauty" || name == "combined" || name == "c";
@@ -99,7 +99,7 @@ void put_beauty_first(std::vector<StoredLayer>& layers) {
   if (beauty != layers.end()) std::rotate(layers.begin(), beauty, beauty + 1);
 }
 
-/// Of all flat parts that have pixels where the first part has them.
+/// The layers of all flat parts that have pixels where the first part has them.
 std::vector<StoredLayer> find_layers(const Imf::MultiPartInputFile& file) {
   std::vector<StoredLayer> layers;
   for (int part = 0; part < file.parts(); ++part) {

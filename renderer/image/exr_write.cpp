@@ -81,7 +81,7 @@ Imf::Header make_header(const Picture& picture) {
   const Imath::Box2i data({picture.x0, picture.y0},
                           {picture.x0 + picture.width - 1, picture.y0 + picture.height - 1});
   Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-  // Rec. 709, which the format assumes too; readers of other gamuts ask for it.
+  // Rec. 709, which is also the format's default; readers of other gamuts need it.
   Imf::addChromaticities(header, Imf::Chromaticities());
   if (picture.view) {
     Imf::addWorldToCamera(header, row_vectors(picture.view->world_to_camera));

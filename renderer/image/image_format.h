@@ -1,5 +1,5 @@
 #pragma once
-// The file format that a file name asks for.
+// The file format of a file name.
 
 #include <filesystem>
 

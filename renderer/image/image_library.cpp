@@ -5,12 +5,12 @@
 
 #include <system_error>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Beside the program, as built and as installed; then where the libraries are installed.
+/// Searches beside the program, as built and as installed, then where the libraries are installed.
 std::filesystem::path find_library() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);

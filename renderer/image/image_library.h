@@ -1,6 +1,6 @@
 #pragma once
-// What OpenImageIO does for us. It brings 260 shared libraries, so it stands behind a library of our own that
-// is loaded when it is needed first.
+// The functions that use OpenImageIO. It brings 260 shared libraries, so they are in a library of our own
+// that is loaded when it is first needed.
 
 #include <cstdint>
 #include <filesystem>

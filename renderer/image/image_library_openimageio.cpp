@@ -18,14 +18,14 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "renderer/image/claimed_size.h"
+#include "base/errors.h"
+#include "base/image/claimed_size.h"
 #include "renderer/image/image_library.h"
-#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
-/// Linear light of Rec. 709, as configurations call it.
+/// Names of configurations for linear light of Rec. 709.
 constexpr const char* kLinearNames[] = {"lin_rec709",
                                         "Linear Rec.709 (sRGB)",
                                         "Linear Rec.709",
@@ -38,7 +38,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// `named`: the flag, with its value.
+/// Throws BadOption, naming the flag, where the name is not one of `names`.
 void require(const std::vector<std::string>& names, const std::string& name, const std::string& flag) {
   if (!has(names, name))
     throw BadOption(fmt::format("{} '{}': expected one of '{}'", flag, name, fmt::join(names, "', '")));
@@ -108,8 +108,8 @@ class OpenImageIO final : public ImageLibrary {
 
   std::vector<std::uint8_t> encode(ImageFormat format, const std::vector<float>& values, int width,
                                    int height, int bits) const override {
-    const char* const name = format == ImageFormat::hdr ? "hdr" : format == ImageFormat::png ? "png" : "tiff";
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+    const std::unique_ptr<OIIO::ImageOutput> output =
+        OIIO::ImageOutput::create(format == ImageFormat::hdr ? "hdr" : "tiff");
     if (!output) throw std::runtime_error(OIIO::geterror());
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const int channels = static_cast<int>(values.size() / pixels);
@@ -131,17 +131,17 @@ class OpenImageIO final : public ImageLibrary {
 
   void show(std::vector<float>& rgb, const OcioView& ocio) const override {
     OIIO::ColorConfig config(ocio.config);
-    if (config.has_error()) throw BadOption(fmt::format("--ocio '{}': {}", ocio.config, config.geterror()));
+    if (config.has_error()) throw BadOption(fmt::format("`ocio` '{}': {}", ocio.config, config.geterror()));
     const auto or_default = [](const std::string& name, const char* usual) {
       return name.empty() ? std::string(usual ? usual : "") : name;
     };
     const std::string display = or_default(ocio.display, config.getDefaultDisplayName());
-    require(config.getDisplayNames(), display, "--ocio-display");
+    require(config.getDisplayNames(), display, "`ocio-display`");
     const std::string view = or_default(ocio.view, config.getDefaultViewName(display));
-    require(config.getViewNames(display), view, "--ocio-view");
+    require(config.getViewNames(display), view, "`ocio-view`");
     const OIIO::ColorProcessorHandle processor =
         config.createDisplayTransform(display, view, linear_name(config));
-    if (!processor) throw BadOption(fmt::format("--ocio '{}': {}", ocio.config, config.geterror()));
+    if (!processor) throw BadOption(fmt::format("`ocio` '{}': {}", ocio.config, config.geterror()));
     const int pixels = static_cast<int>(rgb.size() / 3);
     processor->apply(rgb.data(), pixels, 1, 3, sizeof(float), 3 * sizeof(float),
                      std::size_t{3} * sizeof(float) * static_cast<std::size_t>(pixels));

@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-#include "renderer/image/claimed_size.h"
+#include "base/errors.h"
+#include "base/image/claimed_size.h"
+#include "base/image/png_read.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_library.h"
 #include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
-#include "renderer/machine/errors.h"
-#include "scene/png_read.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -39,7 +39,7 @@ Picture one_layer(int width, int height, int channels) {
 }
 
 Picture read_png(const std::filesystem::path& path) {
-  scene::PngReader reader = scene::open_png(path);
+  PngReader reader = open_png(path);
   check_claimed_size(reader.width(), reader.height(), reader.channels(), path);
   const std::vector<std::uint16_t> pixels = reader.read_16();
   Picture picture = one_layer(reader.width(), reader.height(), reader.channels());
@@ -82,10 +82,10 @@ Picture read_image(const std::filesystem::path& path) {
   check_image_input(path);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    throw ImageError(fmt::format("cannot read '{}': there is no such file", path.string()));
+    throw InputError(fmt::format("cannot read '{}': there is no such file", path.string()));
   }
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw ImageError(fmt::format("cannot read '{}': it is not a regular file", path.string()));
+    throw InputError(fmt::format("cannot read '{}': it is not a regular file", path.string()));
   }
   try {
     return read_as(image_format(path), path);
@@ -94,7 +94,7 @@ Picture read_image(const std::filesystem::path& path) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {
-    throw ImageError(fmt::format("cannot read '{}': {}", path.string(), one_line(reason.what())));
+    throw InputError(fmt::format("cannot read '{}': {}", path.string(), one_line(reason.what())));
   }
 }
 

@@ -2,16 +2,11 @@
 // Reads pictures from files: EXR with all its layers, Radiance HDR, PNG.
 
 #include <filesystem>
-#include <stdexcept>
 
+#include "base/errors.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
-
-/// Thrown when a picture cannot be read. The message names the file and the reason.
-struct ImageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Throws UnknownFormat or MissingLibrary if read_image() cannot read a file of this name.
 void check_image_input(const std::filesystem::path& path);
@@ -20,7 +15,7 @@ void check_image_input(const std::filesystem::path& path);
 /// values are not changed. EXR channels "layer.channel" become layers. Channels without a layer are the
 /// beauty layer, which comes first. Where they hold no colours, the first layer with R, G and B comes first.
 /// The channels of a layer start with R,G,B,A or X,Y,Z; the others follow by name. Header strings
-/// "gatelight:KEY" become metadata. Throws ImageError, or what
+/// "gatelight:KEY" become metadata. Throws InputError, or what
 /// check_image_input() throws.
 Picture read_image(const std::filesystem::path& path);
 

@@ -1,43 +1,39 @@
 #include "renderer/image/image_write.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 
+#include "base/errors.h"
+#include "base/image/jpeg_write.h"
+#include "base/image/png_write.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_library.h"
-#include "renderer/image/jpeg_write.h"
-#include "renderer/machine/errors.h"
 
 namespace gatelight::renderer {
 namespace {
 
-std::vector<std::uint8_t> bytes_of(const std::vector<float>& values) {
-  std::vector<std::uint8_t> bytes(values.size());
-  std::transform(values.begin(), values.end(), bytes.begin(),
-                 [](float x) { return static_cast<std::uint8_t>(std::lround(255.0f * x)); });
-  return bytes;
+/// Display values in [0, 1], scaled to the whole range of an integer type.
+template <class Integer>
+std::vector<Integer> quantized(const std::vector<float>& values) {
+  constexpr float kGreatest = std::numeric_limits<Integer>::max();
+  std::vector<Integer> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(),
+                 [](float x) { return static_cast<Integer>(std::lround(kGreatest * x)); });
+  return result;
 }
 
-std::vector<std::uint8_t> encode_png(const Picture& picture, const DisplayOptions& display) {
-  const std::vector<std::uint8_t> pixels = bytes_of(displayed(picture, display));
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(picture.width);
-  image.height = static_cast<png_uint_32>(picture.height);
-  image.format = picture.layers.front().has_alpha() ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  // Rendered pictures hold noise, of which filters of rows make little.
-  image.flags = PNG_IMAGE_FLAG_FAST;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::vector<std::uint8_t> encoded(size);
-  if (png_image_write_to_memory(&image, encoded.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
-    throw std::runtime_error(image.message);
-  encoded.resize(size);
-  return encoded;
+template <class Integer>
+std::vector<std::uint8_t> png_of(const Picture& picture, const DisplayOptions& display) {
+  const std::vector<Integer> pixels = quantized<Integer>(displayed(picture, display));
+  const int channels = picture.layers.front().has_alpha() ? 4 : 3;
+  return encode_png(std::span<const Integer>(pixels), picture.width, picture.height, channels);
 }
 
 /// Three values a pixel, as the scene has them.
@@ -61,8 +57,8 @@ std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
     case ImageFormat::hdr:
       return image_library().encode(format, radiance_of(picture), width, height, 32);
     case ImageFormat::png:
-      if (options.bits == 8) return encode_png(picture, options.display);
-      [[fallthrough]];
+      return options.bits == 16 ? png_of<std::uint16_t>(picture, options.display)
+                                : png_of<std::uint8_t>(picture, options.display);
     default:
       return image_library().encode(format, displayed(picture, options.display), width, height, options.bits);
   }
@@ -92,12 +88,12 @@ ImageFormat image_format(const std::filesystem::path& path) {
 
 std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options) {
   std::vector<float> values = displayed(picture, options);
-  if (!picture.layers.front().has_alpha()) return bytes_of(values);
+  if (!picture.layers.front().has_alpha()) return quantized<std::uint8_t>(values);
   std::vector<float> over_black;
   for (std::size_t i = 0; i < values.size(); i += 4) {
     for (std::size_t c = 0; c < 3; ++c) over_black.push_back(values[i + c] * values[i + 3]);
   }
-  return bytes_of(over_black);
+  return quantized<std::uint8_t>(over_black);
 }
 
 void check_image_output(const std::filesystem::path& path) {

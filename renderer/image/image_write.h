@@ -3,12 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <vector>
 
+#include "base/file/atomic_file.h"
 #include "renderer/image/display.h"
 #include "renderer/image/picture.h"
-#include "renderer/machine/atomic_file.h"
 
 namespace gatelight::renderer {
 
@@ -16,11 +15,6 @@ struct ImageWriteOptions {
   bool exr_float = false;  ///< all layers as 32-bit float; otherwise half, except Layer::full_precision
   int bits = 8;            ///< of PNG and TIFF: 8 or 16
   DisplayOptions display;  ///< of PNG, JPEG and TIFF; EXR and HDR keep the scene's radiance
-};
-
-/// Thrown for an extension that is not supported. The message names the file and the supported extensions.
-struct UnknownFormat : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
 };
 
 /// Throws UnknownFormat or OutputError if write_image() cannot write to `path`.

@@ -26,7 +26,7 @@ struct ViewMatrices {
 };
 
 struct Picture {
-  int width = 0;  ///< in pixels, of what is stored here
+  int width = 0;  ///< in pixels, of the stored part
   int height = 0;
   int x0 = 0;  ///< place of the stored pixels in the full picture (the EXR's data window)
   int y0 = 0;

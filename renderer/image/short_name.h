@@ -1,5 +1,5 @@
 #pragma once
-// What renderers call a layer, without the view that it belongs to.
+// The name of a layer without the view that it belongs to.
 
 #include <algorithm>
 #include <cctype>

@@ -11,7 +11,6 @@ namespace gatelight::renderer {
 namespace {
 
 using Eigen::Matrix3f;
-using scene::Color;
 
 /// Clamps to [0, 1] and turns NaN into 0, which std::clamp does not.
 float unit(float x) {
@@ -31,7 +30,7 @@ Color times(const Matrix3f& matrix, const Color& color) {
   return (matrix * color.matrix()).array();
 }
 
-/// The specification's sample code (github.com/KhronosGroup/ToneMapping), in our words.
+/// The specification's sample code (github.com/KhronosGroup/ToneMapping), rewritten.
 Color neutral(Color color) {
   constexpr float kStart = 0.8f - 0.04f, kDesaturation = 0.15f;
   const float least = color.minCoeff();

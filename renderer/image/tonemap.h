@@ -3,15 +3,15 @@
 
 #include <cstdint>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
-/// Curves from radiance to what a screen shows. In all of them but `none` and `filmic` bright colours lose
-/// saturation as film does, and hues hold.
+/// Curves from radiance to display values. In all of them but `none` and `filmic` bright colours lose
+/// saturation as film does, and hues are kept.
 enum class Tonemap : std::uint8_t {
   none,     ///< values above 1 are clamped
-  filmic,   ///< K. Narkowicz's fit of the ACES curve, for each channel alone (2016)
+  filmic,   ///< K. Narkowicz's fit of the ACES curve, for each channel separately (2016)
   neutral,  ///< Khronos PBR Neutral (2024): colours below 0.8 stay as they are but for 0.04 of glare
   aces,     ///< S. Hill's fit of the ACES reference and output transforms (2017), in ACES' working space
   agx,      ///< B. Wrensch's fit of T. Sobotka's AgX, its base look (2023)
@@ -22,13 +22,13 @@ float filmic(float x);
 
 /// Linear colours of Rec. 709, to be shown by a screen of that gamut: in [0, 1]. NaN and negative values
 /// count as 0.
-scene::Color tonemapped(const scene::Color& color, Tonemap tonemap);
+Color tonemapped(const Color& color, Tonemap tonemap);
 
 /// The colour that a screen of 6504 K shows as white: CIE's D65.
 inline constexpr float kDaylightKelvin = 6504.0f;
 
 /// Through the curve and sRGB: code values in [0, 1].
-scene::Color display_color(const scene::Color& color, Tonemap tonemap);
+Color display_color(const Color& color, Tonemap tonemap);
 /// A grey times exposure_scale as a byte, rounded to nearest.
 std::uint8_t display_byte(float x, float exposure_scale, Tonemap tonemap);
 

@@ -74,7 +74,7 @@ bool AirColumns::to_space(double radius, double cosine, AirAmounts& amounts) con
     amounts = upwards(radius, cosine);
     return true;
   }
-  // Down to the lowest point of the ray and up again: twice the half, less what lies behind its origin.
+  // Down to the lowest point of the ray and up again: twice the half, minus the part behind its origin.
   const double lowest = radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   if (lowest < kEarthRadius) return false;
   const AirAmounts half = upwards(lowest, 0.0);

@@ -10,15 +10,15 @@
 namespace gatelight::renderer {
 
 inline constexpr double kEarthRadius = 6371.0;
-inline constexpr double kAtmosphereHeight = 100.0;  ///< nothing is above
+inline constexpr double kAtmosphereHeight = 100.0;  ///< there is no air above it
 inline constexpr double kAirScale = 8.0;            ///< height in which the density falls by e
-inline constexpr double kHazeScale = 1.2;           ///< the same of haze
+inline constexpr double kHazeScale = 1.2;           ///< the same for haze
 /// The density of ozone falls linearly from its peak to 0 within its reach, as in Bruneton 2017, "A
 /// Qualitative and Quantitative Evaluation of 8 Clear Sky Models".
 inline constexpr double kOzonePeak = 25.0, kOzoneReach = 15.0;
 
-/// Densities, of which those of air and haze are 1 at sea level and that of ozone is 1 at its peak; or their
-/// integrals along a ray, in kilometres.
+/// Densities, or their integrals along a ray in kilometres. The densities of air and haze are 1 at sea level,
+/// that of ozone is 1 at its peak.
 struct AirAmounts {
   float air = 0.0f;
   float haze = 0.0f;
@@ -47,7 +47,7 @@ class AirColumns {
   /// Parallel (oneTBB), with the same bits for any number of threads.
   AirColumns();
 
-  /// The earth casts a shadow: false for a ray that meets it.
+  /// Sets `amounts` to the integrals along a ray to space. Returns false for a ray that meets the earth.
   bool to_space(double radius, double cosine, AirAmounts& amounts) const;
 
  private:

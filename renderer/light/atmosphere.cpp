@@ -11,7 +11,7 @@ namespace {
 constexpr double kOzoneColumn = 0.3;  ///< centimetres at standard pressure: 300 Dobson units
 constexpr float kHazeAlbedo = 0.9f;   ///< the part of the haze's extinction that is scattering
 constexpr float kHazeForward = 0.76f;
-constexpr float kEvenPhase = 0.25f * scene::kInvPi;
+constexpr float kEvenPhase = 0.25f * kInvPi;
 
 constexpr int kViewSteps = 32;  ///< along a view
 // The table of repeated scattering, by height and the sun's cosine.
@@ -22,7 +22,7 @@ constexpr double kLowestSun = -0.45;  ///< signed root of the cosine: 11.7 degre
 
 /// Per steradian, by the cosine of the angle from the direction of flight.
 float rayleigh_phase(float cosine) {
-  return 3.0f / (16.0f * scene::kPi) * (1.0f + cosine * cosine);
+  return 3.0f / (16.0f * kPi) * (1.0f + cosine * cosine);
 }
 
 /// Cornette and Shanks 1992, "Physically reasonable analytic expression for the single-scattering phase
@@ -30,7 +30,7 @@ float rayleigh_phase(float cosine) {
 float haze_phase(float cosine) {
   constexpr float g = kHazeForward;
   const float base = 1.0f + g * g - 2.0f * g * cosine;
-  return 3.0f / (8.0f * scene::kPi) * (1.0f - g * g) * (1.0f + cosine * cosine) /
+  return 3.0f / (8.0f * kPi) * (1.0f - g * g) * (1.0f + cosine * cosine) /
          ((2.0f + g * g) * base * std::sqrt(base));
 }
 
@@ -96,7 +96,7 @@ Spectrum Atmosphere::compute_repeated(double radius, double cos_sun, float groun
     if (to_ground < 0.0) continue;
     const double sun = sun_at(distance, kEarthRadius);
     if (sun > 0.0 && columns_.to_space(kEarthRadius, sun, lit))
-      second += transmittance(seen.plus(lit)) * (ground * scene::kInvPi * static_cast<float>(sun));
+      second += transmittance(seen.plus(lit)) * (ground * kInvPi * static_cast<float>(sun));
   }
   // Means over the sphere: the integral with the even phase function.
   constexpr float kShare = 1.0f / (kRings * kSpokes);
@@ -116,7 +116,7 @@ Spectrum Atmosphere::repeated(double radius, double cos_sun) const {
          s * ((1.0f - t) * at[kRepeatedSuns] + t * at[kRepeatedSuns + 1]);
 }
 
-Spectrum Atmosphere::sky_radiance(const scene::Vec3& direction, const scene::Vec3& to_sun) const {
+Spectrum Atmosphere::sky_radiance(const Vec3& direction, const Vec3& to_sun) const {
   const float cosine = direction.dot(to_sun);
   const Spectrum by_air = rayleigh_phase(cosine) * air_;
   const Spectrum haze = kHazeAlbedo * haze_;
@@ -141,7 +141,7 @@ Spectrum Atmosphere::sky_radiance(const scene::Vec3& direction, const scene::Vec
   return sum * solar_irradiance();
 }
 
-Spectrum Atmosphere::sun_irradiance(const scene::Vec3& to_sun) const {
+Spectrum Atmosphere::sun_irradiance(const Vec3& to_sun) const {
   AirAmounts column;
   if (to_sun.y() < 0.0f || !columns_.to_space(kEarthRadius, static_cast<double>(to_sun.y()), column))
     return Spectrum::Zero();

@@ -1,15 +1,15 @@
 #pragma once
 // The light of the clear atmosphere of a round earth, at some wavelengths. Sunlight that air and haze scatter
 // once is integrated along the view as in Nishita, Sirai, Tadamura and Nakamae 1993, "Display of the Earth
-// Taking into Account Atmospheric Scattering". Light that is scattered more often is that of Hillaire 2020,
-// "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", section 5.5. Directions are unit,
+// Taking into Account Atmospheric Scattering". Light that is scattered more often follows Hillaire 2020, "A
+// Scalable and Production Ready Sky and Atmosphere Rendering Technique", section 5.5. Directions are unit,
 // with y up at the viewer, who stands at sea level.
 
 #include <vector>
 
+#include "base/math.h"
 #include "renderer/light/air_columns.h"
 #include "renderer/light/daylight_spectrum.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
 
@@ -23,9 +23,9 @@ class Atmosphere {
 
   /// The radiance of the sky in W/(m2 sr nm) in a direction with y >= 0, with the sun in the direction
   /// `to_sun`.
-  Spectrum sky_radiance(const scene::Vec3& direction, const scene::Vec3& to_sun) const;
+  Spectrum sky_radiance(const Vec3& direction, const Vec3& to_sun) const;
   /// The irradiance of the sun at sea level on a plane that faces it, in W/(m2 nm); zero below the horizon.
-  Spectrum sun_irradiance(const scene::Vec3& to_sun) const;
+  Spectrum sun_irradiance(const Vec3& to_sun) const;
 
  private:
   Spectrum transmittance(const AirAmounts& amounts) const {

@@ -14,9 +14,9 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr int kSkyWidth = 512, kSkyHeight = 256;
-constexpr float kMostLight = 1e30f;  ///< radiance and irradiance end here, so that sums stay finite
+constexpr float kMostLight = 1e30f;  ///< bound of radiance and irradiance, so that sums stay finite
 
-/// Rec. 709 does not hold all colours of the sky.
+/// Clamps at zero, because Rec. 709 cannot represent all colours of the sky.
 Color displayable(const Spectrum& spectrum, float scale) {
   const Color color = daylight_color(spectrum);
   return (color.max(0.0f) * scale).min(kMostLight);
@@ -55,7 +55,7 @@ ClearSky make_clear_sky(const SkyOptions& options, float scale) {
   if (options.time) sun = solar_position(*options.time);
   const double elevation = sun.elevation_degrees * M_PI / 180.0;
   const Vec3 to_sun(0.0f, static_cast<float>(std::sin(elevation)), static_cast<float>(-std::cos(elevation)));
-  const float radius = 0.5f * options.sun_size_degrees * scene::kPi / 180.0f;
+  const float radius = 0.5f * options.sun_size_degrees * kPi / 180.0f;
   const float factor = scale * options.intensity;
 
   const Atmosphere atmosphere(options.turbidity, options.ground);
@@ -75,7 +75,7 @@ ClearSky make_clear_sky(const SkyOptions& options, float scale) {
     irradiance = displayable(atmosphere.sun_irradiance(lit), factor);
 
   const Color received = level_irradiance(texels) + irradiance * std::max(0.0f, to_sun.y());
-  const Color ground = (received * (options.ground * scene::kInvPi)).min(kMostLight);
+  const Color ground = (received * (options.ground * kInvPi)).min(kMostLight);
   std::fill(texels.begin() + static_cast<std::ptrdiff_t>(kSkyHeight / 2) * kSkyWidth, texels.end(), ground);
   return {EnvironmentPicture(kSkyWidth, kSkyHeight, std::move(texels)),
           to_sun,

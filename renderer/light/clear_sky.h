@@ -1,5 +1,5 @@
 #pragma once
-// A clear sky with its sun as a picture, by the atmosphere's light (atmosphere.h).
+// A picture of a clear sky, and its sun, computed from the atmosphere (atmosphere.h).
 
 #include "renderer/light/environment_picture.h"
 #include "renderer/settings/sky_options.h"
@@ -16,7 +16,8 @@ struct ClearSky {
 };
 
 /// Radiance in linear Rec. 709, in units of 100 000 lux / pi (daylight_spectrum.h): a white surface in full
-/// daylight has about 1. All times `scale`. Parallel (oneTBB), with the same bits for any number of threads.
+/// daylight has about 1. All values are multiplied by `scale`. Parallel (oneTBB), with the same bits for any
+/// number of threads.
 ClearSky make_clear_sky(const SkyOptions& options, float scale);
 
 }  // namespace gatelight::renderer

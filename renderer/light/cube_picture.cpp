@@ -14,7 +14,7 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr int kMostHeight = 4096;
-/// Directions of a texel, in each of its two coordinates.
+/// Number of directions of a texel in each of its two coordinates.
 constexpr int kSubTexels = 2;
 
 /// A face's linear colours.
@@ -33,7 +33,7 @@ struct Face {
     }
   }
 
-  /// u to the right and v down, in [0, 1]; between texel centres.
+  /// Interpolates between texel centres. u is to the right and v is down, in [0, 1].
   Color at(float u, float v) const {
     const float x = std::clamp(u * static_cast<float>(width) - 0.5f, 0.0f, static_cast<float>(width - 1));
     const float y = std::clamp(v * static_cast<float>(height) - 0.5f, 0.0f, static_cast<float>(height - 1));
@@ -49,7 +49,7 @@ struct Face {
   }
 };
 
-/// The face that a direction of the cube meets, seen from inside.
+/// The colour of the cube in a direction, seen from inside.
 Color look_up(const std::array<Face, 6>& faces, const Vec3& d) {
   int axis = 0;
   d.cwiseAbs().maxCoeff(&axis);
@@ -79,8 +79,8 @@ EnvironmentPicture make_cube_picture(const scene::ImageBasedLight& light, float 
       for (int k = 0; k < kSubTexels * kSubTexels; ++k) {
         const float u = static_cast<float>(x) + (static_cast<float>(k % kSubTexels) + 0.5f) / kSubTexels;
         const float v = static_cast<float>(y) + (static_cast<float>(k / kSubTexels) + 0.5f) / kSubTexels;
-        const float theta = scene::kPi * v / static_cast<float>(height);
-        const float phi = 2.0f * scene::kPi * (u / static_cast<float>(width) - 0.5f);
+        const float theta = kPi * v / static_cast<float>(height);
+        const float phi = 2.0f * kPi * (u / static_cast<float>(width) - 0.5f);
         // The centre is -z, and +x is to its right.
         const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
         sum += look_up(faces, light.rotation.transpose() * d);

@@ -1,5 +1,5 @@
 #pragma once
-// The environment that a scene brings along: a cube of pictures.
+// The environment of a scene's file: a cube of pictures.
 
 #include "renderer/light/environment_picture.h"
 #include "scene/scene.h"

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 

@@ -149,7 +149,7 @@ Color EmissiveTriangles::textured_radiance(const EmissiveTriangle& triangle, con
 double EmissiveTriangles::estimate_intensity(const EmissiveTriangle& triangle) const {
   const auto area = static_cast<double>(triangle.area);
   if (!(area > 0.0)) return 0.0;
-  if (triangle.plain) return area * static_cast<double>(scene::luminance(triangle.emission));
+  if (triangle.plain) return area * static_cast<double>(luminance(triangle.emission));
 
   const scene::Instance& instance = scene_.instances[triangle.instance];
   const scene::Mesh& mesh = scene_.mesh_of(instance);
@@ -165,7 +165,7 @@ double EmissiveTriangles::estimate_intensity(const EmissiveTriangle& triangle) c
     const Color mean = textures_.mean(material.emission_texture, Encoding::srgb).head<3>().array();
     sum += kTextureFloor * triangle.emission * mean;
   }
-  return area * static_cast<double>(scene::luminance(sum));
+  return area * static_cast<double>(luminance(sum));
 }
 
 std::size_t EmissiveTriangles::bytes() const {

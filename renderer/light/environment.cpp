@@ -8,7 +8,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "renderer/image/claimed_size.h"
+#include "base/image/claimed_size.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/image_read.h"
 #include "renderer/light/clear_sky.h"
@@ -28,7 +28,7 @@ float scaled(float value, float scale) {
   return usable(static_cast<double>(usable(value)) * static_cast<double>(scale));
 }
 
-/// Repairs the values of a picture and counts what was wrong.
+/// Repairs the values of a picture and counts the invalid ones.
 class Repair {
  public:
   explicit Repair(std::span<const float> values) {
@@ -38,9 +38,9 @@ class Repair {
   }
 
   float operator()(float value) {
-    infinite_ += value == scene::kInfinity ? 1 : 0;
+    infinite_ += value == kInfinity ? 1 : 0;
     no_light_ += value >= 0.0f ? 0 : 1;
-    return value == scene::kInfinity ? greatest_ : value;
+    return value == kInfinity ? greatest_ : value;
   }
 
   std::string warning(const std::string& file) const {
@@ -61,7 +61,7 @@ void check_full_size(const Picture& picture, const std::string& file) {
   try {
     check_claimed_size(picture.full_width, picture.full_height, 3, file);
   } catch (const std::runtime_error& error) {
-    throw ImageError(fmt::format("cannot read '{}': of its display window, {}", file, error.what()));
+    throw InputError(fmt::format("cannot read '{}': display window: {}", file, error.what()));
   }
 }
 
@@ -70,7 +70,7 @@ EnvironmentPicture load(const EnvironmentOptions& options, std::string& warning)
   const Layer& layer = picture.layers.front();
   const auto color = color_channels(layer);
   if (!color) {
-    throw ImageError(
+    throw InputError(
         fmt::format("cannot use '{}' as environment: it has the {}", options.file, describe_channels(layer)));
   }
   if (picture.full_width <= 0) {
@@ -103,14 +103,14 @@ EnvironmentPicture load(const EnvironmentOptions& options, std::string& warning)
 
 Environment::Environment(const EnvironmentOptions& options, const scene::ImageBasedLight* of_scene) {
   if (!(options.scale >= 0.0f) || !std::isfinite(options.scale)) {
-    throw std::runtime_error(
+    throw InputError(
         fmt::format("the environment's scale is {}; it must be finite and not negative", options.scale));
   }
   if (!std::isfinite(options.rotation_degrees)) {
-    throw std::runtime_error("the environment's rotation is not a finite number of degrees");
+    throw InputError("the environment's rotation is not a finite number of degrees");
   }
   if (options.sky && (options.automatic || !options.file.empty() || (options.constant != 0.0f).any()))
-    throw std::runtime_error("--sky and --environment exclude each other, expected one of them");
+    throw InputError("`sky` and `environment` exclude each other, expected one of them");
   double degrees = static_cast<double>(options.rotation_degrees);
   std::optional<ClearSky> sky;
   if (options.sky) {
@@ -124,7 +124,7 @@ Environment::Environment(const EnvironmentOptions& options, const scene::ImageBa
     picture_ = std::move(sky->picture);
     mean_ = picture_->mean();
     if (!(sky->sun_irradiance > 0.0f).any()) {
-      // It is night.
+      // At night there is no sun.
     } else if (sky->sun_radius > 0.0f) {
       disc_.emplace(sky->to_sun, sky->sun_radius, sky->sun_irradiance);
       mean_ += disc_->mean();

@@ -17,8 +17,8 @@ namespace gatelight::renderer {
 /// half). NaN and negative values become zero. Thread-safe after construction.
 class Environment {
  public:
-  /// Throws std::runtime_error that names the file when it cannot be read.
-  /// of_scene: an automatic environment is this one; without it, the soft sky.
+  /// Throws InputError that names the file when it cannot be read.
+  /// `of_scene` is the automatic environment; without it that is the soft sky.
   explicit Environment(const EnvironmentOptions& options, const scene::ImageBasedLight* of_scene = nullptr);
 
   /// Filtered for a ray cone with this full angle in radians; 0 means no filter.
@@ -26,15 +26,15 @@ class Environment {
   /// A constant environment is sampled uniformly over the sphere, a picture by its luminance. A sun's disc
   /// that is not wholly below the horizon of `n` gets half of the samples; a zero `n` has no horizon.
   EnvironmentSample sample(const Vec2& u, const Vec3& n = Vec3::Zero()) const;
-  /// Of sample() with the same `n`.
+  /// The pdf of sample() with the same `n`.
   float pdf(const Vec3& direction, const Vec3& n = Vec3::Zero()) const;
   /// The mean radiance over the sphere; texels are weighted by their solid angle.
   Color mean() const { return mean_; }
   bool black() const { return (mean_ == 0.0f).all(); }
   /// Whether the radiance is the same in all directions. Then sampling by the receiver's cosine is better.
   bool constant() const { return !picture_; }
-  /// A sun without a size, which is no part of the radiance: its irradiance on a plane that faces it, and the
-  /// direction to it. Nothing: there is none.
+  /// A sun without a size, which is not part of the radiance: its irradiance on a plane that faces it, and
+  /// the direction to it. Empty if there is none.
   const std::optional<DistantSun>& distant_sun() const { return distant_sun_; }
   std::size_t bytes() const { return picture_ ? picture_->bytes() : 0; }
   /// One line that counts the values of the picture that are negative or not finite; empty if there are none.

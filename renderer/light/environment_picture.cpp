@@ -14,7 +14,7 @@ namespace {
 Vec2 direction_to_uv(const Vec3& d) {
   return {0.5f + std::atan2(d.x(), -d.z()) * kInvTwoPi,
           // This form is precise at the poles, unlike the arc cosine.
-          std::atan2(std::sqrt(d.x() * d.x() + d.z() * d.z()), d.y()) * scene::kInvPi};
+          std::atan2(std::sqrt(d.x() * d.x() + d.z() * d.z()), d.y()) * kInvPi};
 }
 
 int clamp_index(float x, int count) {
@@ -164,7 +164,7 @@ void EnvironmentPicture::build_density() {
 
 Color EnvironmentPicture::radiance(const Vec3& direction, float cone_angle) const {
   const Vec2 uv = direction_to_uv(direction);
-  const float texels = cone_angle * static_cast<float>(levels_.front().height) * scene::kInvPi;
+  const float texels = cone_angle * static_cast<float>(levels_.front().height) * kInvPi;
   if (!(texels > 1.0f)) return bilinear(levels_.front(), uv);
   const float level = std::min(std::log2(texels), static_cast<float>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(level);

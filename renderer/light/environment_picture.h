@@ -11,13 +11,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
-
-using scene::Color;
-using scene::Vec2;
-using scene::Vec3;
 
 struct EnvironmentSample {
   Vec3 wi = Vec3::Zero();

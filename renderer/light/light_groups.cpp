@@ -44,7 +44,7 @@ class Finder {
         const std::string& wanted = groups_[g].lights[i];
         if (wanted == kEnvironmentWord)
           refuse_light_groups(
-              fmt::format("{}: the environment is black, expected --environment or --sky", groups_[g].name));
+              fmt::format("{}: the environment is black, expected `environment` or `sky`", groups_[g].name));
         refuse_light_groups(fmt::format("{}: {}", groups_[g].name,
                                         names.no_such_light(wanted, environment ? kEnvironmentWord : "")));
       }
@@ -85,7 +85,7 @@ LightGroups::LightGroups(const std::vector<LightGroup>& groups, const scene::Sce
   }
   for (const scene::PunctualLight& light : lights.placed()) add(of_others_, group_of.at(light.name), true);
   for (std::size_t i = 0; i < lights.distant().size(); ++i) {
-    const bool last = i + 1 == lights.distant().size();  // where the environment's own is
+    const bool last = i + 1 == lights.distant().size();  // the environment's own sun is the last
     add(of_others_, own_sun && last ? of_sky : group_of.at(lights.distant()[i].name), true);
   }
   add(of_others_, of_sky, false);
@@ -94,7 +94,7 @@ LightGroups::LightGroups(const std::vector<LightGroup>& groups, const scene::Sce
     names_.emplace_back(kRestGroup);
     return;
   }
-  // What is left does not shine.
+  // The instances and lights without a group do not emit, so any group will do.
   for (std::vector<std::uint8_t>* some : {&of_instance_, &of_others_})
     std::replace(some->begin(), some->end(), static_cast<std::uint8_t>(rest), std::uint8_t{0});
 }

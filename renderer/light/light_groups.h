@@ -1,5 +1,5 @@
 #pragma once
-// Which group each light of a picture belongs to.
+// The group of each light of a picture (--light-groups).
 
 #include <cstdint>
 #include <string>
@@ -14,9 +14,9 @@ namespace gatelight::renderer {
 /// Groups are numbered as they are given; lights that none of them names are in one more, the last.
 class LightGroups {
  public:
-  /// No groups: nobody asks.
+  /// Without groups. The functions that return a group must not be called.
   LightGroups() = default;
-  /// Throws BadOption for a name that nothing has, and for a light in two groups.
+  /// Throws BadOption for a name that no light has, and for a light in two groups.
   LightGroups(const std::vector<LightGroup>& groups, const scene::Scene& scene, const Lights& lights);
 
   bool empty() const { return names_.empty(); }
@@ -25,10 +25,10 @@ class LightGroups {
 
   /// The groups of all instances and lights, for comparisons.
   std::vector<std::uint8_t> members() const;
-  /// Of what an instance emits, or shows as its own colour (unlit).
+  /// The group of an instance that emits, or that shows its own colour (unlit).
   std::size_t of_instance(std::uint32_t instance) const { return of_instance_[instance]; }
   std::size_t of_environment() const { return of_others_.back(); }
-  /// Of LightSample::light.
+  /// The group of LightSample::light.
   std::size_t of_light(const EmissiveTriangles& triangles, std::uint32_t light) const {
     return light < triangles.size() ? of_instance_[triangles[light].instance]
                                     : of_others_[light - triangles.size()];
@@ -37,7 +37,7 @@ class LightGroups {
  private:
   std::vector<std::string> names_;
   std::vector<std::uint8_t> of_instance_;
-  std::vector<std::uint8_t> of_others_;  ///< of the lights after the triangles, in the order of their numbers
+  std::vector<std::uint8_t> of_others_;  ///< groups of the lights after the triangles, by their numbers
 };
 
 }  // namespace gatelight::renderer

@@ -1,25 +1,24 @@
 #pragma once
-// A light tree: it chooses a light for a receiving point with a probability near the light's share of what
-// could arrive. Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting". A node has four children side by side in memory, and one step of the descent weighs all four.
+// A light tree: it chooses a light for a receiving point with a probability near the light's share of the
+// light that could arrive there. Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with
+// Adaptive Tree Splitting". A node has four children side by side in memory, and one step of the descent
+// weighs all four.
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
-
-using scene::Vec3;
 
 /// Bounds of a light, or of a group of lights.
 struct LightBounds {
   Vec3 centre = Vec3::Zero();
   float radius = 0.0f;          ///< of a sphere around the centre that contains the light
   Vec3 axis{0.0f, 0.0f, 1.0f};  ///< unit; the cones of the next two members are around it
-  float cos_normals = 1.0f;     ///< cosine of the half angle that holds all normals (-1: all directions)
+  float cos_normals = 1.0f;     ///< cosine of the half angle that contains all normals (-1: all directions)
   float cos_emission = 0.0f;    ///< cosine of the largest angle of emission from a normal
   bool two_sided = false;       ///< also emits around -axis
   double intensity = 0.0;       ///< in W/sr along the normal; lights with 0 are not in the tree
@@ -81,8 +80,8 @@ class LightTree {
   struct Builder;
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> parents_;  ///< of each node: its slot, 4 * parent + k; kNone for the root
-  std::vector<std::uint32_t> places_;   ///< of each light: its slot, 4 * node + k; kNone if not in the tree
+  std::vector<std::uint32_t> parents_;  ///< the slot of each node, 4 * parent + k; kNone for the root
+  std::vector<std::uint32_t> places_;   ///< the slot of each light, 4 * node + k; kNone if not in the tree
   float nearest2_ = 0.0f;               ///< lower bound of the squared distance between receiver and light
 };
 

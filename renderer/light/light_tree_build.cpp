@@ -8,14 +8,11 @@
 namespace gatelight::renderer {
 namespace {
 
-using scene::Box;
-using scene::kPi;
-
 Box box_of(const LightBounds& light) {
   return {Vec3(light.centre.array() - light.radius), Vec3(light.centre.array() + light.radius)};
 }
 
-/// The light's axis; of the two of a two-sided light the one on the side of `towards`.
+/// The light's axis; for a two-sided light the axis on the side of `towards`.
 Vec3 axis_towards(const LightBounds& light, const Vec3& towards) {
   return light.two_sided && light.axis.dot(towards) < 0.0f ? Vec3(-light.axis) : light.axis;
 }
@@ -142,7 +139,7 @@ struct LightTree::Builder {
 
     int best_axis = -1;
     int best_bin = 0;
-    float best_cost = scene::kInfinity;
+    float best_cost = kInfinity;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(extent[axis] > 0.0f)) continue;
       std::array<Summary, kMaxBins> bin;

@@ -31,7 +31,7 @@ LightBounds bounds_of(const EmissiveTriangle& triangle, double intensity) {
   LightBounds bounds;
   bounds.intensity = intensity;
   if (!(intensity > 0.0)) return bounds;
-  scene::Box box(t.corner);
+  Box box(t.corner);
   box.extend(Vec3(t.corner + t.edge1));
   box.extend(Vec3(t.corner + t.edge2));
   bounds.centre = box.center();
@@ -46,10 +46,10 @@ LightBounds bounds_of(const EmissiveTriangle& triangle, double intensity) {
 LightBounds bounds_of(const PunctualLight& light) {
   LightBounds bounds;
   bounds.centre = light.position;
-  bounds.intensity = static_cast<double>(scene::luminance(light.intensity));
+  bounds.intensity = static_cast<double>(luminance(light.intensity));
   if (light.profile) {
-    // Nothing beyond the extent, and at least half of the weight up to it.
-    constexpr float kHalf = scene::kPi / 3.0f, kRounding = 0.005f;
+    // The importance is zero beyond the extent, and at least half of the maximum up to it.
+    constexpr float kHalf = kPi / 3.0f, kRounding = 0.005f;
     const float extent = light.profile->extent();
     bounds.axis = light.direction;
     bounds.cos_normals = std::cos(std::max(extent - kHalf, 0.0f));
@@ -81,7 +81,7 @@ struct Share {
 };
 
 bool shines(const PunctualLight& light) {
-  return light.intensity.isFinite().all() && scene::luminance(light.intensity) > 0.0f;
+  return light.intensity.isFinite().all() && luminance(light.intensity) > 0.0f;
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ LightSample Lights::sample_delta(const Vec3& p, const Vec3& n, float u_select, c
 LightSample Lights::sample_distant(const Vec3& n, float choice, int number) const {
   for (const PunctualLight& light : distant_) {
     if (n.dot(light.direction) > 0.0f || number-- > 0) continue;
-    LightSample sample{-light.direction, scene::kInfinity, light.intensity, choice, true};
+    LightSample sample{-light.direction, kInfinity, light.intensity, choice, true};
     sample.light = static_cast<std::uint32_t>(triangles_.size() + placed_.size() +
                                               static_cast<std::size_t>(&light - distant_.data()));
     return sample;
@@ -229,7 +229,7 @@ LightSample Lights::sample_placed(const Vec3& p, std::size_t number, float choic
 
 LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& u) const {
   LightSample sample;
-  sample.distance = scene::kInfinity;
+  sample.distance = kInfinity;
   sample.light = static_cast<std::uint32_t>(triangles_.size() + placed_.size() + distant_.size());
   if (environment_.constant() && !n.isZero(0.0f)) {
     const Vec3 local = sample_cosine_hemisphere(u);

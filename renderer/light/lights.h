@@ -10,7 +10,7 @@
 #include "renderer/light/environment.h"
 #include "renderer/light/light_tree.h"
 #include "renderer/sampling/alias_table.h"
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
 
@@ -19,8 +19,8 @@ namespace gatelight::renderer {
 struct LightSample {
   Vec3 wi = Vec3::Zero();            ///< unit, from the point to the light
   float distance = 0.0f;             ///< in metres; infinity for directional lights and the environment
-  Color radiance{0.0f, 0.0f, 0.0f};  ///< unoccluded; of a delta light: the irradiance on a plane facing it
-  float pdf = 0.0f;  ///< per solid angle; of a delta light: the probability of the choice; 0 means no sample
+  Color radiance{0.0f, 0.0f, 0.0f};  ///< unoccluded; for a delta light the irradiance on a plane facing it
+  float pdf = 0.0f;  ///< per solid angle; for a delta light the probability of the choice; 0 means no sample
   bool delta = false;
   // A shadow ray must end `offset` metres before the plane of the light, so that it does not hit the light.
   // `cosine` is between the ray and the light's normal.
@@ -43,8 +43,8 @@ class Lights {
 
   /// Whether there are point, spot or directional lights.
   bool has_delta() const { return !placed_.empty() || !distant_.empty(); }
-  /// Like sample(), for these lights alone, which BSDF sampling never finds. The pdf is the probability of
-  /// the choice.
+  /// Like sample(), for only these lights, which BSDF sampling never finds. The pdf is the probability of the
+  /// choice.
   LightSample sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
 
   /// The pdf with which sample(p, n) returns the direction wi that hit this triangle at `distance`. 0 if the
@@ -65,7 +65,7 @@ class Lights {
   const std::vector<scene::PunctualLight>& distant() const { return distant_; }
   /// Null where lights with a position are chosen by power.
   const LightTree* tree() const { return local_.table.empty() ? &local_.tree : nullptr; }
-  /// The same of the placed lights alone, numbered from 0, for sample_delta().
+  /// The same for only the placed lights, numbered from 0, for sample_delta().
   const LightTree* placed_tree() const { return local_placed_.table.empty() ? &local_placed_.tree : nullptr; }
 
  private:
@@ -87,7 +87,7 @@ class Lights {
 
   float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
   LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const;
-  /// `number`: of the placed light.
+  /// `number` is the index in placed_.
   LightSample sample_placed(const Vec3& p, std::size_t number, float choice) const;
   /// Samples the directional light with this number among those above the horizon of n.
   LightSample sample_distant(const Vec3& n, float choice, int number) const;

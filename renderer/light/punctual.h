@@ -10,7 +10,7 @@ namespace gatelight::renderer {
 
 /// The extension's recommended window: 1 near the light, 0 from its range on, and smooth between them.
 inline float range_window(float distance, float range) {
-  if (!(range < scene::kInfinity)) return 1.0f;
+  if (!(range < kInfinity)) return 1.0f;
   const float x = distance / range;
   const float x2 = x * x;
   return std::clamp(1.0f - x2 * x2, 0.0f, 1.0f);
@@ -26,14 +26,13 @@ inline float spot_falloff(const scene::PunctualLight& light, float cos_angle) {
 
 /// The share of the greatest intensity that a light with a profile sends to a point. `wi` points to the
 /// light.
-inline float profile_share(const scene::PunctualLight& light, const scene::Vec3& wi) {
-  const scene::Vec3 up = light.side.cross(light.direction);
+inline float profile_share(const scene::PunctualLight& light, const Vec3& wi) {
+  const Vec3 up = light.side.cross(light.direction);
   return light.profile->relative({-wi.dot(light.side), -wi.dot(up), wi.dot(light.direction)});
 }
 
 /// The irradiance of a point or spot light on a plane that faces it at `distance`. `wi` points to the light.
-inline scene::Color punctual_irradiance(const scene::PunctualLight& light, const scene::Vec3& wi,
-                                        float distance) {
+inline Color punctual_irradiance(const scene::PunctualLight& light, const Vec3& wi, float distance) {
   float factor = range_window(distance, light.range) / (distance * distance);
   if (light.type == scene::LightType::spot) factor *= spot_falloff(light, -wi.dot(light.direction));
   if (light.profile) factor *= profile_share(light, wi);

@@ -25,10 +25,10 @@ EnvironmentPicture make_soft_sky(float scale) {
   texels.reserve(std::size_t{kWidth} * kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const float theta = scene::kPi * (static_cast<float>(y) + 0.5f) / kHeight;
-      const float phi = 2.0f * scene::kPi * ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f);
+      const float theta = kPi * (static_cast<float>(y) + 0.5f) / kHeight;
+      const float phi = 2.0f * kPi * ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f);
       const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
-      // The ground meets the sky softly, within some degrees.
+      // The ground blends into the sky within some degrees.
       const float above = std::clamp(0.5f + 4.0f * d.y(), 0.0f, 1.0f);
       const Color sky = horizon + (zenith - horizon) * std::sqrt(std::max(0.0f, d.y()));
       const Color light = lamp * std::exp(-12.0f * (1.0f - d.dot(towards_lamp)));

@@ -6,11 +6,11 @@
 
 namespace gatelight::renderer {
 
-/// Whether some surface shows light that falls on it, but no light and no surface of the scene sends any.
+/// Whether some surface reflects light, but no light and no surface of the scene emits any.
 bool needs_light(const scene::Scene& scene);
 
 /// A grey-blue sky over a darker ground, with a broad bright spot at the upper left, behind a viewer who
-/// looks along -z. A white surface in it has a radiance near 1. Times `scale`.
+/// looks along -z. A white surface in it has a radiance near 1. All values are multiplied by `scale`.
 EnvironmentPicture make_soft_sky(float scale);
 
 }  // namespace gatelight::renderer

@@ -1,5 +1,5 @@
 #pragma once
-// Where the sun stands at a time and a place.
+// The position of the sun at a time and a place.
 
 #include "renderer/settings/sky_options.h"
 

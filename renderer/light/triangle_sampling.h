@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "renderer/sampling/warp.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
 

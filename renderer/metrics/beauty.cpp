@@ -21,12 +21,12 @@ Place place(const Picture& picture) {
 
 Beauty::Beauty(const NamedPicture& named) {
   if (named.picture.layers.empty() || named.picture.layers.front().channels.empty()) {
-    throw CompareError(fmt::format("'{}' has no layer to compare", named.name));
+    throw InputError(fmt::format("'{}' has no layer to compare", named.name));
   }
   layer_ = &named.picture.layers.front();
   const auto index = color_channels(*layer_);
   if (!index) {
-    throw CompareError(
+    throw InputError(
         fmt::format("'{}' has no beauty layer: it has the {}", named.name, describe_channels(*layer_)));
   }
   index_ = *index;
@@ -34,22 +34,22 @@ Beauty::Beauty(const NamedPicture& named) {
 
 void require_comparable(const NamedPicture& a, const NamedPicture& b) {
   if (a.picture.width != b.picture.width || a.picture.height != b.picture.height) {
-    throw CompareError(fmt::format("the pictures differ in size: '{}' has {}x{} pixels, '{}' has {}x{}",
-                                   a.name, a.picture.width, a.picture.height, b.name, b.picture.width,
-                                   b.picture.height));
+    throw InputError(fmt::format("the pictures differ in size: '{}' has {}x{} pixels, '{}' has {}x{}", a.name,
+                                 a.picture.width, a.picture.height, b.name, b.picture.width,
+                                 b.picture.height));
   }
   // The places are compared only for full pictures of one size. Otherwise one file may hold only the part
   // that the other shows.
   const Place at = place(a.picture), other = place(b.picture);
   if (at.width == other.width && at.height == other.height && (at.x0 != other.x0 || at.y0 != other.y0)) {
-    throw CompareError(fmt::format(
+    throw InputError(fmt::format(
         "the pictures show different regions of {}x{} pixels: '{}' begins at {},{}, '{}' at {},{}", at.width,
         at.height, a.name, at.x0, at.y0, b.name, other.x0, other.y0));
   }
   const bool grey = Beauty(a).is_grey();
   if (grey != Beauty(b).is_grey()) {
-    throw CompareError(fmt::format("the pictures differ in channels: '{}' is grey, '{}' has colours",
-                                   grey ? a.name : b.name, grey ? b.name : a.name));
+    throw InputError(fmt::format("the pictures differ in channels: '{}' is grey, '{}' has colours",
+                                 grey ? a.name : b.name, grey ? b.name : a.name));
   }
 }
 

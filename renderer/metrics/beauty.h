@@ -4,17 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 
+#include "base/errors.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
-
-/// Thrown for pictures that cannot be compared. The message names them.
-struct CompareError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct NamedPicture {
   const Picture& picture;
@@ -25,7 +20,7 @@ using Rgb = std::array<double, 3>;
 
 class Beauty {
  public:
-  /// A layer of one channel is grey. Throws CompareError without a beauty layer. The picture must outlive
+  /// A layer of one channel is grey. Throws InputError without a beauty layer. The picture must outlive
   /// this object.
   explicit Beauty(const NamedPicture& named);
 
@@ -48,7 +43,7 @@ inline std::size_t pixel_count(const Picture& picture) {
   return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
 }
 
-/// Throws CompareError when the sizes differ, when the regions of full pictures of one size differ, when one
+/// Throws InputError when the sizes differ, when the regions of full pictures of one size differ, when one
 /// picture is grey and the other has colours, or when a beauty layer is missing.
 void require_comparable(const NamedPicture& a, const NamedPicture& b);
 

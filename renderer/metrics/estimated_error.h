@@ -7,8 +7,8 @@ namespace gatelight::renderer {
 
 /// Estimates the square root of rel_mse (compare.h): the root of the mean over pixels and channels of squared
 /// standard error / (squared value + 1e-2). `errors` has the standard errors of the channels of `values`. A
-/// value that is noise itself is taken from the `smoothing` pixels around it in each direction: the error of
-/// a bright sample over the square of that same sample would be nothing.
+/// value is the mean over the `smoothing` pixels around it in each direction, because it is noisy itself: the
+/// error of a bright sample over the square of that same sample would be almost 0.
 double estimated_error(const Picture& picture, const Layer& values, const Layer& errors, int smoothing);
 
 }  // namespace gatelight::renderer

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_sort.h>
 
+#include "base/errors.h"
 #include "renderer/image/srgb.h"
-#include "renderer/machine/errors.h"
 #include "renderer/metrics/flip/color_map.h"
 #include "renderer/metrics/flip/exposures.h"
 #include "renderer/metrics/flip/filters.h"

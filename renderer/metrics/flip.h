@@ -52,7 +52,7 @@ struct FlipResult {
 
 /// Compares pictures as a screen shows them: radiance times 2^exposure, through the tone curve, clamped to
 /// [0, 1], not rounded to bytes. Symmetric; equal pictures give exactly 0. Gives the same bits for any number
-/// of threads. Throws what require_comparable() throws, CompareError for pictures without pixels or with
+/// of threads. Throws what require_comparable() throws, InputError for pictures without pixels or with
 /// values that are not finite, and BadOption for pixels_per_degree.
 FlipResult ldr_flip(const NamedPicture& reference, const NamedPicture& test, const FlipOptions& options = {});
 

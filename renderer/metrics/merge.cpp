@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/finite_float.h"
 #include "renderer/image/cryptomatte.h"
-#include "renderer/machine/finite_float.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -27,7 +27,7 @@ std::uint64_t samples_per_pixel(const NamedPicture& named, const std::string& te
   std::uint64_t spp = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), spp);
   if (error != std::errc() || stop != text.data() + text.size() || spp == 0) {
-    throw CompareError(
+    throw InputError(
         fmt::format("'{}' says it has '{}' samples per pixel, expected a positive number", named.name, text));
   }
   return spp;
@@ -58,20 +58,20 @@ void PictureMerger::require_same_shape(const NamedPicture& named) const {
   const std::string first = shape(merged_);
   const std::string other = shape(named.picture);
   if (first != other) {
-    throw CompareError(fmt::format("the pictures cannot be merged: '{}' has {}, '{}' has {}", first_name_,
-                                   first, named.name, other));
+    throw InputError(fmt::format("the pictures cannot be merged: '{}' has {}, '{}' has {}", first_name_,
+                                 first, named.name, other));
   }
   const auto integrator = merged_.metadata.find("integrator");
   const auto other_integrator = named.picture.metadata.find("integrator");
   if (integrator != merged_.metadata.end() && other_integrator != named.picture.metadata.end() &&
       integrator->second != other_integrator->second) {
-    throw CompareError(
-        fmt::format("the pictures cannot be merged: '{}' was made by --integrator {}, '{}' by {}",
+    throw InputError(
+        fmt::format("the pictures cannot be merged: '{}' was made by `integrator` {}, '{}' by {}",
                     first_name_, integrator->second, named.name, other_integrator->second));
   }
   if (weighted_ == named.picture.metadata.contains("spp")) return;
-  throw CompareError(
-      fmt::format("the pictures cannot be weighted: '{}' tells its samples per pixel, '{}' does not",
+  throw InputError(
+      fmt::format("the pictures cannot be weighted: '{}' states its samples per pixel, '{}' does not",
                   weighted_ ? first_name_ : named.name, weighted_ ? named.name : first_name_));
 }
 
@@ -100,7 +100,7 @@ void PictureMerger::add(const NamedPicture& named) {
   if (weighted_) {
     const std::uint64_t spp = samples_per_pixel(named, named.picture.metadata.at("spp"));
     if (__builtin_add_overflow(spp_, spp, &spp_)) {
-      throw CompareError(
+      throw InputError(
           fmt::format("'{}' says it has {} samples per pixel: with those of the others more than "
                       "64 bits hold",
                       named.name, spp));

@@ -18,7 +18,7 @@ namespace gatelight::renderer {
 /// seeds.
 class PictureMerger {
  public:
-  /// Throws CompareError when size, place, layers or integrator differ from the first picture. Also throws
+  /// Throws InputError when size, place, layers or integrator differ from the first picture. Also throws
   /// when only some pictures have an "spp", or when their sum exceeds 64 bits.
   void add(const NamedPicture& named);
 

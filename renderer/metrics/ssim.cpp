@@ -112,9 +112,9 @@ double ssim(const NamedPicture& reference, const NamedPicture& test, const SsimO
   const GreyPlane r = read_grey(reference, options);
   const GreyPlane t = read_grey(test, options);
   if (!has_ssim(reference.picture)) {
-    throw CompareError(fmt::format("'{}' has {}x{} pixels; SSIM is defined from {}x{}", reference.name,
-                                   reference.picture.width, reference.picture.height, kSsimWindow,
-                                   kSsimWindow));
+    throw InputError(fmt::format("'{}' has {}x{} pixels; SSIM is defined from {}x{}", reference.name,
+                                 reference.picture.width, reference.picture.height, kSsimWindow,
+                                 kSsimWindow));
   }
   const Weights weights = window_weights();
   const Index rows = r.rows() - kSsimWindow + 1;

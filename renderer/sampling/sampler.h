@@ -9,12 +9,10 @@
 
 #include <cstdint>
 
-#include "renderer/settings/choices.h"
-#include "scene/math.h"
+#include "base/math.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
-
-using scene::Vec2;
 
 namespace sampling {
 

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
-using scene::Vec2;
-using scene::Vec3;
-
-inline constexpr float kTwoPi = 2.0f * scene::kPi;
-inline constexpr float kInvTwoPi = 0.5f * scene::kInvPi;
-inline constexpr float kInvFourPi = 0.25f * scene::kInvPi;
+inline constexpr float kTwoPi = 2.0f * kPi;
+inline constexpr float kInvTwoPi = 0.5f * kInvPi;
+inline constexpr float kInvFourPi = 0.25f * kInvPi;
 
 /// A right-handed orthonormal basis around a unit normal.
 struct Basis {
@@ -66,10 +63,10 @@ inline Vec2 cos_sin_turn(float u) {
 inline Vec2 sample_concentric_disk(const Vec2& u) {
   const Vec2 a(2.0f * u.x() - 1.0f, 2.0f * u.y() - 1.0f);
   if (std::abs(a.x()) > std::abs(a.y())) {
-    return a.x() * cos_sin_octant(0.25f * scene::kPi * (a.y() / a.x()));
+    return a.x() * cos_sin_octant(0.25f * kPi * (a.y() / a.x()));
   }
   if (a.y() == 0.0f) return Vec2::Zero();
-  const Vec2 cs = cos_sin_octant(0.25f * scene::kPi * (a.x() / a.y()));
+  const Vec2 cs = cos_sin_octant(0.25f * kPi * (a.x() / a.y()));
   return {a.y() * cs.y(), a.y() * cs.x()};
 }
 
@@ -79,7 +76,7 @@ inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
   return {d.x(), d.y(), std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()))};
 }
 inline float pdf_cosine_hemisphere(float cos_theta) {
-  return std::max(0.0f, cos_theta) * scene::kInvPi;
+  return std::max(0.0f, cos_theta) * kInvPi;
 }
 
 inline Vec3 sample_uniform_sphere(const Vec2& u) {

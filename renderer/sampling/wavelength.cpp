@@ -11,7 +11,7 @@ constexpr double kFirst = 390.0, kStep = 2.0;  // nanometres
 constexpr std::size_t kSteps = 160;
 
 struct Table {
-  std::array<scene::Color, kSteps> colors;
+  std::array<Color, kSteps> colors;
   std::array<float, kSteps + 1> cdf{};
 
   Table() {

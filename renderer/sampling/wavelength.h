@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
 struct Wavelength {
   float nm = 0.0f;
-  /// What light of white stands for at this wavelength. Its mean over all samples is one, so that what
-  /// wavelengths have in common stays white. The colours of the spectrum that Rec. 709 cannot hold are cut at
-  /// zero.
-  scene::Color color{1.0f, 1.0f, 1.0f};
+  /// The colour of white light at this wavelength. Its mean over all samples is one, so that light which does
+  /// not depend on the wavelength stays white. Colours of the spectrum that Rec. 709 cannot represent are
+  /// clamped at zero.
+  Color color{1.0f, 1.0f, 1.0f};
 };
 
 /// `u` in [0, 1). Wavelengths are drawn by the sum of the three channels, so the sum of `color` is always

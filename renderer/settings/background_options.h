@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
-/// What the camera sees where it sees past the scene: directly, through holes, and through panes, which do
-/// not bend light. Mirrors and glass with an inside show the environment, which lights the scene in any case.
+/// The background behind the scene, visible directly, through holes, and through panes, which do not refract.
+/// Mirrors and glass with an inside show the environment, which lights the scene in any case.
 struct BackgroundOptions {
   enum class Kind : std::uint8_t {
     scene,        ///< the environment
@@ -17,13 +17,13 @@ struct BackgroundOptions {
     file,         ///< a picture, scaled to cover the view
   };
   Kind kind = Kind::scene;
-  scene::Color color{0.0f, 0.0f, 0.0f};
+  Color color{0.0f, 0.0f, 0.0f};
   std::string file;
-  /// A node of the scene, whose objects the camera does not see but for the shadows on them; empty: none.
+  /// A node of the scene whose objects are invisible except for the shadows on them; empty: none.
   std::string shadow_catcher;
 
   /// Whether the environment is left out of the view.
-  bool apart() const { return kind != Kind::scene; }
+  bool is_separate() const { return kind != Kind::scene; }
 };
 
 }  // namespace gatelight::renderer

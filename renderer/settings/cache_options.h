@@ -1,5 +1,5 @@
 #pragma once
-// How the cache learns and answers.
+// Training of the cache, and its queries.
 
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace gatelight::renderer {
 
-/// The part of the light reflected at a point that the cache holds. The rest is sampled where the cache is
-/// queried. cache/held_light.h is the definition.
+/// The part of the light reflected at a point that the cache stores. The rest is sampled where the cache is
+/// queried. cache/cached_light.h is the definition.
 enum class CacheHolds : std::uint8_t {
   all,       ///< everything (the paper)
   no_delta,  ///< all but direct light of punctual lights, which costs one shadow ray and keeps edges of the
@@ -29,8 +29,8 @@ enum class QueryAt : std::uint8_t {
 
 enum class CacheView : std::uint8_t {
   final,  ///< the picture
-  cache,  ///< the paper's picture: the answer at the first vertex alone, without emission, reflectance and
-          ///< light that the cache does not hold
+  cache,  ///< the paper's picture: only the answer at the first vertex, without emission, reflectance and
+          ///< light that the cache does not store
 };
 
 enum class TrainingSource : std::uint8_t {
@@ -42,8 +42,8 @@ enum class TrainingSource : std::uint8_t {
 /// Training paths that end in the cache's own answer (Mueller et al. 2021).
 struct SelfTrainingOptions {
   int start_step = 192;           ///< paths run to their end before it; negative: always
-  int vertices = 2;               ///< that become records before the answer
-  float full_fraction = 0.0625f;  ///< of the paths still run to their end
+  int vertices = 2;               ///< number that become records before the answer
+  float full_fraction = 0.0625f;  ///< share of the paths that still run to their end
   float attenuation = 1.0f;       ///< factor of the answer, in [0, 1]
 };
 
@@ -52,10 +52,10 @@ struct CacheOptions {
   std::optional<int> train_steps;  ///< empty: chosen from the picture's pixels and samples
   double train_seconds = 0.0;      ///< no further steps after this time; 0: no limit
   std::uint32_t batch = 4096;      ///< records of a step
-  int path_length = 0;             ///< scattering events of a training path; 0: by Russian roulette alone
+  int path_length = 0;             ///< scattering events of a training path; 0: only Russian roulette
   int samples_per_point = 1;       ///< paths averaged in the record of a training point
   TrainingSource source = TrainingSource::camera;
-  int samples_from_step = 32;  ///< the picture's samples wait for a cache that has learned a little
+  int samples_from_step = 32;  ///< first step whose paths are samples: before it the cache is too coarse
   int candidates = 1;          ///< points from which the one with the least trained triangle is chosen
   SelfTrainingOptions self_training;
   /// Node spacing in metres; empty: chosen by scouting. Overrides gate.node_spacing.
@@ -73,7 +73,7 @@ struct CacheOptions {
   neural::TrainingOptions training = {.adam = {.learning_rate = 1e-2f}};
   /// Inputs beside the position. Empty: chosen by scene and encoding.
   std::optional<bool> direction_input, normal_input, albedo_input;
-  bool scout = true;  ///< storage only for the sides of instances that scouting paths meet
+  bool scout = true;  ///< storage only for the sides of instances that scouting paths hit
 
   // Queries.
   CacheHolds holds = CacheHolds::no_delta;

@@ -1,17 +1,17 @@
 #pragma once
-// How the noise is taken out of a picture.
+// Options of denoising.
 
 #include <string>
 
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
 
 struct DenoiseOptions {
   DenoiserKind denoiser = DenoiserKind::none;
   Prefilter prefilter = Prefilter::accurate;
-  /// The picture is rendered and denoised at so many times its width and height, with as many samples in all,
-  /// and then scaled by its pixel filter. 1 where nothing is denoised.
+  /// Factor of width and height at which the picture is rendered and denoised, with the same number of
+  /// samples in all. It is then scaled by its pixel filter. 1 where nothing is denoised.
   int supersampling = 1;
   /// Pixels of the film in one of the picture.
   int parts() const { return supersampling * supersampling; }

@@ -3,18 +3,18 @@
 #include <optional>
 #include <string>
 
+#include "base/math.h"
 #include "renderer/settings/sky_options.h"
-#include "scene/math.h"
 
 namespace gatelight::renderer {
 
 struct EnvironmentOptions {
   /// A soft sky (light/soft_sky.h), where the scene has no light of its own. The others are then not set.
   bool automatic = false;
-  std::string file;                         ///< EXR or HDR picture, latitude-longitude; empty: constant
-  scene::Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
-  std::optional<SkyOptions> sky;            ///< a clear sky with a sun; file and constant are then not set
-  float rotation_degrees = 0.0f;            ///< about +y, counter-clockwise seen from above
+  std::string file;                  ///< EXR or HDR picture, latitude-longitude; empty: constant
+  Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
+  std::optional<SkyOptions> sky;     ///< a clear sky with a sun; file and constant are then not set
+  float rotation_degrees = 0.0f;     ///< about +y, counter-clockwise seen from above
   float scale = 1.0f;
 
   bool none() const { return !automatic && !sky && file.empty() && (constant == 0.0f).all(); }

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "renderer/machine/errors.h"
-#include "renderer/settings/values.h"
+#include "base/errors.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -26,7 +25,7 @@ std::string text_of(const std::vector<LightGroup>& groups) {
 }
 
 void refuse_light_groups(const std::string& why) {
-  throw BadOption(fmt::format("--light-groups: {}", why));
+  throw BadOption(fmt::format("`light-groups`: {}", why));
 }
 
 void check_light_groups(const std::vector<LightGroup>& groups) {
@@ -46,18 +45,6 @@ void check_light_groups(const std::vector<LightGroup>& groups) {
   }
   if (groups.size() > kMostLightGroups)
     refuse_light_groups(fmt::format("{} groups, expected at most {}", groups.size(), kMostLightGroups));
-}
-
-std::vector<LightGroup> read_light_groups(const std::string& text) {
-  if (text == "none") return {};
-  std::vector<LightGroup> groups;
-  for (const std::string& part : split(text, ';')) {
-    const std::size_t equals = part.find('=');  // names of groups have none
-    if (equals == std::string::npos) refuse_light_groups(fmt::format("'{}' is not NAME=LIGHT,LIGHT", part));
-    groups.push_back({part.substr(0, equals), split(part.substr(equals + 1), ',')});
-  }
-  check_light_groups(groups);
-  return groups;
 }
 
 }  // namespace gatelight::renderer

@@ -16,18 +16,15 @@ struct LightGroup {
   bool operator==(const LightGroup&) const = default;
 };
 
-/// In a group: the environment with its sun.
+/// The name in a group of the environment with its sun.
 inline constexpr const char* kEnvironmentWord = "environment";
 /// The group of the lights that no group names.
 inline constexpr const char* kRestGroup = "rest";
 inline constexpr std::size_t kMostLightGroups = 16;
 
-/// What read_light_groups() takes.
+/// The groups as a text: "NAME=LIGHT,LIGHT;NAME=LIGHT".
 std::string text_of(const std::vector<LightGroup>& groups);
-/// Reads "NAME=LIGHT,LIGHT;NAME=LIGHT", or "none". Throws BadOption that names the flag, the part and what
-/// was expected.
-std::vector<LightGroup> read_light_groups(const std::string& text);
-/// Throws BadOption: the flag, and why.
+/// Throws BadOption with the reason.
 [[noreturn]] void refuse_light_groups(const std::string& why);
 /// Refuses unless there are at most kMostLightGroups, each with lights and a name of its own.
 void check_light_groups(const std::vector<LightGroup>& groups);

@@ -10,8 +10,8 @@
 
 #include "renderer/settings/background_options.h"
 #include "renderer/settings/cache_options.h"
-#include "renderer/settings/choices.h"
 #include "renderer/settings/denoise_options.h"
+#include "renderer/settings/enums.h"
 #include "renderer/settings/environment_options.h"
 #include "renderer/settings/light_group_options.h"
 
@@ -26,16 +26,16 @@ struct CheckpointOptions {
 
 /// A view given by hand, in the file's coordinates; replaces the file's cameras.
 struct LookAt {
-  scene::Vec3 eye = scene::Vec3::Zero();
-  scene::Vec3 target{0.0f, 0.0f, -1.0f};
-  scene::Vec3 up{0.0f, 1.0f, 0.0f};
+  Vec3 eye = Vec3::Zero();
+  Vec3 target{0.0f, 0.0f, -1.0f};
+  Vec3 up{0.0f, 1.0f, 0.0f};
 };
 
 /// Depth of field. Without an aperture all is sharp.
 struct LensOptions {
   float aperture = 0.0f;  ///< diameter in metres, unless f_stop is set
   float f_stop = 0.0f;    ///< focal length over diameter; 0: not set
-  std::string focus;      ///< metres along the view, or a node; empty: what the middle of the picture sees
+  std::string focus;      ///< metres along the view, or a node; empty: the distance in the picture's middle
   int blades = 0;         ///< corners of the aperture; 0: round
 };
 
@@ -50,21 +50,21 @@ struct CameraOptions {
   LensOptions lens;
 };
 
-/// So many samples per pixel mean that something else ends the picture.
+/// Number of samples per pixel which means that something else ends the picture.
 inline constexpr int kOpenSpp = 1 << 24;
 
 struct RenderOptions {
   Integrator integrator = Integrator::path;
-  /// With nrc: a scene whose light paths are too short for a cache to pay gets path
-  /// (run/chosen_integrator.h).
+  /// With nrc: a scene whose light paths are too short for a cache to pay off gets path
+  /// (driver/chosen_integrator.h).
   bool choose_integrator = false;
   int width = 960;
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
-  /// Instead of spp where choose_integrator takes path: about as many as take the time; 0: spp.
+  /// Replaces spp where choose_integrator takes path, for about the same time; 0: spp.
   int spp_of_paths = 0;
-  /// Of scouting, setup, training, passes and denoising together; 0: no limit.
+  /// Time of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off
   int max_depth = 8;       ///< scattering events; 1 is emission and direct light
@@ -84,7 +84,7 @@ struct RenderOptions {
   DenoiseOptions denoise;
   std::vector<Aov> aovs;
   std::vector<MatteKind> cryptomattes;   ///< each once, in the order of the enumeration
-  std::vector<LightGroup> light_groups;  ///< of path alone: each has a layer
+  std::vector<LightGroup> light_groups;  ///< only with path: each has a layer
   NanPolicy nan_policy = NanPolicy::drop;
   std::size_t memory_limit_bytes = 0;  ///< 0: no limit; building beyond it throws OutOfMemory
   std::string isa = "auto";            ///< of Embree: auto, scalar (SSE2), avx2, avx512

@@ -3,8 +3,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A finished picture: training learns from the picture's samples, and the picture is denoised. Steps are
-/// chosen by the picture's pixels and samples.
+/// A finished picture: training uses the picture's samples, and the picture is denoised. Steps are chosen by
+/// the picture's pixels and samples.
 void set_finished(RenderOptions& options, int spp) {
   options.integrator = Integrator::nrc;
   options.choose_integrator = true;
@@ -13,7 +13,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
   // Chosen by the error after denoising (renderer/cache/README.md). Twice the steps of half the records, and
-  // a learning rate that falls soon, hold the brightness of the whole still.
+  // a learning rate that falls soon, keep the overall brightness stable.
   CacheOptions& cache = options.cache;
   cache.source = TrainingSource::picture;
   cache.query_at = QueryAt::spread;

@@ -5,21 +5,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::renderer {
 
-float resolve_ao_distance(float option, const scene::Box& bounds) {
+float resolve_ao_distance(float option, const Box& bounds) {
   if (option >= 0.0f) return option;
-  return bounds.isEmpty() ? scene::kInfinity : 0.1f * bounds.diagonal().norm();
+  return bounds.isEmpty() ? kInfinity : 0.1f * bounds.diagonal().norm();
 }
 
 void check_light_groups(const RenderOptions& options) {
   check_light_groups(options.light_groups);
   if (!options.light_groups.empty() && options.integrator != Integrator::path)
     refuse_light_groups(
-        fmt::format("the integrator '{}' does not tell lights apart, expected --integrator path",
-                    word(options.integrator)));
+        fmt::format("the integrator '{}' does not separate lights, expected `integrator` path",
+                    enum_name(options.integrator)));
 }
 
 bool training_gives_samples(const RenderOptions& options) {
@@ -46,7 +46,7 @@ float resolve_filter_width(PixelFilter filter, float option) {
   return filter == PixelFilter::tent ? 2.0f : 3.0f;
 }
 
-void settle_on(RenderOptions& options, Integrator integrator) {
+void use_integrator(RenderOptions& options, Integrator integrator) {
   options.choose_integrator = false;
   options.integrator = integrator;
   if (integrator == Integrator::path && options.spp_of_paths > 0) options.spp = options.spp_of_paths;

@@ -24,19 +24,14 @@ struct SkyOptions {
   float sun_azimuth_degrees = 135.0f;   ///< from north, clockwise seen from above
   float sun_elevation_degrees = 40.0f;  ///< above the horizon
   std::optional<SunTime> time;          ///< instead of azimuth and elevation
-  float ground = 0.2f;                  ///< albedo of what lies below the horizon
+  float ground = 0.2f;                  ///< albedo below the horizon
   float sun_size_degrees = 0.53f;       ///< diameter of the disc; 0: a directional light
   float intensity = 1.0f;               ///< multiplies sky and sun
 
   bool operator==(const SkyOptions&) const = default;
 };
 
-/// All parts in the form that read_sky() takes.
+/// All parts as a text, such as "turbidity=3,sun=135,40,ground=0.2,size=0.53,intensity=1".
 std::string text_of(const SkyOptions& sky);
-
-/// Reads "clear", or "turbidity=3, sun=AZIMUTH,ELEVATION, ground=0.2, size=0.53, intensity=1", with
-/// "date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2" instead of the sun; each part may be left
-/// out. Throws BadOption that names the flag, the part and what was expected.
-SkyOptions read_sky(const std::string& flag, const std::string& text);
 
 }  // namespace gatelight::renderer

@@ -41,7 +41,7 @@ struct CacheStatistics {
   int steps = 0;  ///< trained for this picture, without those of a loaded cache
   int steps_wanted = 0;
   bool steps_chosen = false;   ///< from the picture's pixels and samples, not by the caller
-  std::uint64_t records = 0;   ///< learned
+  std::uint64_t records = 0;   ///< trained with
   std::uint64_t rejected = 0;  ///< left out because they were not finite
   std::uint64_t unstored = 0;  ///< on surfaces without storage
   std::uint64_t training_paths = 0;
@@ -75,27 +75,27 @@ struct CacheStatistics {
   std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
 };
 
-/// Of one of several ranks.
+/// Statistics of one of several ranks.
 struct RankStatistics {
   int threads = 0;
   std::uint64_t samples = 0;  ///< camera paths of the picture
   std::uint64_t training_paths = 0;
   std::uint64_t record_bytes = 0;  ///< of this rank's records of training, packed
   double seconds = 0.0;            ///< since the picture was begun
-  std::uint64_t bytes_sent = 0;    ///< to all other ranks, of everything
-  double waiting_seconds = 0.0;    ///< for other ranks, with what travels
+  std::uint64_t bytes_sent = 0;    ///< to all other ranks, in all
+  double waiting_seconds = 0.0;    ///< for other ranks, with the transfers
 };
 
-/// What ended a picture.
+/// The cause of a picture's end.
 enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device };
 
 struct RenderStatistics {
   double build_seconds = 0.0;  ///< acceleration structure, lights, textures
   double render_seconds = 0.0;
-  double resumed_seconds = 0.0;  ///< those of render_seconds that a checkpoint brought
+  double resumed_seconds = 0.0;  ///< part of render_seconds from a checkpoint
   double denoise_seconds = 0.0;
-  std::string denoiser;         ///< name and version of what denoised the picture; empty: it is as traced
-  std::string denoise_failure;  ///< why it is as traced although it should be denoised; else empty
+  std::string denoiser;         ///< name and version of the denoiser that ran; empty: none
+  std::string denoise_failure;  ///< why denoising failed; else empty
   double cryptomatte_seconds = 0.0;
   int width = 0;
   int height = 0;

@@ -8,7 +8,7 @@ namespace gatelight::renderer {
 struct View : scene::Camera {
   bool panorama = false;        ///< all directions: latitude-longitude, -z of the camera in the middle
   float lens_radius = 0.0f;     ///< metres; 0: a pinhole, all is sharp
-  float focus_distance = 0.0f;  ///< metres along the view; 0: to what the middle of the picture sees
+  float focus_distance = 0.0f;  ///< metres along the view; 0: the distance in the picture's middle
   int blades = 0;               ///< corners of the aperture; 0: round
 
   View() = default;

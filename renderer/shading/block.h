@@ -1,14 +1,14 @@
 #pragma once
 // Up to 16 points of surfaces that are shaded together, as a structure of arrays. Plain data: the kernels,
-// which are compiled once for each instruction set, see nothing else of the renderer.
+// which are compiled once for each instruction set, use nothing else of the renderer.
 
 #include <cstdint>
 
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
 
-/// How a lane's light sample came about.
+/// The state of a lane's light sample.
 enum class LaneLight : std::uint32_t {
   none,         ///< no light can reach the point
   done,         ///< the sample is complete
@@ -23,22 +23,22 @@ struct alignas(64) ShadingBlock {
   using Floats = float[kWidth];
   using Words = std::uint32_t[kWidth];
 
-  int count = 0;                             ///< lanes in use; the others hold what was in them before
+  int count = 0;                             ///< lanes in use; the others keep their old content
   SamplerKind sampler = SamplerKind::sobol;  ///< of all lanes
 
-  // The surface: those of Surface and SurfaceMaterial. Transmission is that of a thin sheet.
+  // The surface: members of Surface and SurfaceMaterial. Transmission is that of a thin sheet.
   alignas(64) Floats position[3], geometric_normal[3], shading_normal[3], coat_normal[3], wo[3], offset;
   Floats base_color[3], metallic, roughness, ior, specular, specular_color[3], transmission;
-  Floats diffuse_transmission, diffuse_transmission_color[3];  // the colour where there is some
+  Floats diffuse_transmission, diffuse_transmission_color[3];  // the colour is valid for a share above zero
   Floats clearcoat, clearcoat_roughness, sheen_color[3], sheen_roughness;
   // The path.
   Words sampler_key, sampler_index;
   Words dimensions;  ///< first sampler dimension of the vertex
   Words seed;
-  Words events_before_roulette;  ///< Russian roulette applies where none is left; signed
+  Words events_before_roulette;  ///< scattering events left until Russian roulette applies; signed
   Floats throughput[3];          ///< for Russian roulette
 
-  // The light sample: LightSample, and where it stands.
+  // The light sample: its state, and the members of LightSample.
   Words light_state;  ///< LaneLight
   Words light;        ///< LightSample::light
   Words light_is_delta;
@@ -47,14 +47,14 @@ struct alignas(64) ShadingBlock {
 
   // The BSDF towards the light, times radiance, MIS weight and one over the pdf; zero without light.
   Floats direct[3];
-  Floats wide_direct[3];  ///< that of the wide lobes, where ShadingContext::tells_wide
+  Floats wide_direct[3];  ///< part of the wide lobes, where ShadingContext::separates_wide
   // The shadow ray.
   Floats shadow_origin[3], shadow_length;
   Words shadow_seed;
 
   Floats albedo[3];
   Floats wide_albedo[3];  ///< of the wide lobes
-  // The sampled direction: Drawn, and the next ray.
+  // The sampled direction: DirectionSample, and the next ray.
   Words alive;  ///< 0: the path ends
   Words is_delta, transmitted;
   Floats wi[3], weight[3], pdf, spread, survival;

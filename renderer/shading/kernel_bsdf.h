@@ -1,169 +1,20 @@
 #pragma once
-// The opaque and thin-walled BSDF for all lanes: the wide side of renderer/bsdf, lobe by lobe. Microfacets
+// The opaque and thin-walled BSDF for all lanes: the SIMD version of renderer/bsdf, lobe by lobe. Microfacets
 // and clearcoat may be deltas. Part of kernel_table.cpp.
 
-#include "neural/simd/groups.h"
-#include "renderer/shading/kernel_math.h"
+#include "renderer/shading/kernel_lobes.h"
 #include "renderer/shading/kernel_sampler.h"
 #include "renderer/shading/kernels.h"
 
 namespace {
 
-using gatelight::renderer::BsdfTables;
 using gatelight::renderer::ShadingBlock;
 using gatelight::renderer::ShadingContext;
-
-constexpr float kMinCosine = 1e-5f, kMinHalf2 = 1e-10f;
-constexpr float kDeltaAlpha = 0.03f * 0.03f;
-constexpr float kSchlickMean = 1.0f / 21.0f;
-constexpr float kCoatF0 = 0.04f;
-
-GATELIGHT_INLINE Float schlick_weight(Float cosine) {
-  const Float x = clamp(1.0f - cosine, 0.0f, 1.0f), x2 = x * x;
-  return x2 * x2 * x;
-}
-GATELIGHT_INLINE Float coat_fresnel(Float cosine) {
-  return kCoatF0 + (1.0f - kCoatF0) * schlick_weight(cosine);
-}
-GATELIGHT_INLINE Float multiple_part(Float mean_fresnel, Float mean_loss) {
-  return mean_fresnel * (1.0f - mean_loss) / (1.0f - mean_fresnel * mean_loss);
-}
-/// The first of two neighbours in a table of `count` entries, and the share of the second. NaN gives 0.
-struct Place {
-  Int index;
-  Float share;
-  GATELIGHT_INLINE Place(Float x, int count) {
-    index = to_int(clamp(x, 0.0f, static_cast<float>(count - 2)));
-    share = x - to_float(index);
-  }
-};
-GATELIGHT_INLINE Float lerp(Float a, Float b, Float share) {
-  return a + share * (b - a);
-}
-
-struct Albedo {
-  Float loss, b, b_scaled, scale;
-};
-/// GgxTables::Row. A delta lobe loses nothing.
-struct GgxRow {
-  const float* values;
-  Int first;
-  Float mix, alpha, u_scale;
-  Mask smooth;
-
-  GATELIGHT_INLINE GgxRow() = default;
-  GATELIGHT_INLINE GgxRow(const BsdfTables& tables, Float roughness, Float roughness_alpha, Mask delta)
-      : values(tables.ggx), alpha(roughness_alpha), u_scale((1.0f + roughness_alpha) * 31.0f), smooth(delta) {
-    const Place place(roughness * 31.0f, 32);
-    first = place.index * 128u;
-    mix = place.share;
-  }
-  GATELIGHT_INLINE Albedo at(Float cosine) const {
-    const Place place(cosine * u_scale / (cosine + alpha), 32);
-    const Records rows(first + place.index * 4u);
-    const Float4 low0 = rows.four(values, 0), low1 = rows.four(values, 4);
-    const Float4 high0 = rows.four(values, 128), high1 = rows.four(values, 132);
-    const auto part = [&](int k) __attribute__((always_inline)) {
-      return lerp(lerp(low0.c[k], low1.c[k], place.share), lerp(high0.c[k], high1.c[k], place.share), mix);
-    };
-    const Float schlick = schlick_weight(cosine);
-    const Float loss = part(0);
-    Albedo a{loss, part(1) + (1.0f - loss) * schlick, part(2) + schlick, part(3)};
-    if (any(smooth))
-      a = {select(smooth, 0.0f, a.loss), select(smooth, schlick, a.b), select(smooth, schlick, a.b_scaled),
-           select(smooth, 1.0f, a.scale)};
-    return a;
-  }
-  /// The cosine-weighted mean; its scale has no meaning.
-  GATELIGHT_INLINE Albedo mean(const BsdfTables& tables) const {
-    const Records rows(first >> 5);
-    const Float4 low = rows.four(tables.ggx_means, 0), high = rows.four(tables.ggx_means, 4);
-    const auto part = [&](int k, float of_delta) __attribute__((always_inline)) {
-      return select(smooth, of_delta, lerp(low.c[k], high.c[k], mix));
-    };
-    return {part(0, 0.0f), part(1, kSchlickMean), part(2, kSchlickMean), 1.0f};
-  }
-};
-
-/// GgxLobe, with the perceptual roughness clamped to [0, 1].
-struct GgxLobe {
-  Float alpha, alpha2, cos_o, root_o, pdf_scale;
-  Mask delta;
-
-  GgxLobe() = default;
-  GATELIGHT_INLINE GgxLobe(Float roughness, Float cosine)
-      : alpha(roughness * roughness), alpha2(alpha * alpha), cos_o(cosine), delta(alpha < kDeltaAlpha) {
-    root_o = root(cos_o);
-    pdf_scale = 0.5f / (cos_o + root_o);
-  }
-  GATELIGHT_INLINE Float root(Float cosine) const { return sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine); }
-  struct Terms {
-    Float d, visibility;
-  };
-  GATELIGHT_INLINE Terms terms(Float3 n, Float3 h, Float h2, Float cos_i) const {
-    const Float nh = dot(n, h);
-    const Float3 c = cross(n, h);
-    const Float r = alpha2 * nh * nh + dot(c, c);
-    const Float d_below = kPi * r * r;
-    const Float v_below = cos_i * root_o + cos_o * root(cos_i);
-    const Float inverse = 1.0f / (d_below * v_below);
-    return {alpha2 * h2 * h2 * v_below * inverse, 0.5f * d_below * inverse};
-  }
-};
-
-/// SheenLobe and its row of SheenTables.
-struct SheenLobe {
-  const float* values;
-  Int first;
-  Float mix, exponent, scale;
-
-  SheenLobe() = default;
-  GATELIGHT_INLINE SheenLobe(const BsdfTables& tables, Float roughness) : values(tables.sheen) {
-    const Place place((roughness - 0.2f) * (15.0f / 0.8f), 16);
-    first = place.index * 64u;
-    mix = place.share;
-    exponent = 1.0f / (roughness * roughness);
-    scale = (2.0f + exponent) * (0.125f * kInvPi);
-  }
-  /// part 0: the divisor before the limit of one; part 1: the albedo.
-  GATELIGHT_INLINE Float lookup(uint32_t part, Float cosine) const {
-    const Place place(sqrt(cosine) * 31.0f, 32);
-    const Int at = first + place.index * 2u;
-    const Float low = lerp(gather(values + part, at), gather(values + part + 2, at), place.share);
-    const Float high = lerp(gather(values + part + 64, at), gather(values + part + 66, at), place.share);
-    return lerp(low, high, mix);
-  }
-  GATELIGHT_INLINE Float value(Float sin2_h, Float cos_o, Float cos_i) const {
-    const Float distribution = exp2(0.5f * exponent * log2(clamp(sin2_h, 1e-30f, 1.0f)));
-    return scale * distribution / (cos_o + cos_i - cos_o * cos_i) /
-           max(max(1.0f, lookup(0, cos_o)), max(1.0f, lookup(0, cos_i)));
-  }
-};
-
-/// bend_normal() of bsdf.cpp.
-GATELIGHT_INLINE Float3 bend_normal(Float3 n, Float3 ng, Float3 wo) {
-  const Float on = dot(wo, n), og = max(dot(wo, ng), 0.0f);
-  const Float mirrored = 2.0f * on * dot(n, ng) - og;
-  const Float lifted = min(0.9f * og, 0.01f);
-  const Mask stays = (mirrored >= lifted) & (on > 0.0f);
-  if (!any(~stays)) return n;
-  const Float tangent2 = 1.0f - mirrored * mirrored;
-  const Float stretch = sqrt((1.0f - lifted * lifted) / tangent2);
-  const Float3 tangent = n * (2.0f * on) - wo - ng * mirrored;
-  const Float3 half = wo + tangent * stretch + ng * lifted;
-  const Float length2 = dot(half, half);
-  const Float3 bent = select((tangent2 > 1e-6f) & (length2 > 1e-8f), half * (1.0f / sqrt(length2)), ng);
-  return select(stays, n, bent);
-}
-
-GATELIGHT_INLINE Float3 mirror(Float3 wo, Float3 n) {
-  return n * (2.0f * dot(wo, n)) - wo;
-}
 
 struct LaneValue {
   Float3 value;
   Float pdf;
-  Float3 wide;  ///< the value of the wide lobes, where LaneBsdf::tells_wide
+  Float3 wide;  ///< the value of the wide lobes, where LaneBsdf::separates_wide
 };
 struct LaneSample {
   Float3 wi, weight, wide_weight;
@@ -184,9 +35,9 @@ struct LaneBsdf {
   Float3 albedo;
   Float p_microfacet, p_diffuse, p_through, p_coat, p_sheen;
   Mask thin, through, coated, has_sheen;  ///< through: a diffuse base on the other side
-  bool any_thin, any_through, any_coat, any_sheen, tells_wide;
+  bool any_thin, any_through, any_coat, any_sheen, separates_wide;
   Mask is_delta;
-  Mask wide_facets, wide_coat;  ///< where tells_wide
+  Mask wide_facets, wide_coat;  ///< where separates_wide
   Float3 wide_albedo;
 
   GATELIGHT_INLINE LaneBsdf(const ShadingBlock& block, const ShadingContext& context, int at)
@@ -194,13 +45,13 @@ struct LaneBsdf {
         ng(load(block.geometric_normal, at)),
         ns(bend_normal(load(block.shading_normal, at), ng, wo)) {
     const BsdfTables& tables = context.tables;
-    tells_wide = context.tells_wide;
+    separates_wide = context.separates_wide;
     set_up_base(block, tables, at);
     set_up_layers(block, tables, at);
     albedo = clamp(albedo, 0.0f, 1.0f);
-    if (tells_wide) tell_wide(tables, context.min_roughness);
+    if (separates_wide) separate_wide(tables, context.min_roughness);
     p_microfacet = max(p_microfacet, 1e-3f * f90 * base_scale);
-    if (context.narrow_alone) keep_narrow();
+    if (context.narrow_only) keep_narrow();
     const Float total = p_microfacet + p_diffuse + p_through + p_coat + p_sheen;
     const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
     p_microfacet *= scale;
@@ -290,7 +141,7 @@ struct LaneBsdf {
     has_sheen = any_positive(sheen_color);
     any_sheen = any(has_sheen);
     if (any_sheen) {
-      sheen = SheenLobe(tables, clamp(load(block.sheen_roughness + at), 0.2f, 1.0f));
+      sheen = SheenLobe(tables, clamp(load(block.sheen_roughness + at), kMinSheenRoughness, 1.0f));
       const Float reflected = sheen.lookup(1, ggx.cos_o);
       p_sheen = luminance(sheen_color) * reflected;
       base_scale = 1.0f - largest(sheen_color) * reflected;
@@ -317,33 +168,33 @@ struct LaneBsdf {
   }
 
   /// Bsdf::wide_part.
-  GATELIGHT_INLINE void tell_wide(const BsdfTables& tables, float min_roughness) {
+  GATELIGHT_INLINE void separate_wide(const BsdfTables& tables, float min_roughness) {
     const Float least = Float(min_roughness) * min_roughness;
     const auto is_wide = [&](const GgxLobe& lobe) __attribute__((always_inline)) {
       return ~(lobe.delta | (lobe.alpha2 < least * least));
     };
     wide_facets = is_wide(ggx);
     wide_coat = no_lanes();
-    // The albedo of the lobes that are apart from the microfacets: wide beside narrow ones, or narrow beside
-    // wide ones.
+    // The albedo of the lobes that are separate from the microfacets: wide beside narrow ones, or narrow
+    // beside wide ones.
     const Float coupled = kPi * max(passed(row.mean(tables)), 1e-6f) * base_scale;
     Float3 matte = select_or_zero(p_diffuse > 0.0f, diffuse * coupled);
     if (any_through) matte += select_or_zero(p_through > 0.0f, diffuse_through * coupled);
-    Float3 apart = select_or_zero(~wide_facets, matte);
+    Float3 split = select_or_zero(~wide_facets, matte);
     if (any_sheen)
-      apart += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
+      split += select_or_zero(~wide_facets & (p_sheen > 0.0f), sheen_color * sheen.lookup(1, ggx.cos_o));
     if (any_coat) {
       wide_coat = is_wide(coat) & coated;
       const Mask differs = (wide_coat & ~wide_facets) | (~wide_coat & coated & wide_facets);
-      apart += repeat(select_or_zero(differs, p_coat));
+      split += repeat(select_or_zero(differs, p_coat));
     }
-    apart = {min(apart.x, albedo.x), min(apart.y, albedo.y), min(apart.z, albedo.z)};
-    wide_albedo = select(wide_facets, albedo - apart, apart);
+    split = {min(split.x, albedo.x), min(split.y, albedo.y), min(split.z, albedo.z)};
+    wide_albedo = select(wide_facets, albedo - split, split);
   }
 
-  /// Bsdf::narrow_part, but for the albedo.
+  /// Bsdf::narrow_part, except the albedo.
   GATELIGHT_INLINE void keep_narrow() {
-    tells_wide = false;
+    separates_wide = false;
     p_microfacet = select_or_zero(~wide_facets, p_microfacet);
     p_coat = select_or_zero(~wide_coat, p_coat);
     p_diffuse = p_through = p_sheen = 0.0f;
@@ -374,7 +225,7 @@ struct LaneBsdf {
     const Mask front = (side > 0.0f) & (cos_n > 0.0f);
     Mask behind = no_lanes();
     Float cos_i = cos_n;
-    Float3 above = wi;  // on a sheet the mirror image of what goes through
+    Float3 above = wi;  // on a sheet the mirror image of the transmitted direction
     if (any_thin | any_through) {
       behind = (thin | through) & (side < 0.0f) & (cos_n < 0.0f);
       cos_i = absolute(cos_n);
@@ -415,14 +266,14 @@ struct LaneBsdf {
     const Mask valid = front | behind;
     result.value = select_or_zero(valid, result.value * base_scale);
     result.pdf = select_or_zero(valid, result.pdf);
-    if (tells_wide) result.wide = select(wide_facets, result.value, matte * base_scale);
+    if (separates_wide) result.wide = select(wide_facets, result.value, matte * base_scale);
     if (any_coat) {
       const Float cos_c = dot(wi, nc);
       const Mask here = (side > 0.0f) & (p_coat > 0.0f) & ~coat.delta & (cos_c > 0.0f) & (h2 > kMinHalf2);
       const GgxLobe::Terms t = coat.terms(nc, h, h2, cos_c);
       const Float value = coat_weight * coat_fresnel(cos_h) * t.d * t.visibility * cos_c;
       result.value += repeat(select_or_zero(here, value));
-      if (tells_wide) result.wide += repeat(select_or_zero(here & wide_coat, value));
+      if (separates_wide) result.wide += repeat(select_or_zero(here & wide_coat, value));
       result.pdf += select_or_zero(here, p_coat * t.d * coat.pdf_scale);
     }
     if (any_sheen) {
@@ -430,7 +281,7 @@ struct LaneBsdf {
       const Float3 c = cross(ns, h);
       const Float value = sheen.value(dot(c, c) / h2, ggx.cos_o, max(cos_i, 0.0f)) * cos_i;
       result.value += select_or_zero(here, sheen_color * value);
-      if (tells_wide) result.wide += select_or_zero(here, sheen_color * value);
+      if (separates_wide) result.wide += select_or_zero(here, sheen_color * value);
       result.pdf += select_or_zero(here, p_sheen * (0.5f * kInvPi));
     }
     return result;
@@ -445,7 +296,7 @@ struct LaneBsdf {
                diffuse_has = (p_diffuse > 0.0f) | (p_through > 0.0f);
     const Mask facets = (u_lobe < after_facets) | ~(coat_has | sheen_has | diffuse_has);
     const Mask in_diffuse = ~facets & diffuse_has & ((u_lobe < after_diffuse) | ~(coat_has | sheen_has));
-    // Of the diffuse directions, those on the other side.
+    // The diffuse directions on the other side.
     const Mask in_through =
         in_diffuse & (p_through > 0.0f) & (~(u_lobe < before_through) | ~(p_diffuse > 0.0f));
     const Mask in_sheen = ~facets & ~in_diffuse & sheen_has & ((u_lobe < after_sheen) | ~coat_has);
@@ -490,7 +341,7 @@ struct LaneBsdf {
     const LaneValue value = evaluate(s.wi);
     s.pdf = value.pdf;
     s.weight = value.value * (1.0f / value.pdf);
-    if (tells_wide) s.wide_weight = select_or_zero(~s.delta, value.wide * (1.0f / value.pdf));
+    if (separates_wide) s.wide_weight = select_or_zero(~s.delta, value.wide * (1.0f / value.pdf));
     if (any(s.delta)) {
       const Float schlick = schlick_weight(ggx.cos_o);
       const Float3 reflected = f0 + (repeat(f90) - f0) * schlick;

@@ -1,7 +1,7 @@
 #pragma once
-// Light samples for all lanes: the wide side of renderer/light (Lights::sample). Part of kernel_table.cpp.
+// Light samples for all lanes: the SIMD version of renderer/light (Lights::sample). Part of kernel_table.cpp.
 
-#include "neural/simd/groups.h"
+#include "base/simd/groups.h"
 #include "renderer/shading/kernel_math.h"
 #include "renderer/shading/kernel_sampler.h"
 #include "renderer/shading/kernels.h"
@@ -23,8 +23,8 @@ struct Receiver {
   Float free;
 };
 
-/// LightTree::weigh for one child of a node in each lane. field(i): the child's number i of a node, in the
-/// order of LightTree::Node.
+/// LightTree::weigh for one child of a node in each lane. field(i): number i of the child, in the order of
+/// LightTree::Node.
 template <class Field>
 GATELIGHT_INLINE Float weigh(const Receiver& r, float nearest2, Field field) {
   const Float3 d = Float3{field(0), field(1), field(2)} - r.p;
@@ -60,7 +60,7 @@ GATELIGHT_INLINE Float weigh(const Receiver& r, float nearest2, Field field) {
 /// The weights of a node's four children.
 using Weights = Float4;
 
-/// Of the root, which all lanes share.
+/// The weights of the root's children. All lanes share the root.
 GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
   Weights w;
 #pragma GCC unroll 1
@@ -70,9 +70,9 @@ GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
   return w;
 }
 
-/// Of a different node for each lane. A node has its numbers in fours, so four lanes at a time weigh the four
-/// children of their receivers; reading the numbers of each lane one by one would take four times as many
-/// loads.
+/// The weights for a different node in each lane. A node has its numbers in fours, so four lanes at a time
+/// weigh the four children of their receivers; reading the numbers of each lane one by one would take four
+/// times as many loads.
 struct NodeWeigher {
   alignas(64) float receiver[7][kLanes];
   const LightView& view;
@@ -104,8 +104,8 @@ struct NodeWeigher {
   }
 };
 
-/// Random digits below those of a number that a choice has used up: choosing with probability p leaves steps
-/// of 2^-24 / p, which one more number fills. Without this a deep tree would run out of digits.
+/// Random digits that replace those which a choice has used up: choosing with probability p leaves steps of
+/// 2^-24 / p, which one more number fills. Without this a deep tree would run out of digits.
 struct Digits {
   Int state;
 
@@ -146,12 +146,12 @@ GATELIGHT_INLINE Mask descend(const LightView& view, const Receiver& r, Weights 
   return lost;
 }
 
-/// The result of a kind of light; lanes of other kinds hold anything.
+/// The result of a kind of light; lanes of other kinds are undefined.
 struct LanesOfLight {
   Float3 wi, radiance;
   Float distance, pdf, offset, cosine;
   Float2 point;
-  Mask valid, textured;  ///< textured: of a triangle; with a profile: of a placed light
+  Mask valid, textured;  ///< textured: for triangles; for placed lights: with a profile
 };
 
 /// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
@@ -244,6 +244,143 @@ GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int
   return s;
 }
 
+/// The kind of light that each lane samples, and its number in that kind.
+struct KindOfLight {
+  Mask local, suns, sky;  ///< one of them, or none where no light can reach the point
+  Int sun;                ///< number among the suns above the lane's surface
+  Float probability;      ///< of the kind
+  Float rest;             ///< of the random number, in [0, 1)
+};
+
+GATELIGHT_INLINE Mask is_above(const Receiver& r, const float* sun) {
+  return ~(dot(r.n, {sun[0], sun[1], sun[2]}) > 0.0f);
+}
+
+/// All local lights together, each sun above the surface, and the sky have equal chances. `reached`: some
+/// local light can reach the lane.
+GATELIGHT_INLINE KindOfLight choose_kind(const LightView& view, const Receiver& r, Mask reached,
+                                         Float u_choice, Digits& digits) {
+  Int suns(0u);
+  for (uint32_t i = 0; i < view.sun_count; ++i)
+    suns += words_of(is_above(r, view.suns + LightView::kSunFloats * i)) & 1u;
+  const Int one_local = words_of(reached) & 1u;
+  Mask sky = no_lanes();
+  if (view.sky == LightView::Sky::picture) sky = ~sky;
+  if (view.sky == LightView::Sky::constant) sky = (one_local + suns) == 0u;
+  const Int parts = one_local + suns + (words_of(sky) & 1u);
+  const Mask some = ~(parts == 0u);
+  const Float count = to_float(select(some, parts, Int(1u)));
+  const Float scaled = u_choice * count;
+  const Int part = to_int(scaled);  // u < 1 - 2^-24, so it is below `count` except for a vast number of suns
+  KindOfLight kind;
+  kind.probability = 1.0f / count;
+  kind.rest = digits.refill(scaled - to_float(part), count);
+  kind.local = some & reached & (part == 0u);
+  kind.sun = part - one_local;
+  kind.sky = some & sky & (kind.sun == suns) & ~kind.local;
+  kind.suns = some & ~kind.local & ~kind.sky;
+  return kind;
+}
+
+/// The samples of all lanes.
+struct LaneLights {
+  Int state = state_of(LaneLight::none), light = Int(0u);
+  Mask delta = no_lanes();
+  Float3 wi, radiance = repeat(0.0f);
+  Float distance = 1.0f, pdf = 0.0f, offset = 0.0f, cosine = 1.0f;
+  Float2 point;
+
+  /// `textured`: the state of lights that the kernels leave open.
+  GATELIGHT_INLINE void take(const LanesOfLight& s, Int number, LaneLight textured) {
+    wi = select(s.valid, s.wi, wi);
+    radiance = select(s.valid, s.radiance, radiance);
+    distance = select(s.valid, s.distance, distance);
+    pdf = select(s.valid, s.pdf, pdf);
+    offset = select(s.valid, s.offset, offset);
+    cosine = select(s.valid, s.cosine, cosine);
+    state = select(s.valid, select(s.textured, state_of(textured), state_of(LaneLight::done)), state);
+    light = select(s.valid, number, light);
+  }
+
+  /// Emissive triangles and placed lights, by the light tree.
+  GATELIGHT_INLINE void sample_local(const LightView& view, const Receiver& r, const Weights& root,
+                                     const KindOfLight& kind, Digits& digits) {
+    const Float2 u = point;
+    Int chosen(0u);
+    Float probability = kind.probability;
+    const Mask found =
+        kind.local & ~descend(view, r, root, kind.local, kind.rest, digits, chosen, probability);
+    const Mask triangle = found & (chosen < Int(view.triangle_count));
+    if (any(triangle)) {
+      const LanesOfLight s =
+          sample_triangles(view, r.p, select(triangle, chosen, Int(0u)), probability, u, triangle);
+      take(s, chosen, LaneLight::triangle);
+      point.x = select(s.valid, s.point.x, point.x);
+      point.y = select(s.valid, s.point.y, point.y);
+    }
+    const Mask placed = found & ~(chosen < Int(view.triangle_count));
+    if (any(placed)) {
+      const LanesOfLight s = sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)),
+                                           probability, placed);
+      take(s, chosen, LaneLight::profile);
+      delta |= s.valid;
+    }
+  }
+
+  GATELIGHT_INLINE void sample_suns(const LightView& view, const Receiver& r, const KindOfLight& kind) {
+    Int left = kind.sun;
+    for (uint32_t i = 0; i < view.sun_count; ++i) {
+      const float* const sun = view.suns + LightView::kSunFloats * i;
+      const Mask above = is_above(r, sun);
+      const Mask taken = kind.suns & above & (left == 0u);
+      left = left - (words_of(above) & 1u);
+      wi = select(taken, {-sun[0], -sun[1], -sun[2]}, wi);
+      radiance = select(taken, {sun[3], sun[4], sun[5]}, radiance);
+      distance = select(taken, kInfinite, distance);
+      pdf = select(taken, kind.probability, pdf);
+      state = select(taken, state_of(LaneLight::done), state);
+      light = select(taken, Int(view.triangle_count + view.placed_count + i), light);
+      delta |= taken;
+    }
+  }
+
+  GATELIGHT_INLINE void sample_sky(const LightView& view, const Receiver& r, const KindOfLight& kind,
+                                   Mask sheet, Float2 u) {
+    const Mask to_sky = kind.sky;
+    distance = select(to_sky, kInfinite, distance);
+    light = select(to_sky, Int(view.triangle_count + view.placed_count + view.sun_count), light);
+    if (view.sky != LightView::Sky::constant) {
+      pdf = select(to_sky, kind.probability, pdf);
+      state = select(to_sky, state_of(LaneLight::environment), state);
+      return;
+    }
+    Float3 d = Frame(r.n).to_world(sample_cosine_hemisphere(u.x, u.y));
+    Float density = max(0.0f, dot(d, r.n)) * kInvPi;
+    if (any(sheet)) {
+      d = select(sheet, sample_uniform_sphere(u.x, u.y), d);
+      density = select(sheet, 0.25f * kInvPi, density);
+    }
+    wi = select(to_sky, d, wi);
+    radiance = select(to_sky, {view.sky_radiance[0], view.sky_radiance[1], view.sky_radiance[2]}, radiance);
+    pdf = select(to_sky, kind.probability * density, pdf);
+    state = select(to_sky & (density > 0.0f), state_of(LaneLight::done), state);
+  }
+
+  GATELIGHT_INLINE void put(ShadingBlock& block, int at) const {
+    store(block.light_state + at, state);
+    store(block.light + at, light);
+    store(block.light_is_delta, at, delta);
+    store(block.light_point[0] + at, point.x);
+    store(block.light_point[1] + at, point.y);
+    store(block.light_direction, at, wi);
+    store(block.light_distance + at, distance);
+    store(block.light_radiance, at, radiance);
+    store(block.light_pdf + at, pdf);
+    store(block.light_offset + at, offset);
+    store(block.light_cosine + at, cosine);
+  }
+};
+
 /// Lights::sample for the lanes from `at` on.
 GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext& context, int at) {
   const LightView& view = context.lights;
@@ -261,117 +398,19 @@ GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext
   r.free = select_or_zero(sheet, Float(1.0f));
 
   Weights root;
-  Mask local = no_lanes();
+  Mask reached = no_lanes();
   if (view.tree != nullptr) {
     root = weigh_root(r, view);
-    local = (root.c[0] + root.c[1]) + (root.c[2] + root.c[3]) > 0.0f;
+    reached = (root.c[0] + root.c[1]) + (root.c[2] + root.c[3]) > 0.0f;
   }
-  Int suns(0u);
-  for (uint32_t i = 0; i < view.sun_count; ++i) {
-    const float* const sun = view.suns + LightView::kSunFloats * i;
-    suns += words_of(~(dot(r.n, {sun[0], sun[1], sun[2]}) > 0.0f)) & 1u;
-  }
-  const Int one_local = words_of(local) & 1u;
-  Mask sky = no_lanes();
-  if (view.sky == LightView::Sky::picture) sky = ~sky;
-  if (view.sky == LightView::Sky::constant) sky = (one_local + suns) == 0u;
-  const Int parts = one_local + suns + (words_of(sky) & 1u);
-  const Mask some = ~(parts == 0u);
-  const Float count = to_float(select(some, parts, Int(1u)));
-  const Float size = 1.0f / count;
-  const Float scaled = u_choice * count;
-  const Int part = to_int(scaled);  // u < 1 - 2^-24, so it is below `count` except for a vast number of suns
-  const Float rest = digits.refill(scaled - to_float(part), count);
-  const Mask to_local = some & local & (part == 0u);
-  const Int number = part - one_local;
-  const Mask to_sky = some & sky & (number == suns) & ~to_local;
-
-  Int state = state_of(LaneLight::none), light(0u);
-  Mask delta = no_lanes();
-  Float3 wi = load(block.geometric_normal, at), radiance = repeat(0.0f);
-  Float distance = 1.0f, pdf = 0.0f, offset = 0.0f, cosine = 1.0f;
-  Float2 point = u;
-  if (any(to_local)) {
-    Int chosen(0u);
-    Float probability = size;
-    const Mask found = to_local & ~descend(view, r, root, to_local, rest, digits, chosen, probability);
-    const auto take = [&](const LanesOfLight& s) __attribute__((always_inline)) {
-      wi = select(s.valid, s.wi, wi);
-      radiance = select(s.valid, s.radiance, radiance);
-      distance = select(s.valid, s.distance, distance);
-      pdf = select(s.valid, s.pdf, pdf);
-      offset = select(s.valid, s.offset, offset);
-      cosine = select(s.valid, s.cosine, cosine);
-    };
-    const Mask triangle = found & (chosen < Int(view.triangle_count));
-    if (any(triangle)) {
-      const LanesOfLight s =
-          sample_triangles(view, r.p, select(triangle, chosen, Int(0u)), probability, u, triangle);
-      take(s);
-      state = select(s.valid, select(s.textured, state_of(LaneLight::triangle), state_of(LaneLight::done)),
-                     state);
-      light = select(s.valid, chosen, light);
-      point.x = select(s.valid, s.point.x, point.x);
-      point.y = select(s.valid, s.point.y, point.y);
-    }
-    const Mask placed = found & ~(chosen < Int(view.triangle_count));
-    if (any(placed)) {
-      const LanesOfLight s = sample_placed(view, r.p, select(placed, chosen - view.triangle_count, Int(0u)),
-                                           probability, placed);
-      take(s);
-      state =
-          select(s.valid, select(s.textured, state_of(LaneLight::profile), state_of(LaneLight::done)), state);
-      light = select(s.valid, chosen, light);
-      delta |= s.valid;
-    }
-  }
-  if (view.sun_count > 0) {
-    Int left = number;
-    const Mask to_suns = some & ~to_local & ~to_sky;
-    for (uint32_t i = 0; i < view.sun_count; ++i) {
-      const float* const sun = view.suns + LightView::kSunFloats * i;
-      const Mask above = ~(dot(r.n, {sun[0], sun[1], sun[2]}) > 0.0f);
-      const Mask taken = to_suns & above & (left == 0u);
-      left = left - (words_of(above) & 1u);
-      wi = select(taken, {-sun[0], -sun[1], -sun[2]}, wi);
-      radiance = select(taken, {sun[3], sun[4], sun[5]}, radiance);
-      distance = select(taken, kInfinite, distance);
-      pdf = select(taken, size, pdf);
-      state = select(taken, state_of(LaneLight::done), state);
-      light = select(taken, Int(view.triangle_count + view.placed_count + i), light);
-      delta |= taken;
-    }
-  }
-  if (any(to_sky)) {
-    distance = select(to_sky, kInfinite, distance);
-    light = select(to_sky, Int(view.triangle_count + view.placed_count + view.sun_count), light);
-    if (view.sky == LightView::Sky::constant) {
-      Float3 d = Frame(r.n).to_world(sample_cosine_hemisphere(u.x, u.y));
-      Float density = max(0.0f, dot(d, r.n)) * kInvPi;
-      if (any(sheet)) {
-        d = select(sheet, sample_uniform_sphere(u.x, u.y), d);
-        density = select(sheet, 0.25f * kInvPi, density);
-      }
-      wi = select(to_sky, d, wi);
-      radiance = select(to_sky, {view.sky_radiance[0], view.sky_radiance[1], view.sky_radiance[2]}, radiance);
-      pdf = select(to_sky, size * density, pdf);
-      state = select(to_sky & (density > 0.0f), state_of(LaneLight::done), state);
-    } else {
-      pdf = select(to_sky, size, pdf);
-      state = select(to_sky, state_of(LaneLight::environment), state);
-    }
-  }
-  store(block.light_state + at, state);
-  store(block.light + at, light);
-  store(block.light_is_delta, at, delta);
-  store(block.light_point[0] + at, point.x);
-  store(block.light_point[1] + at, point.y);
-  store(block.light_direction, at, wi);
-  store(block.light_distance + at, distance);
-  store(block.light_radiance, at, radiance);
-  store(block.light_pdf + at, pdf);
-  store(block.light_offset + at, offset);
-  store(block.light_cosine + at, cosine);
+  const KindOfLight kind = choose_kind(view, r, reached, u_choice, digits);
+  LaneLights lights;
+  lights.wi = load(block.geometric_normal, at);
+  lights.point = u;
+  if (any(kind.local)) lights.sample_local(view, r, root, kind, digits);
+  if (view.sun_count > 0) lights.sample_suns(view, r, kind);
+  if (any(kind.sky)) lights.sample_sky(view, r, kind, sheet, u);
+  lights.put(block, at);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
-// Vectors in space, elementary functions and warps on lanes: the wide side of renderer/sampling/warp.h. Part
-// of kernel_table.cpp.
+// Vectors in space, elementary functions and warps on lanes: the SIMD version of renderer/sampling/warp.h.
+// Part of kernel_table.cpp.
 
-#include "neural/simd/vectors.h"
+#include "base/simd/vectors.h"
 
 namespace {
 
@@ -86,20 +86,20 @@ GATELIGHT_INLINE Float to_unit_float(Int x) {
 struct CosSin {
   Float cos, sin;
 };
-/// Of an angle in [-pi/4, pi/4], as cos_sin_octant() of warp.h.
+/// Cosine and sine of an angle in [-pi/4, pi/4], as cos_sin_octant() of warp.h.
 GATELIGHT_INLINE CosSin cos_sin_octant(Float angle) {
   const Float x = angle * angle;
   return {1.0f + x * (-0.5f + x * (1.0f / 24.0f + x * (-1.0f / 720.0f + x * (1.0f / 40320.0f)))),
           angle * (1.0f + x * (-1.0f / 6.0f +
                                x * (1.0f / 120.0f + x * (-1.0f / 5040.0f + x * (1.0f / 362880.0f)))))};
 }
-/// Of 2 pi u, u in [0, 1].
+/// Cosine and sine of 2 pi u, u in [0, 1].
 GATELIGHT_INLINE CosSin cos_sin_turn(Float u) {
   const Int quadrant = to_int(u * 4.0f + 0.5f);
   const CosSin t = cos_sin_octant((u - 0.25f * to_float(quadrant)) * kTwoPi);
   const Mask odd = mask_of(Int(0u) - (quadrant & 1u));
   const Float a = select(odd, t.sin, t.cos), b = select(odd, t.cos, t.sin);
-  // Negative in the second and third quadrant, and in the third and fourth.
+  // The cosine is negative in the second and third quadrant, the sine in the third and fourth.
   const Int cos_sign = ((quadrant + 1u) & 2u) << 30, sin_sign = (quadrant & 2u) << 30;
   return {float_of(bits_of(a) ^ cos_sign), float_of(bits_of(b) ^ sin_sign)};
 }
@@ -117,7 +117,7 @@ GATELIGHT_INLINE Float arc_tangent(Float y, Float x) {
   p = select(y > ax, 0.5f * kPi - p, p);
   return select(x < 0.0f, kPi - p, p);
 }
-/// Of a normal number above 0, within 2e-7 of the result or 1e-7.
+/// The binary logarithm of a normal number above 0, within 2e-7 of the result or 1e-7.
 GATELIGHT_INLINE Float log2(Float x) {
   // x = 2^e m with m in [sqrt(1/2), sqrt(2)); log2(m) is a series in (m - 1) / (m + 1).
   const Int shifted = bits_of(x) - 0x3f3504f3u;
@@ -127,7 +127,7 @@ GATELIGHT_INLINE Float log2(Float x) {
   const Float series = 1.0f + s2 * (1.0f / 3.0f + s2 * (0.2f + s2 * (1.0f / 7.0f + s2 * (1.0f / 9.0f))));
   return e + s * series * 2.885390081777927f;
 }
-/// For x <= 127, within 2e-7 of the result; below -126 the result is 0.
+/// 2^x for x <= 127, within 2e-7 of the result; below -126 the result is 0.
 GATELIGHT_INLINE Float exp2(Float x) {
   const Float bounded = max(x, -126.0f);
   const Int biased = to_int(bounded + 127.5f);
@@ -140,7 +140,7 @@ GATELIGHT_INLINE Float exp2(Float x) {
   return select_or_zero(x >= -126.0f, e * float_of(biased << 23));
 }
 
-/// Around a unit normal: Basis of warp.h.
+/// An orthonormal basis around a unit normal: Basis of warp.h.
 struct Frame {
   Float3 tangent, bitangent, normal;
 

@@ -1,9 +1,9 @@
 #pragma once
-// The random numbers of the lanes: the wide side of renderer/sampling/sampler.h, with the same bits. Part of
-// kernel_table.cpp.
+// The random numbers of the lanes: the SIMD version of renderer/sampling/sampler.h, with the same bits. Part
+// of kernel_table.cpp.
 
-#include "neural/simd/vectors.h"
-#include "renderer/settings/choices.h"
+#include "base/simd/vectors.h"
+#include "renderer/settings/enums.h"
 #include "renderer/shading/kernel_math.h"
 
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-// Scattering at all lanes: direct light, a new direction, Russian roulette. The wide side of Walker. Part of
-// kernel_table.cpp.
+// Scattering at all lanes: direct light, a new direction, Russian roulette. The SIMD version of PathState.
+// Part of kernel_table.cpp.
 
 #include "renderer/shading/kernel_bsdf.h"
 #include "renderer/shading/kernel_lights.h"
@@ -28,11 +28,11 @@ GATELIGHT_INLINE Float3 spawn(const ShadingBlock& block, int at, Float3 ng, Floa
   return load(block.position, at) + ng * select(dot(ng, direction) < 0.0f, -offset, offset);
 }
 
-/// The light: Walker::light_at and shadow_ray(). The albedos as well.
-GATELIGHT_INLINE void light_at(ShadingBlock& block, const ShadingContext& context, const LaneBsdf& bsdf,
-                               int at) {
+/// Evaluates the light sample: PathState::sample_light and shadow_ray(). Stores the albedos as well.
+GATELIGHT_INLINE void evaluate_light(ShadingBlock& block, const ShadingContext& context, const LaneBsdf& bsdf,
+                                     int at) {
   store(block.albedo, at, bsdf.albedo);
-  if (context.tells_wide) store(block.wide_albedo, at, bsdf.wide_albedo);
+  if (context.separates_wide) store(block.wide_albedo, at, bsdf.wide_albedo);
   const Float light_pdf = load(block.light_pdf + at);
   const Mask lit =
       (load(block.light_state + at) == state_of(LaneLight::done)) & (light_pdf > 0.0f) & ~bsdf.is_delta;
@@ -43,7 +43,7 @@ GATELIGHT_INLINE void light_at(ShadingBlock& block, const ShadingContext& contex
     const Float weight = select(delta, 1.0f, light_weight(context, light_pdf, value.pdf)) / light_pdf;
     const Float3 light = load(block.light_radiance, at) * weight;
     store(block.direct, at, select_or_zero(lit, value.value * light));
-    if (bsdf.tells_wide) store(block.wide_direct, at, select_or_zero(lit, value.wide * light));
+    if (bsdf.separates_wide) store(block.wide_direct, at, select_or_zero(lit, value.wide * light));
     store(block.shadow_origin, at, spawn(block, at, bsdf.ng, wi));
     const Float distance = load(block.light_distance + at);
     const Float length = distance - (load(block.light_offset + at) + 2.0f * load(block.offset + at)) /
@@ -56,10 +56,10 @@ GATELIGHT_INLINE void light_at(ShadingBlock& block, const ShadingContext& contex
   }
 }
 
-/// The light, and the direction: Walker::draw and survives.
+/// Evaluates the light sample, and samples a direction: PathState::sample_bsdf and survives.
 GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& context, int at) {
   const LaneBsdf bsdf(block, context, at);
-  light_at(block, context, bsdf, at);
+  evaluate_light(block, context, bsdf, at);
   const LaneSampler sampler{block.sampler, load(block.sampler_key + at), load(block.sampler_index + at)};
   const Int dimensions = load(block.dimensions + at);
   LaneSample s = bsdf.sample(sampler.get_1d(dimensions), sampler.get_2d(dimensions + 1u));
@@ -76,7 +76,7 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
   store(block.transmitted, at, s.transmitted);
   store(block.wi, at, s.wi);
   store(block.weight, at, s.weight * (1.0f / survival));
-  if (bsdf.tells_wide) store(block.wide_weight, at, s.wide_weight * (1.0f / survival));
+  if (bsdf.separates_wide) store(block.wide_weight, at, s.wide_weight * (1.0f / survival));
   store(block.pdf + at, s.pdf);
   store(block.spread + at, s.spread);
   store(block.survival + at, survival);

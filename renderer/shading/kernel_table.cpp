@@ -17,7 +17,8 @@ void albedo(ShadingBlock& block, const ShadingContext& context) {
   for (int at = 0; at < block.count; at += kLanes) albedo_at(block, context, at);
 }
 void light(ShadingBlock& block, const ShadingContext& context) {
-  for (int at = 0; at < block.count; at += kLanes) light_at(block, context, LaneBsdf(block, context, at), at);
+  for (int at = 0; at < block.count; at += kLanes)
+    evaluate_light(block, context, LaneBsdf(block, context, at), at);
 }
 
 }  // namespace

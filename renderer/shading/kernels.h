@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "renderer/settings/choices.h"
+#include "renderer/settings/enums.h"
 #include "renderer/shading/block.h"
 
 namespace gatelight::renderer {
@@ -45,11 +45,11 @@ struct ShadingContext {
   BsdfTables tables;
   DirectLight direct = DirectLight::mis;
   MisHeuristic heuristic = MisHeuristic::power;
-  bool tells_wide = false;     ///< whether the outputs of the wide lobes are wanted
-  float min_roughness = 0.0f;  ///< perceptual; narrower lobes are not wide (Bsdf::has_narrow)
-  /// Light, direction and roulette are those of the narrow lobes (Bsdf::narrow_part); tells_wide is set, for
-  /// the albedos.
-  bool narrow_alone = false;
+  bool separates_wide = false;  ///< whether the outputs of the wide lobes are wanted
+  float min_roughness = 0.0f;   ///< perceptual; narrower lobes are not wide (Bsdf::has_narrow)
+  /// Light, direction and roulette are those of the narrow lobes (Bsdf::narrow_part); separates_wide is set,
+  /// for the albedos.
+  bool narrow_only = false;
   Roulette roulette;
 };
 
@@ -57,11 +57,11 @@ struct ShadingKernels {
   /// Chooses a light for each lane and samples a point on it: Lights::sample.
   void (*sample_lights)(ShadingBlock&, const ShadingContext&);
   /// Sets up the BSDF, evaluates it towards the light, samples a direction and decides on survival: Bsdf,
-  /// Walker::light_at, draw and survives.
+  /// PathState::sample_light, sample_bsdf and survives.
   void (*scatter)(ShadingBlock&, const ShadingContext&);
-  /// The directional albedo alone.
+  /// Computes only the directional albedo.
   void (*albedo)(ShadingBlock&, const ShadingContext&);
-  /// The albedos and the light of the light samples: a part of `scatter`.
+  /// Computes the albedos and the light of the light samples: a part of `scatter`.
   void (*light)(ShadingBlock&, const ShadingContext&);
 };
 

@@ -8,16 +8,16 @@
 
 namespace gatelight::renderer {
 
-/// Copies what it needs, except the tree. The lights must outlive it.
+/// Copies its data, except the tree. The lights must outlive it.
 class LightArrays {
  public:
   explicit LightArrays(const Lights& lights);
   LightArrays(const LightArrays&) = delete;
   LightArrays& operator=(const LightArrays&) = delete;
 
-  /// Null where the kernels do not know how lights are chosen.
+  /// Null where the kernels do not support the selection of lights.
   const LightView* view() const { return usable_ ? &view_ : nullptr; }
-  /// Of the lights of Lights::sample_delta, where view() is not null.
+  /// The view of the lights of Lights::sample_delta. view() must not be null.
   LightView delta_view() const;
   /// Whether the kernels complete all samples: there is no picture of the sky, no textured emitter and no
   /// profile.

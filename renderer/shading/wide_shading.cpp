@@ -1,6 +1,6 @@
 #include "renderer/shading/wide_shading.h"
 
-#include "neural/simd/isa.h"
+#include "base/simd/isa.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
 #include "renderer/light/punctual.h"
@@ -18,8 +18,8 @@ void put(float (&a)[3][ShadingBlock::kWidth], int lane, const Vector& v) {
 }  // namespace
 
 const ShadingKernels& choose_shading_kernels(const std::string& isa) {
-  using neural::simd::Isa;
-  [[maybe_unused]] const Isa chosen = neural::simd::select_isa(neural::simd::parse_isa(isa));
+  using simd::Isa;
+  [[maybe_unused]] const Isa chosen = simd::select_isa(simd::parse_isa(isa));
 #if defined(__x86_64__)
   if (chosen == Isa::avx512) return kAvx512Shading;
   if (chosen == Isa::avx2) return kAvx2Shading;
@@ -84,7 +84,7 @@ void WideShading::scatter(ShadingBlock& block) const {
 void WideShading::scatter_narrow(ShadingBlock& block, const Roulette& roulette) const {
   sample_lights(block);
   ShadingContext context = context_;
-  context.narrow_alone = true;
+  context.narrow_only = true;
   context.roulette = roulette;
   kernels_.scatter(block, context);
 }
@@ -132,7 +132,7 @@ void WideShading::complete_light(ShadingBlock& block, int lane, std::size_t firs
   block.light_state[lane] = static_cast<std::uint32_t>(LaneLight::done);
 }
 
-/// By the scalar code. delta: Lights::sample_delta.
+/// Samples a light by the scalar code. delta: Lights::sample_delta.
 void WideShading::put_light(ShadingBlock& block, int lane, bool delta) const {
   const Sampler sampler =
       Sampler::from_parts(block.sampler, block.sampler_key[lane], block.sampler_index[lane]);

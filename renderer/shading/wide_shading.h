@@ -1,5 +1,5 @@
 #pragma once
-// Shades blocks of up to 16 points: the kernels, and the scalar code for the lights that they leave open.
+// Shades blocks of up to 16 points: the kernels, and the scalar code for lights that they do not support.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace gatelight::renderer {
 
-/// The kernels of an instruction set: scalar (SSE2 or what the compiler was told), avx2, avx512, or auto,
-/// which is the choice of the cache's kernels (neural::simd::select_isa). Throws Unavailable.
+/// The kernels of an instruction set: scalar (SSE2 or the compiler's target), avx2, avx512, or auto,
+/// which is the choice of the cache's kernels (simd::select_isa). Throws Unavailable.
 const ShadingKernels& choose_shading_kernels(const std::string& isa);
 
-/// Whether the kernels have all lobes of a surface. They do not enter an inside, nor know brushed
-/// metal and thin films.
+/// Whether the kernels support all lobes of a surface. They do not support refraction into an inside,
+/// anisotropic metal and thin films.
 inline bool shades_wide(const Surface& surface) {
   const SurfaceMaterial& m = surface.material;
   return !(m.anisotropy > 0.0f) && !(m.iridescence > 0.0f) &&
@@ -34,19 +34,19 @@ class WideShading {
   /// sheen: whether some surface has it; its tables take a while to build.
   WideShading(const Lights& lights, const LightArrays& arrays, const ShadingKernels& kernels, bool sheen,
               DirectLight direct, MisHeuristic heuristic);
-  /// Also tells the part of the wide lobes (Bsdf::wide_part) in all results.
-  void tell_wide(float min_roughness) {
-    context_.tells_wide = true;
+  /// Adds the part of the wide lobes (Bsdf::wide_part) to all results.
+  void separate_wide(float min_roughness) {
+    context_.separates_wide = true;
     context_.min_roughness = min_roughness;
   }
 
   /// Shades all lanes: light samples, BSDF values, new directions. The results are in the block.
   void scatter(ShadingBlock& block) const;
-  /// The same of the narrow lobes alone, with the albedos of scatter(). Only after tell_wide().
+  /// The same for the narrow lobes only, with the albedos of scatter(). Only after separate_wide().
   void scatter_narrow(ShadingBlock& block, const Roulette& roulette) const;
-  /// The light of Lights::sample_delta, and the albedos.
+  /// Computes the light of Lights::sample_delta, and the albedos.
   void delta_light(ShadingBlock& block) const;
-  /// The directional albedos alone.
+  /// Computes only the directional albedos.
   void albedo(ShadingBlock& block) const { kernels_.albedo(block, context_); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// The ray tracing kernels of Embree. accel.cpp alone uses Embree; no type of it stands here. Meshes that are
-// used once lie in the top level; shared meshes are Embree instances.
+// The ray tracing kernels of Embree. Only accel.cpp uses Embree; this header has none of its types. Meshes
+// that are used once lie in the top level; shared meshes are Embree instances.
 
 #include <cstddef>
 #include <memory>
@@ -23,7 +23,7 @@ struct AccelOptions {
 /// Thread-safe after construction; holds references to the scene's vertices and to the coverage.
 class Accel {
  public:
-  /// Throws OutOfMemory, Unavailable (the ISA), or std::runtime_error with Embree's message.
+  /// Throws OutOfMemory, Unavailable (the ISA), or InputError with Embree's message.
   Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options);
   ~Accel();
   Accel(const Accel&) = delete;
@@ -32,9 +32,6 @@ class Accel {
   /// Finds the nearest hits in (0, t_max). The spans have equal sizes. Rays are traced in packets of 16 in
   /// the given order. `coherent` says that neighbours have similar directions.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
-
-  /// A ray that meets more panes than this ends and counts as blocked.
-  static constexpr int kMaxPanes = 64;
 
   /// The fraction of light that passes along each ray in (0, t_max); zero behind an opaque surface.
   void transmittance(std::span<const Ray> rays, std::span<Color> result) const;

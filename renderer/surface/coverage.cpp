@@ -20,7 +20,7 @@ struct FinestLevel {
         corners(mesh.triangles[hit.primitive]),
         weights(1.0f - hit.u - hit.v, hit.u, hit.v) {}
 
-  /// One where there is no texture.
+  /// Returns one where there is no texture.
   Vec4 operator()(const scene::TextureSlot& slot, Encoding encoding) const {
     if (!slot) return Vec4::Ones();
     return textures.lookup(slot, encoding, uv_at(mesh, slot, corners, weights), 0.0f, 0.0f);
@@ -32,7 +32,7 @@ struct FinestLevel {
 
 }  // namespace
 
-void straighten(SurfaceMaterial& material) {
+void remove_refraction(SurfaceMaterial& material) {
   material.thin_walled = true;
   material.roughness = 0.0f;
   material.clearcoat = 0.0f;
@@ -41,8 +41,8 @@ void straighten(SurfaceMaterial& material) {
 }
 
 Coverage::Coverage(const scene::Scene& scene, const Textures& textures, const Media& media,
-                   bool straight_glass)
-    : scene_(scene), textures_(textures), media_(media), straight_glass_(straight_glass) {
+                   bool unrefracted_glass)
+    : scene_(scene), textures_(textures), media_(media), unrefracted_glass_(unrefracted_glass) {
   flags_.resize(scene.instances.size(), 0);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& m = scene.material_of(scene.instances[i]);
@@ -52,7 +52,7 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures, const Me
         m.roughness == 0.0f || (m.roughness < kDeltaRoughness && !m.metallic_roughness_texture);
     const bool plain = m.clearcoat == 0.0f && m.anisotropy == 0.0f && (m.sheen_color == 0.0f).all();
     if (m.transmission > 0.0f && !m.has_volume() && smooth && plain) flags_[i] |= kPane;
-    if (m.transmission > 0.0f && m.has_volume() && straight_glass) flags_[i] |= kStraightGlass;
+    if (m.transmission > 0.0f && m.has_volume() && unrefracted_glass) flags_[i] |= kUnrefractedGlass;
   }
 }
 
@@ -73,7 +73,7 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
 
 Passage Coverage::pass(const Hit& hit, const Vec3& direction, const Interior& around) const {
   Passage passage;
-  if (!(flags_[hit.instance] & (kPane | kStraightGlass))) return passage;
+  if (!(flags_[hit.instance] & (kPane | kUnrefractedGlass))) return passage;
   const scene::Instance& instance = scene_.instances[hit.instance];
   const scene::Material& m = scene_.material_of(instance);
   const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
@@ -89,18 +89,18 @@ Passage Coverage::pass(const Hit& hit, const Vec3& direction, const Interior& ar
   s.transmission = m.transmission * read(m.transmission_texture, Encoding::linear).x();
   const Vec3 n = scene::world_normal(scene_, instance, hit.primitive);
   const bool front = passage.front = n.dot(direction) < 0.0f;
-  if (is_straight_glass(hit.instance)) {
+  if (is_unrefracted_glass(hit.instance)) {
     const std::uint32_t volume = media_.volume_of(hit.instance);
     if (!media_.is_there(volume, around)) {
       passage.transmittance.setConstant(glass_share(s));
       return passage;
     }
     s.ior /= media_.beyond(volume, around).ior;
-    straighten(s);
+    remove_refraction(s);
     if (volume == scene::kNoVolume) passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
   }
   const Vec3 facing = front ? n : Vec3(-n);
-  passage.transmittance = Bsdf(s, facing, facing, facing, -direction, front).straight_transmittance();
+  passage.transmittance = Bsdf(s, facing, facing, facing, -direction, front).unrefracted_transmittance();
   return passage;
 }
 

@@ -13,24 +13,24 @@
 
 namespace gatelight::renderer {
 
-/// A shadow ray through a surface.
+/// The passage of a shadow ray through a surface.
 struct Passage {
   Color transmittance{0.0f, 0.0f, 0.0f};  ///< zero: blocked
-  /// Per metre, of the medium that begins at the surface; negative where it ends. Of a volume of Media it is
-  /// left out.
+  /// Absorption per metre of the medium that begins at the surface; negative where it ends. Zero for a volume
+  /// of Media.
   Color absorption{0.0f, 0.0f, 0.0f};
   bool front = true;  ///< the ray meets the front
 };
 
-/// Makes of glass with an inside what light that is not bent meets: a smooth bare sheet.
-void straighten(SurfaceMaterial& material);
+/// Turns glass with an inside into the surface for unrefracted light: a smooth bare sheet.
+void remove_refraction(SurfaceMaterial& material);
 
 /// Thread-safe after construction; holds references to its arguments.
 class Coverage {
  public:
-  /// `straight_glass`: GlassShadows::straight.
+  /// `unrefracted_glass`: GlassShadows::straight.
   Coverage(const scene::Scene& scene, const Textures& textures, const Media& media,
-           bool straight_glass = false);
+           bool unrefracted_glass = false);
 
   const Media& media() const { return media_; }
 
@@ -47,22 +47,22 @@ class Coverage {
   /// and of the order in which they are hit.
   bool is_there(const Hit& hit, std::uint32_t seed) const;
 
-  /// Whether rays between rough surfaces and lights pass glass with an inside unbent; whether this instance
-  /// is such glass.
-  bool straight_glass() const { return straight_glass_; }
-  bool is_straight_glass(std::uint32_t instance) const { return flags_[instance] & kStraightGlass; }
+  /// Whether rays between rough surfaces and lights pass glass with an inside unrefracted; whether this
+  /// instance is such glass.
+  bool unrefracted_glass() const { return unrefracted_glass_; }
+  bool is_unrefracted_glass(std::uint32_t instance) const { return flags_[instance] & kUnrefractedGlass; }
 
-  /// Whether what a shadow ray keeps depends on the glass that it met before.
-  bool orders(std::uint32_t instance) const { return !media_.empty() && is_straight_glass(instance); }
+  /// Whether the transmittance for a shadow ray depends on the glass that the ray met before.
+  bool orders(std::uint32_t instance) const { return !media_.empty() && is_unrefracted_glass(instance); }
 
-  /// What a shadow ray keeps behind the surface. Smooth thin-walled transmission and straight glass let light
-  /// go straight on; every other surface blocks it. `around`: the volumes that the ray is in.
+  /// The passage of a shadow ray through the surface. Smooth thin-walled transmission and unrefracted glass
+  /// let light pass; every other surface blocks it. `around`: the volumes that the ray is in.
   Passage pass(const Hit& hit, const Vec3& direction, const Interior& around = {}) const;
 
  private:
   static constexpr std::uint8_t kAlpha = 1;
   static constexpr std::uint8_t kPane = 2;
-  static constexpr std::uint8_t kStraightGlass = 4;
+  static constexpr std::uint8_t kUnrefractedGlass = 4;
   static constexpr std::uint8_t kCulled = 8;
 
   float alpha(const Hit& hit) const;
@@ -70,7 +70,7 @@ class Coverage {
   const scene::Scene& scene_;
   const Textures& textures_;
   const Media& media_;
-  bool straight_glass_;
+  bool unrefracted_glass_;
   std::vector<std::uint8_t> flags_;  ///< by instance
 };
 

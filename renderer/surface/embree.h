@@ -1,5 +1,6 @@
 #pragma once
-// What traces the rays, for reports. No type of Embree leaves renderer/surface/accel.cpp.
+// The version and the instruction set of the ray tracer, for reports. Embree's types are used only in
+// renderer/surface/accel.cpp.
 
 #include <string>
 
@@ -8,7 +9,7 @@ namespace gatelight::renderer {
 /// The widest instruction set of this machine: avx512, avx2 or scalar.
 std::string best_isa();
 
-/// Of the headers that this library was compiled with.
+/// The version of the headers that this library was compiled with.
 std::string embree_version();
 
 }  // namespace gatelight::renderer

@@ -22,7 +22,7 @@ void Interior::leave(std::uint32_t volume) {
 }
 
 Color absorption_of(const scene::Material& m) {
-  if (!m.has_volume() || !(m.attenuation_distance < scene::kInfinity)) return Color::Zero();
+  if (!m.has_volume() || !(m.attenuation_distance < kInfinity)) return Color::Zero();
   // Finite, so that no distance makes it NaN.
   return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }

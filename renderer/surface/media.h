@@ -1,5 +1,5 @@
 #pragma once
-// What fills the space around a path, where bodies of glass and liquid overlap or lie inside one another
+// The medium around a path, where bodies of glass and liquid overlap or lie inside one another
 // (scene/nested_volumes.h).
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace gatelight::renderer {
 
 /// The volumes around a point, by their numbers: the smallest one is the strongest and fills the space. Of
-/// more than kMost the weakest are forgotten; who leaves them later was in them nevertheless.
+/// more than kMost the weakest are forgotten; a path that leaves one of them later was in it nevertheless.
 class Interior {
  public:
   static constexpr int kMost = 8;
@@ -53,8 +53,8 @@ class Media {
   std::uint32_t volume_of(std::uint32_t instance) const {
     return empty() ? scene::kNoVolume : of_instance_[instance];
   }
-  /// Whether the boundary of `volume`, or of glass that is no volume, is there for who is in `around` on
-  /// either side of it. Otherwise a stronger volume fills the space on both sides.
+  /// Whether the boundary of `volume`, or of glass that is no volume, exists for a path in the volumes
+  /// `around` on either side of it. Otherwise a stronger volume fills the space on both sides.
   bool is_there(std::uint32_t volume, const Interior& around) const {
     return volume == scene::kNoVolume || volume < around.strongest_but(volume);
   }
@@ -62,7 +62,7 @@ class Media {
   const Medium& beyond(std::uint32_t volume, const Interior& around) const {
     return of(around.strongest_but(volume));
   }
-  /// Around the volumes is air.
+  /// The medium of a volume; air outside of all volumes.
   const Medium& of(std::uint32_t volume) const { return volume == scene::kNoVolume ? air_ : media_[volume]; }
 
  private:
@@ -71,13 +71,24 @@ class Media {
   Medium air_;
 };
 
+/// Crosses a surface with an inside and returns the absorption per metre behind it: of the strongest volume
+/// there, or of the surface's own medium where it is none of the volumes and the ray enters it. `own`: that
+/// absorption, called where it counts.
+template <class Own>
+Color cross(const Media& media, Interior& interior, std::uint32_t volume, bool enters, const Own& own) {
+  if (volume == scene::kNoVolume && enters) return own();
+  if (volume != scene::kNoVolume) interior.cross(volume, enters);
+  return media.of(interior.strongest()).absorption;
+}
+
 /// The share of a surface that is glass.
 inline float glass_share(const SurfaceMaterial& m) {
   return (1.0f - m.metallic) * m.transmission;
 }
 
-/// Makes of a boundary that is not there what `u` in [0, 1) chooses: nothing but a clear pane as often as the
-/// surface is glass, else what of it is no glass. True: a pane.
+/// Replaces the material of a boundary that is not there, by the choice of `u` in [0, 1): with the
+/// probability glass_share() by a clear pane, otherwise by the part of the surface that is not glass. Returns
+/// true for a pane.
 bool vanish(SurfaceMaterial& material, float u);
 
 }  // namespace gatelight::renderer

@@ -3,23 +3,21 @@
 
 #include <cstdint>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
-
-using scene::Vec3;
 
 inline constexpr std::uint32_t kNoInstance = ~0u;
 
 struct Ray {
   Vec3 origin = Vec3::Zero();
-  float t_max = scene::kInfinity;
+  float t_max = kInfinity;
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
-  std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds see equal surfaces
+  std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds meet equal surfaces
 };
 
 struct Hit {
-  float t = scene::kInfinity;
+  float t = kInfinity;
   float u = 0.0f;  ///< barycentric weight of the triangle's second corner
   float v = 0.0f;  ///< barycentric weight of the triangle's third corner
   std::uint32_t instance = kNoInstance;

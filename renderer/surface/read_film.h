@@ -7,7 +7,7 @@
 
 namespace gatelight::renderer {
 
-/// `read` looks a slot that has a texture up, with an Encoding.
+/// Reads the film into `result`. `read` looks up a slot that has a texture, with an Encoding.
 template <class Read>
 void read_film(const scene::Material& m, const Read& read, SurfaceMaterial& result) {
   if (!(m.iridescence > 0.0f)) return;

@@ -19,7 +19,7 @@ struct PlacementRounding {
     if (instance.baked) return;
     translation = instance.transform.translation().cwiseAbs().maxCoeff();
     const Eigen::Matrix3f linear = instance.transform.linear();
-    const scene::Vec3 singular = linear.jacobiSvd().singularValues();
+    const Vec3 singular = linear.jacobiSvd().singularValues();
     condition = singular.z() > 0.0f ? std::min(singular.x() / singular.z(), 1e4f) : 1.0f;
   }
 };
@@ -28,7 +28,7 @@ struct PlacementRounding {
 /// it. Rounding in the corners, the interpolation and the intersection test gives some units in the last
 /// place of the largest coordinate. 16 units were enough from 1e-3 to 1e6 metres
 /// (tests/renderer/surface/accel_test.cpp).
-inline float rounding_offset(const scene::Vec3& p0, const scene::Vec3& p1, const scene::Vec3& p2,
+inline float rounding_offset(const Vec3& p0, const Vec3& p1, const Vec3& p2,
                              const PlacementRounding& placement) {
   constexpr float kUlps = 16.0f * 0x1p-23f;
   const float largest =

@@ -6,17 +6,16 @@
 
 #include <algorithm>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::renderer {
 
-/// How far the round surface lies from a point of a flat triangle, metres: the mean of the point's
-/// projections on the planes through the vertices, square to their normals, as far as the point lies below
-/// them. Zero where the surface is flat or hollow. `p` and `n` are the corners and their unit normals on the
-/// side of the viewer, `weights` the point's weights of the corners.
-inline scene::Vec3 terminator_raise(const scene::Vec3& point, const scene::Vec3 (&p)[3],
-                                    const scene::Vec3 (&n)[3], const scene::Vec3& weights) {
-  scene::Vec3 raise = scene::Vec3::Zero();
+/// The offset in metres from a point of a flat triangle to the round surface: the mean of the point's
+/// projections on the planes through the vertices, perpendicular to their normals, as far as the point lies
+/// below them. Zero where the surface is flat or hollow. `p` and `n` are the corners and their unit normals
+/// on the side of the viewer, `weights` the point's weights of the corners.
+inline Vec3 terminator_raise(const Vec3& point, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights) {
+  Vec3 raise = Vec3::Zero();
   for (int corner = 0; corner < 3; ++corner) {
     const float below = std::max(0.0f, n[corner].dot(p[corner] - point));
     raise += n[corner] * (weights[corner] * below);

@@ -36,7 +36,7 @@ class Reader {
   Color color(const scene::TextureSlot& slot) const {
     return (*this)(slot, Encoding::srgb).head<3>().array();
   }
-  /// Reads the finest level always, because next-event estimation samples that level.
+  /// Always reads the finest level, because next-event estimation samples that level.
   Color emission(const scene::TextureSlot& slot) const {
     return textures_.lookup(slot, Encoding::srgb, uv_[slot.texcoord == 1 ? 1 : 0], 0.0f, 0.0f)
         .head<3>()
@@ -50,36 +50,46 @@ class Reader {
   float footprint_[2] = {0.0f, 0.0f};
 };
 
-/// Transforms a tangent-space normal to world space. Returns n where the map or the frame is degenerate.
-Vec3 mapped_normal(const Vec4& texel, float scale, const Vec3& n, const Vec4& tangent_w, bool flip_tangent) {
-  const Vec3 m((texel.x() * 2.0f - 1.0f) * scale, (texel.y() * 2.0f - 1.0f) * scale, texel.z() * 2.0f - 1.0f);
-  Vec3 t = tangent_w.head<3>();
-  t -= n * n.dot(t);
-  const float length = t.squaredNorm();
-  if (!(length > 1e-12f)) return n;
-  t /= std::sqrt(length);
-  const float handedness = flip_tangent ? -tangent_w.w() : tangent_w.w();
-  const Vec3 bitangent = n.cross(t) * handedness;
-  const Vec3 mapped = t * m.x() + bitangent * m.y() + n * m.z();
-  const float squared = mapped.squaredNorm();
-  if (!(squared > 1e-12f)) return n;
-  return mapped / std::sqrt(squared);
-}
+/// A tangent frame around a normal. Degenerate where the tangent is parallel to the normal.
+class Frame {
+ public:
+  /// `tangent`: w is the handedness; flip: the bitangent belongs to the frame of the file's normal, and a
+  /// turned normal turns the whole frame.
+  Frame(const Vec3& n, const Vec4& tangent, bool flip) : n_(n), t_(tangent.head<3>()) {
+    t_ -= n * n.dot(t_);
+    const float length = t_.squaredNorm();
+    degenerate_ = !(length > 1e-12f);
+    if (degenerate_) return;
+    t_ /= std::sqrt(length);
+    bitangent_ = n.cross(t_) * (flip ? -tangent.w() : tangent.w());
+  }
 
-/// The direction of greater roughness in world space, from its components along tangent and bitangent and a
-/// rotation in radians; zero where there is none.
-Vec3 brushed_direction(const Vec2& components, float rotation, const Vec3& n, const Vec4& tangent_w,
-                       bool flip_tangent) {
-  Vec3 t = tangent_w.head<3>();
-  t -= n * n.dot(t);
-  const float length = t.squaredNorm();
-  if (!(length > 1e-12f && components.squaredNorm() > 1e-6f)) return Vec3::Zero();
-  t /= std::sqrt(length);
-  const Vec3 bitangent = n.cross(t) * (flip_tangent ? -tangent_w.w() : tangent_w.w());
-  const float c = std::cos(rotation), s = std::sin(rotation);
-  const Vec2 turned(c * components.x() - s * components.y(), s * components.x() + c * components.y());
-  return (t * turned.x() + bitangent * turned.y()).normalized();
-}
+  /// The normal of a texel in world space; the frame's own where the map or the frame is degenerate.
+  Vec3 mapped_normal(const Vec4& texel, float scale) const {
+    const Vec3 m((texel.x() * 2.0f - 1.0f) * scale, (texel.y() * 2.0f - 1.0f) * scale,
+                 texel.z() * 2.0f - 1.0f);
+    if (degenerate_) return n_;
+    const Vec3 mapped = t_ * m.x() + bitangent_ * m.y() + n_ * m.z();
+    const float squared = mapped.squaredNorm();
+    if (!(squared > 1e-12f)) return n_;
+    return mapped / std::sqrt(squared);
+  }
+
+  /// The direction of greater roughness in world space, from its components along tangent and bitangent and
+  /// a rotation in radians; zero where there is none.
+  Vec3 anisotropy_direction(const Vec2& components, float rotation) const {
+    if (degenerate_ || !(components.squaredNorm() > 1e-6f)) return Vec3::Zero();
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    const Vec2 turned(c * components.x() - s * components.y(), s * components.x() + c * components.y());
+    return (t_ * turned.x() + bitangent_ * turned.y()).normalized();
+  }
+
+ private:
+  Vec3 n_;
+  Vec3 t_;
+  Vec3 bitangent_ = Vec3::Zero();
+  bool degenerate_ = false;
+};
 
 /// Moves a point of a flat triangle onto the round surface that the normals of its corners describe.
 void round(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights, const Vec3& wo) {
@@ -96,6 +106,79 @@ void round(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weigh
   s.offset /= cosine;
 }
 
+void read_metallic_roughness(const scene::Material& m, const Reader& read, SurfaceMaterial& material) {
+  material.metallic = m.metallic;
+  material.roughness = m.roughness;
+  if (m.metallic_roughness_texture) {
+    const Vec4 t = read(m.metallic_roughness_texture, Encoding::linear);
+    material.roughness *= t.y();
+    material.metallic *= t.z();
+  }
+  if (m.glossiness_texture) {
+    const float glossiness = read(m.glossiness_texture, Encoding::srgb).w();
+    material.roughness = 1.0f - (1.0f - material.roughness) * glossiness;
+  }
+  material.ior = m.ior;
+  material.specular = m.specular;
+  material.specular_color = m.specular_color;
+  if (m.specular_texture) material.specular *= read(m.specular_texture, Encoding::linear).w();
+  if (m.specular_color_texture) material.specular_color *= read.color(m.specular_color_texture);
+}
+
+void read_transmission(const scene::Material& m, const Reader& read, SurfaceMaterial& material) {
+  if (m.transmits()) {
+    material.thin_walled = !m.has_volume();
+    if (m.disperses()) material.dispersion = m.dispersion;
+    material.transmission = m.transmission;
+    if (m.transmission_texture) material.transmission *= read(m.transmission_texture, Encoding::linear).x();
+  }
+  read_film(m, read, material);
+  if (!(m.diffuse_transmission > 0.0f)) return;
+  material.diffuse_transmission = m.diffuse_transmission;
+  material.diffuse_transmission_color = m.diffuse_transmission_color;
+  if (m.diffuse_transmission_texture)
+    material.diffuse_transmission *= read(m.diffuse_transmission_texture, Encoding::linear).w();
+  if (m.diffuse_transmission_color_texture)
+    material.diffuse_transmission_color *= read.color(m.diffuse_transmission_color_texture);
+}
+
+void read_sheen(const scene::Material& m, const Reader& read, SurfaceMaterial& material) {
+  if (!(m.sheen_color > 0.0f).any()) return;
+  material.sheen_color = m.sheen_color;
+  material.sheen_roughness = m.sheen_roughness;
+  if (m.sheen_color_texture) material.sheen_color *= read.color(m.sheen_color_texture);
+  if (m.sheen_roughness_texture)
+    material.sheen_roughness *= read(m.sheen_roughness_texture, Encoding::linear).w();
+}
+
+void read_clearcoat(const scene::Material& m, const Reader& read, SurfaceMaterial& material) {
+  if (!(m.clearcoat > 0.0f)) return;
+  material.clearcoat = m.clearcoat;
+  material.clearcoat_roughness = m.clearcoat_roughness;
+  if (m.clearcoat_texture) material.clearcoat *= read(m.clearcoat_texture, Encoding::linear).x();
+  if (m.clearcoat_roughness_texture)
+    material.clearcoat_roughness *= read(m.clearcoat_roughness_texture, Encoding::linear).y();
+}
+
+/// Normal maps, and the direction of anisotropy.
+void read_frame(const scene::Material& m, const Reader& read, const Frame& frame, Surface& s) {
+  if (m.normal_texture)
+    s.shading_normal = frame.mapped_normal(read(m.normal_texture, Encoding::linear), m.normal_scale);
+  if (m.anisotropy > 0.0f) {
+    Vec3 texel(1.0f, 0.0f, 1.0f);
+    if (m.anisotropy_texture) {
+      texel = read(m.anisotropy_texture, Encoding::linear).head<3>();
+      texel.head<2>() = 2.0f * texel.head<2>() - Vec2::Ones();
+    }
+    s.material.anisotropy_direction = frame.anisotropy_direction(texel.head<2>(), m.anisotropy_rotation);
+    if (!s.material.anisotropy_direction.isZero(0.0f)) s.material.anisotropy = m.anisotropy * texel.z();
+  }
+  if (m.clearcoat > 0.0f && m.clearcoat_normal_texture) {
+    s.coat_normal =
+        frame.mapped_normal(read(m.clearcoat_normal_texture, Encoding::linear), m.clearcoat_normal_scale);
+  }
+}
+
 }  // namespace
 
 Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textures_(textures) {
@@ -109,7 +192,7 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
     view.mirrors = instance.mirrors;
     if (!instance.baked) {
       view.transform = instance.transform;
-      view.normal_matrix = scene::normal_matrix(instance.transform);
+      view.normal_matrix = normal_matrix(instance.transform);
       view.rounding = PlacementRounding(instance);
     }
   }
@@ -133,22 +216,29 @@ void Surfaces::prefetch_vertices(const Hit& hit) const {
   }
 }
 
-Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const {
-  const View& view = views_[hit.instance];
-  const scene::Mesh& mesh = *view.mesh;
-  const scene::Material& m = *view.material;
-  const Corners& corners = mesh.triangles[hit.primitive];
-  const Vec3 b(1.0f - hit.u - hit.v, hit.u, hit.v);
+/// The place of a hit on its triangle, in world space.
+struct Surfaces::Place {
+  Vec3 b;               ///< barycentric coordinates
+  Vec3 corners[3];      ///< positions
+  Vec3 normal;          ///< of the triangle, by its winding
+  float area = 0.0f;    ///< twice the area
+  bool turned = false;  ///< the file's normal contradicts the winding
+};
 
-  Vec3 p[3];
+Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& direction, Surface& s) {
+  const scene::Mesh& mesh = *view.mesh;
+  const Corners& corners = mesh.triangles[hit.primitive];
+  Place place;
+  place.b = Vec3(1.0f - hit.u - hit.v, hit.u, hit.v);
+  const Vec3& b = place.b;
+  Vec3(&p)[3] = place.corners;
   for (int corner = 0; corner < 3; ++corner) {
     p[corner] = mesh.positions[corners[corner]];
     if (!view.baked) p[corner] = view.transform * p[corner];
   }
-  float area = 0.0f;  // twice the area
-  Vec3 ng = scene::triangle_normal(p[0], p[1], p[2], area);
-  if (!(area > 0.0f)) ng = -direction;
-  Surface s;
+  Vec3& ng = place.normal;
+  ng = scene::triangle_normal(p[0], p[1], p[2], place.area);
+  if (!(place.area > 0.0f)) ng = -direction;
   s.position = p[0] * b.x() + p[1] * b.y() + p[2] * b.z();
   s.offset = rounding_offset(p[0], p[1], p[2], view.rounding);
 
@@ -162,27 +252,36 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     if (squared > 0.0f) ns = n / std::sqrt(squared);
   }
   s.geometric_normal = s.front ? ng : Vec3(-ng);
-  // The file's normals may contradict the winding. The side of the geometric normal decides.
-  const bool turn = ns.dot(s.geometric_normal) < 0.0f;
-  s.smooth_normal = turn ? Vec3(-ns) : ns;
+  // The side of the geometric normal decides.
+  place.turned = ns.dot(s.geometric_normal) < 0.0f;
+  s.smooth_normal = place.turned ? Vec3(-ns) : ns;
   s.shading_normal = s.smooth_normal;
   s.coat_normal = s.smooth_normal;
-  if (!mesh.normals.empty() && !m.transmits()) {
+  if (!mesh.normals.empty() && !view.material->transmits()) {
     Vec3 n[3];
     for (int corner = 0; corner < 3; ++corner)
-      n[corner] = view.world_normal(mesh.normals[corners[corner]], turn);
+      n[corner] = view.world_normal(mesh.normals[corners[corner]], place.turned);
     round(s, p, n, b, -direction);
   }
+  return place;
+}
 
-  const float cosine = std::abs(ng.dot(direction));
+Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const {
+  const View& view = views_[hit.instance];
+  const scene::Mesh& mesh = *view.mesh;
+  const scene::Material& m = *view.material;
+  const Corners& corners = mesh.triangles[hit.primitive];
+  Surface s;
+  const Place place = Surfaces::place(view, hit, direction, s);
+  const float cosine = std::abs(place.normal.dot(direction));
   // The short side of the footprint is the cone's width, the long side is width / cosine. This is their
   // geometric mean.
-  const Reader read(textures_, mesh, corners, b, cone_width / std::sqrt(std::max(cosine, 0.01f)), area,
-                    u_level);
+  const Reader read(textures_, mesh, corners, place.b, cone_width / std::sqrt(std::max(cosine, 0.01f)),
+                    place.area, u_level);
 
   Color base = m.base_color;
   if (m.base_color_texture) base *= read.color(m.base_color_texture);
-  if (!mesh.colors.empty()) base *= interpolate(mesh.colors, corners, b).head<3>().array();
+  if (!mesh.colors.empty()) base *= interpolate(mesh.colors, corners, place.b).head<3>().array();
   s.material.base_color = base.max(0.0f).min(1.0f);
   if (m.unlit) {
     s.unlit = true;
@@ -193,81 +292,17 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
     s.emission = m.emission;
     if (m.emission_texture) s.emission *= read.emission(m.emission_texture);
   }
-
-  s.material.metallic = m.metallic;
-  s.material.roughness = m.roughness;
-  if (m.metallic_roughness_texture) {
-    const Vec4 t = read(m.metallic_roughness_texture, Encoding::linear);
-    s.material.roughness *= t.y();
-    s.material.metallic *= t.z();
-  }
-  if (m.glossiness_texture) {
-    const float glossiness = read(m.glossiness_texture, Encoding::srgb).w();
-    s.material.roughness = 1.0f - (1.0f - s.material.roughness) * glossiness;
-  }
-  s.material.ior = m.ior;
-  s.material.specular = m.specular;
-  s.material.specular_color = m.specular_color;
-  if (m.specular_texture) s.material.specular *= read(m.specular_texture, Encoding::linear).w();
-  if (m.specular_color_texture) s.material.specular_color *= read.color(m.specular_color_texture);
-  if (m.transmits()) {
-    s.material.thin_walled = !m.has_volume();
-    if (m.disperses()) s.material.dispersion = m.dispersion;
-    s.material.transmission = m.transmission;
-    if (m.transmission_texture) s.material.transmission *= read(m.transmission_texture, Encoding::linear).x();
-  }
-  read_film(m, read, s.material);
-  if (m.diffuse_transmission > 0.0f) {
-    s.material.diffuse_transmission = m.diffuse_transmission;
-    s.material.diffuse_transmission_color = m.diffuse_transmission_color;
-    if (m.diffuse_transmission_texture)
-      s.material.diffuse_transmission *= read(m.diffuse_transmission_texture, Encoding::linear).w();
-    if (m.diffuse_transmission_color_texture)
-      s.material.diffuse_transmission_color *= read.color(m.diffuse_transmission_color_texture);
-  }
-  if ((m.sheen_color > 0.0f).any()) {
-    s.material.sheen_color = m.sheen_color;
-    s.material.sheen_roughness = m.sheen_roughness;
-    if (m.sheen_color_texture) s.material.sheen_color *= read.color(m.sheen_color_texture);
-    if (m.sheen_roughness_texture)
-      s.material.sheen_roughness *= read(m.sheen_roughness_texture, Encoding::linear).w();
-  }
-
-  const bool coat = m.clearcoat > 0.0f;
-  if (!mesh.tangents.empty() &&
-      (m.normal_texture || m.anisotropy > 0.0f || (coat && m.clearcoat_normal_texture))) {
-    Vec4 tangent = interpolate(mesh.tangents, corners, b);
+  read_metallic_roughness(m, read, s.material);
+  read_transmission(m, read, s.material);
+  read_sheen(m, read, s.material);
+  const bool mapped_coat = m.clearcoat > 0.0f && m.clearcoat_normal_texture;
+  if (!mesh.tangents.empty() && (m.normal_texture || m.anisotropy > 0.0f || mapped_coat)) {
+    Vec4 tangent = interpolate(mesh.tangents, corners, place.b);
     tangent.w() = mesh.tangents[corners[0]].w();
     if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
-    // The bitangent belongs to the frame of the file's normal. A turned normal turns the whole frame.
-    const bool flip = turn != view.mirrors;
-    if (m.normal_texture) {
-      s.shading_normal = mapped_normal(read(m.normal_texture, Encoding::linear), m.normal_scale,
-                                       s.smooth_normal, tangent, flip);
-    }
-    if (m.anisotropy > 0.0f) {
-      Vec3 texel(1.0f, 0.0f, 1.0f);
-      if (m.anisotropy_texture) {
-        texel = read(m.anisotropy_texture, Encoding::linear).head<3>();
-        texel.head<2>() = 2.0f * texel.head<2>() - Vec2::Ones();
-      }
-      s.material.brushed =
-          brushed_direction(texel.head<2>(), m.anisotropy_rotation, s.smooth_normal, tangent, flip);
-      if (!s.material.brushed.isZero(0.0f)) s.material.anisotropy = m.anisotropy * texel.z();
-    }
-    if (coat && m.clearcoat_normal_texture) {
-      s.coat_normal = mapped_normal(read(m.clearcoat_normal_texture, Encoding::linear),
-                                    m.clearcoat_normal_scale, s.smooth_normal, tangent, flip);
-    }
+    read_frame(m, read, Frame(s.smooth_normal, tangent, place.turned != view.mirrors), s);
   }
-  if (coat) {
-    s.material.clearcoat = m.clearcoat;
-    s.material.clearcoat_roughness = m.clearcoat_roughness;
-    if (m.clearcoat_texture) s.material.clearcoat *= read(m.clearcoat_texture, Encoding::linear).x();
-    if (m.clearcoat_roughness_texture) {
-      s.material.clearcoat_roughness *= read(m.clearcoat_roughness_texture, Encoding::linear).y();
-    }
-  }
+  read_clearcoat(m, read, s.material);
   return s;
 }
 

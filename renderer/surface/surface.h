@@ -21,7 +21,7 @@ struct RayCone {
 
 struct Surface {
   Vec3 position = Vec3::Zero();
-  /// Unit, on the side of the viewer; bounds where light comes from. On the round surface of vertex normals
+  /// Unit, on the side of the viewer; bounds the incident directions. On the round surface of vertex normals
   /// (shadow_terminator.h) it is the smooth normal.
   Vec3 geometric_normal = Vec3::Zero();
   Vec3 shading_normal = Vec3::Zero();  ///< unit, on the side of the viewer, normal map applied
@@ -62,14 +62,18 @@ class Surfaces {
     const scene::Mesh* mesh = nullptr;
     const scene::Material* material = nullptr;
     Eigen::Matrix3f normal_matrix = Eigen::Matrix3f::Identity();
-    scene::Affine transform = scene::Affine::Identity();
+    Affine transform = Affine::Identity();
     PlacementRounding rounding;
     bool baked = true;
     bool mirrors = false;
 
-    /// A unit vector, or zero; `turn` turns it round.
+    /// A unit vector, or zero; `turn` negates it.
     Vec3 world_normal(const Vec3& normal, bool turn) const;
   };
+  struct Place;
+
+  /// Fills the position and the normals of `surface`.
+  static Place place(const View& view, const Hit& hit, const Vec3& direction, Surface& surface);
 
   const Textures& textures_;
   std::vector<View> views_;

@@ -12,11 +12,6 @@
 
 namespace gatelight::renderer {
 
-using scene::Color;
-using scene::Vec2;
-using scene::Vec3;
-using scene::Vec4;
-
 /// How the bytes of a colour channel are decoded. Alpha is always linear.
 enum class Encoding : std::uint8_t { linear, srgb };
 

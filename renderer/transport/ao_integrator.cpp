@@ -24,7 +24,7 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
     const Hit& hit = hits[i];
     if (!hit || world_.catches(hit.instance)) {
       if (!first_hits.empty()) first_hits[i].alpha = 0.0f;
-      if (world_.background_apart) results[i].radiance = Color::Zero();
+      if (world_.separate_background) results[i].radiance = Color::Zero();
       continue;
     }
     const RayCone& cone = samples[i].camera_ray.cone;

@@ -13,7 +13,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A kind of names, of which each instance has one.
+/// One kind of names. Each instance has one name of the kind.
 struct Kind {
   std::vector<std::uint32_t> ids;  ///< by instance
   std::size_t first_layer = 0;
@@ -37,8 +37,8 @@ std::vector<std::string> names_by_instance(const scene::Scene& scene, MatteKind 
   return names;
 }
 
-/// What the ids cover, the greatest first; of equal ones the lower id. Reorders `ids`, which has those of all
-/// points that hit something.
+/// Ranks the ids by coverage, the greatest first, then the lower id first. Reorders `ids`, which has one
+/// entry for each point that hits a surface.
 void rank(std::vector<std::uint32_t>& ids, std::vector<IdCoverage>& ranked) {
   std::sort(ids.begin(), ids.end());
   ranked.clear();
@@ -76,7 +76,7 @@ Cryptomattes trace_cryptomattes(const World& world, const Camera& camera, const 
     std::vector<std::uint32_t> ids;
     std::vector<IdCoverage> ranked;
     for (const Pixel& pixel : pixels) {
-      // Packets hold the rays of one pixel, so that a part of the picture has the same ones.
+      // Packets contain the rays of one pixel, so that a part of the picture has the same ones.
       for (std::uint32_t s = 0; s < kCryptomattePoints; ++s)
         rays[s] = make_camera_sample({pixel, s}, options, camera, filter).ray();
       world.accel.intersect(rays, hits, true);

@@ -1,23 +1,22 @@
 #pragma once
-// The surface that a path sees first if mirrors and clear glass do not count: what guides the
-// denoiser.
+// The first surface of a path that is neither a mirror nor clear glass. It guides the denoiser.
 
 #include "renderer/film/camera_sample.h"
-#include "renderer/transport/walker.h"
+#include "renderer/transport/path_state.h"
 
 namespace gatelight::renderer {
 
-/// Nearly all light leaves it in one direction, or two.
+/// Whether nearly all light leaves the surface in one direction, or two.
 inline bool is_mirror_or_clear(const SurfaceMaterial& m) {
   constexpr float kSmooth = 0.1f;    // perceptual roughness
-  constexpr float kDiffuse = 0.05f;  // share of what is scattered
+  constexpr float kDiffuse = 0.05f;  // share of the scattered light
   return m.roughness * m.roughness + m.anisotropy * m.anisotropy <= kSmooth * kSmooth &&
          (1.0f - m.metallic) * (1.0f - m.transmission) <= kDiffuse && !(m.sheen_color > 0.0f).any();
 }
 
-/// A path has met a surface; first_hit() is known. Where all before were mirrors or clear, it guides in their
-/// place.
-inline void meet_guide(Walker& path, const Meeting& m, FirstHit& first) {
+/// Call it where a path has met a surface, after first_hit(). Where all surfaces before were mirrors or
+/// clear, this one becomes the guide.
+inline void record_guide(PathState& path, const SurfaceInteraction& m, FirstHit& first) {
   if (!path.sees_through) return;
   if (path.surfaces > 0) {
     GuideSurface& guide = first.guide;
@@ -29,14 +28,15 @@ inline void meet_guide(Walker& path, const Meeting& m, FirstHit& first) {
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }
 
-/// What the surface where the path is reflects, as its BSDF tells.
-inline void set_albedo(const Walker& path, const Color& albedo, FirstHit& first) {
+/// Sets the albedo of the path's current surface, from its BSDF.
+inline void set_albedo(const PathState& path, const Color& albedo, FirstHit& first) {
   if (path.surfaces == 0) first.albedo = albedo;
   if (path.surfaces == first.guide.surface) first.guide.albedo = first.guide.tint * albedo;
 }
 
-/// A path has left the scene. Behind mirrors and clear glass the sky is no surface.
-inline void leave_guide(const Walker& path, FirstHit& first) {
+/// Call it where a path has left the scene. Behind mirrors and clear glass the sky does not count as a
+/// surface.
+inline void record_background(const PathState& path, FirstHit& first) {
   first.alpha -= path.background();
   if (path.sees_through) first.guide.hit = false;
 }

@@ -15,7 +15,7 @@
 
 namespace gatelight::renderer {
 
-/// What a pass renders. All members outlive it.
+/// The inputs of a pass. All members outlive it.
 struct PassContext {
   const TileGrid& tiles;
   const RenderOptions& options;
@@ -26,7 +26,7 @@ struct PassContext {
 class Pass {
  public:
   virtual ~Pass() = default;
-  /// Adds so many samples of each pixel to the film, in order. Runs in the caller's arena. Calls
+  /// Adds `samples` samples of each pixel to the film, in order. Runs in the caller's arena. Calls
   /// report(fraction done) from any thread.
   virtual void run(int samples, Film& film, const std::function<void(double)>& report) = 0;
   /// From this time on run() leaves out the pixels that are not begun yet.
@@ -40,7 +40,7 @@ class Pass {
   virtual void add_to(CacheStatistics&) const {}
 
  protected:
-  /// Whether what is to come is left out.
+  /// Whether the remaining pixels are left out.
   bool out_of_time() {
     if (end_ == std::chrono::steady_clock::time_point::max() || std::chrono::steady_clock::now() < end_)
       return false;

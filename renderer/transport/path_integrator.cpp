@@ -6,18 +6,18 @@ namespace gatelight::renderer {
 
 /// Adds a light sample unless it is black or roulette ends it.
 template <class MakeRay>
-void PathIntegrator::add_light(const Walker& path, const Color& contribution, std::uint32_t light,
+void PathIntegrator::add_light(const PathState& path, const Color& contribution, std::uint32_t light,
                                MakeRay make_ray, Scratch& scratch) {
-  const float weight = path.shadow_weight(contribution.maxCoeff(), path.faint);
+  const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(make_ray());
   scratch.pending.push_back({contribution * weight, path.index, light});
 }
 
-PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit,
+PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& ray, const Hit& hit,
                                    Color& radiance, FirstHit* first, Scratch& scratch) const {
   const LightGroups& groups = walk_.world.light_groups;
-  // `group` tells whose light it is.
+  // `group` returns the light group of the emission.
   const auto add = [&](const Emission& emission, const auto& group) {
     if (!emission.any()) return;
     const Color light = path.carried() * emission.radiance * emission.weight;
@@ -25,14 +25,14 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
     if (!groups.empty()) scratch.parts[path.index * groups.size() + group()] += light;
   };
   if (!hit || path.looks_through(walk_, hit)) {
-    if (first) leave_guide(path, *first);
+    if (first) record_background(path, *first);
     const Emission sky = path.sky(walk_, ray.direction);
     add(sky, [&] { return groups.of_environment(); });
     return nullptr;
   }
-  Meeting m = path.meet(walk_, ray, hit, options_.max_depth);
+  SurfaceInteraction m = path.intersect(walk_, ray, hit, options_.max_depth);
   if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
-  if (first) meet_guide(path, m, *first);
+  if (first) record_guide(path, m, *first);
   add(m.emission, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
   if (path.shades_wide(m)) {
@@ -42,13 +42,13 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, Walker& path, Ray& ray,
   const Bsdf& bsdf = m.set_up_bsdf();
   if (first) set_albedo(path, bsdf.albedo(), *first);
 
-  const LightAt at = path.light_at(walk_, m, bsdf);
+  const NeeSample at = path.sample_light(walk_, m, bsdf);
   const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
   add_light(
       path, contribution, at.light.light, [&] { return shadow_ray(m.surface, at.light, path.seed); },
       scratch);
-  std::optional<Drawn> drawn = path.draw(m, bsdf);
-  if (drawn && path.survives(options_.min_depth, *drawn) && path.advance(walk_, m, *drawn))
+  std::optional<DirectionSample> sampled = path.sample_bsdf(m, bsdf);
+  if (sampled && path.survives(options_.min_depth, *sampled) && path.advance(walk_, m, *sampled))
     scratch.go_on(number, ray);
   return nullptr;
 }
@@ -58,7 +58,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
   walk_.shading.scatter(block.points);
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
-    Walker& path = scratch.paths[scratch.path_of[number]];
+    PathState& path = scratch.paths[scratch.path_of[number]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     const Color contribution = path.carried() * lane_color(points.direct, lane) *
                                path.transmittance(walk_, points.shadow_length[lane]);
@@ -66,7 +66,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
         path, contribution, points.light[lane], [&] { return shadow_ray_at(points, lane); }, scratch);
     if (!points.alive[lane]) continue;
     Ray next;
-    if (path.advance(block, lane, drawn_at(points, lane), scratch.hits[number].t, next))
+    if (path.advance(block, lane, direction_sample_at(points, lane), scratch.hits[number].t, next))
       scratch.go_on(number, next);
   }
 }
@@ -78,14 +78,14 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   const LightGroups& groups = walk_.world.light_groups;
   scratch.parts.assign(groups.size() * samples.size(), Color::Zero());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    scratch.paths[i] = Walker(walk_.world, samples[i], i, walk_.world.around_camera);
+    scratch.paths[i] = PathState(walk_.world, samples[i], i, walk_.world.around_camera);
     scratch.rays[i] = samples[i].ray();
     results[i] = {};
     if (!first_hits.empty()) first_hits[i] = {};
   }
   trace_waves(
       walk_.world, {}, scratch, counts,
-      [&](std::uint32_t number, Walker& path, Ray& ray, const Hit& hit) {
+      [&](std::uint32_t number, PathState& path, Ray& ray, const Hit& hit) {
         FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
         return scatter(number, path, ray, hit, results[path.index].radiance, first, scratch);
       },

@@ -6,7 +6,7 @@
 
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
-#include "renderer/transport/walker.h"
+#include "renderer/transport/path_state.h"
 #include "renderer/transport/waves.h"
 
 namespace gatelight::renderer {
@@ -38,11 +38,11 @@ class PathIntegrator {
 
  private:
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
-  PathBlock* scatter(std::uint32_t number, Walker& path, Ray& ray, const Hit& hit, Color& radiance,
+  PathBlock* scatter(std::uint32_t number, PathState& path, Ray& ray, const Hit& hit, Color& radiance,
                      FirstHit* first, Scratch& scratch) const;
   template <class MakeRay>
-  static void add_light(const Walker& path, const Color& contribution, std::uint32_t light, MakeRay make_ray,
-                        Scratch& scratch);
+  static void add_light(const PathState& path, const Color& contribution, std::uint32_t light,
+                        MakeRay make_ray, Scratch& scratch);
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   Walk walk_;
@@ -56,9 +56,9 @@ struct PendingLight {
   std::uint32_t light = 0;  ///< LightSample::light
 };
 
-struct PathIntegrator::Scratch : Waves<Walker, PendingLight> {
-  /// The radiance that each group of lights gives a sample: all groups of the first sample, then those of the
-  /// next. Empty without groups.
+struct PathIntegrator::Scratch : Waves<PathState, PendingLight> {
+  /// The radiance that each group of lights adds to a sample: all groups of the first sample, then those of
+  /// the next. Empty without groups.
   std::vector<Color> parts;
 };
 

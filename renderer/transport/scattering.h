@@ -1,6 +1,6 @@
 #pragma once
-// What all path-tracing integrators share at a vertex: multiple importance sampling (Veach 1997) of lights
-// and directions, shadow rays, absorption, and the seeds of decisions that need no low discrepancy.
+// Code that all path-tracing integrators share at a vertex: multiple importance sampling (Veach 1997) of
+// lights and directions, shadow rays, absorption, and the seeds of decisions that need no low discrepancy.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/settings/options.h"
+#include "renderer/surface/shadow_transmittance.h"
 #include "renderer/transport/world.h"
 
 namespace gatelight::renderer {
@@ -45,17 +46,17 @@ struct MisRule {
 /// finds depends on it.
 struct Departure {
   Vec3 position = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();  ///< that next-event estimation used there
+  Vec3 normal = Vec3::Zero();  ///< the normal that next-event estimation used there
   float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
   float pdf = 0.0f;            ///< of the direction, per solid angle
-  /// The direction came from the camera, a delta lobe or refraction beside straight glass: no light sample
-  /// competes.
+  /// The direction came from the camera, a delta lobe, or refraction beside unrefracted glass: no light
+  /// sample competes.
   bool delta = true;
-  int panes = 0;       ///< between `position` and the ray's origin
-  bool alone = false;  ///< one of them stops shadow rays
+  int panes = 0;             ///< between `position` and the ray's origin
+  bool without_mis = false;  ///< one of these panes stops shadow rays
 
   /// Whether a light sample from `position` could have found the same light.
-  bool competes() const { return !delta && !alone && panes <= Accel::kMaxPanes; }
+  bool competes() const { return !delta && !without_mis && panes <= kMaxPanes; }
 };
 
 /// MIS weight of the emission of a surface that a ray in `direction` hit.

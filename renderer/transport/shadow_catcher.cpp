@@ -12,7 +12,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A share of the unshadowed light of a pixel, and the ray that decides whether it arrives.
+/// A part of the unshadowed light of a pixel. A shadow ray decides whether it arrives.
 struct Pending {
   std::size_t pixel;
   float light;
@@ -39,19 +39,19 @@ class Catcher {
                              sampler.get_2d(first + dimension::kLightPoint));
     const float cosine = n.dot(light.wi);
     if (light.pdf > 0.0f && cosine > 0.0f) {
-      const bool sky = !light.delta && light.distance == scene::kInfinity;
-      const float weight = sky ? light.pdf / (light.pdf + cosine * scene::kInvPi) : 1.0f;
+      const bool sky = !light.delta && light.distance == kInfinity;
+      const float weight = sky ? light.pdf / (light.pdf + cosine * kInvPi) : 1.0f;
       trace(pixel, shadow_ray(surface, light, sample.seed),
-            scene::kInvPi * cosine * weight * scene::luminance(light.radiance) / light.pdf);
+            kInvPi * cosine * weight * luminance(light.radiance) / light.pdf);
     }
-    // Light samples may leave the sky to bounces.
+    // Light samples may leave out the sky, so a bounce samples it too.
     const Vec3 local = sample_cosine_hemisphere(sampler.get_2d(first + dimension::kBsdfDirection));
     const Vec3 wi = Basis(n).to_world(local);
-    const float density = scene::kInvPi * std::max(local.z(), 0.0f);
+    const float density = kInvPi * std::max(local.z(), 0.0f);
     if (!(density > 0.0f)) return;
-    Ray open{surface.spawn(wi), scene::kInfinity, wi, hash(sample.seed ^ 0x63617463u)};
+    Ray open{surface.spawn(wi), kInfinity, wi, hash(sample.seed ^ 0x63617463u)};
     trace(pixel, open,
-          scene::luminance(world_.environment.radiance(wi)) * density /
+          luminance(world_.environment.radiance(wi)) * density /
               (density + world_.lights.pdf_environment(surface.position, n, wi)));
   }
 
@@ -62,7 +62,7 @@ class Catcher {
       Sums& sums = sums_[pending_[i].pixel];
       const auto light = static_cast<double>(pending_[i].light);
       sums.unshadowed += light;
-      sums.lit += light * static_cast<double>(scene::luminance(transmittance[i]));
+      sums.lit += light * static_cast<double>(luminance(transmittance[i]));
     }
     rays_.clear();
     pending_.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Shadows on an object that is not there itself: it catches them for a picture with an alpha.
+// Shadows on invisible objects (shadow catchers), for a picture with an alpha.
 
 #include <vector>
 
@@ -11,10 +11,10 @@
 
 namespace gatelight::renderer {
 
-/// The alpha of black that shadows put before the background, for each pixel of `rect`: the share of the
-/// pixel in which the camera sees a catcher, times 1 less what direct light reaches it of that without any
-/// objects (matte, whatever its material). From `samples` points of each pixel that sees one. Runs in the
-/// caller's arena; the same bits for any number of threads.
+/// The alpha of the black shadow before the background, for each pixel of `rect`: the share of the pixel
+/// where the camera sees a catcher, times 1 minus the ratio of its direct light to that without any objects.
+/// Catchers are matte, whatever their material. Uses `samples` points of each pixel. Runs in the caller's
+/// arena; the same bits for any number of threads.
 std::vector<float> catch_shadows(const World& world, const Camera& camera, const FilterSampler& filter,
                                  const RenderOptions& options, const PixelRect& rect, int samples);
 

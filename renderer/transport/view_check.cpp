@@ -66,7 +66,7 @@ Interior volumes_around(const World& world, const Vec3& point) {
   Ray ray;
   ray.origin = point;
   ray.direction = Vec3(0.48f, 0.64f, 0.6f);
-  std::vector<char> met(world.scene.instances.size(), 0);  // by volume, of which there are no more
+  std::vector<char> met(world.scene.instances.size(), 0);  // by volume: at most one for each instance
   constexpr int kMostSurfaces = 4096;
   for (int i = 0; i < kMostSurfaces; ++i) {
     Hit hit;
@@ -76,7 +76,7 @@ Interior volumes_around(const World& world, const Vec3& point) {
     const Vec3 normal = scene::world_normal(world.scene, world.scene.instances[hit.instance], hit.primitive);
     const float cosine = normal.dot(ray.direction);
     if (volume != scene::kNoVolume && !std::exchange(met[volume], 1) && cosine > 0.0f) around.enter(volume);
-    // Along the ray: smooth surfaces are raised for shading.
+    // The offset is along the ray: smooth surfaces are raised for shading.
     const float offset = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f).offset;
     ray.origin += ray.direction * (hit.t + 2.0f * offset / std::max(std::abs(cosine), 1e-2f));
   }

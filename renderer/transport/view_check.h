@@ -9,12 +9,12 @@
 namespace gatelight::renderer {
 
 /// One line for a view that shows nothing, or mostly the backs of surfaces that have no back side, as from
-/// inside an object; empty for any other. It tells the share of rays of a coarse grid over the picture. Size
-/// in pixels.
+/// inside an object; empty for any other. It has the share of rays of a coarse grid over the picture. Size in
+/// pixels.
 std::string view_warning(const World& world, const Camera& camera, int width, int height);
 
-/// Metres along the view to what the middle of the picture sees; where it sees nothing, to the middle of the
-/// scene.
+/// Distance in metres along the view to the surface in the middle of the picture; without one, to the middle
+/// of the scene.
 float distance_in_the_middle(const World& world, const Camera& camera, int width, int height);
 
 /// The volumes of World::media around a point: those that a ray from there leaves before it enters them.

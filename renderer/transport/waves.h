@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "renderer/settings/statistics.h"
+#include "renderer/transport/path_state.h"
 #include "renderer/transport/trace_timer.h"
-#include "renderer/transport/walker.h"
 
 namespace gatelight::renderer {
 
@@ -40,17 +40,17 @@ struct Waves {
   std::vector<Ray> shadow_rays;
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
-  /// Of paths that wait to be shaded. Lanes without a path hold zeros or an earlier path.
+  /// Blocks of paths that wait to be shaded. Lanes without a path contain zeros or an earlier path.
   PathBlock blocks[kBlockKinds] = {};
 
-  /// The path of ray `number` has its next ray.
+  /// Adds the next ray of the path of ray `number`.
   void go_on(std::uint32_t number, const Ray& next) {
     next_rays.push_back(next);
     next_path_of.push_back(path_of[number]);
   }
 };
 
-/// Data is prefetched so many hits ahead of shading.
+/// Number of hits by which prefetching is ahead of shading.
 inline constexpr std::size_t kTriangleAhead = 8;
 inline constexpr std::size_t kVerticesAhead = 4;
 

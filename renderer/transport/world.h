@@ -21,7 +21,7 @@ namespace gatelight::renderer {
 
 /// Later members refer to earlier ones, so a world cannot be moved.
 struct World {
-  /// Works in the caller's arena. The scene must outlive the world. Throws what the members throw.
+  /// Works in the caller's arena. The scene must outlive the world. Throws the exceptions of the members.
   explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},
                  LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {},
                  GlassShadows glass = GlassShadows::refract)
@@ -50,10 +50,10 @@ struct World {
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
-  Interior around_camera;         ///< the volumes that the camera is in
-  LightGroups light_groups;       ///< empty: nobody asks for the parts of a picture
-  bool background_apart = false;  ///< the environment lights, and the camera does not see it
-  /// 1 for instances that catch shadows and are not seen themselves; empty without any.
+  Interior around_camera;            ///< the volumes that the camera is in
+  LightGroups light_groups;          ///< empty unless the parts of a picture are requested
+  bool separate_background = false;  ///< the environment lights the scene, but is invisible to the camera
+  /// 1 for shadow catchers, which are not visible themselves; empty without any.
   std::vector<std::uint8_t> catchers;
   bool catches(std::uint32_t instance) const { return !catchers.empty() && catchers[instance] != 0; }
 };

@@ -38,7 +38,7 @@ class AccessorReader {
   int component_type() const { return type_; }
   const std::string& where() const { return where_; }
 
-  /// Throws SceneError for another number of components, for matrices, and for unsigned 32-bit integers,
+  /// Throws InputError for another number of components, for matrices, and for unsigned 32-bit integers,
   /// which only indices may have.
   void expect_attribute(std::string_view semantic, std::initializer_list<int> components) const;
 
@@ -47,11 +47,11 @@ class AccessorReader {
   /// are left unchanged.
   void read_floats(Selection selection, int width, float* out, bool force_normalized = false) const;
 
-  /// Writes count() indices. Throws SceneError unless the accessor holds scalar unsigned integers.
+  /// Writes count() indices. Throws InputError unless the accessor holds scalar unsigned integers.
   void read_indices(std::uint32_t* out) const;
 
  private:
-  /// Where elements lie. A view of -1 means zeros.
+  /// The place of the elements. A view of -1 means zeros.
   struct Place {
     int view = -1;
     std::size_t offset = 0;
@@ -85,7 +85,7 @@ class AccessorReader {
   Place sparse_values_;
 };
 
-/// Checks every accessor of the file, used or not. Throws SceneError.
+/// Checks every accessor of the file, used or not. Throws InputError.
 void check_accessors(const Document& document);
 
 }  // namespace gatelight::scene::gltf

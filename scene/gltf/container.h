@@ -24,7 +24,7 @@ struct OwnedBytes {
   Bytes bytes() const { return {data.get(), size}; }
 };
 
-/// Reads a whole file. A SceneError names `file` (the scene) and `where` (the place in the scene that refers
+/// Reads a whole file. An InputError names `file` (the scene) and `where` (the place in the scene that refers
 /// to `path`).
 OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, std::string_view where);
 
@@ -35,7 +35,7 @@ struct Container {
   bool has_binary = false;
 };
 
-/// Opens a .glb or .gltf; the first bytes decide which it is, not the name. Throws SceneError.
+/// Opens a .glb or .gltf; the first bytes decide which it is, not the name. Throws InputError.
 Container open_container(const std::filesystem::path& path, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

@@ -39,7 +39,7 @@ void check_depth(std::string_view text, std::string_view file) {
 }
 
 json parse_json(std::string_view text, std::string_view file) {
-  // The specification asks for spaces as padding, but some exporters write zero bytes.
+  // The specification requires spaces as padding, but some exporters write zero bytes.
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   check_depth(text, file);
   try {

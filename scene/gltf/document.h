@@ -14,8 +14,8 @@ namespace gatelight::scene::gltf {
 
 class Document {
  public:
-  /// Opens the file and checks what needs no decoding: schema, extensions, buffers, and that every buffer
-  /// view lies in its buffer. Throws SceneError.
+  /// Opens the file and checks everything that needs no decoding: schema, extensions, buffers, and that every
+  /// buffer view lies in its buffer. Throws InputError.
   Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings);
 
   const json& root() const { return root_; }
@@ -24,16 +24,16 @@ class Document {
   /// An element of such a list.
   const json& item(const char* list_name, int index) const { return element(list(list_name), index); }
   const std::string& file() const { return file_; }
-  /// The bytes behind a URI of this file. Throws SceneError.
+  /// The bytes behind a URI of this file. Throws InputError.
   OwnedBytes read(std::string_view uri, std::string_view where) const {
     return read_uri(uri, uris_, file_, where);
   }
-  /// Call this, from one thread, before allocating `bytes` because of a count in the file. Throws SceneError
+  /// Call this, from one thread, before allocating `bytes` because of a count in the file. Throws InputError
   /// if the sum of all calls is implausible for a file of this size: a huge count needs only a few
   /// characters.
   void claim(std::size_t bytes, std::string_view where) const;
 
-  /// Bytes of a buffer view, decompressed if necessary. Thread-safe. Throws SceneError.
+  /// Bytes of a buffer view, decompressed if necessary. Thread-safe. Throws InputError.
   Bytes view(int index, std::string_view where) const;
 
   [[noreturn]] void fail(std::string_view where, std::string_view what) const {

@@ -17,7 +17,7 @@ namespace gatelight::scene::gltf {
 
 class DracoPrimitive {
  public:
-  /// Decodes the primitive. Throws SceneError.
+  /// Decodes the primitive. Throws InputError.
   DracoPrimitive(const Document& document, const json& extension, std::string where);
   ~DracoPrimitive();
 

@@ -17,8 +17,8 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-SceneError make_error(std::string_view file, std::string_view where, std::string_view what) {
-  return SceneError(one_line(fmt::format("{}: {}{}{}", file, where, where.empty() ? "" : ": ", what)));
+InputError make_error(std::string_view file, std::string_view where, std::string_view what) {
+  return InputError(one_line(fmt::format("{}: {}{}{}", file, where, where.empty() ? "" : ": ", what)));
 }
 
 void Warnings::add(std::string_view text) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene_error.h"
+#include "base/errors.h"
 
 namespace gatelight::scene::gltf {
 
@@ -13,7 +13,7 @@ namespace gatelight::scene::gltf {
 std::string one_line(std::string_view text);
 
 /// Puts the message together; `where` may be empty.
-SceneError make_error(std::string_view file, std::string_view where, std::string_view what);
+InputError make_error(std::string_view file, std::string_view where, std::string_view what);
 
 /// Collects warnings without duplicates. Not thread-safe: each task has its own list, and the lists are
 /// merged in order, so the result does not depend on the schedule.

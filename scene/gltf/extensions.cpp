@@ -8,7 +8,7 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-/// Of KHR_texture_basisu and MSFT_texture_dds the picture that a texture falls back to.
+/// For KHR_texture_basisu and MSFT_texture_dds only the fallback picture of a texture is read.
 constexpr std::string_view kSupported[] = {
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",

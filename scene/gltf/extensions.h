@@ -8,7 +8,7 @@
 
 namespace gatelight::scene::gltf {
 
-/// Throws SceneError for an unsupported required extension; adds a warning for each unsupported used one.
+/// Throws InputError for an unsupported required extension; adds a warning for each unsupported used one.
 void check_extensions(const json& root, std::string_view file, Warnings& warnings);
 
 /// The extension of an object, or null.

@@ -8,8 +8,9 @@
 
 namespace gatelight::scene::gltf {
 
-/// That of scene `index` of the file, if it has one. Coarser levels and the coefficients of its irradiance
-/// are not read: paths filter it themselves. Throws SceneError; see load_image() for `missing_is_error`.
+/// The environment of scene `index` of the file, if it has one. Coarser levels and the coefficients of its
+/// irradiance are not read: paths filter it themselves. Throws InputError; see load_image() for
+/// `missing_is_error`.
 std::optional<ImageBasedLight> load_image_light(const Document& document, int index, bool missing_is_error,
                                                 Warnings& warnings);
 

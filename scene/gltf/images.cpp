@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scene/jpeg_read.h"
-#include "scene/png_read.h"
-#include "scene/webp_read.h"
+#include "base/image/jpeg_read.h"
+#include "base/image/png_read.h"
+#include "base/image/webp_read.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
 constexpr int kMaxSide = 32768;
 /// Neither deflate (1032:1) nor a JPEG of one colour compresses more than this; a header that claims more is
-/// wrong. A WebP file of some bytes holds a colour of any size, and is believed up to 2048x2048.
+/// wrong. A WebP file of some bytes holds a colour of any size, and is accepted up to 2048x2048.
 constexpr std::size_t kMaxRatio = 2048;
 constexpr std::size_t kSmall = std::size_t{1} << 20;
 constexpr std::size_t kSmallWebp = std::size_t{1} << 24;
@@ -24,11 +24,11 @@ bool starts_with(Bytes bytes, std::initializer_list<std::uint8_t> magic) {
   return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-SceneError image_error(const Document& document, std::string_view where, std::string_view what) {
+InputError image_error(const Document& document, std::string_view where, std::string_view what) {
   return make_error(document.file(), where, fmt::format("{}, expected a PNG, JPEG or WebP picture", what));
 }
 
-/// Throws SceneError for an implausible size.
+/// Throws InputError for an implausible size.
 void check_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
                 int channels, std::size_t small) {
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
@@ -73,7 +73,7 @@ bool is_webp(Bytes bytes) {
          starts_with(bytes.subspan(8), {'W', 'E', 'B', 'P'});
 }
 
-/// Formats of extensions that no library here reads: what they are, and what converts them.
+/// Describes data in a format of an extension that no library here reads, and names a converter.
 std::string_view known_format(Bytes bytes) {
   if (starts_with(bytes, {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}))
     return "a KTX2 picture without another to fall back to ('ktx extract IN.ktx2 OUT.png' of KTX-Software "
@@ -90,7 +90,7 @@ Image decode(const Document& document, Bytes bytes, std::string_view where, Warn
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
   if (is_webp(bytes)) return decode_webp(document, bytes, where);
   throw image_error(document, where, known_format(bytes));
-} catch (const SceneError&) {
+} catch (const InputError&) {
   throw;
 } catch (const std::runtime_error& error) {
   throw image_error(document, where, fmt::format("cannot be decoded ({})", error.what()));
@@ -116,7 +116,7 @@ Image load_image(const Document& document, int index, bool missing_is_error, War
   Image image;
   try {
     image = read(document, source, where, name, warnings);
-  } catch (const SceneError& e) {
+  } catch (const InputError& e) {
     if (missing_is_error) throw;
     warnings.add(fmt::format("{}; white instead", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};

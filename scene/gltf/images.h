@@ -6,7 +6,7 @@
 
 namespace gatelight::scene::gltf {
 
-/// Reads and decodes image `index` of the file. Thread-safe. An unreadable image throws SceneError; if
+/// Reads and decodes image `index` of the file. Thread-safe. An unreadable image throws InputError; if
 /// `missing_is_error` is false, it becomes one white pixel and a warning.
 Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings);
 

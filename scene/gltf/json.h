@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "scene/math.h"
+#include "base/math.h"
 
 namespace gatelight::scene::gltf {
 

@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <utility>
 
+#include "base/nearest_word.h"
+#include "base/platform/threads.h"
 #include "scene/bake.h"
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/document.h"
@@ -19,8 +26,6 @@
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/triangles.h"
-#include "scene/nearest_word.h"
-#include "scene/parallel.h"
 #include "scene/texture_slots.h"
 
 namespace gatelight::scene {
@@ -157,8 +162,8 @@ class Loader {
     }
   }
 
-  /// Memory of a primitive according to its accessors; 0 for Draco, where only the compressed data tells the
-  /// size.
+  /// Memory of a primitive according to its accessors; 0 for Draco, whose size is only in the compressed
+  /// data.
   std::size_t mesh_bytes(const Part& part) const {
     const json& primitive = element(document_.item("meshes", part.mesh)["primitives"], part.primitive);
     const json& attributes = primitive["attributes"];
@@ -189,11 +194,25 @@ class Loader {
     }
   }
 
-  /// Calls load(i, warnings) for every i below count, in parallel.
+  /// Calls load(i, warnings) for every i below count, in parallel. Rethrows the exception of the lowest
+  /// index, so that the message does not depend on the schedule.
   template <typename Load>
   void load_each(std::size_t count, const Load& load) {
     std::vector<Warnings> warnings(count);
-    parallel_for(count, [&](std::size_t i) { load(i, warnings[i]); });
+    std::vector<std::exception_ptr> errors(count);
+    std::atomic<std::size_t> first_error{count};
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (i > first_error) return;
+      try {
+        load(i, warnings[i]);
+      } catch (...) {
+        errors[i] = std::current_exception();
+        std::size_t first = first_error;
+        while (i < first && !first_error.compare_exchange_weak(first, i)) {
+        }
+      }
+    });
+    if (first_error < count) std::rethrow_exception(errors[first_error]);
     for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
@@ -301,7 +320,11 @@ class Loader {
 }  // namespace gltf
 
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
-  return gltf::Loader(path, options).load();
+  const int threads = options.threads > 0 ? options.threads : available_threads();
+  require_threads(threads);
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  return tbb::task_arena(threads).execute([&] { return gltf::Loader(path, options).load(); });
 }
 
 }  // namespace gatelight::scene

@@ -17,8 +17,8 @@ constexpr int kRepeat = 10497;
 constexpr int kClampToEdge = 33071;
 constexpr int kMirroredRepeat = 33648;
 
-/// The image of a texture: the first of these that it has; or -1. What cannot be read comes last, so that its
-/// bytes tell what they are.
+/// The image of a texture: the first of these that it has; or -1. Formats that cannot be read come last:
+/// their image is used only so that the message can name its format.
 int image_of(const json& texture) {
   const auto of = [&](const char* extension) {
     const json* const found = find_extension(texture, extension);

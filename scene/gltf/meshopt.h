@@ -6,7 +6,7 @@
 
 namespace gatelight::scene::gltf {
 
-/// `length` is the buffer view's byteLength, which the decoded data must have. Throws SceneError.
+/// `length` is the buffer view's byteLength, which the decoded data must have. Throws InputError.
 OwnedBytes decode_meshopt(Bytes source, const json& extension, std::size_t length, std::string_view file,
                           std::string_view where);
 

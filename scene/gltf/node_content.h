@@ -1,5 +1,5 @@
 #pragma once
-// Converts what a node refers to: cameras, lights, instances.
+// Converts the cameras, lights and instances that a node refers to.
 
 #include <vector>
 

@@ -39,7 +39,7 @@ std::vector<int> children_of(const json& node) {
   return node.value("children", std::vector<int>());
 }
 
-/// Whether the node itself lets its meshes, its lights and its children be seen.
+/// Whether the node itself leaves its meshes, its lights and its children visible.
 bool is_visible(const json& node) {
   const json* const visibility = find_extension(node, "KHR_node_visibility");
   return !visibility || visibility->value("visible", true);
@@ -73,9 +73,9 @@ std::vector<int> find_parents(const Document& document) {
   return parents;
 }
 
-class Walker {
+class GraphWalk {
  public:
-  Walker(const Document& document, Warnings& warnings)
+  GraphWalk(const Document& document, Warnings& warnings)
       : document_(document), warnings_(warnings), parents_(find_parents(document)) {}
 
   Graph walk(int scene) {
@@ -151,7 +151,7 @@ class Walker {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       claim_instances(*instancing, mesh, where);
       if ((*instancing)["attributes"].empty()) {
-        warnings_.add(where + ": no attributes that tell how many; drawn once");
+        warnings_.add(where + ": no attributes that give the number of instances; drawn once");
         add(mesh_index, name, base, priority);
       }
       for (const Transform& t : read_instances(document_, *instancing, where)) {
@@ -223,15 +223,15 @@ class Walker {
 Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
   const std::size_t count = document.list("scenes").size();
   if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
-    document.fail("scenes", fmt::format("scene {} asked for, expected less than {}", scene, count));
+    document.fail("scenes", fmt::format("scene {} requested, expected less than {}", scene, count));
   }
-  Walker walker(document, warnings);
+  GraphWalk graph_walk(document, warnings);
   if (count == 0) {
     warnings.add("the file has no scene");
     return {};
   }
   if (scene < 0) scene = document.root().value("scene", 0);
-  return walker.walk(scene);
+  return graph_walk.walk(scene);
 }
 
 }  // namespace gatelight::scene::gltf

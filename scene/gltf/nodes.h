@@ -25,7 +25,7 @@ struct Graph {
   std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< world, in double
 };
 
-/// Walks scene `scene` (-1 means the file's default, or its first). Throws SceneError for cycles, several
+/// Walks scene `scene` (-1 means the file's default, or its first). Throws InputError for cycles, several
 /// parents and transforms that are not finite.
 Graph flatten_nodes(const Document& document, int scene, Warnings& warnings);
 

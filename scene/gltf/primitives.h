@@ -7,7 +7,7 @@
 namespace gatelight::scene::gltf {
 
 /// Reads the attributes that the material needs, for the vertices that the triangles use. Points and lines
-/// give a mesh without triangles. Thread-safe. Throws SceneError.
+/// give a mesh without triangles. Thread-safe. Throws InputError.
 Mesh load_primitive(const Document& document, int mesh, int primitive, const Material& material,
                     Warnings& warnings);
 

@@ -38,7 +38,7 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
 std::span<const Rule> schema_rules();
 
 /// Checks the document and unifies its numbers: integer properties are stored as integers (1.0 becomes 1),
-/// all others as double, so that no later reader truncates. Throws SceneError.
+/// all others as double, so that no later reader truncates. Throws InputError.
 void check_schema(nlohmann::json& root, std::string_view file);
 
 }  // namespace gatelight::scene::gltf

@@ -17,7 +17,7 @@ inline int mode_of(const json& primitive) {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// The triangles of a primitive of mode triangles, strip or fan, with or without indices. Throws SceneError,
+/// The triangles of a primitive of mode triangles, strip or fan, with or without indices. Throws InputError,
 /// also if an index is not below vertex_count.
 Triangles read_triangles(const Document& document, const json& primitive, std::size_t vertex_count,
                          const std::string& where, Warnings& warnings);

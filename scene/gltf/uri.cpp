@@ -120,7 +120,7 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
   const auto refuse = [&](std::string_view why) {
     return make_error(file, where,
                       fmt::format("'{}' {}, expected a file in the scene's folder{}", uri_name(uri), why,
-                                  options.allow_external ? "" : " (others with --allow-external)"));
+                                  options.allow_external ? "" : " (others with `allow-external`)"));
   };
   if (uri.empty()) throw refuse("is empty");
   std::string_view rest = uri;

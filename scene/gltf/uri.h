@@ -15,7 +15,7 @@ struct UriOptions {
 
 /// The bytes behind a URI. Without `allow_external` it must be a data URI or a relative path (percent-encoded
 /// or not) that stays inside the folder, also through symbolic links. With it, absolute paths, paths out of
-/// the folder and file: URIs are allowed. Throws SceneError.
+/// the folder and file: URIs are allowed. Throws InputError.
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
                     std::string_view where);
 

@@ -27,7 +27,7 @@ class Mutant:
 
     @property
     def id(self):
-        """Does not depend on the number of the line."""
+        """An identifier that does not depend on the line number."""
         text = "\n".join((self.file, self.kind, self.before.strip(), self.after.strip()))
         return hashlib.sha1(text.encode()).hexdigest()[:8]
 
@@ -166,7 +166,7 @@ def dropped_factors(code):
 
 
 def may_be_swapped(first, second):
-    """No text with something else, and no parts of a type."""
+    """Whether both are texts or both are not, and neither is a part of a type."""
     return (first and second and first != second and first.startswith('"') == second.startswith('"') and
             not any(argument.count("<") != argument.count(">") for argument in (first, second)))
 
@@ -238,7 +238,7 @@ def removed_exits(code, line_before):
 
 
 def changes(code, line_before, scope):
-    """(kind, begin, end, replacement: text, or texts and columns of the line)."""
+    """Yields (kind, begin, end, replacement: text, or texts and columns of the line)."""
     yield from changed_operators(code)
     yield from changed_constants(code)
     yield from dropped_factors(code)
@@ -251,7 +251,7 @@ def changes(code, line_before, scope):
 
 
 def initialiser_only(code):
-    """Of a line outside functions, the value of a constant or of a member. The rest becomes blanks."""
+    """Keeps the value of a constant or of a member in a line outside functions. The rest becomes blanks."""
     match = re.match(r"[^(=]* = ", code)
     return blank_out(code, 0, match.end()) if match and "= default" not in code and "= delete" not in code else ""
 

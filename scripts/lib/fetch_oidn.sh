@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Fetches the library Open Image Denoise, which Debian lacks, from a Python package that carries it. No Python code of
+# Fetches the library Open Image Denoise, which Debian lacks, from a Python package that contains it. No Python code of
 # the package is kept or run.
 oidn_version=2.5.1
 oidn_package=pyoidn==2.5.1.0
@@ -37,14 +37,14 @@ python_with_pip() {
   return 1
 }
 
-# tell_no_oidn REASON: the one line about it. Returns 1.
-tell_no_oidn() {
+# print_no_oidn REASON: prints the one-line message. Returns 1.
+print_no_oidn() {
   echo "setup: Open Image Denoise could not be fetched ($1): pictures keep their noise without it; scripts/setup tries" \
     "again" >&2
   return 1
 }
 
-# unpack_oidn PYTHON WHEEL FOLDER: the files that are needed, and no others.
+# unpack_oidn PYTHON WHEEL FOLDER: unpacks only the files that are needed.
 unpack_oidn() {
   "$1" - "$2" "$3" "${oidn_files[@]}" <<'PYTHON'
 import shutil, sys, zipfile
@@ -56,7 +56,7 @@ with zipfile.ZipFile(wheel) as archive:
 PYTHON
 }
 
-# download_oidn PYTHON FOLDER: into FOLDER/wheel. pip refuses a file with another hash, and leaves nothing in its cache
+# download_oidn PYTHON FOLDER: downloads into FOLDER/wheel. pip refuses a file with another hash, and leaves nothing in its cache
 # or in /tmp.
 download_oidn() {
   mkdir "$2/tmp" && echo "$oidn_package --hash=sha256:$oidn_sha256" >"$2/requirements" &&
@@ -65,15 +65,15 @@ download_oidn() {
       --dest "$2/wheel" --requirement "$2/requirements"
 }
 
-# Puts the new folder in the place of an incomplete one, or of none. A setup beside this one may have been faster.
+# Moves the new folder into place and an incomplete one away. Another setup may have been faster.
 place_oidn() {
   if oidn_is_there; then return; fi
   if [[ -e $oidn_folder ]]; then mv -T "$oidn_folder" "$1/old" || return; fi
   mv -T "$1/folder" "$oidn_folder"
 }
 
-# Fetches the library if it is missing. If that fails, prints one line and returns 1. It is a subshell, so that what it
-# has begun is removed however it ends.
+# Fetches the library if it is missing. If that fails, prints one line and returns 1. It is a subshell, so that its
+# temporary files are always removed.
 fetch_oidn() (
   if oidn_is_there; then return; fi
   if ! oidn_can_be_fetched; then
@@ -81,32 +81,32 @@ fetch_oidn() (
       "noise without it" >&2
     return 1
   fi
-  python=$(python_with_pip) || tell_no_oidn "no python3 here has pip: install python3-pip" || return
-  [[ -n ${XDG_CACHE_HOME:-}${HOME:-} ]] || tell_no_oidn "neither XDG_CACHE_HOME nor HOME is set" || return
+  python=$(python_with_pip) || print_no_oidn "no python3 here has pip: install python3-pip" || return
+  [[ -n ${XDG_CACHE_HOME:-}${HOME:-} ]] || print_no_oidn "neither XDG_CACHE_HOME nor HOME is set" || return
 
-  # It lies beside the folder that it becomes, so that a rename puts all files there at once. Its name does not begin
-  # as that of a folder in which the program looks.
+  # The temporary folder lies beside its destination, so that a rename puts all files there at once. Its name begins
+  # differently from the folders in which the program looks.
   mkdir -p "$oidn_cache" 2>/dev/null && new=$(mktemp -d "$oidn_cache/.new-oidn.XXXXXX" 2>/dev/null) ||
-    tell_no_oidn "cannot write to $oidn_cache" || return
+    print_no_oidn "cannot write to $oidn_cache" || return
   trap 'rm -rf "$new"' EXIT
-  trap 'trap - INT; kill -INT "$BASHPID"' INT  # otherwise it would go on, because pip ends with an error of its own
-  # What a run has left that was killed long ago.
+  trap 'trap - INT; kill -INT "$BASHPID"' INT  # otherwise it would continue, because pip ends with its own error
+  # Removes the folders of runs that were killed long ago.
   find "$oidn_cache" -maxdepth 1 -name '.new-oidn.*' -mmin +1440 -exec rm -rf {} + 2>/dev/null || true
 
   echo "setup: fetching Open Image Denoise $oidn_version (by Intel, Apache-2.0) into $oidn_lib: downloads 88 MB, of which" \
     "51 MB are kept"
   if ! download_oidn "$python" "$new" >"$new/log" 2>&1; then
     case $(<"$new/log") in
-      *"DO NOT MATCH THE HASHES"*) tell_no_oidn "the download is not the expected file" ;;
-      *"No space left"*) tell_no_oidn "no space in $oidn_cache" ;;
-      *) tell_no_oidn "pip cannot download it; is the network there?" ;;
+      *"DO NOT MATCH THE HASHES"*) print_no_oidn "the download is not the expected file" ;;
+      *"No space left"*) print_no_oidn "no space in $oidn_cache" ;;
+      *) print_no_oidn "pip cannot download it; is the network there?" ;;
     esac
     return
   fi
   wheel=("$new"/wheel/*)
   echo "$oidn_sha256  ${wheel[0]}" | sha256sum --check --status 2>/dev/null ||
-    tell_no_oidn "the download is not the expected file" || return
+    print_no_oidn "the download is not the expected file" || return
   mkdir -p "$new/folder/lib" && unpack_oidn "$python" "${wheel[0]}" "$new/folder/lib" 2>/dev/null ||
-    tell_no_oidn "cannot unpack it in $oidn_cache" || return
-  place_oidn "$new" || tell_no_oidn "cannot write to $oidn_cache"
+    print_no_oidn "cannot unpack it in $oidn_cache" || return
+  place_oidn "$new" || print_no_oidn "cannot write to $oidn_cache"
 )

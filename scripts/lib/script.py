@@ -52,7 +52,7 @@ def read_json(path):
 
 
 def write(path, text):
-    """The file gets the complete text or stays as it was."""
+    """Writes the complete text or leaves the file unchanged."""
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(text)
     os.replace(path + ".part", path)

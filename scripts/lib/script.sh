@@ -8,7 +8,7 @@ fail() {
   exit 1
 }
 
-# Prints the help and ends if the first word asks for it.
+# Prints the help and exits if the first argument is --help or -h.
 answer_help() {
   if [[ ${1:-} == --help || ${1:-} == -h ]]; then
     usage

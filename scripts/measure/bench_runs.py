@@ -39,7 +39,7 @@ def pytorch_rows(python, environment=None, **flags):
 
 
 class OtherPrograms:
-    """Measures the cores that they use from now on."""
+    """Measures the cores that other programs use from now on."""
 
     def __init__(self):
         self.begin, self.busy = time.monotonic(), self.busy_seconds()

@@ -52,7 +52,7 @@ def baseline_points(rows, like, baseline, key):
 
 
 def add_equal_error(rows):
-    """Adds the columns to every row. A baseline has those of baselines before its own."""
+    """Adds the columns to every row. A baseline's row only has those of the baselines before it."""
     names = list(BASELINES)
     for row in rows:
         less = names[:names.index(row["baseline"])] if row["baseline"] else names
@@ -112,7 +112,7 @@ of the run; * if that lies beyond the measured sample counts. results.csv has al
 
 
 def short(value, pattern):
-    """Without the zero before the point."""
+    """Formats a number without the zero before the point."""
     text = pattern.format(value)
     return text[1:] if text.startswith("0.") else text
 

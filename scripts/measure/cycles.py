@@ -17,6 +17,6 @@ def render(blender, job):
     text = run([*command, "--", json.dumps(job)], {"PATH": "/usr/local/bin:/usr/bin:/bin"})
     lines = [line for line in text.splitlines() if line.startswith("cycles: ")]
     if not lines:
-        raise Failed(f"blender rendered nothing of {job['scene']}; it said:\n{text}")
+        raise Failed(f"blender rendered nothing of {job['scene']}; its output:\n{text}")
     seconds = json.loads(lines[-1].removeprefix("cycles: "))["seconds"]
     return [seconds[str(count)] for count in job["spp"]]

@@ -4,9 +4,9 @@ blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..
 python3 cycles_render.py -- '{...}', where the package bpy is installed
 
 Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
-JSON with the prefix "cycles: ". "out" may hold a path for the pictures (.exr in 32-bit float, or .png in sRGB without a view transform), in
+JSON with the prefix "cycles: ". "out" may be a path for the pictures (.exr in 32-bit float, or .png in sRGB without a view transform), in
 which {spp} stands for their samples. "denoise": by Open Image Denoise with prefiltered albedo and normal, within the seconds.
-"environment" is a colour or the path of a picture, "materials" what shaders get that the importer does not know, "hidden" the
+"environment" is a colour or the path of a picture, "materials" shader settings that the importer does not support, "hidden" the
 names of objects to leave out."""
 
 import json
@@ -58,7 +58,7 @@ def set_camera(scene, name):
 
 
 def set_material(tree, change):
-    """Brushes a shader along the first UVs, or mixes it with light that comes through."""
+    """Makes a shader anisotropic along the first UVs, or mixes it with transmitted light."""
     shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
     if "anisotropic" in change:
         tangent = tree.nodes.new("ShaderNodeTangent")

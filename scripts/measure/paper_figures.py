@@ -1,6 +1,6 @@
 """The numbers that the paper prints (tables 1 and 2, and those in figures), for the page of results.
 
-Milliseconds are of an RX 9070 XT: a training step, and 1920x1080 answers. MB are of parameters alone. Scenes: Bistro's exterior
+Milliseconds are of an RX 9070 XT: a training step, and 1920x1080 answers. MB are of parameters only. Scenes: Bistro's exterior
 and interior, a bathroom, the Country Kitchen."""
 
 # integrator, scene: encoding: (training ms, inference ms, MB, FLIP), 128 steps.

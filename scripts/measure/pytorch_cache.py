@@ -1,8 +1,8 @@
 """The cache of `train_step/nrc/gate` and `query/nrc/gate` in PyTorch, for scripts/measure/compare-pytorch. Prints one line of JSON.
 
 The same mathematics on a surface of the same size: feature vectors of 8 on the nodes of two levels (R = 2 and 1), 16 direction
-inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. The clock leaves out
-what PyTorch is not made for: the nodes that a point reads, their weights, and the direction's encoding are computed
+inputs, two hidden layers of 32, relative L2, Adam for the network and sparse Adam for the features. The timing excludes
+work that PyTorch is not made for: the nodes that a point reads, their weights, and the direction's encoding are computed
 beforehand. Only the queries of "query_all" do all the work that ours do. It keeps no averages and rejects no records. It uses
 the fastest functions of PyTorch: embedding_bag with sparse gradients, and queries in chunks. Features are updated by
 SparseAdam, the usual choice, and by the same formula in tensor operations, which is faster if many nodes are touched."""

@@ -26,25 +26,25 @@ INTRODUCTION = """# The paper's experiments on a CPU
 {command}
 ```
 
-which writes the figures beside this page (`NAME.csv`: a row a picture; `NAME.json`: machine, command, references) and the page itself.
+which writes the figures beside this page (`NAME.csv`: a row for each picture; `NAME.json`: machine, command, references) and the page itself.
 
 - Machine: {cpu}, {threads} threads, {isa}; Gatelight {version}. Pictures of {sizes}, {seeds} seeds: mean ± standard deviation; times are medians.
 - The settings are the paper's (`--preset paper-nao`, `paper-nrc` of `gatelight render`): 49152 records a step, two levels with the paper's rule for
   the resolution, two hidden layers of 32, L2, no bias, 16 candidates, paths of four segments; the picture shows the cache at the first hit. They are not
-  what Gatelight does by default, which learns far better: `renderer/cache/README.md`.
+  Gatelight's defaults, which learn far better: `renderer/cache/README.md`.
 - The paper states neither learning rate nor initial values of the network, the size of its hash tables, nor which FLIP it means, and its
   resolutions R need a scale per scene that it does not print. Its FLIP can be compared with ours in trend, not in value.
 - FLIP is that of tone-mapped pictures at 67 pixels per degree, against references of {reference} samples a pixel, whose noise is in every FLIP; relative MSE has it subtracted.
 - Scenes: the Country Kitchen is the paper's; Bistro is a cut of its exterior; Salle de bain, Sponza and the Stadium (a teapot of millimetres in a hall of 200 m) are ours.
 """
 
-SUMMARY = """## What it comes to
+SUMMARY = """## Summary
 
 - **GATE's arithmetic is cheap here, too.** At equal memory a training step of the hash grid takes 3.4 to 4.9 times as long as GATE's, its answers
-  2.4 to 4.7 times: eight levels of eight corners against two levels of three nodes. The paper's greatest factor, 56, does not come back:
-  it is the price of visiting 190 MB in every step. A visit of our tables (up to 52 MiB) costs 3 to 23 % of a step, and with sparse updates nothing, for the same FLIP;
+  2.4 to 4.7 times: eight levels of eight corners against two levels of three nodes. The paper's greatest factor, 56, does not occur here:
+  it is the cost of visiting 190 MB in every step. A visit of our tables (up to 52 MiB) costs 3 to 23 % of a step, and with sparse updates nothing, for the same FLIP;
   the size of the hash grid hardly matters on a CPU.
-- **But the step is not what training costs on a CPU.** 80 to 95 % of GATE's training goes into paths. The paper's choice among 16 candidates needs the
+- **But the step is not the main cost of training on a CPU.** 80 to 95 % of GATE's training goes into paths. The paper's choice among 16 candidates needs the
   camera's hits of 16 pixels for each record: with paths a step of GATE takes longer than one of the hash grid but for the stadium's occlusion.
   Without candidates it takes 17 instead of 49 ms in the Kitchen (radiance: 82 instead of 130), and errs no more.
 - **With the paper's settings GATE loses to the hash grid at equal memory**, clearly in occlusion, by less in radiance (in Sponza and Bistro within the
@@ -56,10 +56,10 @@ SUMMARY = """## What it comes to
   a decaying rate, averaged parameters, the normal as an input, and no candidates. With these, at the hash grid's memory, GATE's FLIP is as low or lower from 512 steps on,
   in 75 to 82 % of the time (last table but one).
 - **The paper's rule for the resolution** saves memory as stated, but not without loss: it gives nearly all nodes to the largest triangles. Uniform density is better in occlusion, in every
-  scene as good as resolution 4 everywhere for a fifth to a half of its memory; in radiance, too noisy after 128 steps to need resolution, nothing tells them apart.
-- **Of what the paper leaves open**, in the Kitchen's occlusion: clusters on tiny triangles gain most (with uniform density, for 5.9 instead of 14.4 MiB); vectors that
+  scene as good as resolution 4 everywhere for a fifth to a half of its memory; in radiance, too noisy after 128 steps to need resolution, they do not differ.
+- **Choices that the paper leaves open**, in the Kitchen's occlusion: clusters on tiny triangles gain most (with uniform density, for 5.9 instead of 14.4 MiB); vectors that
   triangles share beat vectors of their own, which take six times the memory; four paths a record gain a little for half as much time again; fp16 features take half the
-  memory and lose nothing. In radiance three seeds tell none of these apart; in the picture, a cache of indirect light alone errs least (relative MSE).
+  memory and lose nothing. In radiance three seeds show no difference; in the picture, a cache of only indirect light errs least (relative MSE).
 """
 
 
@@ -77,7 +77,7 @@ def introduction(results):
 
 
 def reference_noise(results):
-    """What the references have of their own."""
+    """A table of the references' noise."""
     noise = {}
     for name, result in results.items():
         if name != "defaults":
@@ -86,7 +86,7 @@ def reference_noise(results):
                     noise[scene["name"], reference["kind"]] = reference
     rows = [[title_of(scene), f"`{kind}`", f"{reference['rel_mse_noise']:.4f}", f"{reference['flip_of_halves']:.3f}"]
             for (scene, kind), reference in noise.items()]
-    return ("## Noise of the references\n\nFLIP between the two halves of a reference is what noise of twice its own deviation looks like.\n\n" +
+    return ("## Noise of the references\n\nFLIP between the two halves of a reference is the FLIP of noise with twice the reference's deviation.\n\n" +
             tables.table(["scene", "reference", "relative MSE", "FLIP of its halves"], rows))
 
 

@@ -10,7 +10,7 @@ RADIUS = 0.5
 
 
 def lamp(glb):
-    """A square that glows down towards the balls."""
+    """A square lamp that faces down towards the balls."""
     glow = glb.material("lamp", (0.0, 0.0, 0.0), roughness=1.0, emission=(1.0, 0.9, 0.75), strength=14.0)
     glb.place("lamp", quad((-1.5, 2.0, -1.6), (2.0, 0.0, 0.0), (0.0, 0.3, 0.3)), glow)
 

@@ -1,4 +1,4 @@
-"""A closed uniform furnace: every surface reflects a and emits Le, so radiance is Le / (1 - a) wherever one looks."""
+"""A closed uniform furnace: every surface reflects a and emits Le, so radiance is Le / (1 - a) in every direction."""
 
 from glb import Glb
 from shapes import Mesh, merge, sphere, surface

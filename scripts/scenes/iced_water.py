@@ -1,5 +1,5 @@
 """Ice in a glass of water: bodies that overlap. The water reaches into the glass, whose priority is higher; the ice floats in
-the water and holds bubbles of air, which are smaller than what is around them and need no priority."""
+the water and contains bubbles of air, which are smaller than the ice and need no priority."""
 
 from glb import Glb
 from shapes import lathe, merge, quad, rounded_box, sphere
@@ -24,7 +24,7 @@ def tumbler():
 
 
 def water():
-    """It fills the glass, and half of the wall."""
+    """Water that fills the glass and half of its wall."""
     wall = 0.5 * (INNER + 0.46)
     return lathe([(0.0, BOTTOM - 0.05), (wall - 0.05, BOTTOM - 0.05), (wall, BOTTOM), (wall, SURFACE), (0.0, SURFACE)], PIECES)
 

@@ -24,7 +24,7 @@ def build(path):
 
 
 def sideboard(glb, paint, at):
-    """Black lacquer on brass legs, and what stands on it."""
+    """A sideboard of black lacquer on brass legs, and the things on it."""
     x, y, z = at
     glb.place("sideboard", furniture.sideboard_body(), paint["lacquer"], at=at)
     doors = glb.mesh("sideboard door", (furniture.sideboard_door(0.605, 0.53), paint["lacquer"]))
@@ -64,7 +64,7 @@ def table_lamp(glb, paint, at):
 
 
 def book_shapes(glb, paint, width, height, depth):
-    """One shape in four colours."""
+    """Books of one shape in four colours."""
     cover, pages = ornaments.book(width, height, depth)
     return {cloth: glb.mesh(f"book, {cloth}", (cover, paint[cloth]), (pages, paint["paper"]))
             for cloth in ("cloth red", "cloth blue", "cloth green", "cloth cream")}

@@ -24,7 +24,7 @@ def carafe():
 
 
 def carafe_wine():
-    """What is in the carafe, a hair's breadth from the glass."""
+    """The wine in the carafe, with a small gap to the glass."""
     curve = [(r - 0.0041, y) for r, y in catmull_rom(
         [(0.062, 0.0126), (0.072, 0.05), (0.066, 0.10), (0.0605, 0.112)], 5)]
     return lathe([(0.0, curve[0][1]), *curve, (0.0, curve[-1][1])], 48, 50)
@@ -94,7 +94,7 @@ def leaf_blade():
 
 
 def plant_stalks(seed, count, height):
-    """Stalks from the pot: their tubes as one mesh, and of each its end, heading and how far its leaf droops."""
+    """Stalks from the pot: their tubes as one mesh, and the end, heading and leaf droop of each."""
     generator = random.Random(seed)
     tubes, tips = [], []
     for k in range(count):

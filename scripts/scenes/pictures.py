@@ -266,7 +266,7 @@ def sky(width=192, height=128):
 
 
 def lantern(width=4, height=128, ribs=20):
-    """What a paper lantern shows from bottom to top: bright in the middle, a thin shadow at each rib."""
+    """The glow of a paper lantern from bottom to top: bright in the middle, a thin shadow at each rib."""
     rows = []
     for y in range(height):
         v = (y + 0.5) / height

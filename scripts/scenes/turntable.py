@@ -1,5 +1,5 @@
-"""A record player by a lamp: brushed metal, a grooved record, cloth and paper that let light through, a soap bubble, a prism,
-an environment that the file brings along, and a node that is not to be seen."""
+"""A record player by a lamp: anisotropic metal, a grooved record, cloth and paper that let light through, a soap bubble, a prism,
+an environment in the file, and a hidden node."""
 
 import math
 
@@ -20,7 +20,7 @@ def ring(inner, outer, height=0.0):
 
 
 def radiance(d):
-    """What the environment sends from a direction: a bright window at +x, a little above the horizon."""
+    """The environment's radiance from a direction: a bright window at +x, a little above the horizon."""
     x, y, z = d
     if x > 0.55 and abs(z) < 0.38 * x and 0.05 * x < y < 0.75 * x:
         return WINDOW
@@ -75,7 +75,7 @@ def srgb(value):
 def materials(glb):
     new = glb.material
 
-    def brushed(name, colour, roughness, strength, quarter_turn):
+    def anisotropic(name, colour, roughness, strength, quarter_turn):
         return new(name, colour, metallic=1.0, roughness=roughness, extensions={"anisotropy": {
             "anisotropyStrength": strength, "anisotropyRotation": round(math.pi / 2 if quarter_turn else 0.0, 6)}})
 
@@ -87,8 +87,8 @@ def materials(glb):
         # Grooves run around, so the record is rough across them; the platter is turned on a lathe.
         "record": new("record", (0.02, 0.02, 0.022), roughness=0.22, extensions={
             "anisotropy": {"anisotropyStrength": 0.75, "anisotropyRotation": round(math.pi / 2, 6)}}),
-        "platter": brushed("platter", (0.91, 0.92, 0.92), 0.2, 0.7, True),
-        "plate": brushed("brushed brass", (0.89, 0.74, 0.42), 0.25, 0.6, False),
+        "platter": anisotropic("platter", (0.91, 0.92, 0.92), 0.2, 0.7, True),
+        "plate": anisotropic("brushed brass", (0.89, 0.74, 0.42), 0.25, 0.6, False),
         "label": new("label", (0.72, 0.12, 0.08), roughness=0.6),
         "shade": through("lampshade", (0.85, 0.80, 0.70), 0.55, (0.95, 0.78, 0.55)),
         "paper": through("paper", (0.85, 0.85, 0.82), 0.4, (0.95, 0.93, 0.85)),

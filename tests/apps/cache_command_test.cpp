@@ -124,7 +124,7 @@ TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
   }
 }
 
-TEST_F(CacheCommand, TheNumberOfStepsIsChosenAndTold) {
+TEST_F(CacheCommand, TheNumberOfStepsIsChosenAndReported) {
   const json stats = statistics({"--integrator", "nao", "--train-steps", "auto", "--train-time", "0.02"});
   EXPECT_EQ(stats["train"]["steps_chosen"], true);
   EXPECT_GT(stats["train"]["steps_wanted"], 0);
@@ -170,7 +170,7 @@ TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
   }
 }
 
-TEST_F(CacheCommand, TheSummaryTellsOfTheCache) {
+TEST_F(CacheCommand, TheSummaryDescribesTheCache) {
   const Output output = render({"--integrator", "nrc", "-o", path("a.png")});
   EXPECT_THAT(output.err, AllOf(HasSubstr("training  6 steps"), HasSubstr("loss"), HasSubstr("answers"),
                                 HasSubstr("nodes"), HasSubstr("optimiser")));
@@ -216,7 +216,7 @@ TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
   EXPECT_EQ(other_view["options"]["cache-in"], path("c.safetensors"));
 }
 
-TEST_F(CacheCommand, ASavedCacheOfSomethingElseIsCode2) {
+TEST_F(CacheCommand, ASavedCacheOfAnotherSceneOrConfigurationIsCode2) {
   const std::string file = path("c.safetensors");
   ASSERT_EQ(render({"--integrator", "nrc", "--quiet", "-o", path("a.exr"), "--cache-out", file}).exit_code,
             0);
@@ -232,13 +232,13 @@ TEST_F(CacheCommand, ASavedCacheOfSomethingElseIsCode2) {
   };
   expect_refused(file, {}, "furnace", {"geometry"});
   expect_refused(file, {"--hidden", "64"}, "cornell-box", {"hidden width", "64"});
-  // How many bytes it has depends on what compresses it.
+  // The message has the size of the picture file, which depends on the compressor.
   expect_failure_names(
       render({"--integrator", "nrc", "--quiet", "-o", path("b.exr"), "--cache-in", path("a.exr")}), 2,
       {path("a.exr")});
 }
 
-TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
+TEST_F(CacheCommand, ASignalDuringTrainingStillWritesAPicture) {
   Process process({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--integrator",
                    "nrc", "--size", "24x16", "--spp", "2", "--train-steps", "2147483647", "-o", path("a.exr"),
                    "--checkpoint", path("k"), "--cache-out", path("c.safetensors"), "--progress", "json"});
@@ -252,7 +252,7 @@ TEST_F(CacheCommand, ASignalWhileItTrainsWritesAPictureAllTheSame) {
   EXPECT_TRUE(std::filesystem::exists(path("k")));
 }
 
-TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
+TEST_F(CacheCommand, InfoDescribesTheCacheOfARender) {
   const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/material-grid.glb";
   const Words flags = {"--integrator",      "nrc", "--size", "24x16", "--stack", "adaptive,1",
                        "--cache-roughness", "0.25"};
@@ -276,7 +276,7 @@ TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
   EXPECT_EQ(cache["surfaces_stored"], sides);
   EXPECT_EQ(cache["inputs"]["direction"], info["requirements"]["view_dependent"]);
   EXPECT_GE(cache["memory_bytes"]["parameters_without_scouting"], cache["memory_bytes"]["parameters"]);
-  // The picture has the cache that was told.
+  // The render has the cache that info described.
   const json stats = statistics(flags, "material-grid");
   EXPECT_EQ(stats["cache"]["nodes"], cache["nodes"]);
   EXPECT_EQ(stats["cache"]["surfaces_stored"], cache["surfaces_stored"]);
@@ -285,7 +285,7 @@ TEST_F(CacheCommand, InfoTellsWhatTheCacheWillBe) {
   }
 }
 
-TEST_F(CacheCommand, WhatTheCacheCannotBeIsCode1) {
+TEST_F(CacheCommand, AnImpossibleCacheIsCode1) {
   const Output output =
       render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
   expect_failure(output, 1, {"cache", "105 bytes"});
@@ -301,7 +301,7 @@ TEST_F(CacheCommand, ATrainingThatDivergesIsCode6) {
 TEST_F(CacheCommand, ADeviceThatIsMissingIsCode5) {
   const Output output =
       render({"--integrator", "nrc", "--device", "vulkan:99", "-o", path("a.png"), "--quiet"});
-  expect_failure_names(output, 5, {"vulkan:99", "--device cpu"});  // and the devices of the machine
+  expect_failure_names(output, 5, {"vulkan:99", "--device cpu"});  // and the devices of this machine
   EXPECT_FALSE(std::filesystem::exists(path("a.png")));
 }
 

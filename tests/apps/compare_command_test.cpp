@@ -65,7 +65,7 @@ TEST_F(CompareCommand, MetricsAreChosenByName) {
 }
 
 TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
-  // Even pictures: the same error everywhere.
+  // Uniform pictures: the same error everywhere.
   const std::string reference = picture("r.exr", 4, 2, 0.5f);
   const std::string test = picture("t.exr", 4, 2, 1.0f);
   const Output text = run_gatelight_inside({"compare", reference, test});
@@ -148,13 +148,13 @@ TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
   expect_failure(sizes, 2, {"n.exr"});
 }
 
-TEST_F(CompareCommand, HalvesOfOneSeedAreWarnedOf) {
+TEST_F(CompareCommand, HalvesWithEqualSeedsGiveAWarning) {
   const auto half = [&](const std::string& name, const std::string& seed) {
     return picture(name, 1, 1, 1.0f, {{"spp", "1"}, {"seed", seed}});
   };
   const std::string r1 = half("r1.exr", "7"), r2 = half("r2.exr", "8");
   const std::string t1 = half("t1.exr", "7"), t2 = half("t2.exr", "8");
-  // A reference and a test may have one seed.
+  // A reference and a test may have the same seed.
   const Output good = run_gatelight({"compare", r1, t1, "--halves", r2, t2});
   EXPECT_EQ(good.exit_code, 0);
   EXPECT_EQ(good.err, "");
@@ -243,7 +243,7 @@ TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
   EXPECT_TRUE(std::filesystem::exists(path("e.png")));
 }
 
-TEST_F(CompareCommand, WithoutAFinitePixelNothingIsEqual) {
+TEST_F(CompareCommand, PicturesWithoutAFinitePixelAreRefused) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, std::nanf(""));
   const Output output = run_gatelight_inside({"compare", reference, test, "--metric", "mse"});
@@ -251,7 +251,7 @@ TEST_F(CompareCommand, WithoutAFinitePixelNothingIsEqual) {
   EXPECT_EQ(output.out, "");
 }
 
-TEST_F(CompareCommand, ResultsDoNotReplaceWhatIsCompared) {
+TEST_F(CompareCommand, ResultsDoNotReplaceTheComparedFiles) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, 1.0f);
   for (const std::string& file : {reference, test}) {

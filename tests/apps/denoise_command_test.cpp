@@ -68,8 +68,8 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
   }
 }
 
-/// The samples alone tell it too.
-TEST_F(DenoiseCommand, ReadsTheGuidesAsTheRecipeTells) {
+/// A picture that is not denoised has the recipe too.
+TEST_F(DenoiseCommand, ReadsTheGuidesAsTheRecipeSays) {
   GATELIGHT_NEEDS_DENOISER();
   const std::vector<float> finished =
       beauty(render("finished.exr", {"--denoiser", "oidn", "--prefilter", "none"}));

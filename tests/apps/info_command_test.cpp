@@ -1,4 +1,4 @@
-// What `gatelight info` tells of scenes and of rendered pictures.
+// The output of `gatelight info` for scenes and rendered pictures.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ class InfoCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(InfoCommand, TellsWhichOfOverlappingBodiesFillsTheSpace) {
+TEST_F(InfoCommand, ReportsWhichOfOverlappingBodiesFillsTheSpace) {
   const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/iced-water.glb";
   const json media = json::parse(run_gatelight({"info", scene, "--json", "-"}).out)["nested_media"];
   std::vector<std::string> names;
@@ -114,7 +114,7 @@ TEST_F(InfoCommand, JsonHasCamerasWithTheirTransforms) {
       << "column after column";
 }
 
-TEST_F(InfoCommand, TextSaysWhatTheNumbersOfLightsAre) {
+TEST_F(InfoCommand, TextHasTheUnitsOfLights) {
   const Output text = run_gatelight_inside({"info", lit_scene()});
   EXPECT_THAT(text.out, AllOf(HasSubstr("point 'lamp', intensity 8 4 2 W/sr\n"),
                               HasSubstr("directional 'sun', intensity 8 4 2 W/m2\n"), HasSubstr("candela"),
@@ -123,7 +123,7 @@ TEST_F(InfoCommand, TextSaysWhatTheNumbersOfLightsAre) {
               Not(HasSubstr("candela")));
 }
 
-TEST_F(InfoCommand, APictureTellsItsRecipe) {
+TEST_F(InfoCommand, APictureShowsItsRecipe) {
   const std::string picture = rendered({"--region", "2,1,6,3"});
   const Output text = run_gatelight_inside({"info", picture});
   EXPECT_EQ(text.exit_code, 0) << text.err;
@@ -134,24 +134,24 @@ TEST_F(InfoCommand, APictureTellsItsRecipe) {
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--aov +depth\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--size +8x4\n"));
   EXPECT_THAT(text.out, Not(HasSubstr("--variant"))) << "it has no value";
-  const json told = json::parse(run_gatelight_inside({"info", picture, "--json", "-"}).out);
-  EXPECT_EQ(told["width"], 4);
-  EXPECT_EQ(told["full_width"], 8);
-  EXPECT_EQ(told["layers"][1]["name"], "depth");
-  EXPECT_EQ(told["recipe"]["spp"], 2);
-  EXPECT_EQ(told["recipe"]["options"]["size"], json({8, 4}));
-  EXPECT_EQ(told["recipe"]["scene"], path("it's a scene.gltf"));
+  const json description = json::parse(run_gatelight_inside({"info", picture, "--json", "-"}).out);
+  EXPECT_EQ(description["width"], 4);
+  EXPECT_EQ(description["full_width"], 8);
+  EXPECT_EQ(description["layers"][1]["name"], "depth");
+  EXPECT_EQ(description["recipe"]["spp"], 2);
+  EXPECT_EQ(description["recipe"]["options"]["size"], json({8, 4}));
+  EXPECT_EQ(description["recipe"]["scene"], path("it's a scene.gltf"));
 }
 
-TEST_F(InfoCommand, TheCommandOfAPictureMakesItAgain) {
+TEST_F(InfoCommand, TheCommandOfAPictureReproducesIt) {
   const std::string picture = rendered();
-  const Output told = run_gatelight_inside({"info", picture, "--command"});
-  EXPECT_EQ(told.exit_code, 0) << told.err;
-  EXPECT_EQ(std::count(told.out.begin(), told.out.end(), '\n'), 1);
-  EXPECT_THAT(told.out, HasSubstr(R"(it'\''s a scene.gltf')"));
+  const Output description = run_gatelight_inside({"info", picture, "--command"});
+  EXPECT_EQ(description.exit_code, 0) << description.err;
+  EXPECT_EQ(std::count(description.out.begin(), description.out.end(), '\n'), 1);
+  EXPECT_THAT(description.out, HasSubstr(R"(it'\''s a scene.gltf')"));
   const std::string before = read_file(picture);
   std::filesystem::remove(picture);
-  ASSERT_EQ(std::system(told.out.c_str()), 0) << told.out;
+  ASSERT_EQ(std::system(description.out.c_str()), 0) << description.out;
   EXPECT_EQ(read_file(picture).size(), before.size());
 }
 
@@ -167,7 +167,7 @@ TEST_F(InfoCommand, APictureWithoutARecipeIsRefused) {
   EXPECT_EQ(run_gatelight_inside({"info", silent}).exit_code, 0);
 }
 
-TEST_F(InfoCommand, FlagsOfPicturesAndScenesAreToldApart) {
+TEST_F(InfoCommand, FlagsOfPicturesAreRefusedForScenesAndViceVersa) {
   const std::string scene = folder.write("scene.gltf", tiny_scene());
   expect_failure(run_gatelight_inside({"info", scene, "--command"}), 1, {"--command", "PICTURE.exr"});
   expect_failure(run_gatelight_inside({"info", "--command"}), 1, {"--command", "PICTURE.exr"});

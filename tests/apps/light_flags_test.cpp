@@ -85,17 +85,17 @@ TEST_F(LightFlags, IesProfilesShapeALightAndAreInTheRecipe) {
   EXPECT_THAT(wrong.err, ::testing::HasSubstr("--ies: 'lamp' is not NAME=FILE"));
 }
 
-TEST_F(LightFlags, InfoNamesWhatTheyCanChange) {
+TEST_F(LightFlags, InfoNamesTheLightsThatTheyCanChange) {
   const Output output = run_gatelight({"info", scene, "--lights", "noon=3;panel=0,4,0"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_THAT(output.out, ::testing::HasSubstr("directional 'noon', intensity 3 3 3"));
   EXPECT_THAT(output.out, ::testing::HasSubstr("material 'panel', emission 0 1 0"));
-  const json told = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
-  EXPECT_EQ(told["lights"][0]["intensity"], (json{1.0, 1.0, 1.0}));
-  EXPECT_EQ(told["emissive_materials"][0]["name"], "panel");
+  const json description = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
+  EXPECT_EQ(description["lights"][0]["intensity"], (json{1.0, 1.0, 1.0}));
+  EXPECT_EQ(description["emissive_materials"][0]["name"], "panel");
 }
 
-/// The middle of a layer.
+/// The middle pixel of a layer.
 float middle_of(const Picture& picture, const std::string& layer) {
   const renderer::Layer* const found = picture.find(layer);
   EXPECT_NE(found, nullptr) << layer;
@@ -116,7 +116,7 @@ TEST_F(LightFlags, GroupsAreLayersThatAddUpAndAreInTheRecipe) {
   const Output command = run_gatelight({"info", (folder / "a.exr").string(), "--command"});
   EXPECT_THAT(command.out, ::testing::HasSubstr("--light-groups 'key=no*;sky=environment'"));
   EXPECT_FALSE(json::parse(render({}).metadata.at("options")).contains("light-groups"));
-  // With --lights: what is switched off is black.
+  // With --lights: a light that is switched off is black.
   const Picture dark = render({"--light-groups", "panel=panel;key=noon", "--lights", "panel=off;noon=2"});
   ASSERT_EQ(dark.layers.size(), 3u);
   EXPECT_EQ(middle_of(dark, "light-panel"), 0.0f);
@@ -149,7 +149,7 @@ TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
   }
 }
 
-TEST_F(LightFlags, BadGroupsAreOneLine) {
+TEST_F(LightFlags, BadGroupsAreRefusedInOneLine) {
   const auto refused = [&](const std::vector<std::string>& flags) {
     std::vector<std::string> arguments = {"render", scene, "-o", (folder / "b.exr").string()};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -166,7 +166,7 @@ TEST_F(LightFlags, BadGroupsAreOneLine) {
                  {"--light-groups", "nrc", "--integrator path"});
 }
 
-TEST_F(LightFlags, ASkyIsTheLightOfASceneWithoutAndInTheRecipe) {
+TEST_F(LightFlags, ASkyLightsASceneWithoutLightsAndIsInTheRecipe) {
   const std::string dark = folder.write("dark.gltf", tiny_scene());
   const std::string file = (folder / "sky.exr").string();
   const Output output = run_gatelight(

@@ -43,7 +43,7 @@ TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
   EXPECT_EQ(merged.metadata.at("seed"), "1,2");
 }
 
-TEST_F(MergeCommand, MergesWhatRenderWrites) {
+TEST_F(MergeCommand, MergesPicturesOfRender) {
   const std::string scene = folder.write("scene.gltf", tiny_scene());
   for (const char* seed : {"1", "2"}) {
     ASSERT_EQ(run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
@@ -60,7 +60,7 @@ TEST_F(MergeCommand, MergesWhatRenderWrites) {
   EXPECT_FALSE(merged.metadata.contains("command"));
 }
 
-TEST_F(MergeCommand, EqualSeedsAreWarnedOf) {
+TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});
   const Output output = run_gatelight({"merge", "-o", path("m.exr"), a, b});

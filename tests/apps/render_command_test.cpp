@@ -41,7 +41,7 @@ class RenderCommand : public ::testing::Test {
     return render_open(more);
   }
 
-  /// Without --spp.
+  /// Renders without --spp.
   Output render_open(const std::vector<std::string>& flags) const {
     std::vector<std::string> arguments = {"render", scene, "--environment", "1,1,1", "--size", "24x16"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -84,7 +84,7 @@ TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
   EXPECT_LT(middle, 0.60f);
 }
 
-TEST_F(RenderCommand, QuietSaysNothing) {
+TEST_F(RenderCommand, QuietPrintsNothing) {
   const Output output = render({"-o", path("a.png"), "--quiet", "--progress", "json"});
   EXPECT_EQ(output.exit_code, 0);
   EXPECT_EQ(output.out, "");
@@ -157,7 +157,7 @@ TEST_F(RenderCommand, StatisticsHoldEveryKeyOfTheSchema) {
   EXPECT_EQ(stats["options"]["environment"], json({1.0, 1.0, 1.0}));
 }
 
-TEST_F(RenderCommand, StatisticsOnStdoutStandAlone) {
+TEST_F(RenderCommand, StatisticsAreTheOnlyOutputOnStdout) {
   const Output output = render({"-o", path("a.png"), "--stats", "-"});
   EXPECT_EQ(output.exit_code, 0);
   EXPECT_EQ(json::parse(output.out)["spp"], 4);
@@ -255,7 +255,7 @@ TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
   EXPECT_THAT(info.out, ::testing::ContainsRegex("\n--cryptomatte +object,material\n"));
 }
 
-TEST_F(RenderCommand, CryptomattesThatNoOutputKeepsAreToldOf) {
+TEST_F(RenderCommand, CryptomattesThatNoOutputStoresGiveAWarning) {
   const Output output = render({"-o", path("a.png"), "--cryptomatte", "object"});
   EXPECT_EQ(output.exit_code, 0);
   expect_messages(output.warnings(), {{"--cryptomatte", ".exr"}});
@@ -289,7 +289,7 @@ TEST_F(RenderCommand, ATimeLimitDecidesHowManySamplesAPresetHas) {
     const Output few = render({"-o", path("a.exr"), "--preset", preset, "--time-limit", "100", "--spp", "2",
                                "--train-steps", "1", "--stats", "-"});
     EXPECT_EQ(few.exit_code, 0) << few.err;
-    EXPECT_EQ(json::parse(few.out)["spp"], 2) << "a number that is given is a limit too";
+    EXPECT_EQ(json::parse(few.out)["spp"], 2) << "a given number is a limit too";
     EXPECT_EQ(json::parse(few.out)["train"]["steps"], 1);
     EXPECT_EQ(json::parse(few.out)["ended_by"], "spp");
   }
@@ -308,7 +308,7 @@ TEST_F(RenderCommand, TheEstimatedErrorIsInSummaryStatisticsAndRecipe) {
   EXPECT_FALSE(read_image(path("a.exr")).metadata.contains("estimated_error"));
 }
 
-TEST_F(RenderCommand, AnErrorThatIsNotReachedIsTold) {
+TEST_F(RenderCommand, AnErrorThatIsNotReachedIsReported) {
   const Output reached = render_open({"-o", path("a.png"), "--max-error", "1000", "--stats", path("s.json")});
   ASSERT_EQ(reached.exit_code, 0) << reached.err;
   EXPECT_THAT(reached.err, Not(HasSubstr("ended it first")));
@@ -321,7 +321,7 @@ TEST_F(RenderCommand, AnErrorThatIsNotReachedIsTold) {
   EXPECT_THAT(missed.err, HasSubstr("--spp ended it first"));
 }
 
-TEST_F(RenderCommand, APresetFindsTheExposureOfItsPngAndTellsIt) {
+TEST_F(RenderCommand, APresetFindsTheExposureOfItsPngAndReportsIt) {
   const std::vector<std::string> preset = {"--preset", "preview", "--spp", "2", "--train-steps", "1"};
   const auto exposed = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = preset;
@@ -336,24 +336,24 @@ TEST_F(RenderCommand, APresetFindsTheExposureOfItsPngAndTellsIt) {
   const Output kept = exposed({"-o", path("kept.png"), "--exposure", fmt::format("{:.1f}", stops)});
   EXPECT_EQ(read_file(path("auto.png")), read_file(path("kept.png")));
   EXPECT_THAT(kept.err, Not(HasSubstr("exposure")));
-  // Without a preset radiance stays what it is.
+  // Without a preset the radiance does not change.
   EXPECT_THAT(render_open({"-o", path("plain.png")}).err, Not(HasSubstr("exposure")));
 }
 
-TEST_F(RenderCommand, APictureThatIsFarTooBrightForAScreenIsTold) {
+TEST_F(RenderCommand, APictureThatIsFarTooBrightForAScreenIsReported) {
   const auto lit = [&](const char* scale, std::vector<std::string> more) {
     more.insert(more.end(), {"--environment-scale", scale, "-o", path("a.exr"), "--spp", "1"});
     return render_open(more).err;
   };
-  const char* const told = "stops too bright for a screen";
-  EXPECT_THAT(lit("1000", {"-o", path("a.png")}), AllOf(HasSubstr(told), HasSubstr("--exposure -")));
-  EXPECT_THAT(lit("1000", {}), Not(HasSubstr(told))) << "an EXR holds any light";
-  EXPECT_THAT(lit("1000", {"-o", path("a.png"), "--exposure", "0"}), Not(HasSubstr(told)));
-  EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(told)));
+  const char* const warning = "stops too bright for a screen";
+  EXPECT_THAT(lit("1000", {"-o", path("a.png")}), AllOf(HasSubstr(warning), HasSubstr("--exposure -")));
+  EXPECT_THAT(lit("1000", {}), Not(HasSubstr(warning))) << "an EXR stores any radiance";
+  EXPECT_THAT(lit("1000", {"-o", path("a.png"), "--exposure", "0"}), Not(HasSubstr(warning)));
+  EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(warning)));
 }
 
 TEST_F(RenderCommand, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
-  // The square and its twin light each other, and the sum of what they emit and reflect overflows.
+  // The square and its twin light each other, and the sum of emitted and reflected light overflows.
   nlohmann::json hot = json::parse(tiny_scene());
   hot["extensionsUsed"] = {"KHR_materials_emissive_strength"};
   hot["materials"][0]["emissiveFactor"] = {1, 1, 1};
@@ -386,7 +386,7 @@ TEST_F(RenderCommand, AnInstructionSetThatIsMissingIsCode5) {
   const std::string best = json::parse(run_gatelight({"info", "--json", "-"}).out)["isa"];
   if (best == "avx512") GTEST_SKIP() << "this machine has them all";
   const Output output = render({"-o", path("a.exr"), "--isa", "avx512"});
-  expect_failure_names(output, 5, {"avx512", "--isa auto"});  // and those of the machine
+  expect_failure_names(output, 5, {"avx512", "--isa auto"});  // and those of this machine
 }
 
 TEST_F(RenderCommand, ProgressLinesAreJson) {
@@ -409,7 +409,7 @@ TEST_F(RenderCommand, ProgressLinesAreJson) {
   EXPECT_THAT(events, UnorderedElementsAre("phase", "progress", "done"));
 }
 
-TEST_F(RenderCommand, TheBarIsOnlyThereWhereItIsAskedFor) {
+TEST_F(RenderCommand, TheProgressBarIsShownOnlyOnRequest) {
   EXPECT_THAT(render({"-o", path("a.png"), "--progress", "bar"}).err,
               AllOf(HasSubstr("spp"), HasSubstr("ETA")));
   EXPECT_THAT(render({"-o", path("a.png")}).err, ::testing::Not(HasSubstr("ETA")));
@@ -444,7 +444,7 @@ TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
   }
 }
 
-TEST_F(RenderCommand, InfoTellsWhatTheSceneHolds) {
+TEST_F(RenderCommand, InfoListsTheContentsOfAScene) {
   const Output text = run_gatelight({"info", scene});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   for (const char* word : {"triangles", "2 stored", "front", "bounds", "requires", "memory"}) {
@@ -452,9 +452,9 @@ TEST_F(RenderCommand, InfoTellsWhatTheSceneHolds) {
   }
   std::string odd = tiny_scene();
   odd.replace(odd.rfind("\"front\", \"type\""), 7, R"("a\n\u001b]0;b")");
-  const Output told = run_gatelight_inside({"info", folder.write("odd.gltf", odd)});
-  EXPECT_EQ(told.exit_code, 0) << told.err;
-  EXPECT_THAT(told.out, HasSubstr("'a  ]0;b'")) << "a terminal gets nothing to obey";
+  const Output description = run_gatelight_inside({"info", folder.write("odd.gltf", odd)});
+  EXPECT_EQ(description.exit_code, 0) << description.err;
+  EXPECT_THAT(description.out, HasSubstr("'a  ]0;b'")) << "no control characters reach the terminal";
   const json info = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
   EXPECT_EQ(info["triangles"], 2);
   EXPECT_EQ(info["cameras"][0]["name"], "front");

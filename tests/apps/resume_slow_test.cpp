@@ -21,7 +21,7 @@ struct Kill {
   std::vector<std::string> arguments;
 };
 
-/// A new file each time that it is written: files are renamed into place.
+/// Inode of the file. It changes with each write, because files are renamed into place.
 ino_t identity(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
@@ -47,7 +47,7 @@ class Killed : public ::testing::TestWithParam<Kill> {
   TemporaryFolder folder;
 };
 
-TEST_P(Killed, AtAnyMomentAndGoneOnWithItHasTheSameBytes) {
+TEST_P(Killed, ResumingAfterKillsAtAnyMomentGivesTheSameBytes) {
   ASSERT_EQ(run_gatelight(command("straight.exr", "2")).exit_code, 0);
   const std::string checkpoint = (folder / "checkpoint").string();
   std::vector<std::string> words = command("killed.exr", "1");
@@ -57,7 +57,7 @@ TEST_P(Killed, AtAnyMomentAndGoneOnWithItHasTheSameBytes) {
   for (int i = 0; i < 5; ++i) {
     ino_t before = identity(checkpoint);
     Process process(words);
-    // Some moment after one or more new checkpoints: mostly it is writing the next one.
+    // Some moment after one or more new checkpoints: mostly the next one is being written.
     for (int seen = 0; seen < 1 + i % 3 && process.runs(); std::this_thread::sleep_for(microseconds(200))) {
       const ino_t now = identity(checkpoint);
       seen += now != before ? 1 : 0;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
                                                  "--batch", "2048"}}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
-TEST(Resuming, SaysWhatDiffers) {
+TEST(Resuming, ReportsWhichOptionDiffers) {
   const TemporaryFolder folder;
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"render",       GATELIGHT_SOURCE_DIR "/data/cornell-box.glb",

@@ -46,7 +46,7 @@ class ViewFlags : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(ViewFlags, AllCamerasAreThoseOfTheFileWhateverTheirNames) {
+TEST_F(ViewFlags, CameraAllRendersEveryCameraWhateverItsName) {
   const std::string scene = scene_of({"2", "0", "twin", "twin"});
   const Output all =
       render(scene, {"--camera", "all", "-o", file("{camera}.exr"), "--stats", file("{camera}.json")});
@@ -60,7 +60,7 @@ TEST_F(ViewFlags, AllCamerasAreThoseOfTheFileWhateverTheirNames) {
   EXPECT_TRUE(std::filesystem::exists(file("twin-3.json")));
 }
 
-TEST_F(ViewFlags, NamesOfCamerasOverwriteNothing) {
+TEST_F(ViewFlags, NamesOfCamerasNeverOverwriteAFile) {
   const auto refuse = [&](const std::vector<std::string>& names, const std::vector<std::string>& flags,
                           const std::string& of) {
     const Output output = render(scene_of(names), flags);
@@ -75,7 +75,7 @@ TEST_F(ViewFlags, NamesOfCamerasOverwriteNothing) {
   EXPECT_TRUE(std::filesystem::exists(file("rooms_hall.exr")));
 }
 
-TEST_F(ViewFlags, FlagsBesideAViewFileReplaceWhatTheyExclude) {
+TEST_F(ViewFlags, FlagsReplaceTheEntriesOfAViewFileThatTheyExclude) {
   const std::string scene = scene_of({"near", "far"});
   const auto view = [&](const json& content) { return folder.write("view.json", content.dump()); };
   const auto expect_done = [&](const std::vector<std::string>& flags) {

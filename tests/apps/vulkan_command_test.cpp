@@ -17,8 +17,8 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 const json& devices() {
-  static const json told = json::parse(run_gatelight({"info", "--json", "-"}).out)["vulkan"];
-  return told;
+  static const json description = json::parse(run_gatelight({"info", "--json", "-"}).out)["vulkan"];
+  return description;
 }
 
 bool has_usable_device() {
@@ -100,7 +100,7 @@ TEST_F(VulkanCommand, StatisticsNameTheDevice) {
   EXPECT_EQ(stats["cache"]["backend"], "vulkan " + std::string(devices()["devices"][0]["name"]));
 }
 
-// The environment makes the device fail after so much work: while it trains, and while it answers.
+// The device is lost after 4 submissions, in training, or after 40, while the cache answers.
 TEST_F(VulkanCommand, ALostDeviceIsCode5AndKeepsThePictureSoFar) {
   const Words words = {"--integrator", "nrc",           "--size", "24x16",      "--spp",
                        "64",           "--train-steps", "8",      "--batch",    "256",
@@ -151,7 +151,7 @@ TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
   }
 }
 
-TEST(VulkanRefusals, ADeviceThatIsNotThereIsCode5AndSaysWhatIs) {
+TEST(VulkanRefusals, AMissingDeviceIsCode5AndTheErrorNamesThoseThatExist) {
   const TemporaryFolder folder;
   const Output output = run_gatelight({"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb",
                                        "--integrator", "nrc", "--size", "8x8", "--device", "vulkan:abacus",
@@ -161,14 +161,15 @@ TEST(VulkanRefusals, ADeviceThatIsNotThereIsCode5AndSaysWhatIs) {
 }
 
 TEST(VulkanInfo, ListsDevicesOrSaysWhyThereAreNone) {
-  const json& told = devices();
+  const json& description = devices();
   const Output output = run_gatelight({"info"});
   EXPECT_EQ(output.exit_code, 0);
-  if (told["devices"].empty()) {
-    EXPECT_THAT(output.out, HasSubstr(std::string(told["reason"])));
+  if (description["devices"].empty()) {
+    EXPECT_THAT(output.out, HasSubstr(std::string(description["reason"])));
     return;
   }
-  for (const json& device : told["devices"]) EXPECT_THAT(output.out, HasSubstr(std::string(device["name"])));
+  for (const json& device : description["devices"])
+    EXPECT_THAT(output.out, HasSubstr(std::string(device["name"])));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-// The cache: training that diverges is noticed, and what was good is kept.
+// The cache: diverging training is detected, and the last good state is kept.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 #include "renderer/render.h"
 #include "tests/extremes/extreme.h"
 #include "tests/support/messages.h"
@@ -15,8 +15,8 @@
 namespace gatelight::renderer {
 namespace {
 
+using testing::report_extreme;
 using testing::room;
-using testing::tell_extreme;
 using tests::read_file;
 using tests::TemporaryFolder;
 
@@ -35,7 +35,7 @@ RenderOptions small(float rate, int steps) {
 struct Outcome {
   Picture picture;
   RenderStatistics statistics;
-  std::string diverged;  ///< what it threw
+  std::string diverged;  ///< message of the exception, or empty
 };
 
 Outcome run(const scene::Scene& scene, const RenderOptions& options, const Callbacks& callbacks = {}) {
@@ -62,7 +62,7 @@ double mean(const Picture& picture) {
   return sum / static_cast<double>(picture.layers[0].values.size());
 }
 
-TEST(CacheDivergence, RatesThatLearnAreLetThrough) {
+TEST(CacheDivergence, UsefulLearningRatesAreNotReportedAsDivergence) {
   const scene::Scene s = room();
   const double usual = mean(run(s, small(1e-2f, 300)).picture);
   double least = 10.0, greatest = 0.0;
@@ -79,18 +79,18 @@ TEST(CacheDivergence, RatesThatLearnAreLetThrough) {
     }
   EXPECT_GE(least, 0.5);
   EXPECT_LE(greatest, 2.0);
-  tell_extreme(
+  report_extreme(
       "learning rates 0, 1e-8, 1e-3, 0.05", "a room, 300 steps of 1024 records, l2 and relative loss",
       fmt::format("no alarm; pictures are {:.2f} to {:.2f} times as bright as with 0.01 (bounds 0.5, 2)",
                   least, greatest),
       "");
 }
 
-TEST(CacheDivergence, GreatRatesAreNoticedAndNothingIsOverwritten) {
+TEST(CacheDivergence, LargeRatesAreDetectedAndNoFileIsOverwritten) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   const auto file = folder.write("cache.safetensors", "an older cache");
-  std::string told;
+  std::string reported;
   for (const float rate : {1e2f, 1e3f, 1e6f})
     for (const neural::Loss loss : {neural::Loss::l2, neural::Loss::relative_l2}) {
       SCOPED_TRACE(rate);
@@ -99,17 +99,17 @@ TEST(CacheDivergence, GreatRatesAreNoticedAndNothingIsOverwritten) {
       options.cache.cache_out = file.string();
       const Outcome outcome = run(s, options);
       tests::expect_message(outcome.diverged, {"training step"});
-      if (rate == 1e3f) told = outcome.diverged;
+      if (rate == 1e3f) reported = outcome.diverged;
       EXPECT_EQ(read_file(file), "an older cache");
       EXPECT_EQ(folder.count_files(), 1u);
     }
-  tell_extreme("learning rates 1e2, 1e3, 1e6", "a room, new caches, l2 and relative loss",
-               "the file of --cache-out stays as it was, no part of a new one is left",
-               fmt::format("within 64 steps, exit code 6: \"{}\"", told));
+  report_extreme("learning rates 1e2, 1e3, 1e6", "a room, new caches, l2 and relative loss",
+                 "the file of --cache-out stays as it was, no part of a new one is left",
+                 fmt::format("within 64 steps, exit code 6: \"{}\"", reported));
 }
 
-// From a cache file on: what was loaded is the last good state.
-TEST(CacheDivergence, AfterALoadedCacheItIsKept) {
+// Training that starts from a cache file: the loaded cache is the last good state.
+TEST(CacheDivergence, ALoadedCacheIsKeptWhenMoreTrainingDiverges) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   const std::string good = (folder / "good.safetensors").string();
@@ -133,12 +133,12 @@ TEST(CacheDivergence, AfterALoadedCacheItIsKept) {
   options = small(1e-2f, 0);
   options.cache.cache_in = out;
   EXPECT_TRUE(run(s, options).picture.layers[0].values == expected.picture.layers[0].values);
-  tell_extreme("a good cache trained on with a rate of 1e3", "--cache-in, --cache-out, 64 steps more",
-               "picture and cache file have the bits of the cache that was loaded",
-               "exit code 6 once all is written");
+  report_extreme("a good cache trained further with a rate of 1e3", "--cache-in, --cache-out, 64 steps more",
+                 "picture and cache file have the bits of the cache that was loaded",
+                 "exit code 6 once all is written");
 }
 
-/// A training that goes wrong after 512 steps: answers come back threefold as targets.
+/// Options of a training that diverges after 512 steps: answers come back threefold as targets.
 RenderOptions late() {
   RenderOptions options = small(1e-2f, 2048);
   options.cache.training.loss = neural::Loss::l2;
@@ -147,8 +147,8 @@ RenderOptions late() {
   return options;
 }
 
-// What goes wrong late: the state of the last good step, with the bits of a training that ended there.
-TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
+// Late divergence restores the state of the last good step, with the bits of a training that ended there.
+TEST(CacheDivergence, LateDivergenceRestoresTheLastGoodStep) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   RenderOptions options = late();
@@ -168,13 +168,13 @@ TEST(CacheDivergence, LateItGoesBackToItsLastGoodStep) {
   EXPECT_TRUE(outcome.picture.layers[0].values == expected.picture.layers[0].values);
   EXPECT_TRUE(read_file(folder / "kept.safetensors") == read_file(folder / "expected.safetensors"));
   EXPECT_EQ(outcome.statistics.cache.records, expected.statistics.cache.records);
-  tell_extreme("training that goes wrong after 512 steps", "answers come back threefold as targets",
-               fmt::format("picture and cache file have the bits of a training of {} steps", kept),
-               fmt::format("exit code 6 once all is written: \"{}\"", outcome.statistics.cache.diverged));
+  report_extreme("training that diverges after 512 steps", "answers come back threefold as targets",
+                 fmt::format("picture and cache file have the bits of a training of {} steps", kept),
+                 fmt::format("exit code 6 once all is written: \"{}\"", outcome.statistics.cache.diverged));
 }
 
-// A checkpoint of steps that were bad already, but not yet noticed, is not a good state.
-TEST(CacheDivergence, GoneOnWithFromABadCheckpointItEndsAsIfNothingHadStoppedIt) {
+// A checkpoint written after the divergence and before its detection is not a good state.
+TEST(CacheDivergence, ResumingFromABadCheckpointEqualsAnUninterruptedRun) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   const Outcome expected = run(s, late());
@@ -193,10 +193,11 @@ TEST(CacheDivergence, GoneOnWithFromABadCheckpointItEndsAsIfNothingHadStoppedIt)
   EXPECT_EQ(outcome.statistics.cache.steps, kept);
   EXPECT_EQ(outcome.statistics.cache.records, expected.statistics.cache.records);
   EXPECT_TRUE(outcome.picture.layers[0].values == expected.picture.layers[0].values);
-  tell_extreme("the same, stopped after it went wrong and before that was noticed, and gone on with",
-               fmt::format("a checkpoint of step {}", stopped),
-               fmt::format("noticed at the same step; picture and statistics have the bits of step {}", kept),
-               "exit code 6 once all is written");
+  report_extreme(
+      "the same, stopped between the divergence and its detection, then resumed",
+      fmt::format("a checkpoint of step {}", stopped),
+      fmt::format("detected at the same step; picture and statistics have the bits of step {}", kept),
+      "exit code 6 once all is written");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using testing::deviation;
 using testing::noisy_image;
-using testing::tell_extreme;
+using testing::report_extreme;
 
 class Denoising : public ::testing::Test {
  protected:
@@ -41,7 +41,7 @@ class Denoising : public ::testing::Test {
   }
 };
 
-TEST_F(Denoising, HasEverySize) {
+TEST_F(Denoising, EverySizeGivesFiniteNonNegativeValues) {
   int tried = 0;
   for (const auto& [width, height] :
        {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {5, 70}, {33, 17}, {400, 2}, {16384, 3}, {3, 8192}}) {
@@ -49,8 +49,8 @@ TEST_F(Denoising, HasEverySize) {
     denoised(noisy_image(width, height));
     ++tried;
   }
-  tell_extreme("size of a picture", fmt::format("{} pictures: 1x1, 16384x3, 3x8192 and between", tried),
-               "every value is finite and not negative", "");
+  report_extreme("size of a picture", fmt::format("{} pictures: 1x1, 16384x3, 3x8192 and between", tried),
+                 "every value is finite and not negative", "");
 }
 
 TEST_F(Denoising, BlackStaysBlack) {
@@ -59,11 +59,11 @@ TEST_F(Denoising, BlackStaysBlack) {
   const std::vector<float> color = denoised(image);
   const float greatest = *std::max_element(color.begin(), color.end());
   EXPECT_LT(greatest, 1e-3f);
-  tell_extreme("all black", "40x30 with guides",
-               fmt::format("black to {:.1e} (bound 1e-3), without NaN", greatest), "");
+  report_extreme("all black", "40x30 with guides",
+                 fmt::format("black to {:.1e} (bound 1e-3), without NaN", greatest), "");
 }
 
-TEST_F(Denoising, HasTheSamePictureInAnyUnitOfLight) {
+TEST_F(Denoising, TheResultScalesWithTheUnitOfRadiance) {
   const NoisyImage image = noisy_image(96, 64);
   const std::vector<float> usual = denoised(image);
   double worst = 0.0;
@@ -75,11 +75,11 @@ TEST_F(Denoising, HasTheSamePictureInAnyUnitOfLight) {
     worst = std::max(worst, deviation(color, usual));
   }
   EXPECT_LT(worst, 1e-3);
-  tell_extreme("units of light", "1e-30 to 1e28 times a picture of 1",
-               fmt::format("the same picture but for {:.1e} (RMS, bound 1e-3)", worst), "");
+  report_extreme("units of light", "1e-30 to 1e28 times a picture of 1",
+                 fmt::format("the same picture but for {:.1e} (RMS, bound 1e-3)", worst), "");
 }
 
-TEST_F(Denoising, OneBrightSampleChangesItsNeighbourhoodAlone) {
+TEST_F(Denoising, OneBrightSampleChangesOnlyItsNeighbourhood) {
   constexpr int kReach = 128;
   const NoisyImage image = noisy_image(320, 280);
   const std::vector<float> clean = denoised(image);
@@ -98,7 +98,7 @@ TEST_F(Denoising, OneBrightSampleChangesItsNeighbourhoodAlone) {
     }
   }
   EXPECT_LT(worst, 0.05);
-  tell_extreme(
+  report_extreme(
       "one bright sample", "1e4, 1e12 and 1e30 in a picture of 1",
       fmt::format("beyond {} pixels nothing changes by more than {:.1e} (bound 0.05)", kReach, worst), "");
 }

@@ -1,5 +1,6 @@
 #pragma once
-// A row of tests/EXTREMES.md, told by the test that measured it. scripts/check/write-extremes collects them.
+// A row of tests/EXTREMES.md, reported by the test that measured it. scripts/check/write-extremes collects
+// the rows.
 
 #include <gtest/gtest.h>
 
@@ -8,11 +9,11 @@
 
 namespace gatelight::testing {
 
-/// Once at the end of each test. The columns: what; which values were tried; what holds, with the worst
-/// measured value and its bound; what is refused and how (exit code and line), "" for nothing. Numbers with
-/// two significant digits.
-inline void tell_extreme(std::string_view subject, std::string_view range, std::string_view holds,
-                         std::string_view refused) {
+/// Call it once at the end of each test. The columns: the subject; the values tried; what holds, with the
+/// worst measured value and its bound; what is refused and how (exit code and line), "" for nothing. Numbers
+/// have two significant digits.
+inline void report_extreme(std::string_view subject, std::string_view range, std::string_view holds,
+                           std::string_view refused) {
   ::testing::Test::RecordProperty("subject", std::string(subject));
   ::testing::Test::RecordProperty("range", std::string(range));
   ::testing::Test::RecordProperty("holds", std::string(holds));

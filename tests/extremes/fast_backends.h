@@ -36,7 +36,7 @@ inline std::vector<float> raw_answers(const Backend& backend, const Model& model
   return out;
 }
 
-/// State and answers hold no NaN and no infinity, second moments no negative number.
+/// Expects no NaN and no infinity in state and answers, and no negative second moment.
 inline void expect_sound(const Backend& backend, const Model& model, const OwnedBatch& batch) {
   const ModelState state = backend.export_state();
   EXPECT_TRUE(all_finite(state.parameters)) << backend.name();
@@ -62,13 +62,13 @@ inline Tolerances tolerances_of(const Model& model) {
 
 using MakeBackends = std::function<Backends(const std::shared_ptr<const Model>&, const TrainingOptions&)>;
 
-/// The worst differences from the reference that were met, over their tolerances.
+/// The worst difference from the reference so far, relative to its tolerance.
 class Agreement {
  public:
   explicit Agreement(MakeBackends make = fast_backends) : make_(std::move(make)) {}
 
-  /// Answers before and after `steps` steps, and all that the steps change. The options are to make a step a
-  /// smooth function of the gradient (make_smooth), the batch to stay away from kinks.
+  /// Compares answers before and after `steps` steps, and all that the steps change. The options must make a
+  /// step a smooth function of the gradient (make_smooth), and the batch must stay away from kinks.
   void expect_same(const std::string& where, const ModelCase& c, const TrainingOptions& options,
                    const ModelState& state, const OwnedBatch& batch, int steps = 1) {
     const Model& model = *c.model;
@@ -123,7 +123,7 @@ class Agreement {
     what_ = what;
   }
 
-  /// For the table.
+  /// Text for the table.
   std::string text() const {
     std::string names;
     for (const std::string& name : backends_) names += (names.empty() ? "" : ", ") + name;

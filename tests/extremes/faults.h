@@ -1,5 +1,5 @@
 #pragma once
-// Real renders in which something of the machine gives way.
+// Renders through the real program while a resource of the system fails.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace gatelight::tests {
 
-class Faults : public ::testing::Test {
+class ErrorConsensus : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder / name).string(); }
 

@@ -1,4 +1,4 @@
-// Faults of disks and pipes: full, read-only, gone.
+// Errors of disks and pipes: full, read-only, removed.
 
 #include <fcntl.h>
 #include <sched.h>
@@ -16,13 +16,13 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::tell_extreme;
+using testing::report_extreme;
 
-class FaultyDisk : public Faults {};
+class FaultyDisk : public ErrorConsensus {};
 
 const std::vector<std::string> kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
 
-/// Words of a render whose output of one kind is at `place`, and a picture that is not there.
+/// Arguments of a render whose output of one kind is at `place`, with a picture at `other`.
 std::vector<std::string> outputs(const std::string& kind, const std::string& place,
                                  const std::string& other) {
   if (kind == "a.exr" || kind == "a.png") return {"-o", place, "-o", other};
@@ -31,7 +31,7 @@ std::vector<std::string> outputs(const std::string& kind, const std::string& pla
   return {"-o", other, "--integrator", "nrc", "--train-steps", "8", "--batch", "512", "--cache-out", place};
 }
 
-TEST_F(FaultyDisk, AFullOneKeepsTheOldFileAndLeavesNothingElse) {
+TEST_F(FaultyDisk, AFullDiskKeepsTheOldFileAndLeavesNoTemporaryFile) {
   // Only this process and its children see the disk.
   if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "mounting is not permitted here";
   const std::string disk = path("disk");
@@ -60,12 +60,12 @@ TEST_F(FaultyDisk, AFullOneKeepsTheOldFileAndLeavesNothingElse) {
     EXPECT_EQ(left, 1u) << kind << ": a temporary file is left";
   }
   ::umount(disk.c_str());
-  tell_extreme("full disk", "a tmpfs of 8 KiB; picture as EXR and PNG, statistics, checkpoint, cache",
-               "the old file is whole, nothing is left beside it, the other picture is written",
-               "exit 3: cannot write 'FILE': No space left on device");
+  report_extreme("full disk", "a tmpfs of 8 KiB; picture as EXR and PNG, statistics, checkpoint, cache",
+                 "the old file is whole, nothing is left beside it, the other picture is written",
+                 "exit 3: cannot write 'FILE': No space left on device");
 }
 
-TEST_F(FaultyDisk, AFileAtItsLimitOfSizeIsAFullDisk) {
+TEST_F(FaultyDisk, AFileSizeLimitActsLikeAFullDisk) {
   for (const std::string& kind : kKinds) {
     folder.write("disk/" + kind, "old");
     std::vector<std::string> all = words({"--size", "64x64", "--spp", "2", "--quiet"});
@@ -88,7 +88,7 @@ TEST_F(FaultyDisk, AFileAtItsLimitOfSizeIsAFullDisk) {
     std::filesystem::remove(path("other.exr"));
   }
   EXPECT_EQ(folder.count_files(), 2u) << "a temporary file is left";
-  tell_extreme(
+  report_extreme(
       "limit of file sizes", "ulimit -f at 1 and 40 kB, for the same outputs",
       "the old file is whole; a picture that fits is written where the checkpoint or cache does not fit",
       "exit 3: cannot write 'FILE': File too large");
@@ -108,8 +108,8 @@ TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
   }
   std::filesystem::permissions(locked, std::filesystem::perms(0755));
   expect_failure(run_gatelight(words({"-o", scene + "/a.exr", "--quiet"})), 3, {scene});
-  tell_extreme("read-only folder", "the same outputs; a file in place of the folder", "nothing is begun",
-               "exit 3: the folder 'FOLDER' cannot be written: Permission denied");
+  report_extreme("read-only folder", "the same outputs; a file in place of the folder", "nothing is begun",
+                 "exit 3: the folder 'FOLDER' cannot be written: Permission denied");
 }
 
 TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
@@ -123,12 +123,12 @@ TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
     expect_failure(output, 3, {kept});
     EXPECT_EQ(tests::read_file(kept), "a reference of last year");
   }
-  tell_extreme("read-only file in the place of an output", "the same outputs, a file that may not be written",
-               "it stays as it is, nothing is begun",
-               "exit 3: it is there already and cannot be written: Permission denied");
+  report_extreme("read-only file in the place of an output",
+                 "the same outputs, a file that may not be written", "it stays as it is, nothing is begun",
+                 "exit 3: it is there already and cannot be written: Permission denied");
 }
 
-TEST_F(FaultyDisk, AFolderThatVanishesCostsOnlyWhatWasToBeInIt) {
+TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
   std::filesystem::create_directory(folder / "gone");
   Process process(
       words({"-o", path("gone/a.exr"), "-o", path("stays.exr"), "--checkpoint", path("gone/c"),
@@ -142,12 +142,12 @@ TEST_F(FaultyDisk, AFolderThatVanishesCostsOnlyWhatWasToBeInIt) {
   expect_message(output.last_error_line(), {path("gone")});
   EXPECT_EQ(renderer::read_image(path("stays.exr")).width, 64);
   EXPECT_EQ(folder.count_files(), 2u);
-  tell_extreme("folder removed while rendering", "picture and checkpoint in it, a second picture elsewhere",
-               "the render goes on, warns of each checkpoint, and writes the other picture",
-               "exit 3 at the end: the folder 'FOLDER' does not exist");
+  report_extreme("folder removed while rendering", "picture and checkpoint in it, a second picture elsewhere",
+                 "the render goes on, warns of each checkpoint, and writes the other picture",
+                 "exit 3 at the end: the folder 'FOLDER' does not exist");
 }
 
-TEST_F(FaultyDisk, WhoNoLongerListensEndsNothing) {
+TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
   const std::vector<std::string> all =
       words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--progress", "json", "--verbose"});
   const auto with_error_at = [&](const std::function<int()>& open) {
@@ -175,8 +175,9 @@ TEST_F(FaultyDisk, WhoNoLongerListensEndsNothing) {
     ::dup2(ends[1], STDOUT_FILENO);
   });
   expect_failure(closed, 3, {"stdout"});
-  tell_extreme("nobody reads", "stderr full, or a pipe without a reader; the same of stdout with --stats -",
-               "without stderr the render ends as ever, exit 0", "stdout: exit 3, cannot write to stdout");
+  report_extreme("stderr or stdout without a reader",
+                 "stderr full, or a pipe without a reader; the same of stdout with --stats -",
+                 "without stderr the render ends as ever, exit 0", "stdout: exit 3, cannot write to stdout");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Libraries that are loaded on demand are not there.
+// Missing libraries that are loaded on demand.
 
 #include <unistd.h>
 
@@ -7,11 +7,11 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::tell_extreme;
+using testing::report_extreme;
 
-class Libraries : public Faults {
+class Libraries : public ErrorConsensus {
  protected:
-  /// Runs a copy of the program that stands alone.
+  /// Runs a copy of the program without the files beside it.
   Output run_alone(std::vector<std::string> arguments) const {
     const std::string copy = path("bin/gatelight");
     std::filesystem::create_directory(folder / "bin");
@@ -24,7 +24,7 @@ class Libraries : public Faults {
   }
 };
 
-TEST_F(Libraries, ThatAreMissingAreToldBeforeWorkThatRequiresThem) {
+TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   const std::string hdr = folder.write("sky.hdr", "not even a picture");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
@@ -34,15 +34,15 @@ TEST_F(Libraries, ThatAreMissingAreToldBeforeWorkThatRequiresThem) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
   EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
-  // What does not require them goes on.
+  // Renders that do not need the library work.
   const std::string picture = path("a.png");
   const Output output = run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"}));
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_TRUE(std::filesystem::exists(picture));
-  tell_extreme("OpenImageIO cannot be loaded",
-               "render with an environment in HDR; sweep; compare of HDR; render",
-               "other renders do not notice",
-               "exit 5 before any work: cannot load OpenImageIO, with the loader's reason");
+  report_extreme("OpenImageIO cannot be loaded",
+                 "render with an environment in HDR; sweep; compare of HDR; render",
+                 "other renders are not affected",
+                 "exit 5 before any work: cannot load OpenImageIO, with the loader's reason");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace gatelight::tests {
 namespace {
 
 using ::testing::AnyOf;
-using testing::tell_extreme;
+using testing::report_extreme;
 namespace fs = std::filesystem;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -22,7 +22,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-class Limits : public Faults {
+class Limits : public ErrorConsensus {
  protected:
   Output run_within(rlim_t mebibytes, const std::vector<std::string>& more) const {
     return run_gatelight(words(more), [=] {
@@ -34,7 +34,7 @@ class Limits : public Faults {
 
 constexpr rlim_t kLeastMebibytes = 384;
 
-TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
+TEST_F(Limits, AddressSpaceLimitsEndInAPictureOrInOneErrorLine) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int pictures = 0;
   int refusals = 0;
@@ -62,13 +62,13 @@ TEST_F(Limits, OfAddressSpaceEndInAPictureOrInOneLine) {
   }
   EXPECT_GT(pictures, 2);
   EXPECT_GT(refusals, 0);
-  tell_extreme("ulimit -v",
-               fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kLeastMebibytes),
-               fmt::format("{} pictures; never a crash or half a file", pictures),
-               fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
+  report_extreme("ulimit -v",
+                 fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kLeastMebibytes),
+                 fmt::format("{} pictures; never a crash or half a file", pictures),
+                 fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
 }
 
-/// A control group of its own below this process's, where that is permitted.
+/// A new control group below that of this process, where that is permitted.
 class MemoryGroup {
  public:
   explicit MemoryGroup(std::size_t bytes) {
@@ -91,7 +91,7 @@ class MemoryGroup {
   MemoryGroup& operator=(const MemoryGroup&) = delete;
 
   bool is_there() const { return !folder_.empty(); }
-  /// Of the calling process.
+  /// Moves the calling process into the group.
   void enter() const { std::ofstream(folder_ + "/cgroup.procs") << ::getpid(); }
 
  private:
@@ -111,7 +111,7 @@ class MemoryGroup {
   std::string folder_;
 };
 
-TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
+TEST_F(Limits, ControlGroupLimitsEndInAPictureOrInOneErrorLine) {
   int pictures = 0;
   int refusals = 0;
   for (std::size_t mebibytes = 64; mebibytes <= 320; mebibytes += 64) {
@@ -127,13 +127,14 @@ TEST_F(Limits, OfAControlGroupEndInAPictureOrInOneLine) {
   }
   EXPECT_GT(pictures, 0);
   EXPECT_GT(refusals, 0);
-  tell_extreme("memory of a control group", "64 to 320 MiB, a picture of 1024x1024",
-               fmt::format("{} pictures; the kernel never kills it", pictures),
-               fmt::format("{} times exit 4: rendering needs about N MiB, and the control group leaves M MiB",
-                           refusals));
+  report_extreme(
+      "memory of a control group", "64 to 320 MiB, a picture of 1024x1024",
+      fmt::format("{} pictures; the kernel never kills it", pictures),
+      fmt::format("{} times exit 4: rendering needs about N MiB, and the control group leaves M MiB",
+                  refusals));
 }
 
-TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
+TEST_F(Limits, AThousandThreadsRenderThePictureOfOneThread) {
   const auto render = [&](const char* name, const char* threads) {
     std::vector<std::string> all =
         words({"-o", path(name), "--size", "64x64", "--spp", "4", "--quiet", "--reproducible"});
@@ -147,10 +148,10 @@ TEST_F(Limits, AThousandThreadsGiveThePictureOfOne) {
   EXPECT_EQ(read_file(path("one.exr")) == read_file(path("thousand.exr")), true);
   expect_failure(run_gatelight({"render", scene, "-o", path("a.exr"), "--threads", "1025"}), 1,
                  {"--threads", "1025"});
-  tell_extreme("threads", "--threads 1 and 1000, with a cache", "the same bytes", "more than 1024: exit 1");
+  report_extreme("threads", "--threads 1 and 1000, with a cache", "the same bytes", "more than 1024: exit 1");
 }
 
-TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
+TEST_F(Limits, TheErrorNamesHowManyThreadsCanBeStarted) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int refusals = 0;
   for (const rlim_t mebibytes : {1024, 2048, 3072}) {
@@ -163,14 +164,14 @@ TEST_F(Limits, ThreadsThatCannotBeStartedAreCounted) {
     expect_failure_names(output, 4, {"--threads 1000"});
     ++refusals;
   }
-  tell_extreme("threads that cannot be started", "--threads 1000 within 1 to 3 GiB of address space", "",
-               fmt::format("{} times exit 4: --threads 1000: only N can be started here", refusals));
+  report_extreme("threads that cannot be started", "--threads 1000 within 1 to 3 GiB of address space", "",
+                 fmt::format("{} times exit 4: --threads 1000: only N can be started here", refusals));
 }
 
-TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
+TEST_F(Limits, PictureSizesAreRefusedBeforeMemoryIsAllocated) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   const auto render = [&](const char* size, const char* limit) {
-    // A gibibyte to work in: what is not refused at once would not fit.
+    // Leaves a gibibyte to work in: a size that is not refused at once would not fit.
     return run_within(
         2048, {"-o", path("a.exr"), "--size", size, "--spp", "1", "--quiet", "--memory-limit", limit});
   };
@@ -183,7 +184,7 @@ TEST_F(Limits, SizesOfPicturesAreRefusedBeforeAnythingIsTaken) {
   expect_failure_names(render("65536x4096", "0"), 4, {"ulimit -v"});
   EXPECT_EQ(render("65536x1", "0").exit_code, 0);
   EXPECT_EQ(render("1x65536", "0").exit_code, 0);
-  tell_extreme(
+  report_extreme(
       "size of the picture", "0x0 to 65536x65536", "1x65536 and 65536x1 are rendered",
       "0 or more than 65536 a side, or 2^28 pixels in all: exit 1; more than memory or --memory-limit: exit "
       "4 with the MiB that are needed, before anything is built");

@@ -11,7 +11,7 @@ namespace gatelight::tests {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::tell_extreme;
+using testing::report_extreme;
 
 class DecimalComma : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
@@ -19,16 +19,16 @@ class DecimalComma : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-class CommaLocale : public Faults {
+class CommaLocale : public ErrorConsensus {
  protected:
-  /// Of C, by a locale that is made here, and of C++.
+  /// Sets a decimal comma in C, by a locale that is made here, and in C++.
   bool begin() {
     folder.write("source",
                  "LC_NUMERIC\ndecimal_point \"<U002C>\"\nthousands_sep \"<U002E>\"\ngrouping 3;3\n"
                  "END LC_NUMERIC\n");
     const std::string make =
         "localedef -c -i '" + path("source") + "' -f ANSI_X3.4-1968 '" + path("comma") + "' >/dev/null 2>&1";
-    // It warns of what is left out.
+    // localedef warns of the categories that are left out.
     static_cast<void>(std::system(make.c_str()));
     ::setenv("LOCPATH", folder.path().c_str(), 1);
     before_ = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
@@ -44,7 +44,7 @@ class CommaLocale : public Faults {
   std::locale before_ = std::locale::classic();
 };
 
-/// All that may differ between two runs.
+/// The file without the values that may differ between two runs.
 nlohmann::json without_times(const std::string& file) {
   nlohmann::json json = nlohmann::json::parse(read_file(file));
   for (const char* key : {"seconds", "memory_bytes", "train"}) json.erase(key);
@@ -69,8 +69,8 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
     EXPECT_EQ(output.exit_code, 0) << output.err;
     const Output compared = run_gatelight_inside(
         {"compare", path(name + ".exr"), path(name + ".png"), "--json", path(name + ".compare.json")});
-    const Output told = run_gatelight_inside({"info", scene, "--json", path(name + ".info.json")});
-    EXPECT_EQ(compared.exit_code + told.exit_code, 0) << compared.err << told.err;
+    const Output reported = run_gatelight_inside({"info", scene, "--json", path(name + ".info.json")});
+    EXPECT_EQ(compared.exit_code + reported.exit_code, 0) << compared.err << reported.err;
     std::vector<std::string> bytes;
     for (const char* kind : {".exr", ".png", ".safetensors", ".compare.json"})
       bytes.push_back(read_file(path(name + kind)));
@@ -90,13 +90,13 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
   }
   EXPECT_EQ(statistics, without_times(path("a.json")));
   EXPECT_THAT(read_file(path("a.json")), HasSubstr("47.5"));
-  tell_extreme("decimal comma",
-               "setlocale() and std::locale::global() with ',' and '.' exchanged; flags, configuration, "
-               "EXR with its recipe, PNG, cache, statistics, comparison",
-               "the same bytes, and the same statistics beside times", "");
+  report_extreme("decimal comma",
+                 "setlocale() and std::locale::global() with ',' and '.' exchanged; flags, configuration, "
+                 "EXR with its recipe, PNG, cache, statistics, comparison",
+                 "the same bytes, and the same statistics except times", "");
 }
 
-TEST_F(CommaLocale, OfTheEnvironmentIsNotEvenLookedAt) {
+TEST_F(CommaLocale, TheLocaleOfTheEnvironmentIsIgnored) {
   const std::vector<std::string> all = words(
       {"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--clamp", "1.5", "--quiet", "--stats", "-"});
   if (!begin()) GTEST_SKIP() << "no locale with a comma can be made here (localedef)";
@@ -106,8 +106,8 @@ TEST_F(CommaLocale, OfTheEnvironmentIsNotEvenLookedAt) {
   EXPECT_EQ(nlohmann::json::parse(output.out)["options"]["clamp"], 1.5);
   const Output comma = run_gatelight(words({"-o", path("a.exr"), "--clamp", "1,5", "--quiet"}));
   expect_failure(comma, 1, {"--clamp", "1,5", "0"});
-  tell_extreme("LC_ALL", "a locale with a comma", "numbers are read and written with points",
-               "exit 1: --clamp: '1,5' is not a number");
+  report_extreme("LC_ALL", "a locale with a comma", "numbers are read and written with points",
+                 "exit 1: --clamp: '1,5' is not a number");
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::tell_extreme;
+using testing::report_extreme;
 
-class Names : public Faults {};
+class Names : public ErrorConsensus {};
 
 std::string encoded(const std::string& name) {
   static constexpr const char* kDigits = "0123456789ABCDEF";
@@ -28,7 +28,7 @@ std::string with_texture(const std::string& texture_uri, const std::string& buff
   nlohmann::json json = nlohmann::json::parse(tiny_scene());
   json["buffers"][0]["uri"] = buffer_uri;
   json["images"] = {{{"uri", texture_uri}}};
-  // As good as any numbers.
+  // The values do not matter.
   json["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 6}, {"type", "VEC2"}});
   json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1;
   json["textures"] = {{{"source", 0}}};
@@ -56,7 +56,7 @@ const std::vector<std::string> kNames = {
     "na\xefve latin-1",
 };
 
-TEST_F(Names, OfEveryKindAreJustNamesForEveryInputAndOutput) {
+TEST_F(Names, EveryFileNameWorksForEveryInputAndOutput) {
   // A picture for textures and the environment.
   ASSERT_EQ(run_gatelight(
                 words({"-o", path("t.png"), "-o", path("t.exr"), "--size", "16x8", "--spp", "1", "--quiet"}))
@@ -119,14 +119,14 @@ TEST_F(Names, OfEveryKindAreJustNamesForEveryInputAndOutput) {
     if (first.empty()) first = pixels;
     EXPECT_EQ(pixels == first, true) << name;
   }
-  tell_extreme(
+  report_extreme(
       "names of files and folders",
       "spaces, unicode, # % ? * ' \" {} \\ line breaks, a leading dash, bytes that are no UTF-8; for scene, "
       "buffer, texture, environment, configuration, EXR, PNG, statistics, cache, checkpoint, map",
       "the same picture under each", "");
 }
 
-TEST_F(Names, ThatAreNotThereAreNamed) {
+TEST_F(Names, MissingFilesAreNamedInTheError) {
   for (const std::string& name : kNames) {
     const std::string place = path(name + "/nowhere.gltf");
     const Output output = run_gatelight({"render", place, "-o", path("a.exr"), "--quiet"});
@@ -138,11 +138,11 @@ TEST_F(Names, ThatAreNotThereAreNamed) {
   const std::string very_long = path(std::string(5000, 'x'));
   expect_failure_names(run_gatelight({"render", very_long, "-o", path("a.exr"), "--quiet"}), 2, {"scene"});
   expect_failure_names(run_gatelight(words({"-o", very_long + ".exr", "--quiet"})), 3, {"write"});
-  tell_extreme("names that lead nowhere", "the same names, and one of 5000 letters", "",
-               "exit 2 (scene) or 3 (output), one line with the name");
+  report_extreme("names of missing files", "the same names, and one of 5000 letters", "",
+                 "exit 2 (scene) or 3 (output), one line with the name");
 }
 
-TEST_F(Names, OfTheGreatestLengthCanBeWrittenAgain) {
+TEST_F(Names, FilesWithTheLongestNamesCanBeReplaced) {
   const auto named = [&](char letter, const std::string& extension, std::size_t length = 255) {
     return path(std::string(length - extension.size(), letter) + extension);
   };
@@ -166,12 +166,12 @@ TEST_F(Names, OfTheGreatestLengthCanBeWrittenAgain) {
   EXPECT_EQ(run({"--resume"}).exit_code, 0);
   expect_failure(run_gatelight(words({"-o", named('a', ".exr", 256), "--quiet"})), 3,
                  {named('a', ".exr", 256)});
-  tell_extreme("names of 255 bytes, the most that file systems allow",
-               "EXR, PNG, statistics, cache, checkpoint; twice, and gone on with",
-               "written, replaced and read", "256 bytes: exit 3 before the work, one line with the name");
+  report_extreme("names of 255 bytes, the most that file systems allow",
+                 "EXR, PNG, statistics, cache, checkpoint; twice, and resumed", "written, replaced and read",
+                 "256 bytes: exit 3 before the work, one line with the name");
 }
 
-TEST_F(Names, OfTexturesThatCannotBeReadAreSaidOnceEach) {
+TEST_F(Names, EachUnreadableTextureIsReportedOnce) {
   folder.write("a.bin", corners());
   folder.write("broken.png", "\x89PNG\r\n\x1a\n not a picture");
   folder.write("missing.gltf", with_texture("nowhere.png", "a.bin"));
@@ -188,8 +188,8 @@ TEST_F(Names, OfTexturesThatCannotBeReadAreSaidOnceEach) {
     const nlohmann::json stats = nlohmann::json::parse(read_file(path("s.json")));
     expect_messages(stats["warnings"], {{".png"}});
   }
-  tell_extreme("no texture can be read", "missing and broken files",
-               "--missing warn: rendered without, one warning each", "exit 2 with the texture's name");
+  report_extreme("no texture can be read", "missing and broken files",
+                 "--missing warn: rendered without, one warning each", "exit 2 with the texture's name");
 }
 
 }  // namespace

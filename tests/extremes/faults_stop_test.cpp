@@ -1,4 +1,4 @@
-// Renders that are ended early and gone on with.
+// Renders that are stopped and resumed.
 
 #include <signal.h>
 
@@ -8,9 +8,9 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::tell_extreme;
+using testing::report_extreme;
 
-class Stopped : public Faults {
+class Stopped : public ErrorConsensus {
  protected:
   std::vector<std::string> learning(const std::string& output, const std::vector<std::string>& more) const {
     std::vector<std::string> all =
@@ -21,7 +21,7 @@ class Stopped : public Faults {
   }
 };
 
-TEST_F(Stopped, ByATerminationWhileItLearnsKeepsPictureAndCheckpoint) {
+TEST_F(Stopped, TerminationDuringTrainingKeepsPictureAndCheckpoint) {
   const std::vector<std::string> keeps = {"--checkpoint", path("c"), "--resume"};
   Process process(learning("killed.exr", keeps));
   ASSERT_TRUE(process.wait_for_error_text("\"train\""));
@@ -35,13 +35,13 @@ TEST_F(Stopped, ByATerminationWhileItLearnsKeepsPictureAndCheckpoint) {
   EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);
   EXPECT_EQ(run_gatelight(learning("straight.exr", {})).exit_code, 0);
   EXPECT_EQ(read_file(path("killed.exr")) == read_file(path("straight.exr")), true);
-  tell_extreme(
+  report_extreme(
       "SIGTERM in training", "a cache of 3000 steps",
       "picture and checkpoint are written, exit 143; going on gives the bytes of a run that was not stopped",
       "");
 }
 
-TEST_F(Stopped, AndGoneOnWithInAnotherSceneIsRefused) {
+TEST_F(Stopped, ResumingWithAnotherSceneIsRefused) {
   const std::vector<std::string> keeps = {"--checkpoint", path("c"), "--resume"};
   const std::string now = tiny_scene();
   const auto changed = [&](const std::string& from, const std::string& to) {
@@ -60,9 +60,9 @@ TEST_F(Stopped, AndGoneOnWithInAnotherSceneIsRefused) {
   expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, {"camera"});
   EXPECT_EQ(read_file(path("c")) == kept, true);
   EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
-  tell_extreme("scene changed before --resume", "a vertex, a colour, metalness, the view",
-               "the checkpoint stays whole",
-               "exit 2: it differs in materials (geometry), or which option differs with both values");
+  report_extreme("scene changed before --resume", "a vertex, a colour, metalness, the view",
+                 "the checkpoint stays whole",
+                 "exit 2: it differs in materials (geometry), or which option differs with both values");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Glass, ABallThatAbsorbsNothingIsInvisibleInAWhiteSky) {
     for (const float roughness : {0.0f, 1e-4f, 0.0299f, 0.03f, 0.05f}) {
       SceneBuilder builder;
       builder.sphere(builder.material(glass(ior, roughness)), Vec3::Zero(), 1.0f, 48, true);
-      // Each path brings 1 however long it is; a tenth of a percent is still inside after 200 events.
+      // Each path that leaves carries 1, whatever its length; 0.1 % are still inside after 200 events.
       const Rendered picture = render(builder.scene(), white_sky(24, 200));
       EXPECT_TRUE(picture.sane());
       const double error = std::abs(picture.mean() - 1.0);
@@ -37,11 +37,11 @@ TEST(Glass, ABallThatAbsorbsNothingIsInvisibleInAWhiteSky) {
       ++tried;
     }
   }
-  tell_extreme("glass ball in a white sky", "ior 1 to 3, roughness 0, 1e-4, 0.03 (delta and not), 0.05",
-               fmt::format("{} balls, mean off by {:.1e} (bound 0.02)", tried, worst), "");
+  report_extreme("glass ball in a white sky", "ior 1 to 3, roughness 0, 1e-4, 0.03 (delta and not), 0.05",
+                 fmt::format("{} balls, mean off by {:.1e} (bound 0.02)", tried, worst), "");
 }
 
-TEST(Glass, MirrorsOfNoRoughnessReflectAll) {
+TEST(Glass, SmoothMirrorsReflectAllLight) {
   double worst = 0.0;
   for (const float roughness : {0.0f, 1e-4f, 0.0299f, 0.03f}) {
     SceneBuilder builder;
@@ -54,12 +54,12 @@ TEST(Glass, MirrorsOfNoRoughnessReflectAll) {
     worst = std::max(worst, std::abs(picture.mean() - 1.0));
   }
   EXPECT_LT(worst, 1e-3);
-  tell_extreme("metal ball in a white sky",
-               "roughness 0, 1e-4 and about 0.03, where the lobe stops being a delta",
-               fmt::format("mean off by {:.1e} (bound 1e-3)", worst), "");
+  report_extreme("metal ball in a white sky",
+                 "roughness 0, 1e-4 and about 0.03, where the lobe stops being a delta",
+                 fmt::format("mean off by {:.1e} (bound 1e-3)", worst), "");
 }
 
-/// Sheets of glass before each other, or each inside the one before.
+/// Sheets of glass in a row, or each nested in the previous one.
 Rendered sheets(float ior, int layers, bool nested) {
   SceneBuilder builder;
   const int m = builder.material(glass(ior, 0.0f));
@@ -67,10 +67,10 @@ Rendered sheets(float ior, int layers, bool nested) {
     const float share = static_cast<float>(i) / static_cast<float>(layers);
     const float front = 1.0f - share;
     const float back = nested ? -front : front - 0.5f / static_cast<float>(layers);
-    // Wide ones: a cube keeps what it reflects totally.
+    // The boxes are wide: a cube traps light by total internal reflection.
     builder.box(m, Vec3(-20, -20, back), Vec3(20, 20, front));
   }
-  // Without roulette each path that gets out brings exactly 1.
+  // Without roulette each path that leaves carries exactly 1.
   RenderOptions options = white_sky(1, 60000);
   options.min_depth = 60000;
   return render(builder.scene(), options);
@@ -90,12 +90,11 @@ TEST(Glass, HundredsOfSheetsLoseNoLight) {
     EXPECT_LT(worst_pixel(picture), 0.01) << ior << " mean " << picture.mean();
     worst = std::max(worst, worst_pixel(picture));
   }
-  tell_extreme("sheets of glass before each other",
-               "300, each with a volume, ior 1, 1.5 and 3, in a white sky",
-               fmt::format("every path brings 1 to {:.1e} (bound 0.01)", worst), "");
+  report_extreme("sheets of glass in a row", "300, each with a volume, ior 1, 1.5 and 3, in a white sky",
+                 fmt::format("every path carries 1 to within {:.1e} (bound 0.01)", worst), "");
 }
 
-TEST(Glass, LayersInsideEachOtherLoseNoLight) {
+TEST(Glass, NestedSheetsLoseNoLight) {
   double worst = 0.0;
   for (const float ior : {1.0f, 1.5f, 3.0f}) {
     for (const int layers : {1, 16, 300}) {
@@ -105,11 +104,11 @@ TEST(Glass, LayersInsideEachOtherLoseNoLight) {
       worst = std::max(worst, worst_pixel(picture));
     }
   }
-  tell_extreme("sheets of glass inside each other", "1 to 300, ior 1, 1.5 and 3, in a white sky",
-               fmt::format("every path brings 1 to {:.1e} (bound 0.01)", worst), "");
+  report_extreme("nested sheets of glass", "1 to 300, ior 1, 1.5 and 3, in a white sky",
+                 fmt::format("every path carries 1 to within {:.1e} (bound 0.01)", worst), "");
 }
 
-TEST(Glass, BallsInsideEachOtherAddNoLight) {
+TEST(Glass, NestedBallsAddNoLight) {
   double air = 0.0, brightest = 0.0;
   for (const float ior : {1.0f, 1.5f, 3.0f}) {
     SceneBuilder builder;
@@ -126,9 +125,8 @@ TEST(Glass, BallsInsideEachOtherAddNoLight) {
   }
   EXPECT_LT(air, 1e-5);
   EXPECT_LT(brightest, 1.01);
-  tell_extreme(
-      "balls of glass inside each other, as one object",
-      "300, smooth and faceted, ior 1, 1.5 and 3, in a white sky",
+  report_extreme(
+      "nested balls of glass, as one object", "300, smooth and faceted, ior 1, 1.5 and 3, in a white sky",
       fmt::format("ior 1: invisible to {:.1e} (bound 1e-5); else finite, no pixel above {:.3f} (bound 1.01)",
                   air, brightest),
       "shells of one object are no media of their own: each refracts as from air, so that deep inside light "
@@ -136,7 +134,7 @@ TEST(Glass, BallsInsideEachOtherAddNoLight) {
       "reflected totally and ends at --max-depth");
 }
 
-/// Panes before a wall; how much of the light of a lamp on the other side arrives.
+/// Mean radiance of a wall that a lamp or a sun lights through a stack of panes.
 double light_behind_panes(int panes, float ior, bool sun, DirectLight direct) {
   SceneBuilder builder;
   scene::Material pane = glass(ior, 0.0f);
@@ -166,7 +164,7 @@ double light_behind_panes(int panes, float ior, bool sun, DirectLight direct) {
   return picture.mean();
 }
 
-TEST(Glass, PanesOfAirHideNoLamp) {
+TEST(Glass, PanesOfIndexOneDoNotDarkenLamps) {
   double worst = 0.0;
   const double lamp = light_behind_panes(0, 1.0f, false, DirectLight::bsdf);
   const double sun = light_behind_panes(0, 1.0f, true, DirectLight::mis);
@@ -181,9 +179,9 @@ TEST(Glass, PanesOfAirHideNoLamp) {
       EXPECT_LT(error, 1e-5);
     }
   }
-  tell_extreme("thin panes before each other", "1 to 200 of ior 1 between a wall and a lamp",
-               fmt::format("lamp's light off by {:.1e} (bound 0.03); a sun's exact behind up to 64", worst),
-               "a sun, point or spot light behind more than 64 panes counts as dark");
+  report_extreme("thin panes in a row", "1 to 200 of ior 1 between a wall and a lamp",
+                 fmt::format("lamp's light off by {:.1e} (bound 0.03); a sun exact behind up to 64", worst),
+                 "a sun, point or spot light behind more than 64 panes counts as dark");
 }
 
 }  // namespace

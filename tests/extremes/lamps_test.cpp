@@ -18,8 +18,8 @@ Vec3 random_unit(Random& random) {
   return sample_uniform_sphere({random.uniform_float(), random.uniform_float()});
 }
 
-/// A square lamp of this size about `centre`, both sides shining, and a receiver of a fiftieth of the height
-/// at `height` before it.
+/// A square lamp of this size about `centre` that emits on both sides, and at `height` before it a receiver
+/// whose side is a fiftieth of the height.
 struct LampAndReceiver {
   SceneBuilder builder;
   Vec3 normal;  ///< of both
@@ -39,7 +39,7 @@ struct LampAndReceiver {
   }
 };
 
-/// Of light samples at the receiver the part that is not shadowed: there is nothing between it and the lamp.
+/// Share of the light samples at the receiver that are not shadowed: 1 with nothing before the lamp.
 double unshadowed(LampAndReceiver& made, Random& random, int samples) {
   const scene::Scene& s = made.builder.scene();
   const World world(s);
@@ -76,13 +76,14 @@ TEST(Lamps, NoLampShadowsItself) {
     }
   }
   EXPECT_EQ(worst, 1.0);
-  tell_extreme("lamps that could shadow themselves",
-               "1e-3 to 1e6 m, seen from 1e-4 to 1e4 of their size, any way turned",
-               "of their light samples none is shadowed", "");
+  report_extreme("lamps that could shadow themselves",
+                 "1e-3 to 1e6 m, seen from 1e-4 to 1e4 of their size, any way turned",
+                 "none of their light samples is shadowed", "");
 }
 
-TEST(Lamps, WhatStandsCloseToAFarLampShadowsIt) {
-  // The lamp a metre wide 20 m above the receiver; the sheet before it a 100 000th of the way from it.
+TEST(Lamps, ASheetCloseToAFarLampShadowsIt) {
+  // The lamp is a metre wide and 20 m above the receiver. The sheet before it is a 100 000th of the way from
+  // it.
   Random random(2);
   double most = 0.0;
   for (int turn = 0; turn < 8; ++turn) {
@@ -95,7 +96,7 @@ TEST(Lamps, WhatStandsCloseToAFarLampShadowsIt) {
     most = std::max(most, unshadowed(made, random, 400));
   }
   EXPECT_EQ(most, 0.0);
-  tell_extreme("a sheet close to a far lamp", "0.2 mm before a lamp 20 m away", "no light passes", "");
+  report_extreme("a sheet close to a far lamp", "0.2 mm before a lamp 20 m away", "no light passes", "");
 }
 
 }  // namespace

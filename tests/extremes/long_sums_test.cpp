@@ -14,11 +14,11 @@ namespace gatelight::renderer {
 namespace {
 
 using testing::Random;
-using testing::tell_extreme;
+using testing::report_extreme;
 
 constexpr int kSamples = 1'000'000;
 
-/// A sum of doubles with its lost digits kept (Neumaier 1974).
+/// Compensated sum of doubles (Neumaier 1974).
 class ExactSum {
  public:
   void add(double value) {
@@ -43,7 +43,7 @@ float variance_of(const Film& film) {
 
 const FilmContents kVariance = {.aovs = {Aov::variance}};
 
-TEST(LongSums, AMillionEqualSamplesAreTheirMeanToTheLastBit) {
+TEST(LongSums, TheMeanOfAMillionEqualSamplesIsExact) {
   double worst = 0.0;
   int tried = 0;
   for (const float value : {1e-30f, 1e-6f, 0.1f, 1.0f / 3.0f, 0.7f, 1.0f, 1e6f, 1e30f}) {
@@ -54,10 +54,11 @@ TEST(LongSums, AMillionEqualSamplesAreTheirMeanToTheLastBit) {
     ++tried;
   }
   EXPECT_LT(worst, 1e-8);
-  tell_extreme(
+  report_extreme(
       "equal samples",
       fmt::format("{} values from 1e-30 to 1e30, {:.0e} samples each", tried, double{kSamples}),
-      fmt::format("mean equal to the bit; standard error told {:.1e} of the mean (bound 1e-8)", worst), "");
+      fmt::format("mean equal to the bit; standard error reported {:.1e} of the mean (bound 1e-8)", worst),
+      "");
 }
 
 TEST(LongSums, AMillionRandomSamplesHaveTheMeanAndVarianceOfTheirExactSums) {
@@ -85,7 +86,7 @@ TEST(LongSums, AMillionRandomSamplesHaveTheMeanAndVarianceOfTheirExactSums) {
   }
   EXPECT_LT(worst_mean, 0x1p-23);
   EXPECT_LT(worst_variance, 1e-6);
-  tell_extreme(
+  report_extreme(
       "random samples", fmt::format("1e-6 to 1e6 in one pixel, {:.0e} samples", double{kSamples}),
       fmt::format("mean off by {:.1e} (bound 1.2e-7, a float's last bit), variance by {:.1e} (bound 1e-6)",
                   worst_mean, worst_variance),

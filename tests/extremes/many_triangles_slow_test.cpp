@@ -17,7 +17,8 @@ namespace {
 
 using namespace testing;
 
-/// A million, or what GATELIGHT_MANY_TRIANGLES says: scripts/check/write-extremes asks for ten.
+/// Number of triangles: GATELIGHT_MANY_TRIANGLES, or a million. scripts/check/write-extremes sets ten
+/// million.
 std::size_t wanted() {
   const char* text = std::getenv("GATELIGHT_MANY_TRIANGLES");
   return text ? std::stoull(text) : 1'000'000;
@@ -37,12 +38,13 @@ void forget_peak() {
   std::ofstream("/proc/self/clear_refs") << 5;
 }
 
-/// A square of 2 m made of about so many triangles: Lambert under a white sky, so that it shows its albedo.
+/// A square of 2 m made of about `triangles` triangles: Lambert under a white sky, so that it shows its
+/// albedo.
 SceneBuilder carpet(std::size_t triangles) {
   SceneBuilder builder;
   const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(0.5 * static_cast<double>(triangles))));
   const int m = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  scene::PaddedVector<Vec3> p;
+  PaddedVector<Vec3> p;
   std::vector<std::array<std::uint32_t, 3>> t;
   p.reserve((side + 1) * (side + 1));
   t.reserve(std::size_t{2} * side * side);
@@ -70,7 +72,7 @@ RenderOptions picture() {
   return options;
 }
 
-TEST(ManyTriangles, OfOneMeshFitIntoWhatTheEstimateSays) {
+TEST(ManyTriangles, OneMeshFitsIntoTheEstimatedMemory) {
   forget_peak();
   const double before = peak_bytes();
   SceneBuilder builder = carpet(wanted());
@@ -83,7 +85,7 @@ TEST(ManyTriangles, OfOneMeshFitIntoWhatTheEstimateSays) {
   EXPECT_NEAR(result.mean(), 0.5, 1e-3);
   EXPECT_LT(used, 1.25 * estimate);
   EXPECT_LT(used / static_cast<double>(count), 400.0);
-  tell_extreme(
+  report_extreme(
       "triangles of one mesh",
       fmt::format("{:.2g} million, built and rendered", 1e-6 * static_cast<double>(count)),
       fmt::format(
@@ -93,7 +95,7 @@ TEST(ManyTriangles, OfOneMeshFitIntoWhatTheEstimateSays) {
       "");
 }
 
-TEST(ManyTriangles, OfInstancesTakeTheMemoryOfTheInstances) {
+TEST(ManyTriangles, InstancesShareTheMemoryOfTheirMesh) {
   forget_peak();
   const double before = peak_bytes();
   SceneBuilder builder = carpet(1000);
@@ -119,12 +121,12 @@ TEST(ManyTriangles, OfInstancesTakeTheMemoryOfTheInstances) {
   EXPECT_TRUE(result.sane());
   EXPECT_NEAR(result.mean(), 0.5, 1e-3);
   EXPECT_LT(used / static_cast<double>(s.instances.size()), 8000.0);
-  tell_extreme("triangles of instances",
-               fmt::format("{:.2g} million by {} instances of {}",
-                           1e-6 * static_cast<double>(each * s.instances.size()), s.instances.size(), each),
-               fmt::format("peak {:.2g} MiB in all, {:.0f} bytes an instance (bound 8000)", used / 0x1p20,
-                           used / static_cast<double>(s.instances.size())),
-               "");
+  report_extreme("triangles of instances",
+                 fmt::format("{:.2g} million by {} instances of {}",
+                             1e-6 * static_cast<double>(each * s.instances.size()), s.instances.size(), each),
+                 fmt::format("peak {:.2g} MiB in all, {:.0f} bytes an instance (bound 8000)", used / 0x1p20,
+                             used / static_cast<double>(s.instances.size())),
+                 "");
 }
 
 }  // namespace

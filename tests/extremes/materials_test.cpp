@@ -1,4 +1,4 @@
-// Films, brushed metal, cloth, dispersing glass and nested media at the ends of their ranges.
+// Films, anisotropic metal, cloth, dispersing glass and nested media at the ends of their ranges.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 using namespace testing;
 using scene::Material;
 
-/// In a white sky nothing that does not absorb should be seen: the largest pixel, the mean, and how far that
-/// is from 1.
+/// The largest pixel, the mean, and its distance from 1 in a white sky, where an object that absorbs nothing
+/// is invisible.
 struct Seen {
   double brightest = 0.0;
   double mean = 0.0;
@@ -64,16 +64,16 @@ TEST(Materials, FilmsOfAnyThicknessAndIndexAddNoLight) {
   EXPECT_LT(worst_metal, 0.05);
   EXPECT_GT(least, 0.7);
   EXPECT_LT(most, 1.05);
-  tell_extreme("films on white balls in a white sky",
-               "0 to 1e30 nm, index 1 to 1e6, roughness 0 to 1, metal and dielectric",
-               fmt::format("{} balls: metal off by {:.1e} in the mean (bound 0.05); dielectric from {:.2f} "
-                           "to {:.3f} (bounds 0.7, "
-                           "1.05): what a film of a great index reflects is lost to the base below it",
-                           tried, worst_metal, least, most),
-               "");
+  report_extreme("films on white balls in a white sky",
+                 "0 to 1e30 nm, index 1 to 1e6, roughness 0 to 1, metal and dielectric",
+                 fmt::format("{} balls: metal off by {:.1e} in the mean (bound 0.05); dielectric from {:.2f} "
+                             "to {:.3f} (bounds 0.7, "
+                             "1.05): light that a film of high index reflects is lost to the base below it",
+                             tried, worst_metal, least, most),
+                 "");
 }
 
-TEST(Materials, BrushedMetalOfAnyStrengthReflectsAll) {
+TEST(Materials, AnisotropicMetalOfAnyStrengthReflectsAllLight) {
   double worst = 0.0;
   int tried = 0;
   for (const float strength : {0.0f, 1e-6f, 0.5f, 1.0f}) {
@@ -90,11 +90,11 @@ TEST(Materials, BrushedMetalOfAnyStrengthReflectsAll) {
       ++tried;
     }
   }
-  tell_extreme("brushed metal in a white sky", "strength 0, 1e-6, 0.5, 1; roughness 0 to 1",
-               fmt::format("{} balls, mean off by {:.1e} (bound 0.015)", tried, worst), "");
+  report_extreme("anisotropic metal in a white sky", "strength 0, 1e-6, 0.5, 1; roughness 0 to 1",
+                 fmt::format("{} balls, mean off by {:.1e} (bound 0.015)", tried, worst), "");
 }
 
-TEST(Materials, ClothThatLetsAnyShareThroughLosesNoLight) {
+TEST(Materials, ClothOfAnyDiffuseTransmissionLosesNoLight) {
   double worst = 0.0;
   for (const float share : {0.0f, 1e-6f, 0.5f, 1.0f}) {
     for (const float thickness : {0.0f, 1.0f}) {
@@ -110,12 +110,12 @@ TEST(Materials, ClothThatLetsAnyShareThroughLosesNoLight) {
       worst = std::max(worst, seen.off);
     }
   }
-  tell_extreme("a hollow ball of cloth in a white sky",
-               "a share of 0, 1e-6, 0.5, 1 goes through; thin and with an inside",
-               fmt::format("8 balls, mean off by {:.1e} (bound 0.01)", worst), "");
+  report_extreme("a hollow ball of cloth in a white sky",
+                 "a share of 0, 1e-6, 0.5, 1 goes through; thin and with an inside",
+                 fmt::format("8 balls, mean off by {:.1e} (bound 0.01)", worst), "");
 }
 
-TEST(Materials, GlassThatDispersesWithoutMeasureLosesNoLight) {
+TEST(Materials, GlassOfAnyDispersionLosesNoLight) {
   double worst = 0.0;
   for (const float dispersion : {0.0f, 1e-6f, 1.0f, 20.0f, 1e6f, 1e30f}) {
     const Seen seen = look_at_ball([&](Material& m) {
@@ -125,11 +125,11 @@ TEST(Materials, GlassThatDispersesWithoutMeasureLosesNoLight) {
     EXPECT_LT(seen.off, 0.03) << dispersion;
     worst = std::max(worst, seen.off);
   }
-  tell_extreme("a dispersing ball in a white sky", "20 over the Abbe number: 0, 1e-6, 1, 20, 1e6, 1e30",
-               fmt::format("6 balls, mean off by {:.1e} (bound 0.03)", worst), "");
+  report_extreme("a dispersing ball in a white sky", "20 over the Abbe number: 0, 1e-6, 1, 20, 1e6, 1e30",
+                 fmt::format("6 balls, mean off by {:.1e} (bound 0.03)", worst), "");
 }
 
-TEST(Materials, MediaInsideEachOtherLoseNoLight) {
+TEST(Materials, NestedMediaLoseNoLight) {
   const auto balls = [](int count, float step) {
     SceneBuilder builder;
     for (int i = 0; i < count; ++i) {
@@ -155,8 +155,8 @@ TEST(Materials, MediaInsideEachOtherLoseNoLight) {
   }
   const double brightest = balls(100, 0.3f).brightest;
   EXPECT_LT(brightest, 10.0);
-  tell_extreme(
-      "balls of three indices inside each other, as objects", "2, 8 and 100, in a white sky",
+  report_extreme(
+      "nested balls of three indices, as objects", "2, 8 and 100, in a white sky",
       fmt::format("up to 8: mean off by {:.1e} (bound 0.01); 100: finite, no pixel above {:.2f} (bound 10)",
                   worst, brightest),
       "of more than 8 bodies around a point the outermost are forgotten: beyond them light leaves into air");

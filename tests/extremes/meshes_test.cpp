@@ -1,4 +1,4 @@
-// Meshes as nobody should make them.
+// Badly shaped meshes: all sizes of triangles, slivers, degenerate and redundant faces.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ std::array<Vec3, 3> triangle_of(int exponent) {
 
 SceneBuilder many_sizes(const Color& emission) {
   SceneBuilder builder;
-  scene::PaddedVector<Vec3> positions;
+  PaddedVector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (int e = kLeast; e <= kGreatest; ++e) {
     const auto first = static_cast<std::uint32_t>(positions.size());
@@ -69,7 +69,7 @@ SceneBuilder many_sizes(const Color& emission) {
   return builder;
 }
 
-TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselves) {
+TEST(Meshes, TrianglesOfAllSizesAreHitInPlaceWithoutSelfIntersection) {
   SceneBuilder builder = many_sizes(Color::Zero());
   const World world(builder.scene());
   Random random(1);
@@ -109,15 +109,15 @@ TEST(Meshes, TrianglesOfAllSizesAreHitWhereTheyAreAndLeftWithoutMeetingThemselve
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(self, 0);
   EXPECT_LT(worst, 1e-5);
-  tell_extreme(
+  report_extreme(
       "triangles of all sizes in one mesh", "1e-12 to 1e6 m2, 1000 rays at each size",
       fmt::format(
-          "none missed, none met again by the ray that leaves; positions to {:.1e} of the side (bound 1e-5)",
+          "none missed, none hit again by the ray that leaves; positions to {:.1e} of the side (bound 1e-5)",
           worst),
       "");
 }
 
-TEST(Meshes, LampsOfAllSizesInOneMeshLightWhatIsNearEach) {
+TEST(Meshes, LampsOfAllSizesInOneMeshGiveTheAnalyticIrradiance) {
   SceneBuilder builder = many_sizes(Color::Ones());
   const World world(builder.scene());
   EXPECT_EQ(world.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kLeast + 1));
@@ -148,11 +148,11 @@ TEST(Meshes, LampsOfAllSizesInOneMeshLightWhatIsNearEach) {
     worst = std::max(worst, std::abs(moments.mean() / expected - 1.0));
   }
   EXPECT_LT(worst, 0.03);
-  tell_extreme("lamps of all sizes in one mesh", "1e-12 to 1e6 m2, irradiance a third of a side away",
-               fmt::format("Lambert's formula to {:.1e} (bound 0.03)", worst), "");
+  report_extreme("lamps of all sizes in one mesh", "1e-12 to 1e6 m2, irradiance a third of a side away",
+                 fmt::format("Lambert's formula to {:.1e} (bound 0.03)", worst), "");
 }
 
-TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
+TEST(Meshes, SliversReflectLikeTheWholeSquare) {
   // A square metre of 200 slivers, each a millionth as wide as it is long, between two wide triangles; turned
   // any way.
   Random random(3);
@@ -162,7 +162,7 @@ TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
     const Vec3 n = turn == 0 ? Vec3(0, 0, 1) : random_unit(random);
     const Basis basis(n);
     const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
-    scene::PaddedVector<Vec3> p;
+    PaddedVector<Vec3> p;
     std::vector<std::array<std::uint32_t, 3>> t;
     std::vector<float> x{-0.5f};
     for (int i = 0; i <= 100; ++i) x.push_back(1e-6f * static_cast<float>(i - 50));
@@ -177,7 +177,7 @@ TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
     }
     builder.mesh(m, p, t);
     for (const Integrator integrator : kAll) {
-      // Only slivers are looked at.
+      // The camera sees only slivers.
       RenderOptions options;
       options.integrator = integrator;
       options.width = options.height = 16;
@@ -194,13 +194,13 @@ TEST(Meshes, SliversHoldLightAsTheirWholeDoes) {
       worst = std::max(worst, std::abs(picture.mean() - 1.0));
     }
   }
-  tell_extreme("slivers", "aspect 1e6, flat and turned; path, ao, nrc, nao",
-               fmt::format("white under a white sky, mean off by {:.1e} (bound 0.02)", worst), "");
+  report_extreme("slivers", "aspect 1e6, flat and turned; path, ao, nrc, nao",
+                 fmt::format("white under a white sky, mean off by {:.1e} (bound 0.02)", worst), "");
 }
 
 enum class Harm { degenerate, duplicate, flipped, loose };
 
-/// The room with faces added or turned that change nothing that light can see.
+/// The room with faces added or flipped in ways that must not change the picture.
 scene::Scene harmed(Harm harm) {
   scene::Scene s = room();
   for (std::size_t i = 0; i < s.meshes.size(); ++i) {
@@ -222,7 +222,7 @@ scene::Scene harmed(Harm harm) {
         }
         break;
       case Harm::duplicate:
-        // A veil or a pane twice is two of them.
+        // A duplicated transparent face attenuates twice.
         if (material.alpha_mode != scene::AlphaMode::opaque || material.transmits()) break;
         for (std::size_t t = 0; t < count; ++t) {
           const auto [a, b, c] = mesh.triangles[t];
@@ -230,12 +230,12 @@ scene::Scene harmed(Harm harm) {
         }
         break;
       case Harm::flipped:
-        // Of what is opaque and dark both sides look the same.
+        // Opaque surfaces that emit nothing look the same from both sides.
         if (material.emits() || material.transmits()) break;
         for (std::size_t t = 0; t < count; t += 2) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
         break;
       case Harm::loose:
-        // Each edge of the balls carries a third face, inwards, where nothing sees it.
+        // Each edge of the balls carries a third face, inwards, where it is invisible.
         if (material.transmits() || mesh.normals.empty()) break;
         for (std::size_t t = 0; t < count; ++t) {
           const auto [a, b, c] = mesh.triangles[t];
@@ -250,7 +250,7 @@ scene::Scene harmed(Harm harm) {
   return s;
 }
 
-TEST(Meshes, FacesThatAddNothingChangeNothing) {
+TEST(Meshes, RedundantFacesDoNotChangeThePicture) {
   const char* names[] = {"degenerate", "duplicate", "flipped", "with a third face at each edge"};
   double worst = 0.0;
   for (const Integrator integrator : kAll) {
@@ -267,14 +267,14 @@ TEST(Meshes, FacesThatAddNothingChangeNothing) {
       worst = std::max(worst, error / noise);
     }
   }
-  tell_extreme(
+  report_extreme(
       "degenerate, duplicate, flipped and non-manifold faces",
       "every face of a room; lamps duplicated too; path, ao, nrc, nao",
       fmt::format("the room's picture, off by {:.1f} times the noise between two seeds (bound 8)", worst),
       "");
 }
 
-TEST(Meshes, OneTriangleIsAScene) {
+TEST(Meshes, ASceneOfOneTriangleRenders) {
   double worst = 0.0;
   for (const Integrator integrator : kAll) {
     for (const bool shines : {false, true}) {
@@ -294,8 +294,8 @@ TEST(Meshes, OneTriangleIsAScene) {
     }
   }
   EXPECT_LT(worst, 0.01);
-  tell_extreme(
-      "one triangle", "matte and shining under a white sky; path, ao, nrc, nao",
+  report_extreme(
+      "one triangle", "matte and emitting under a white sky; path, ao, nrc, nao",
       fmt::format("mean off by {:.1e} (bound 0.01) for path and ao; the caches' pictures finite", worst), "");
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/camera_choice.h"
-#include "renderer/machine/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/pictures.h"
 #include "tests/extremes/scene_file.h"
@@ -35,7 +35,7 @@ Rendered with_its_own_camera(const scene::Scene& s, RenderOptions options) {
   return render(s, options);
 }
 
-TEST(Moved, AFileMovedByItsNodesIsTheSamePicture) {
+TEST(Moved, AFileMovedByItsNodesRendersTheSamePicture) {
   double worst = 0.0;
   for (const Kind& kind : kKinds) {
     const RenderOptions options = room_picture(kind.integrator, 16);
@@ -47,28 +47,28 @@ TEST(Moved, AFileMovedByItsNodesIsTheSamePicture) {
       const Rendered far = with_its_own_camera(from_file(sizes), options);
       EXPECT_TRUE(far.sane());
       const double error = block_error(here, far, options.width);
-      // A cache's layout follows the scouting paths, and a node more or less is another training.
+      // A cache's layout follows the scouting paths, and one node more or less changes the training.
       EXPECT_LT(error, (uses_cache(kind.integrator) ? 8.0 : 1.0) * noise) << kind.name << " " << sizes;
       if (!uses_cache(kind.integrator)) worst = std::max(worst, error / noise);
     }
   }
   const std::string refused = moved_file(1e9).refused();
   tests::expect_message(refused, {"test.glb", "1e+09"});
-  tell_extreme(
+  report_extreme(
       "a file's scene moved by its nodes", "10 to 1e6 times its size; path, ao, nrc, nao",
       fmt::format("path and ao: {:.1e} of the noise between two seeds (bound 1), nrc and nao below 8 times",
                   worst),
       "a vertex beyond 1e9 m: exit 2, one line");
 }
 
-/// Without a file nobody moves the scene back: what single precision itself holds.
-TEST(Moved, ASceneMadeInCodeKeepsWhatItsCoordinatesHold) {
+/// Only the reader of files moves a scene back to the origin: here single precision is the limit.
+TEST(Moved, ASceneMadeInCodeKeepsThePrecisionOfItsCoordinates) {
   const RenderOptions options = room_picture(Integrator::path, 16);
   const Rendered here = with_its_own_camera(from_file(0.0), options);
   RenderOptions again = options;
   again.seed = 1;
   const double noise = block_error(here, with_its_own_camera(from_file(0.0), again), options.width);
-  std::string told;
+  std::string reported;
   for (const double sizes : {1e2, 1e3, 1e4, 1e6}) {
     scene::Scene s = from_file(0.0);
     const auto d = static_cast<float>(sizes * kSize / std::sqrt(3.0));
@@ -79,10 +79,11 @@ TEST(Moved, ASceneMadeInCodeKeepsWhatItsCoordinatesHold) {
     if (sizes <= 1e4) {
       EXPECT_LT(error, 1.0);
     }
-    told += fmt::format("{}{:.1e} at {:.0e}", told.empty() ? "" : ", ", error, sizes);
+    reported += fmt::format("{}{:.1e} at {:.0e}", reported.empty() ? "" : ", ", error, sizes);
   }
-  tell_extreme("a scene made in code, its vertices moved", "1e2 to 1e6 times its size; path",
-               fmt::format("in units of the noise: {} sizes (bound 1 up to 1e4); always finite", told), "");
+  report_extreme("a scene made in code, its vertices moved", "1e2 to 1e6 times its size; path",
+                 fmt::format("in units of the noise: {} sizes (bound 1 up to 1e4); always finite", reported),
+                 "");
 }
 
 /// A white wall that fills the middle of the picture, half its width and height.
@@ -102,7 +103,7 @@ Rendered wall_seen_from(double distance) {
   return render(builder.scene(), options);
 }
 
-TEST(Moved, ACameraFarAwaySeesAWallWhereItStands) {
+TEST(Moved, AFarCameraSeesAWallAtTheRightPixels) {
   constexpr int kPixels = 64;
   for (const double distance : {1e-3, 1.0, 1e3, 1e6, 1e9, 1e11, 1e12}) {
     const Rendered picture = wall_seen_from(distance);
@@ -123,9 +124,10 @@ TEST(Moved, ACameraFarAwaySeesAWallWhereItStands) {
     }
   }
   EXPECT_THROW(wall_seen_from(1.1e12), BadOption);
-  tell_extreme("a camera near and far", "1e-3 to 1e12 m from a wall of its distance, of 1e9 m at most; path",
-               "the wall covers the pixels that it should, but for one at its border",
-               "further than 1e12 m: exit 1, with flag or node");
+  report_extreme("a camera near and far",
+                 "1e-3 to 1e12 m from a wall of its distance, of 1e9 m at most; path",
+                 "the wall covers the pixels that it should, but for one at its border",
+                 "further than 1e12 m: exit 1, with flag or node");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "neural/base/flush_denormals.h"
+#include "base/platform/flush_denormals.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 
@@ -15,11 +15,11 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 constexpr unsigned kFlushing = 0x8040;  // FTZ and DAZ
 
-/// Sets the control word of this thread and puts the old one back.
+/// Sets the control word of this thread and restores the old one.
 class ControlWord {
  public:
   explicit ControlWord(bool flushing) : before_(_mm_getcsr()) {
@@ -41,7 +41,7 @@ std::size_t denormals_in(std::span<const float> values) {
   return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_denormal));
 }
 
-/// Runs in an arena of so many threads that was made by a thread that flushes, or not.
+/// Runs `f` in an arena of `threads` threads, made by a thread that flushes denormals or does not.
 template <class F>
 void in_arena(int threads, bool flushing, const F& f) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
@@ -58,7 +58,7 @@ ModelState tiny_state(const Model& model, const TrainingOptions& options) {
   return state;
 }
 
-TEST(Denormals, TheControlWordIsPutBack) {
+TEST(Denormals, TheControlWordIsRestored) {
   for (const bool flushing : {false, true}) {
     const ControlWord word(flushing);
     const unsigned before = _mm_getcsr() & kFlushing;
@@ -76,11 +76,11 @@ TEST(Denormals, TheControlWordIsPutBack) {
     raw_answers(*backend, *c.model, batch);
     EXPECT_EQ(_mm_getcsr() & kFlushing, before);
   }
-  tell_extreme("the caller's control word", "with and without flushing", "the same after a step and answers",
-               "");
+  report_extreme("the caller's control word", "with and without flushing",
+                 "the same after a step and answers", "");
 }
 
-TEST(Denormals, StepsAndAnswersHaveTheSameBitsWhateverTheThreadsModes) {
+TEST(Denormals, StepsAndAnswersHaveTheSameBitsForAnyModeOfTheThreads) {
   std::size_t made = 0, tried = 0;
   for (const char* name : {"nrc", "nao", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
@@ -121,7 +121,7 @@ TEST(Denormals, StepsAndAnswersHaveTheSameBitsWhateverTheThreadsModes) {
     }
   }
   EXPECT_EQ(made, 0u);
-  tell_extreme(
+  report_extreme(
       "steps whose gradients would be denormal",
       fmt::format(
           "weights and targets of 1e-19 and 1e-38; {} runs: models, kernels, 1, 2 and 7 threads made by a "
@@ -147,8 +147,8 @@ TEST(Denormals, SmallWeightsAgreeWithTheReference) {
     }
   }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme("features of 1e-10 to 1e-38", "997 points, borders of triangles among them",
-               fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
+  report_extreme("features of 1e-10 to 1e-38", "997 points, borders of triangles among them",
+                 fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Inputs: points at borders and beyond, directions that are none.
+// Inputs: points at borders and beyond, directions that are not unit vectors.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 
@@ -8,7 +8,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 constexpr float kGreatest = std::numeric_limits<float>::max();
 
@@ -33,7 +33,7 @@ double worst_answers(const ModelCase& c, const OwnedBatch& batch) {
   return worst;
 }
 
-/// That they are finite, also while such points are learned from.
+/// Expects finite answers, also while such points are training records.
 void expect_finite_beyond(const ModelCase& c, const OwnedBatch& batch) {
   for (const auto& fast : fast_backends(c.model, {})) {
     EXPECT_TRUE(all_finite(raw_answers(*fast, *c.model, batch))) << fast->name();
@@ -78,9 +78,9 @@ TEST(ExtremeInputs, OneBlobAtItsBorders) {
       expect_finite_beyond(c, batch);
     }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme("one-blob at its borders",
-               "0, 1, their neighbours, borders of bins, -1, 2, 1e30; 2, 4 and 64 bins",
-               fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
+  report_extreme("one-blob at its borders",
+                 "0, 1, their neighbours, borders of bins, -1, 2, 1e30; 2, 4 and 64 bins",
+                 fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
 }
 
 TEST(ExtremeInputs, DirectionsAtPolesAndSeams) {
@@ -97,9 +97,9 @@ TEST(ExtremeInputs, DirectionsAtPolesAndSeams) {
     expect_finite_beyond(c, batch);
   }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme("directions at poles and on the seam of the azimuth",
-               "14 directions, the zero vector among them",
-               fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
+  report_extreme("directions at poles and on the seam of the azimuth",
+                 "14 directions, the zero vector among them",
+                 fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
 }
 
 TEST(ExtremeInputs, DirectionsThatAreNotUnitVectors) {
@@ -118,10 +118,10 @@ TEST(ExtremeInputs, DirectionsThatAreNotUnitVectors) {
     for (const float scale : {0.0f, 1e-45f, 1e-30f, 1e30f, 3e38f}) expect_finite_beyond(c, scaled(scale));
   }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme(
+  report_extreme(
       "directions that are not unit vectors", "lengths 0 to 3e38",
       fmt::format(
-          "1e-15 to 1e15: the direction alone counts, answers off by {:.1e} (bound 3e-5); beyond: finite",
+          "1e-15 to 1e15: only the direction counts, answers off by {:.1e} (bound 3e-5); beyond: finite",
           worst),
       "");
 }
@@ -139,8 +139,8 @@ TEST(ExtremeInputs, BarycentricsOutside) {
     expect_finite_beyond(c, batch);
   }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme("barycentrics outside the triangle", "by 1e-38 to 3e38, R = 1 to 64",
-               fmt::format("the nearest point's answers, off by {:.1e} (bound 3e-5)", worst), "");
+  report_extreme("barycentrics outside the triangle", "by 1e-38 to 3e38, R = 1 to 64",
+                 fmt::format("the nearest point's answers, off by {:.1e} (bound 3e-5)", worst), "");
 }
 
 TEST(ExtremeInputs, PositionsOutsideTheGrid) {
@@ -155,8 +155,8 @@ TEST(ExtremeInputs, PositionsOutsideTheGrid) {
     expect_finite_beyond(c, batch);
   }
   EXPECT_LE(worst, 5e-5);
-  tell_extreme("positions outside the hash grid's bounds", "up to 3e38 away",
-               fmt::format("the border's answers, off by {:.1e} (bound 5e-5)", worst), "");
+  report_extreme("positions outside the hash grid's bounds", "up to 3e38 away",
+                 fmt::format("the border's answers, off by {:.1e} (bound 5e-5)", worst), "");
 }
 
 TEST(ExtremeInputs, BoundsOfTheGrid) {
@@ -179,12 +179,12 @@ TEST(ExtremeInputs, BoundsOfTheGrid) {
     ++refused;
   }
   EXPECT_LE(worst, 5e-5);
-  tell_extreme("bounds of the hash grid", "sides of 1e-30 to 1e30",
-               fmt::format("answers off by {:.1e} (bound 5e-5)", worst),
-               fmt::format("{} bounds that are empty, turned or no numbers: BadConfiguration", refused));
+  report_extreme("bounds of the hash grid", "sides of 1e-30 to 1e30",
+                 fmt::format("answers off by {:.1e} (bound 5e-5)", worst),
+                 fmt::format("{} bounds that are empty, inverted or not numbers: BadConfiguration", refused));
 }
 
-// What no renderer gives: finite numbers whose products overflow.
+// Finite numbers whose products overflow; the renderer never gives them.
 TEST(ExtremeInputs, FrequenciesOfHugeNumbers) {
   for (const InputSource source : {InputSource::albedo, InputSource::roughness, InputSource::direction}) {
     const ModelCase c = plain(source, InputEncoding::frequency, 16);
@@ -201,8 +201,8 @@ TEST(ExtremeInputs, FrequenciesOfHugeNumbers) {
       expect_sound(*fast, *c.model, batch);
     }
   }
-  tell_extreme("frequency encoding of huge numbers", "1e35 and 3e38 among usual ones, 16 frequencies",
-               "no weight's gradient is lost, answers are finite", "");
+  report_extreme("frequency encoding of huge numbers", "1e35 and 3e38 among usual ones, 16 frequencies",
+                 "no weight's gradient is lost, answers are finite", "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Layouts: numbers of nodes, sizes of scenes and triangles, memory.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/extremes/extreme.h"
@@ -11,7 +11,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 std::string refusal_of(const SurfaceLayout& surfaces, const GateOptions& options) {
   return tests::refusal<BadConfiguration>([&] { build_gate_layout(surfaces, options); });
@@ -25,7 +25,7 @@ GateOptions finest(NodeStorage storage) {
   return options;
 }
 
-/// The last surface's nodes, in 32 bits as kernels number them: the greatest of all.
+/// Greatest node of the last surface, in 32 bits as kernels number nodes.
 std::uint32_t last_node(const GateLayout& layout, const OwnedMesh& mesh) {
   std::uint32_t greatest = 0;
   const auto surface = static_cast<std::uint32_t>(layout.surfaces.size() - 1);
@@ -57,12 +57,12 @@ TEST(ExtremeLayouts, NodesUpTo2To32AndNoMore) {
     surfaces.instances.assign(100'000, surfaces.instances[0]);
     tests::expect_message(refusal_of(surfaces, finest(storage)), {"2^32-1"});
   }
-  tell_extreme("nodes", fmt::format("up to {:.4g}, shared and per triangle", most),
-               "the last node's number is the count less one",
-               fmt::format("more: \"{}\" (exit code 1)", refused));
+  report_extreme("nodes", fmt::format("up to {:.4g}, shared and per triangle", most),
+                 "the last node's number is the count less one",
+                 fmt::format("more: \"{}\" (exit code 1)", refused));
 }
 
-TEST(ExtremeLayouts, BudgetsFromNothingToEverything) {
+TEST(ExtremeLayouts, BudgetsFromOneByteToTheGreatestNumber) {
   const auto surfaces = make_small_surfaces();
   GateOptions options;
   std::size_t fitted = 0;
@@ -77,8 +77,8 @@ TEST(ExtremeLayouts, BudgetsFromNothingToEverything) {
   options.memory_budget = 1;
   const std::string refused = refusal_of(surfaces->layout(), options);
   tests::expect_message(refused, {"memory budget", "1"});
-  tell_extreme("memory budgets", "2^12 to 2^64 - 1 bytes", fmt::format("{} of {} kept", fitted, 4),
-               fmt::format("1 byte: \"{}\"", refused));
+  report_extreme("memory budgets", "2^12 to 2^64 - 1 bytes", fmt::format("{} of {} kept", fitted, 4),
+                 fmt::format("1 byte: \"{}\"", refused));
 }
 
 TEST(ExtremeLayouts, SpacingsAndScalesOfAnySize) {
@@ -98,11 +98,11 @@ TEST(ExtremeLayouts, SpacingsAndScalesOfAnySize) {
         for (const GateSurfaceLevel& level : made.levels) EXPECT_LE(level.resolution, options.max_resolution);
         ++tried;
       }
-  tell_extreme("node spacings and scales of scenes", fmt::format("{} pairs of 1e-38 to 3e38", tried),
-               "R from 1 to the greatest allowed", "");
+  report_extreme("node spacings and scales of scenes", fmt::format("{} pairs of 1e-38 to 3e38", tried),
+                 "R from 1 to the greatest allowed", "");
 }
 
-// What overflows double precision: areas of 1e308 m2 and squares of them.
+// Areas of 1e308 m2 and their squares overflow double precision.
 TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloats) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
   OwnedMesh mesh = make_sheet(3, 0.0f, 1);
@@ -127,8 +127,8 @@ TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloats) {
         }
         ++tried;
       }
-  tell_extreme("coordinates of 3e38", fmt::format("{} rules and scales up to 3e38 on top", tried),
-               "R from 1 to the greatest allowed", "");
+  report_extreme("coordinates of 3e38", fmt::format("{} rules and scales up to 3e38 on top", tried),
+                 "R from 1 to the greatest allowed", "");
 }
 
 TEST(ExtremeLayouts, DegenerateDuplicateAndFlippedTriangles) {
@@ -150,8 +150,8 @@ TEST(ExtremeLayouts, DegenerateDuplicateAndFlippedTriangles) {
     agreement.expect_same(fmt::format("R {}", resolution), c, options, state,
                           make_smooth_batch(*c.model, state, 500, resolution, {}));
   }
-  tell_extreme("degenerate, duplicate, flipped and non-manifold triangles", "29 triangles, R = 1, 2, 32",
-               agreement.text(), "");
+  report_extreme("degenerate, duplicate, flipped and non-manifold triangles", "29 triangles, R = 1, 2, 32",
+                 agreement.text(), "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Vulkan beside the reference at the same extremes.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
@@ -9,7 +9,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 /// Null where there is no device and GATELIGHT_REQUIRE_VULKAN is not set.
 const std::shared_ptr<vulkan::Machine>& machine() {
@@ -69,12 +69,12 @@ TEST_F(ExtremesOnVulkan, Targets) {
   const ModelState state = random_state(*c.model, options, 3, false);
   expect_same("one triangle", c, options, state,
               make_smooth_batch(*c.model, state, 2000, 3, {.crowded = 1.0f}));
-  tell_extreme("targets, on Vulkan",
-               "one record; all 0; all equal; one of 1e30; half NaN and infinity; one triangle",
-               agreement.text(), "");
+  report_extreme("targets, on Vulkan",
+                 "one record; all 0; all equal; one of 1e30; half NaN and infinity; one triangle",
+                 agreement.text(), "");
 }
 
-TEST_F(ExtremesOnVulkan, WhereAnswersStart) {
+TEST_F(ExtremesOnVulkan, TheInitialBiasMatchesTheReference) {
   const ModelCase c = find_model_case("nrc");
   OwnedBatch batch = make_batch(*c.model, 1000, 6);
   batch.targets[50] = 1e6f;
@@ -94,7 +94,7 @@ TEST_F(ExtremesOnVulkan, WhereAnswersStart) {
     worst = std::max(worst, std::abs(got.parameters[last.biases + o] / bias - 1));
   }
   EXPECT_LE(worst, 1e-5);
-  tell_extreme(
+  report_extreme(
       "one target of 1e6 in the first batch, on Vulkan", "among 1000 records, a seventh of the others 0",
       fmt::format("the output's bias starts within {:.1e} of the reference's (bound 1e-5)", worst), "");
 }
@@ -123,8 +123,8 @@ TEST_F(ExtremesOnVulkan, Models) {
   config.hash_grid.features = 1;
   config.hash_grid.growth = 1.4f;
   random_step("16 hash levels", config);
-  tell_extreme("models, on Vulkan", "R = 1, 32, 64; L = 1, 16; 1 and 4 levels; a hash grid of 16",
-               agreement.text(), "");
+  report_extreme("models, on Vulkan", "R = 1, 32, 64; L = 1, 16; 1 and 4 levels; a hash grid of 16",
+                 agreement.text(), "");
 }
 
 TEST_F(ExtremesOnVulkan, WeightsAndCounters) {
@@ -144,15 +144,15 @@ TEST_F(ExtremesOnVulkan, WeightsAndCounters) {
       dead.parameters[layout.layers[l].biases + o] = -1e3f;
   dead.averages = dead.parameters;
   expect_same("dead", c, options, dead, batch);
-  options.adam.learning_rate = 1000;  // as it falls with the steps
+  options.adam.learning_rate = 1000;  // because it decays with the steps
   for (const std::uint32_t counter : {0xfffffffdu, 0xffffffffu}) {
     ModelState late = random_state(*c.model, options, 21, true);
     late.node_steps.assign(late.node_steps.size(), counter);
     late.steps = counter;
     expect_same("counter", c, options, late, make_smooth_batch(*c.model, late, 70, 21, {}), 4);
   }
-  tell_extreme("weights and counters, on Vulkan", "all zero; dead units; counters from 2^32 - 3 on, 4 steps",
-               agreement.text(), "");
+  report_extreme("weights and counters, on Vulkan",
+                 "all zero; dead units; counters from 2^32 - 3 on, 4 steps", agreement.text(), "");
 }
 
 TEST_F(ExtremesOnVulkan, RatesAndFp16StayFinite) {
@@ -172,8 +172,8 @@ TEST_F(ExtremesOnVulkan, RatesAndFp16StayFinite) {
       EXPECT_TRUE(std::equal(features.begin(), features.end(), after.parameters.begin()));
     }
   }
-  tell_extreme("learning rates, on Vulkan", "0, 1 with fp16 features, 1e3; 30 steps",
-               "finite; with 0 no feature changes", "");
+  report_extreme("learning rates, on Vulkan", "0, 1 with fp16 features, 1e3; 30 steps",
+                 "finite; with 0 no feature changes", "");
 }
 
 }  // namespace

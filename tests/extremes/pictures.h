@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of scenes at the extremes, and what is asked of them.
+// Pictures of scenes at the extremes, and checks of them.
 
 #include <algorithm>
 #include <cmath>
@@ -49,13 +49,13 @@ inline renderer::RenderOptions room_picture(renderer::Integrator integrator, int
   return options;
 }
 
-/// Whatever stands at the origin, about a metre large, under a sky of radiance 1.
+/// Options for a picture of an object at the origin, about a metre large, under a sky of radiance 1.
 inline renderer::RenderOptions white_sky(int spp, int depth) {
   renderer::RenderOptions options;
   options.width = options.height = 16;
   options.spp = spp;
   options.max_depth = depth;
-  options.environment.constant = scene::Color::Ones();
+  options.environment.constant = Color::Ones();
   options.filter = renderer::PixelFilter::box;
   options.camera.look_at = renderer::LookAt{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
   options.camera.fov_degrees = 16.0f;
@@ -94,15 +94,15 @@ inline double block_error(const Rendered& a, const Rendered& b, int width, int b
   return sum / blocks;
 }
 
-/// Values that differ in their bits.
+/// Number of values that differ in their bits.
 inline std::size_t different(const Rendered& a, const Rendered& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i] ? 1 : 0;
   return count;
 }
 
-/// All vertices, cameras and lights of a scene whose instances are baked: scaled about the origin, then
-/// moved. Light of lamps stays the radiance it is.
+/// Scales all vertices, cameras and lights of a scene whose instances are baked about the origin, then moves
+/// them. The radiance of lamps does not change.
 inline void resize(scene::Scene& scene, float scale, const Vec3& shift = Vec3::Zero()) {
   for (scene::Mesh& mesh : scene.meshes) {
     for (Vec3& p : mesh.positions) p = p * scale + shift;

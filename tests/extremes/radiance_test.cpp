@@ -32,7 +32,7 @@ RenderOptions small(Integrator integrator, int spp) {
   return options;
 }
 
-/// A closed box of one matte material that shines: every point of it sends emission / (1 - albedo).
+/// A closed box of one matte material that emits: every point has the radiance emission / (1 - albedo).
 void add_furnace(SceneBuilder& builder, const Vec3& centre, float albedo, float emission) {
   const int m = builder.material(SceneBuilder::lambert(Color::Constant(albedo), Color::Constant(emission)));
   builder.box(m, centre - Vec3(1, 1, 1), centre + Vec3(1, 1, 1), true);
@@ -45,7 +45,7 @@ double worst_error(const Rendered& picture, double expected) {
   return worst;
 }
 
-TEST(Radiance, DimAndBrightRoomsOfOneSceneEachShowTheirOwn) {
+TEST(Radiance, DimAndBrightRoomsOfOneSceneKeepTheirOwnRadiance) {
   const float emissions[] = {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f};
   SceneBuilder builder;
   for (int i = 0; i < 5; ++i)
@@ -65,15 +65,15 @@ TEST(Radiance, DimAndBrightRoomsOfOneSceneEachShowTheirOwn) {
     }
   }
   EXPECT_LT(worst, 0.02);
-  tell_extreme(
-      "rooms side by side, radiance far apart", "1e-6 to 1e6 in one scene, path and nrc",
+  report_extreme(
+      "rooms side by side, very different radiance", "1e-6 to 1e6 in one scene, path and nrc",
       fmt::format("each room's mean off by {:.1e} (bound 0.02) with path; nrc finite and not negative",
                   worst),
       "");
 }
 
 TEST(Radiance, ASunThroughAKeyholeLightsItsPatchAndNothingElse) {
-  // A closed dark room of 4 m with a hole of 1 cm in its ceiling; the sun stands straight above.
+  // A closed dark room of 4 m with a hole of 1 cm in its ceiling; the sun stands directly above.
   constexpr float kHole = 0.01f;
   constexpr float kSun = 1e8f;
   constexpr float kAlbedo = 0.5f;
@@ -109,13 +109,14 @@ TEST(Radiance, ASunThroughAKeyholeLightsItsPatchAndNothingElse) {
     const Rendered picture = render(builder.scene(), whole);
     EXPECT_TRUE(picture.sane());
   }
-  tell_extreme("a sun through a keyhole", "1e8 W/m2 through 1 cm2 of a closed room; path, ao, nrc, nao",
-               fmt::format("lit floor off by {:.1e} (bound 1e-4), the rest black in direct light; all finite",
-                           std::abs(static_cast<double>(peak) / expected - 1.0)),
-               "");
+  report_extreme(
+      "a sun through a keyhole", "1e8 W/m2 through 1 cm2 of a closed room; path, ao, nrc, nao",
+      fmt::format("lit floor off by {:.1e} (bound 1e-4), the rest black in direct light; all finite",
+                  std::abs(static_cast<double>(peak) / expected - 1.0)),
+      "");
 }
 
-TEST(Radiance, WithoutLightAllIsBlack) {
+TEST(Radiance, ASceneWithoutLightIsBlack) {
   float learned = 0.0f;
   for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
     scene::Scene s = room();
@@ -130,13 +131,13 @@ TEST(Radiance, WithoutLightAllIsBlack) {
     }
   }
   EXPECT_LT(learned, 0.01f);
-  tell_extreme("no light at all", "path; nrc after 12 steps of training on nothing",
-               fmt::format("path exactly 0 everywhere; nrc's brightest pixel {:.1e} (bound 0.01)",
-                           static_cast<double>(learned)),
-               "");
+  report_extreme("no light at all", "path; nrc after 12 steps of training without light",
+                 fmt::format("path exactly 0 everywhere; nrc's brightest pixel {:.1e} (bound 0.01)",
+                             static_cast<double>(learned)),
+                 "");
 }
 
-TEST(Radiance, BlackMaterialsShowEmissionAlone) {
+TEST(Radiance, BlackMaterialsShowOnlyEmission) {
   for (const Integrator integrator : kAll) {
     scene::Scene s = room();
     for (scene::Material& m : s.materials) {
@@ -149,15 +150,15 @@ TEST(Radiance, BlackMaterialsShowEmissionAlone) {
     EXPECT_TRUE(picture.sane());
     if (integrator == Integrator::ao || integrator == Integrator::nao) continue;
     for (const float v : picture.values) {
-      // A pixel of 4 samples: so many of them see the lamp.
+      // A pixel has 4 samples, of which 0 to 4 hit the lamp.
       EXPECT_TRUE(v == 0.0f || v == 2.5f || v == 5.0f || v == 7.5f || v == 10.0f) << v;
     }
   }
-  tell_extreme("black materials and a lamp", "path, ao, nrc, nao",
-               "exactly the lamp's radiance and 0, nothing else", "");
+  report_extreme("black materials and a lamp", "path, ao, nrc, nao",
+                 "exactly the lamp's radiance and 0, nothing else", "");
 }
 
-TEST(Radiance, SurfacesThatOnlyShineShowTheirEmission) {
+TEST(Radiance, BlackEmittersShowTheirEmission) {
   double worst = 0.0;
   for (const float emission : {1e-6f, 1.0f, 1e6f, 1e30f}) {
     SceneBuilder builder;
@@ -173,16 +174,16 @@ TEST(Radiance, SurfacesThatOnlyShineShowTheirEmission) {
     }
   }
   EXPECT_LT(worst, 1e-6);
-  tell_extreme("emission alone", "1e-6 to 1e30, albedo 0; path, ao, nrc, nao",
-               fmt::format("emission to {:.1e} (bound 1e-6)", worst), "");
+  report_extreme("emission only", "1e-6 to 1e30, albedo 0; path, ao, nrc, nao",
+                 fmt::format("emission to {:.1e} (bound 1e-6)", worst), "");
 }
 
-TEST(Radiance, LayersOfWhatLeavesSinglePrecisionEndAtItsGreatestNumber) {
+TEST(Radiance, LayersThatOverflowBecomeTheGreatestFloat) {
   const tests::TemporaryFolder folder;
   const std::string file = (folder / "a.exr").string();
   float greatest = 0.0f;
   for (const float emission : {1e10f, 1e19f, 1e30f}) {
-    // Small lamps: of the samples of a pixel some meet one.
+    // Small lamps: only some samples of a pixel hit one.
     SceneBuilder builder;
     const int floor = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
     const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(emission)));
@@ -210,12 +211,12 @@ TEST(Radiance, LayersOfWhatLeavesSinglePrecisionEndAtItsGreatestNumber) {
     }
   }
   EXPECT_EQ(greatest, std::numeric_limits<float>::max());
-  tell_extreme("layers of an EXR whose numbers leave single precision",
-               "emission 1e10 to 1e30; variance, cache-answer, cache-error; path, nrc",
-               "all finite; what is beyond is the greatest float", "");
+  report_extreme("layers of an EXR that overflow single precision",
+                 "emission 1e10 to 1e30; variance, cache-answer, cache-error; path, nrc",
+                 "all finite; overflows become the greatest float", "");
 }
 
-TEST(Radiance, ARoomThatAbsorbsNothingHoldsTheLightOfEachScattering) {
+TEST(Radiance, AWhiteFurnaceAddsItsEmissionAtEachScattering) {
   // Every scattering event adds the emission once more: (depth + 1) times it, with and without roulette.
   double worst = 0.0;
   SceneBuilder builder;
@@ -241,7 +242,7 @@ TEST(Radiance, ARoomThatAbsorbsNothingHoldsTheLightOfEachScattering) {
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
     EXPECT_TRUE(render(builder.scene(), small(integrator, 2)).sane());
   }
-  tell_extreme(
+  report_extreme(
       "albedo 1 in a closed room", "depth 0 to 1000 without roulette, 30 with; path, nrc, nao",
       fmt::format(
           "(depth + 1) times the emission: every pixel to {:.1e} (bound 1e-3), with roulette the mean "
@@ -250,14 +251,14 @@ TEST(Radiance, ARoomThatAbsorbsNothingHoldsTheLightOfEachScattering) {
       "");
 }
 
-TEST(Radiance, OneHotTexelOfTheSkyIsFoundAndCountedOnce) {
+TEST(Radiance, OneHotTexelOfTheSkyIsSampledWithoutBias) {
   // A sky of 1 with one texel of 1e8: irradiance on a plane by direct sums over the texels.
   constexpr int kWidth = 256, kHeight = 128;
   std::vector<Color> texels(kWidth * kHeight, Color::Ones());
   constexpr int kHotX = 40, kHotY = 30;
   texels[kHotY * kWidth + kHotX].setConstant(1e8f);
   const EnvironmentPicture picture(kWidth, kHeight, texels);
-  // Of samples by importance, the mean of radiance over density is the light from the whole sphere.
+  // Importance sampling: the mean of radiance over density is the light from the whole sphere.
   Random random(3);
   double sum = 0.0, squares = 0.0;
   constexpr int kSamples = 200'000;
@@ -276,19 +277,19 @@ TEST(Radiance, OneHotTexelOfTheSkyIsFoundAndCountedOnce) {
   const double mean = sum / kSamples;
   const double error = std::sqrt((squares / kSamples - mean * mean) / kSamples);
   EXPECT_LT(std::abs(mean - whole), 4.5 * error + 1e-4 * whole);
-  tell_extreme("one hot texel in the sky", "1e8 among texels of 1, 256x128",
-               fmt::format("light of the whole sphere off by {:.1e} ({:.1f} standard errors, bound 4.5)",
-                           std::abs(mean / whole - 1.0), std::abs(mean - whole) / error),
-               "");
+  report_extreme("one hot texel in the sky", "1e8 among texels of 1, 256x128",
+                 fmt::format("light of the whole sphere off by {:.1e} ({:.1f} standard errors, bound 4.5)",
+                             std::abs(mean / whole - 1.0), std::abs(mean - whole) / error),
+                 "");
 }
 
-TEST(Radiance, InfiniteTexelsOfTheSkyAreItsBrightest) {
+TEST(Radiance, InfiniteTexelsOfTheSkyBecomeItsBrightestFiniteValue) {
   const tests::TemporaryFolder folder;
   const std::string file = (folder / "sky.exr").string();
   for (const float brightest : {1.0f, 1e6f, 1e30f}) {
     const float taken = std::max(brightest, 65504.0f);
     std::vector<float> means;
-    for (const float sun : {scene::kInfinity, taken}) {
+    for (const float sun : {kInfinity, taken}) {
       Picture sky{.width = 16, .height = 8};
       Layer beauty{.channels = {"R", "G", "B"}, .full_precision = true};
       beauty.values.assign(3 * 16 * 8, 0.5f);
@@ -302,7 +303,7 @@ TEST(Radiance, InfiniteTexelsOfTheSkyAreItsBrightest) {
         options.camera = small_picture().camera;
         const Rendered picture = render(room(), options);
         EXPECT_TRUE(picture.sane()) << brightest;
-        EXPECT_EQ(picture.statistics.warnings.size(), sun == scene::kInfinity ? 1u : 0u);
+        EXPECT_EQ(picture.statistics.warnings.size(), sun == kInfinity ? 1u : 0u);
         means.push_back(static_cast<float>(picture.mean()));
       }
     }
@@ -310,8 +311,8 @@ TEST(Radiance, InfiniteTexelsOfTheSkyAreItsBrightest) {
       EXPECT_EQ(means[i], means[i + std::size(kAll)]) << brightest << " " << i;
     }
   }
-  tell_extreme("infinite texels of the sky", "beside a brightest of 1, 1e6 and 1e30; path, ao, nrc, nao",
-               "the picture of a sky that has the brightest there, 65504 at least, and a warning", "");
+  report_extreme("infinite texels of the sky", "beside a brightest of 1, 1e6 and 1e30; path, ao, nrc, nao",
+                 "the picture of a sky with the brightest value there, at least 65504, and a warning", "");
 }
 
 }  // namespace

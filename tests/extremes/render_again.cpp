@@ -1,4 +1,4 @@
-// gatelight-render-again SCENE N [small]: renders a scene again and again in one process, and tells its
+// gatelight-render-again SCENE N [small]: renders a scene again and again in one process, and prints its
 // memory. Exit code 1 if it grows. For scripts/check/leaks.
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   if (repetitions < 20) return 0;
-  // The allocator keeps pieces for a while: compared are the least of the second quarter and of the last.
+  // The allocator keeps pieces for a while. Compares the least of the second quarter with that of the last.
   const auto quarter = repetitions / 4;
   const double before = *std::min_element(memory.begin() + quarter, memory.begin() + 2 * quarter);
   const double after = *std::min_element(memory.end() - quarter, memory.end());

@@ -1,4 +1,4 @@
-// Denormal floats in the renderer: its threads flush them, whoever calls it.
+// Denormal floats in the renderer: its threads flush them, whatever the caller does.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,12 +16,12 @@
 namespace gatelight::renderer {
 namespace {
 
+using testing::report_extreme;
 using testing::room;
-using testing::tell_extreme;
 
 constexpr unsigned kFlushing = 0x8040;  // FTZ and DAZ
 
-TEST(RendererDenormals, EveryThreadFlushesAndTheCallerIsLeftAlone) {
+TEST(RendererDenormals, EveryThreadFlushesAndTheCallersControlWordIsKept) {
   const scene::Scene s = room();
   std::size_t most = 0;
   std::vector<std::vector<float>> pictures;
@@ -36,7 +36,7 @@ TEST(RendererDenormals, EveryThreadFlushesAndTheCallerIsLeftAlone) {
     std::set<std::thread::id> threads;
     std::atomic<int> without{0};
     Renderer renderer(s, options);
-    // Asked by the thread that has finished a tile.
+    // Called by the thread that has finished a tile.
     const Picture picture = renderer.render({.stop = [&] {
       if ((_mm_getcsr() & kFlushing) != kFlushing) ++without;
       const std::lock_guard lock(mutex);
@@ -57,9 +57,9 @@ TEST(RendererDenormals, EveryThreadFlushesAndTheCallerIsLeftAlone) {
   EXPECT_EQ(pictures[0], pictures[2]);
   EXPECT_EQ(pictures[1], pictures[3]);
   EXPECT_GE(most, 2u);
-  tell_extreme("the control word in the threads that render",
-               fmt::format("path and ao, callers that flush or not, {} threads seen", most),
-               "all flush; the same bits; the caller's word as it was", "");
+  report_extreme("the control word in the threads that render",
+                 fmt::format("path and ao, callers that flush or not, {} threads used", most),
+                 "all flush; the same bits; the caller's word as it was", "");
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ TEST(Scale, PowersOfTwoGiveTheSameBitsAndTraining) {
       EXPECT_EQ(one.statistics.cache.resolution_histogram, other.statistics.cache.resolution_histogram);
     }
   }
-  tell_extreme("a room scaled by powers of two", "2^-20 to 2^20; path, ao, nrc, nao",
-               "the same bits of every pixel, the same resolutions and loss", "");
+  report_extreme("a room scaled by powers of two", "2^-20 to 2^20; path, ao, nrc, nao",
+                 "the same bits of every pixel, the same resolutions and loss", "");
 }
 
 TEST(Scale, AnyScaleGivesTheSamePictureAndTraining) {
@@ -59,7 +59,7 @@ TEST(Scale, AnyScaleGivesTheSamePictureAndTraining) {
   }
   EXPECT_LT(worst, 0.01);
   EXPECT_LT(worst_loss, 0.01);
-  tell_extreme(
+  report_extreme(
       "a room scaled", "1e-6 to 1e8; path, ao, nrc, nao",
       fmt::format("{:.1e} of the noise between two seeds (bound 0.01); the same resolutions, loss to {:.1e} "
                   "(bound 0.01); at 1e-9 another picture of the same noise",

@@ -9,7 +9,7 @@
 
 namespace gatelight::testing {
 
-inline nlohmann::json triple(const scene::Color& c) {
+inline nlohmann::json triple(const Color& c) {
   return {c.x(), c.y(), c.z()};
 }
 
@@ -45,7 +45,7 @@ inline scene::GltfBuilder file_of(const scene::Scene& scene, const scene::Camera
   for (const scene::Mesh& mesh : scene.meshes) {
     const auto floats = [](const auto& values) {
       std::vector<float> list;
-      for (const scene::Vec3& v : values) list.insert(list.end(), {v.x(), v.y(), v.z()});
+      for (const Vec3& v : values) list.insert(list.end(), {v.x(), v.y(), v.z()});
       return list;
     };
     std::vector<std::uint32_t> indices;

@@ -9,7 +9,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 constexpr std::uint64_t kSteps = 1'000'000;
 constexpr std::uint64_t kPart = 100'000;
@@ -54,7 +54,7 @@ Points make_points(std::size_t count) {
 }
 
 TEST(ExtremeLength, AMillionStepsStayFiniteAndDoNotDrift) {
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);  // of 16 records
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);  // 16 records a batch
   const OwnedMesh mesh = make_sheet(4, 0.0f, 1);
   ModelConfig config = default_gate_config();
   config.gate.features = 4;
@@ -92,7 +92,7 @@ TEST(ExtremeLength, AMillionStepsStayFiniteAndDoNotDrift) {
   EXPECT_LE(first, 0.05);
   EXPECT_LE(worst, 1.2 * first);
   EXPECT_LE(greatest, 30.0);
-  tell_extreme(
+  report_extreme(
       "a million steps", "16 records each, targets of 0.2 to 1 with noise of +-0.3",
       fmt::format(
           "error of answers {:.2g} after 1e5 steps, at most {:.2g} from there on (bound 1.2 times), {:.2g} "

@@ -1,7 +1,7 @@
-// Training: extremes of what learns: resolutions, feature vectors, weights.
+// Training: extremes of the model: resolutions, feature vectors, weights.
 
-#include "neural/base/errors.h"
-#include "neural/base/half.h"
+#include "base/errors.h"
+#include "base/half.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 
@@ -9,9 +9,9 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
-/// A step and answers of the model beside the reference, with random weights and some bad records.
+/// Compares a step and answers of the model with the reference, with random weights and some bad records.
 void expect_same(Agreement& agreement, const ModelCase& c, std::uint64_t seed) {
   const TrainingOptions options = smooth_options();
   const ModelState state = random_state(*c.model, options, seed, true);
@@ -44,9 +44,9 @@ TEST(ExtremeModels, ResolutionsOf1And32And64) {
   EXPECT_THROW(make_case("R_65", config), BadConfiguration);
   config.gate.fixed_resolution = 0;
   EXPECT_THROW(make_case("R_0", config), BadConfiguration);
-  tell_extreme("resolutions R",
-               fmt::format("1, 2, 3, 32, 64, shared and per triangle; up to {} nodes", nodes),
-               agreement.text(), "R = 0 and R = 65: BadConfiguration (exit code 1)");
+  report_extreme("resolutions R",
+                 fmt::format("1, 2, 3, 32, 64, shared and per triangle; up to {} nodes", nodes),
+                 agreement.text(), "R = 0 and R = 65: BadConfiguration (exit code 1)");
 }
 
 TEST(ExtremeModels, FeatureVectorsOf1And16AndStacksOf1And4) {
@@ -76,8 +76,8 @@ TEST(ExtremeModels, FeatureVectorsOf1And16AndStacksOf1And4) {
     EXPECT_THROW(make_case("refused", config), BadConfiguration);
     ++refused;
   }
-  tell_extreme("feature vectors of L numbers, levels", "L = 1 and 16, 1 and 4 levels, R from 1 to 64",
-               agreement.text(), fmt::format("{} beyond: BadConfiguration (exit code 1)", refused));
+  report_extreme("feature vectors of L numbers, levels", "L = 1 and 16, 1 and 4 levels, R from 1 to 64",
+                 agreement.text(), fmt::format("{} beyond: BadConfiguration (exit code 1)", refused));
 }
 
 TEST(ExtremeModels, HashGridsOf1And16Levels) {
@@ -95,8 +95,8 @@ TEST(ExtremeModels, HashGridsOf1And16Levels) {
         expect_same(agreement, make_case(fmt::format("hash_{}_{}_{}", levels, features, log2_size), config),
                     ++seed);
       }
-  tell_extreme("hash grids", "1 and 16 levels, 1 and 16 numbers, tables of 2^3 and 2^16", agreement.text(),
-               "");
+  report_extreme("hash grids", "1 and 16 levels, 1 and 16 numbers, tables of 2^3 and 2^16", agreement.text(),
+                 "");
 }
 
 TEST(ExtremeModels, NetworksOf16And128WithOneAndFiveLayers) {
@@ -110,7 +110,8 @@ TEST(ExtremeModels, NetworksOf16And128WithOneAndFiveLayers) {
         expect_same(agreement, make_case(fmt::format("mlp_{}_{}_{}", width, layers, outputs), config),
                     ++seed);
       }
-  tell_extreme("networks", "16 and 128 wide, 1 and 5 hidden layers, 1 and 16 outputs", agreement.text(), "");
+  report_extreme("networks", "16 and 128 wide, 1 and 5 hidden layers, 1 and 16 outputs", agreement.text(),
+                 "");
 }
 
 /// A model over one small triangle.
@@ -132,7 +133,7 @@ TEST(ExtremeModels, OneNode) {
   const TrainingOptions options = smooth_options();
   const ModelState state = random_state(*c.model, options, 70, true);
   agreement.expect_same("one node", c, options, state, make_smooth_batch(*c.model, state, 5000, 70, {}));
-  tell_extreme("one node", "5000 records on it", agreement.text(), "");
+  report_extreme("one node", "5000 records on it", agreement.text(), "");
 }
 
 TEST(ExtremeModels, NoStoredSurface) {
@@ -166,8 +167,8 @@ TEST(ExtremeModels, NoStoredSurface) {
       ++tried;
     }
   }
-  tell_extreme("nothing stored", "no instance, and one without sides",
-               "a step changes nothing, answers are finite", "all records counted as unstored");
+  report_extreme("nothing stored", "no instance, and one without sides",
+                 "a step changes nothing, answers are finite", "all records counted as unstored");
 }
 
 TEST(ExtremeModels, Fp16FeaturesAtOverflow) {
@@ -200,8 +201,8 @@ TEST(ExtremeModels, Fp16FeaturesAtOverflow) {
     }
   }
   EXPECT_EQ(worst, 65504.0);
-  tell_extreme("fp16 features at overflow", "all at +-65504, 10 steps of a rate of 1e6",
-               "features stay within 65504, answers finite", "");
+  report_extreme("fp16 features at overflow", "all at +-65504, 10 steps of a rate of 1e6",
+                 "features stay within 65504, answers finite", "");
 }
 
 TEST(ExtremeModels, Fp16FeaturesBelowTheNormalRange) {
@@ -213,7 +214,7 @@ TEST(ExtremeModels, Fp16FeaturesBelowTheNormalRange) {
   // The steps of fp16 from its least number up.
   for (std::size_t i = 0; i < c.model->parameters.network; ++i)
     state.parameters[i] = state.averages[i] = static_cast<float>(i % 2048) * 0x1p-24f;
-  // So that the features decide.
+  // Makes the features decide.
   for (std::size_t i = c.model->parameters.network; i < c.model->parameters.count; ++i)
     state.parameters[i] = state.averages[i] *= 100.0f;
   const OwnedBatch batch = make_batch(*c.model, 997, 81);
@@ -226,9 +227,9 @@ TEST(ExtremeModels, Fp16FeaturesBelowTheNormalRange) {
     EXPECT_EQ(fast->export_state().parameters, state.parameters) << fast->name();
   }
   EXPECT_LE(worst, 3e-5);
-  tell_extreme(
+  report_extreme(
       "fp16 features below 6.1e-5", "every subnormal number of fp16",
-      fmt::format("read exactly though denormals are flushed: answers off by {:.1e} (bound 3e-5)", worst),
+      fmt::format("read exactly although denormals are flushed: answers off by {:.1e} (bound 3e-5)", worst),
       "");
 }
 
@@ -243,7 +244,7 @@ TEST(ExtremeModels, AllWeightsZero) {
     state.averages = state.parameters;
     OwnedBatch batch = make_batch(*c.model, 96, 90);
     agreement.expect_same("zero", c, options, state, batch);
-    // Only the output's bias can learn: it finds the mean.
+    // Only the output's bias can be trained: it finds the mean.
     TrainingOptions plain;
     plain.loss = Loss::l2;
     plain.adam.learning_rate = 0.05f;
@@ -259,9 +260,9 @@ TEST(ExtremeModels, AllWeightsZero) {
     expect_sound(*fast, *c.model, batch);
   }
   EXPECT_LE(worst, 0.01);
-  tell_extreme("all weights zero", "4 models, 600 steps",
-               fmt::format("answers are the mean target to {:.1e} (bound 0.01); {}", worst, agreement.text()),
-               "");
+  report_extreme(
+      "all weights zero", "4 models, 600 steps",
+      fmt::format("answers are the mean target to {:.1e} (bound 0.01); {}", worst, agreement.text()), "");
 }
 
 // Every hidden unit on its negative side for all records.
@@ -285,8 +286,8 @@ TEST(ExtremeModels, DeadUnits) {
       expect_sound(*fast, *c.model, batch);
     }
   }
-  tell_extreme("dead units", "all hidden biases -1000, slopes 0, 0.01 and 0.3, up to 5 x 128",
-               fmt::format("{}; finite after 100 steps", agreement.text()), "");
+  report_extreme("dead units", "all hidden biases -1000, slopes 0, 0.01 and 0.3, up to 5 x 128",
+                 fmt::format("{}; finite after 100 steps", agreement.text()), "");
 }
 
 TEST(ExtremeModels, L2WithHugeWeights) {
@@ -294,7 +295,7 @@ TEST(ExtremeModels, L2WithHugeWeights) {
   for (const float weight : {1e3f, 1e4f}) {
     const ModelCase c = find_model_case("mlp_1x16");
     TrainingOptions options = smooth_options();
-    options.loss = Loss::l2;  // relative, an answer near 0 among such numbers is rounding alone
+    options.loss = Loss::l2;  // relative, an answer near 0 among such numbers is only rounding
     options.adam.l2_network = 0.01f;
     options.adam.epsilon = weight * weight * weight;
     ModelState state = random_state(*c.model, options, 92, false);
@@ -311,8 +312,8 @@ TEST(ExtremeModels, L2WithHugeWeights) {
     for (int step = 0; step < 50; ++step) fast->train(batch.training());
     expect_sound(*fast, *c.model, batch);
   }
-  tell_extreme("l2 with huge weights", "weights times 1e3 and 1e4; l2 of 1e30",
-               fmt::format("{}; finite after 50 steps", agreement.text()), "");
+  report_extreme("l2 with huge weights", "weights times 1e3 and 1e4; l2 of 1e30",
+                 fmt::format("{}; finite after 50 steps", agreement.text()), "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Training: extremes of the learning rate and of step counters.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/learning/adam.h"
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
@@ -9,7 +9,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 TEST(ExtremeRates, RateZeroChangesNoParameter) {
   std::size_t tried = 0;
@@ -32,11 +32,11 @@ TEST(ExtremeRates, RateZeroChangesNoParameter) {
       }
     }
   }
-  tell_extreme("learning rate 0", fmt::format("20 steps, {} models, options and instruction sets", tried),
-               "no bit of parameters and averages changes", "");
+  report_extreme("learning rate 0", fmt::format("20 steps, {} models, options and instruction sets", tried),
+                 "no bit of parameters and averages changes", "");
 }
 
-TEST(ExtremeRates, RateOf1e_8MovesWhatAFloatCanHold) {
+TEST(ExtremeRates, RateOf1e_8MovesParametersByAtMostItsBound) {
   Agreement agreement;
   double worst = 0;
   for (const char* name : {"nrc", "hash_F4"}) {
@@ -65,15 +65,15 @@ TEST(ExtremeRates, RateOf1e_8MovesWhatAFloatCanHold) {
     }
   }
   EXPECT_LE(worst, 2.4e-8 + 3e-8);
-  tell_extreme(
+  report_extreme(
       "learning rate 1e-8", "100 steps",
       fmt::format("{}; a step moves by at most {:.1e} (bound 5.4e-8: 2.4 rates and half a last place)",
                   agreement.text(), worst),
       "");
 }
 
-// Nothing overflows, so that whoever watches loss and answers can tell (the renderer does).
-TEST(ExtremeRates, RatesOf1And1000StayFiniteAndShow) {
+// Nothing overflows, so that loss and answers show the divergence. The renderer watches them.
+TEST(ExtremeRates, RatesOf1And1000StayFiniteAndShowTheDivergence) {
   double least = 1e30;
   for (const char* name : {"nrc", "nao", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
@@ -99,16 +99,16 @@ TEST(ExtremeRates, RatesOf1And1000StayFiniteAndShow) {
       }
   }
   EXPECT_GE(least, 100.0);
-  tell_extreme(
+  report_extreme(
       "learning rates 1 and 1e3", "100 steps, three precisions of features",
       fmt::format(
           "state and answers finite; with 1e3 answers reach {:.1e} (targets are 2 at most; bound 100), "
-          "which is how divergence is noticed",
+          "which shows the divergence",
           least),
       "");
 }
 
-TEST(ExtremeRates, RatesThatAreNoNumbersAreRefused) {
+TEST(ExtremeRates, InvalidOptionsAreRefused) {
   const ModelCase c = find_model_case("nrc");
   std::size_t tried = 0;
   const auto refused = [&](auto change) {
@@ -132,12 +132,12 @@ TEST(ExtremeRates, RatesThatAreNoNumbersAreRefused) {
     refused([&](TrainingOptions& o) { o.adam.beta2 = bad; });
     refused([&](TrainingOptions& o) { o.average.decay = bad; });
   }
-  tell_extreme("options that are no numbers or out of range", fmt::format("{} of them", tried), "",
-               "BadConfiguration that names option, value and range (exit code 1)");
+  report_extreme("options that are not numbers or out of range", fmt::format("{} of them", tried), "",
+                 "BadConfiguration that names option, value and range (exit code 1)");
 }
 
 // With the least epsilon allowed and gradients that are exactly 0: 0 / (0 + epsilon) is 0.
-TEST(ExtremeRates, NoGradientIsNoStep) {
+TEST(ExtremeRates, AZeroGradientMovesNoParameter) {
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options;
   options.adam.epsilon = 1e-30f;
@@ -157,7 +157,7 @@ TEST(ExtremeRates, NoGradientIsNoStep) {
       expect_sound(*fast, *c.model, batch);
     }
   }
-  tell_extreme("epsilon 1e-30 and no gradient", "50 steps from zero to zero", "no parameter moves", "");
+  report_extreme("epsilon 1e-30 and no gradient", "50 steps from zero to zero", "no parameter moves", "");
 }
 
 TEST(ExtremeRates, DecayAndAverageFromTheFirstStepToTheLast) {
@@ -177,16 +177,16 @@ TEST(ExtremeRates, DecayAndAverageFromTheFirstStepToTheLast) {
     EXPECT_TRUE(std::isfinite(factors.step) && factors.step > 0.0 && factors.epsilon > 0.0) << t;
   }
   EXPECT_NEAR(weight, 0.01, 1e-7);
-  // The least and the greatest decay that can be asked for.
+  // The least and the greatest decay allowed.
   for (const float steps : {1e-38f, std::numeric_limits<float>::max()}) {
     adam.decay_steps = steps;
     for (const std::uint64_t t : {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{1} << 62})
       EXPECT_TRUE(std::isfinite(learning_rate_at(adam, t)) && learning_rate_at(adam, t) >= 0.0);
   }
-  tell_extreme("decay of the rate and ramp of the average", "steps 1 to 2^62",
-               fmt::format("falling and positive; at 2^62 the rate is {:.1e}, an average moves by {:.2g}",
-                           rate, weight),
-               "");
+  report_extreme("decay of the rate and ramp of the average", "steps 1 to 2^62",
+                 fmt::format("falling and positive; at 2^62 the rate is {:.1e}, an average moves by {:.2g}",
+                             rate, weight),
+                 "");
 }
 
 TEST(ExtremeRates, CountersNear2To32) {
@@ -196,7 +196,7 @@ TEST(ExtremeRates, CountersNear2To32) {
     for (const std::uint32_t counter : {0xfffffffdu, 0xfffffffeu, 0xffffffffu})
       for (const FeatureStep step : {FeatureStep::per_node, FeatureStep::per_triangle}) {
         TrainingOptions options = smooth_options();
-        options.adam.learning_rate = 1000;  // as it falls with the steps
+        options.adam.learning_rate = 1000;  // because it decays with the steps
         const bool gate = c.model->config.encoding == FeatureEncoding::gate;
         if (step == FeatureStep::per_triangle && !gate) continue;
         options.feature_step = step;
@@ -218,7 +218,7 @@ TEST(ExtremeRates, CountersNear2To32) {
         }
       }
   }
-  // The step count itself ends where a file could not be told from nonsense.
+  // The step count itself ends at 2^63. A file with a greater one is treated as damaged.
   const ModelCase c = find_model_case("nrc");
   const auto fast = cpu::make_cpu_backend(c.model, {});
   ModelState state = fast->export_state();
@@ -228,10 +228,10 @@ TEST(ExtremeRates, CountersNear2To32) {
   EXPECT_EQ(fast->export_state().steps, std::uint64_t{1} << 63);
   state.steps = std::uint64_t{1} << 63;
   EXPECT_THROW(fast->import_state(state), BadConfiguration);
-  tell_extreme("step counters near 2^32", "2^32 - 3 to 2^32 - 1, then 4 steps",
-               fmt::format("those of nodes and triangles stay at 2^32 - 1, the network's 64 bits go on; {}",
-                           agreement.text()),
-               "states of 2^63 steps and more (BadConfiguration; in a file exit code 2)");
+  report_extreme("step counters near 2^32", "2^32 - 3 to 2^32 - 1, then 4 steps",
+                 fmt::format("those of nodes and triangles stay at 2^32 - 1, the network's 64 bits go on; {}",
+                             agreement.text()),
+                 "states of 2^63 steps and more (BadConfiguration; in a file exit code 2)");
 }
 
 }  // namespace

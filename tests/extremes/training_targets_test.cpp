@@ -1,4 +1,4 @@
-// Training: extremes of what is to be learned.
+// Training: extremes of the targets.
 
 #include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
@@ -7,7 +7,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::tell_extreme;
+using gatelight::testing::report_extreme;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -35,15 +35,15 @@ TEST(ExtremeTargets, BatchesOfOneRecord) {
       const ModelState state = random_state(*c.model, options, seed, true);
       agreement.expect_same("one record", c, options, state, make_smooth_batch(*c.model, state, 1, seed, {}));
     }
-    // Any optimum of one record is to be found.
+    // Training must fit one record.
     const OwnedBatch batch = make_batch(*c.model, 1, 9);
     const auto fast = cpu::make_cpu_backend(c.model, {});
     worst = std::max(worst, error_after(*fast, *c.model, batch, 500));
     expect_sound(*fast, *c.model, batch);
   }
   EXPECT_LE(worst, 1e-3);
-  tell_extreme("batches of one record", "8 states of 3 models; 500 steps on one record",
-               fmt::format("{}; answer off by {:.1e} (bound 1e-3)", agreement.text(), worst), "");
+  report_extreme("batches of one record", "8 states of 3 models; 500 steps on one record",
+                 fmt::format("{}; answer off by {:.1e} (bound 1e-3)", agreement.text(), worst), "");
 }
 
 TEST(ExtremeTargets, AllRecordsOnOneTriangle) {
@@ -66,7 +66,7 @@ TEST(ExtremeTargets, AllRecordsOnOneTriangle) {
   }
   // 65 x 66 / 2 nodes of R = 64.
   EXPECT_LE(most, 2145u);
-  tell_extreme("all records on one triangle", "4999 records, R = 1 to 64", agreement.text(), "");
+  report_extreme("all records on one triangle", "4999 records, R = 1 to 64", agreement.text(), "");
 }
 
 TEST(ExtremeTargets, AllTargetsZero) {
@@ -91,7 +91,7 @@ TEST(ExtremeTargets, AllTargetsZero) {
       expect_sound(*fast, *c.model, zeros);
     }
   EXPECT_LE(worst, 0.03);
-  tell_extreme(
+  report_extreme(
       "all targets 0", "3 models, l2 and relative loss, 300 steps",
       fmt::format("{}; answers off by {:.1e} (bound 0.03, three learning rates)", agreement.text(), worst),
       "");
@@ -117,7 +117,7 @@ TEST(ExtremeTargets, AllTargetsEqual) {
       expect_sound(*fast, *c.model, equal);
     }
   EXPECT_LE(worst, 0.03);
-  tell_extreme(
+  report_extreme(
       "all targets equal", "1e-6 to 1e6, 300 steps",
       fmt::format("{}; answers off by {:.1e} of the target, or of 1 (bound 0.03)", agreement.text(), worst),
       "");
@@ -155,15 +155,15 @@ TEST(ExtremeTargets, OneTargetOf1e30) {
     }
   }
   EXPECT_LE(worst, 0.1);
-  tell_extreme(
+  report_extreme(
       "one target of 1e30", "in the first batch or after 50 steps, among 96 records of 0.1 to 2",
-      fmt::format("clamped to 1e9 and counted; what the others taught comes back as Adam forgets: relative "
+      fmt::format("clamped to 1e9 and counted; the fit to the others recovers as Adam forgets: relative "
                   "loss {:.1e} 3500 steps later (bound 0.1); {}",
                   worst, agreement.text()),
       "");
 }
 
-TEST(ExtremeTargets, OneBrightRecordDoesNotDecideWhereAnswersStart) {
+TEST(ExtremeTargets, OneBrightRecordDoesNotSetTheInitialAnswers) {
   const ModelCase c = find_model_case("nrc");
   OwnedBatch batch = make_batch(*c.model, 4096, 6);
   batch.targets[50] = 1e6f;
@@ -179,10 +179,10 @@ TEST(ExtremeTargets, OneBrightRecordDoesNotDecideWhereAnswersStart) {
   }
   EXPECT_GE(least, 0.5);
   EXPECT_LE(greatest, 2.0);
-  tell_extreme("one target of 1e6 in the first batch", "among 4096 records whose mean is 1.05",
-               fmt::format("answers start at {:.2g} to {:.2g} (bounds 0.5, 2; the mean would be 245)", least,
-                           greatest),
-               "");
+  report_extreme("one target of 1e6 in the first batch", "among 4096 records whose mean is 1.05",
+                 fmt::format("answers start at {:.2g} to {:.2g} (bounds 0.5, 2; the mean would be 245)",
+                             least, greatest),
+                 "");
 }
 
 TEST(ExtremeTargets, NanAndInfinityMixedIn) {
@@ -196,7 +196,7 @@ TEST(ExtremeTargets, NanAndInfinityMixedIn) {
       rejected += batch.count(Fate::rejected);
       agreement.expect_same("mixed", c, options, state, batch, 3);
     }
-  // Every target of a record, each way not to be finite.
+  // Every target of a record, with NaN and both infinities.
   const ModelCase c = find_model_case("nrc");
   OwnedBatch batch = make_batch(*c.model, 99, 8);
   for (std::size_t r = 0; r < 99; r += 3)
@@ -208,9 +208,9 @@ TEST(ExtremeTargets, NanAndInfinityMixedIn) {
     EXPECT_TRUE(std::isfinite(s.loss));
     expect_sound(*fast, *c.model, batch);
   }
-  tell_extreme("NaN and infinity mixed in", "1 to 99 % of 1021 records, in targets and inputs, 3 steps",
-               agreement.text(),
-               fmt::format("{} records left out and counted, none of the others", rejected));
+  report_extreme("NaN and infinity mixed in", "1 to 99 % of 1021 records, in targets and inputs, 3 steps",
+                 agreement.text(),
+                 fmt::format("{} records left out and counted, none of the others", rejected));
 }
 
 }  // namespace

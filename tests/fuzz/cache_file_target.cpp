@@ -1,7 +1,6 @@
-// --cache-in: the bytes as they are, and with the digest that they ask for, as somebody would write them who
-// means harm.
+// --cache-in: the bytes as they are, and with a correct digest, as an attacker would write them.
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "renderer/cache/cache_file.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_cache.h"
@@ -17,7 +16,7 @@ void load(const std::filesystem::path& path) {
     const auto model = made.model(file.setup());
     file.expect_model(*model, made.training());
     made.use(model, file.read_state(*model, made.training()));
-  } catch (const neural::CacheFileError& error) {
+  } catch (const CacheFileError& error) {
     check_line(error.what());
   }
 }

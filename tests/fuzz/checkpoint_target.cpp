@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "neural/base/errors.h"
-#include "renderer/run/checkpoint.h"
+#include "base/errors.h"
+#include "renderer/driver/checkpoint.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/made_cache.h"
 
@@ -29,7 +29,7 @@ void load(const std::filesystem::path& path) {
     const auto model = made.model(checkpoint.cache_setup());
     checkpoint.expect_model(*model, made.training());
     made.use(model, checkpoint.read_cache(*model, made.training()));
-  } catch (const neural::CacheFileError& error) {
+  } catch (const CacheFileError& error) {
     check_line(error.what());
   }
 }

@@ -1,4 +1,4 @@
-// Words, one a line, into settings and into the plan of a sweep. Nothing is run, and no file is opened.
+// Arguments, one a line, into settings and into the plan of a sweep. Nothing is run, and no file is opened.
 
 #include <algorithm>
 #include <string>
@@ -25,14 +25,14 @@ std::vector<std::string> words_of(Bytes bytes) {
   for (const std::uint8_t byte : bytes) {
     if (byte == '\n') {
       words.emplace_back();
-    } else if (byte != 0) {  // ends a word of a real command line
+    } else if (byte != 0) {  // ends an argument of a real command line
       words.back().push_back(static_cast<char>(byte));
     }
   }
   return words;
 }
 
-/// What a subcommand does with its words before it looks at files.
+/// Runs the part of a subcommand that handles its arguments, before it looks at files.
 template <class Act>
 void settle(const Act& act) {
   try {
@@ -65,7 +65,7 @@ void command_line(Bytes bytes) {
   if (words.size() > kMostWords) return;
   std::vector<const char*> argv = {"gatelight"};
   for (const std::string& word : words) {
-    if (word.find("--conf") != std::string::npos) return;  // another target's
+    if (word.find("--conf") != std::string::npos) return;  // config_file tests it
     argv.push_back(word.c_str());
   }
   const int code = apps::read_only(static_cast<int>(argv.size()), argv.data());

@@ -1,4 +1,4 @@
-// --config: the file for render, and for the other subcommands where it has words for them.
+// --config: the file for render, and for the other subcommands where it has flags of theirs.
 
 #include <string>
 #include <string_view>

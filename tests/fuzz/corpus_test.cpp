@@ -27,12 +27,12 @@ std::vector<std::filesystem::path> files_of(const std::string& target) {
   return files;
 }
 
-/// Nothing, or what the target threw.
+/// Empty, or the exception of the target.
 std::string outcome(const Target& target, const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   std::string thrown;
-  // What refuses says why.
+  // A program that refuses prints the reason.
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   try {

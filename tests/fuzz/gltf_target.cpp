@@ -15,12 +15,12 @@ namespace {
 
 void load(const std::filesystem::path& path) {
   try {
-    // Pictures that cannot be read are another target's: what comes after them is looked at, too.
+    // Another target tests pictures: unreadable ones are allowed here, so that the code behind them runs too.
     const scene::Scene scene = scene::load_gltf(path, {.missing_is_error = false});
     const std::string fault = scene::scene_fault(scene);
     if (!fault.empty()) throw Violation(fault);
     scene::compute_requirements(scene);
-  } catch (const scene::SceneError& error) {
+  } catch (const InputError& error) {
     check_line(error.what());
   }
 }

@@ -4,20 +4,17 @@
 #include <array>
 #include <cmath>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
+#include "base/file/content_digest.h"
 #include "neural/cpu/cpu_backend.h"
-#include "neural/file/content_digest.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/transport/world.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/support/held_state.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/stored_state.h"
 
 namespace gatelight::fuzz {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
 scene::Scene two_squares() {
@@ -98,9 +95,9 @@ renderer::Film made_film() {
 std::vector<std::uint8_t> with_right_digest(Bytes file) {
   static const InputFile input("damaged");
   try {
-    neural::SafetensorsReader reader(input.write(file));
+    SafetensorsReader reader(input.write(file));
     std::vector<std::vector<std::byte>> contents;
-    std::vector<neural::TensorView> tensors;
+    std::vector<TensorView> tensors;
     for (const std::string& name : reader.names()) {
       std::vector<std::byte> bytes;
       reader.read_in_pieces(name, [&](std::span<const std::byte> piece) {
@@ -109,8 +106,8 @@ std::vector<std::uint8_t> with_right_digest(Bytes file) {
       contents.push_back(std::move(bytes));
       tensors.push_back({.name = name, .data = contents.back()});
     }
-    const auto found = reader.metadata().find(neural::kDigestKey);
-    const std::string right = neural::content_digest(tensors, reader.metadata());
+    const auto found = reader.metadata().find(kDigestKey);
+    const std::string right = content_digest(tensors, reader.metadata());
     if (found == reader.metadata().end() || found->second.size() != right.size())
       return {file.begin(), file.end()};
     std::string text(file.begin(), file.end());
@@ -119,7 +116,7 @@ std::vector<std::uint8_t> with_right_digest(Bytes file) {
     const std::size_t at = text.find(quoted);
     if (at != std::string::npos) text.replace(at + 1, right.size(), right);
     return {text.begin(), text.end()};
-  } catch (const neural::CacheFileError&) {
+  } catch (const CacheFileError&) {
     return {file.begin(), file.end()};
   }
 }

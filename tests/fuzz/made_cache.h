@@ -1,12 +1,12 @@
 #pragma once
-// A tiny scene with the cache that files of it hold, and files whose digest is made right after a mutation.
+// A tiny scene with the cache of its files, and files whose digest is corrected after a mutation.
 
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "renderer/cache/cache_state.h"
-#include "renderer/run/checkpoint.h"
+#include "renderer/driver/checkpoint.h"
 #include "renderer/settings/options.h"
 #include "renderer/transport/world.h"
 #include "tests/fuzz/targets.h"
@@ -19,10 +19,10 @@ struct MadeCache {
   ~MadeCache();
 
   std::shared_ptr<const neural::Model> model(const renderer::CacheSetup& setup) const;
-  /// Any state of the cache, and the setup that it was made with.
+  /// A state of the cache, and the setup that it was made with.
   renderer::CacheState state() const;
   neural::TrainingOptions training() const;
-  /// Takes the state in, and asks it something.
+  /// Imports the state and queries it.
   void use(std::shared_ptr<const neural::Model> model, const renderer::CacheState& state) const;
 
   renderer::RenderOptions options;
@@ -39,10 +39,10 @@ inline const renderer::SceneFingerprint kFingerprint = {
     {"geometry", "a1"}, {"attributes", "b2"}, {"materials", "c3"}, {"lights", "d4"}, {"environment", "e5"}};
 
 renderer::CheckpointIdentity made_identity();
-/// Of 2x2 pixels, without samples.
+/// A film of 2x2 pixels, without samples.
 renderer::Film made_film();
 
-/// The file with the digest that its content asks for; as it is where it is no such file.
+/// The file with the digest of its content; unchanged if it is not such a file.
 std::vector<std::uint8_t> with_right_digest(Bytes file);
 
 }  // namespace gatelight::fuzz

@@ -1,6 +1,6 @@
 #pragma once
-// A .glb whose header and chunk lengths are right, so that a mutation of its parts is not refused at the
-// door.
+// A .glb whose header and chunk lengths are right, so that a mutation of its parts is not refused
+// there.
 
 #include <algorithm>
 #include <cstdint>

@@ -31,11 +31,11 @@ void read_picture(const std::filesystem::path& path) {
     }
     if (pixels > kLargestEnvironment) return;
     const renderer::Environment environment({.file = path.string()});
-    const scene::Color mean = environment.mean();
+    const Color mean = environment.mean();
     const renderer::EnvironmentSample sample = environment.sample({0.3f, 0.7f});
     if (!mean.allFinite() || !sample.radiance.allFinite() || !(sample.pdf >= 0.0f))
       throw Violation("an environment that is not finite");
-  } catch (const renderer::ImageError& error) {
+  } catch (const InputError& error) {
     check_line(error.what());
   }
 }
@@ -66,7 +66,7 @@ void read_texture(Bytes picture) {
   try {
     const std::string fault = scene::scene_fault(scene::load_gltf(file.write(textured(picture))));
     if (!fault.empty()) throw Violation(fault);
-  } catch (const scene::SceneError& error) {
+  } catch (const InputError& error) {
     check_line(error.what());
   }
 }

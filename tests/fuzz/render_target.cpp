@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "renderer/render.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
@@ -21,7 +21,7 @@ renderer::RenderOptions smallest(renderer::Integrator integrator) {
   options.height = 3;
   options.spp = 1;
   options.threads = 1;
-  options.environment.constant = scene::Color(0.5f, 0.5f, 0.5f);
+  options.environment.constant = Color(0.5f, 0.5f, 0.5f);
   options.cache.train_steps = 1;
   options.cache.batch = 16;
   options.cache.mlp.width = 16;
@@ -48,11 +48,11 @@ void render(Bytes bytes) {
     if (scene::count_triangles(scene) > kMostTriangles || scene::image_bytes(scene) > 1 << 20) return;
     render(scene, renderer::Integrator::path);
     render(scene, renderer::Integrator::nrc);
-  } catch (const std::runtime_error& error) {
+  } catch (const InputError& error) {
     check_line(error.what());
-  } catch (const renderer::BadOption& error) {
+  } catch (const BadOption& error) {
     check_line(error.what());
-  } catch (const neural::BadConfiguration& error) {
+  } catch (const BadConfiguration& error) {
     check_line(error.what());
   }
 }

@@ -1,5 +1,5 @@
-// What a sweep reads back of its folder: results, the record of a cell, the numbers of a reference, bytes of
-// caches.
+// Files that a sweep reads back from its folder: results, the record of a cell, the numbers of a reference,
+// bytes of caches.
 
 #include <filesystem>
 #include <string>
@@ -49,10 +49,10 @@ void read_results(Bytes bytes) {
   try {
     apps::give_advice(apps::read_results(file.path().parent_path().string()),
                       {.max_error = 0.5, .max_seconds = 9.0});
-  } catch (const apps::InputError& error) {
+  } catch (const InputError& error) {
     check_line(apps::one_line(error.what()));
   } catch (const nlohmann::ordered_json::exception& error) {
-    check_line(apps::one_line(error.what()));  // told as InputError by who calls it
+    check_line(apps::one_line(error.what()));  // the caller reports it as InputError
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What is fuzzed: each target takes the bytes of a file (or of a command line) of unknown origin and does
-// with them what the program would. It returns when they were read or refused as they should be, and throws
+// The fuzz targets. Each takes the bytes of a file (or of a command line) of unknown origin and does with
+// them what the program would. It returns when they were read or refused as they should be, and throws
 // Violation, or lets another exception through, when they were not.
 
 #include <cstdint>
@@ -45,7 +45,7 @@ inline constexpr Target kTargets[] = {
     {"render", render},
 };
 
-/// Something was accepted, or said, that must not be.
+/// The target accepted or printed something that it must not.
 struct Violation : std::logic_error {
   using std::logic_error::logic_error;
 };

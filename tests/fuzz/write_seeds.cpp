@@ -1,4 +1,4 @@
-// write_seeds FOLDER: the first files of the corpora whose formats are ours alone. Run it after a format has
+// write_seeds FOLDER: the first files of the corpora whose formats are only ours. Run it after a format has
 // changed.
 
 #include <cstdio>
@@ -26,10 +26,10 @@ int main(int argc, char** argv) {
 
   renderer::Film film = fuzz::made_film();
   for (int pixel = 0; pixel < 4; ++pixel) {
-    film.add(film.take({pixel % 2, pixel / 2}), scene::Color(0.25f, 0.5f, 1.0f));
+    film.add(film.take({pixel % 2, pixel / 2}), Color(0.25f, 0.5f, 1.0f));
     renderer::FirstHit hit;
     hit.hit = true;
-    hit.normal = scene::Vec3(0, 0, 1);
+    hit.normal = Vec3(0, 0, 1);
     hit.depth = 2.0f;
     film.add(film.take({pixel % 2, pixel / 2}), hit);
   }

@@ -11,11 +11,11 @@ NETWORK = "10.77.0.0/24"
 
 
 class Skipped(Exception):
-    """What is missing for a test."""
+    """Something that a test needs is missing."""
 
 
 def launcher():
-    """The words that start ranks on this machine, but for their number: of Open MPI or of MPICH."""
+    """The command of Open MPI or MPICH that starts ranks on this machine, without their number."""
     name = os.environ.get("GATELIGHT_MPIRUN") or shutil.which("mpirun")
     if not name or not shutil.which(name):
         raise Skipped("no mpirun")
@@ -51,7 +51,7 @@ class Program:
         return process.returncode, output
 
     def processes(self, launched, ranks, seconds=60):
-        """The ranks' process numbers, in the order of their start, when all are there."""
+        """The process ids of the ranks, in the order of their start, once all have started."""
         end = time.time() + seconds
         while time.time() < end:
             found = [pid for pid in descendants(launched.pid) if executable(pid) == str(self.program)]

@@ -1,11 +1,11 @@
-// Nothing that a batch can hold makes a weight NaN or infinite, and what is to be rejected leaves no trace.
+// No batch makes a weight NaN or infinite, and rejected records change nothing.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "tests/support/parity.h"
 
 namespace gatelight::neural {
@@ -21,7 +21,7 @@ std::vector<ModelCase> usual_cases() {
           find_model_case("plain_with_everything")};
 }
 
-/// For every instruction set and every way to store features.
+/// Calls `body` for every instruction set and every way to store features.
 void for_every_backend(const ModelCase& c, const TrainingOptions& options,
                        const std::function<void(Backend&)>& body) {
   for (const Isa isa : simd::available_isas())
@@ -81,7 +81,7 @@ TEST(Extremes, WeightsStayFiniteForEveryTarget) {
       }
 }
 
-// Inputs that are finite, though nothing that a caller means.
+// The inputs are finite, but not sensible.
 TEST(Extremes, WeightsStayFiniteForEveryInput) {
   for (const ModelCase& c : usual_cases())
     for_every_backend(c, {}, [&](Backend& backend) {
@@ -111,7 +111,7 @@ TEST(Extremes, WeightsStayFiniteForEveryInput) {
     });
 }
 
-// A point far outside is the nearest point of the triangle, in single precision too.
+// A point far outside is clamped to the nearest point of the triangle, in single precision too.
 TEST(Extremes, BarycentricsOfAnySizeAreClamped) {
   const ModelCase c = find_model_case("gate_L2_stack_4_2_1");
   const ModelState state = random_state(*c.model, {}, 3, false);
@@ -203,7 +203,7 @@ TEST(Extremes, NoRecordsAndNoPointsAreFine) {
     });
 }
 
-// All records on one corner of one triangle: one node takes everything.
+// All records are on one corner of one triangle: one node of each level receives all of them.
 TEST(Extremes, OneNodeCanTakeAllRecords) {
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options;
@@ -228,14 +228,14 @@ TEST(Extremes, OneNodeCanTakeAllRecords) {
   }
 }
 
-// Step counters at the end of the table of Adam's factors, far beyond it, and at their own end.
-TEST(Extremes, StepsNeedNoTable) {
+// Step counters at the end of the table of Adam's factors, far beyond it, and at their maximum.
+TEST(Extremes, StepsBeyondTheTableOfAdamFactorsAgree) {
   const ModelCase c = find_model_case("nrc");
   for (const std::uint32_t counter : {65534u, 65535u, 65536u, 1000000000u, 0xfffffffdu, 0xffffffffu})
     for (OptionsCase& o : all_training_options(*c.model)) {
       if (o.options.precision != FeaturePrecision::fp32) continue;
       make_smooth(o.options.adam);
-      o.options.adam.learning_rate = 1000;  // as it falls with the steps
+      o.options.adam.learning_rate = 1000;  // because it decays with the steps
       ModelState state = random_state(*c.model, o.options, 9, true);
       state.node_steps.assign(state.node_steps.size(), counter);
       state.triangle_steps.assign(state.triangle_steps.size(), counter);
@@ -286,7 +286,7 @@ TEST(Extremes, GradientsBeyondAllBoundsChangeNothing) {
   }
 }
 
-// Not from training, though perhaps from a file.
+// Training does not produce such features, but a file may contain them.
 TEST(Extremes, ImportedFeaturesBeyondFp16AreClamped) {
   const ModelCase c = find_model_case("nrc");
   const OwnedBatch batch = make_batch(*c.model, 100, 12);
@@ -300,7 +300,7 @@ TEST(Extremes, ImportedFeaturesBeyondFp16AreClamped) {
   });
 }
 
-// Gradients so small that their squares vanish in single precision, with the default epsilon and the least.
+// Gradients so small that their squares vanish in single precision, with the default and the least epsilon.
 TEST(Extremes, VanishingGradientsLeaveWeightsFinite) {
   const ModelCase c = find_model_case("nrc");
   for (const float epsilon : {1e-15f, 1e-30f}) {
@@ -327,7 +327,7 @@ TEST(Extremes, VanishingGradientsLeaveWeightsFinite) {
   }
 }
 
-TEST(Extremes, AnUnstoredRecordWithHugeInputsStopsNoWeight) {
+TEST(Extremes, AnUnstoredRecordWithHugeInputsBlocksNoUpdate) {
   ModelConfig config = find_model_case("nrc").model->config;
   config.auxiliary = {{InputSource::albedo, InputEncoding::identity, 0},
                       {InputSource::normal, InputEncoding::identity, 0},
@@ -349,7 +349,7 @@ TEST(Extremes, AnUnstoredRecordWithHugeInputsStopsNoWeight) {
   }
 }
 
-TEST(Extremes, AStateThatNoTrainingMakesIsRefusedAndChangesNothing) {
+TEST(Extremes, AnInvalidStateIsRefusedAndChangesNothing) {
   const ModelCase c = find_model_case("nrc");
   const auto backend = cpu::make_cpu_backend(c.model, {});
   const ModelState start = backend->export_state();

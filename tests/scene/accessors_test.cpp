@@ -8,7 +8,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// A triangle whose texture coordinates are read, since its material has a (missing) texture.
+/// A triangle whose texture coordinates are read, because its material has a (missing) texture.
 struct Textured {
   GltfBuilder file;
   json primitive;
@@ -57,7 +57,7 @@ TEST(Accessors, QuantizedIntegersKeepTheirValue) {
 
 TEST(Accessors, PositionsMayBeQuantized) {
   GltfBuilder file;
-  // Padded to 8 bytes an element, as KHR_mesh_quantization asks.
+  // Padded to 8 bytes per element, as KHR_mesh_quantization requires.
   const int view =
       file.view(std::vector<std::int16_t>{0, 0, 0, 0, 100, 0, 0, 0, 0, -200, 7, 0}, {{"byteStride", 8}});
   const int position = file.add(
@@ -179,7 +179,7 @@ TEST(Accessors, ColorsComeInThreeOrFourComponentsAndAnyType) {
   EXPECT_TRUE(load(std::vector<float>(9, 1.0f), kFloat, "VEC3").empty()) << "white changes nothing";
 }
 
-TEST(Accessors, TextureCoordinatesNobodyReadsAreDropped) {
+TEST(Accessors, UnusedTextureCoordinatesAreDropped) {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}});
   EXPECT_TRUE(only_mesh(file.load()).uv0.empty());
@@ -226,7 +226,7 @@ class DamagedFile : public testing::TestWithParam<Damage> {
   }
 };
 
-TEST_F(DamagedFile, IsWholeBeforehand) {
+TEST_F(DamagedFile, LoadsWithoutDamage) {
   EXPECT_EQ(whole().refused(), "");
 }
 

@@ -11,7 +11,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// A bumpy mesh with everything a mesh may have.
+/// A bumpy mesh with every optional attribute.
 Mesh make_mesh(std::uint32_t triangles, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
@@ -61,7 +61,7 @@ Scene make_scene(const std::vector<int>& meshes_of_instances, std::uint32_t tria
   return scene;
 }
 
-/// Corners and front of every triangle agree; a baked mirror may list them the other way round.
+/// Expects the same corners and front of every triangle; a baked mirror may list corners in reverse order.
 void expect_same_world(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(Bake, BakedEqualsNotBaked) {
   }
 }
 
-TEST(Bake, TheFrontOfAMirroredMeshStaysTheFront) {
+TEST(Bake, AMirroredMeshKeepsItsFront) {
   Scene scene = make_scene({0, 1});  // seeds 101 and 102: plain and mirrored
   ASSERT_TRUE(scene.instances[1].mirrors);
   bake_transforms(scene);
@@ -97,7 +97,7 @@ TEST(Bake, TheFrontOfAMirroredMeshStaysTheFront) {
     EXPECT_FALSE(instance.mirrors);
     const Mesh& mesh = scene.mesh_of(instance);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      // The vertex normals were the triangles' own: they still are, on the same side.
+      // The vertex normals still equal the triangles' normals, on the same side.
       const Vec3 n = world_normal(scene, instance, t).normalized();
       for (const std::uint32_t v : mesh.triangles[t]) EXPECT_NEAR(mesh.normals[v].dot(n), 1.0f, 1e-4f);
     }
@@ -184,7 +184,7 @@ TEST(Bake, TinyAndHugeScalesKeepUnitNormals) {
   }
 }
 
-TEST(Bake, AMirroringNodeOfAFileShowsItsFront) {
+TEST(Bake, AMirroringNodeKeepsItsFront) {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}, {"scale", {-1, 1, 1}}});
   for (const bool bake : {false, true}) {
@@ -194,7 +194,7 @@ TEST(Bake, AMirroringNodeOfAFileShowsItsFront) {
   }
 }
 
-TEST(Bake, ATinyMirroringScaleIsSeen) {
+TEST(Bake, ATinyMirroringScaleIsDetected) {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}, {"scale", {-1e-16, 1e-16, 1e-16}}});
   EXPECT_TRUE(file.load({.bake_transforms = false}).instances.at(0).mirrors);

@@ -1,4 +1,4 @@
-// Whatever the bytes are: a file loads, or is refused with SceneError in one line.
+// Any file loads, or is refused with InputError in one line.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ bool loads_or_refuses(const std::filesystem::path& path, const std::string& what
   try {
     EXPECT_EQ(scene_fault(load_gltf(path)), "") << what;
     return true;
-  } catch (const SceneError& e) {
+  } catch (const InputError& e) {
     const testing::ScopedTrace trace(__FILE__, __LINE__, what);
     tests::expect_names(e.what(), {path.filename().string()});
   } catch (const std::exception& e) {
@@ -98,7 +98,7 @@ class Mutation : public testing::Test {
   int refused_ = 0;
 };
 
-TEST_F(Mutation, OfBytesIsLoadedOrRefused) {
+TEST_F(Mutation, ChangedBytesAreLoadedOrRefused) {
   const std::vector<std::uint8_t> whole = rich_file();
   std::mt19937 random(20240607);
   const auto below = [&](std::size_t n) {
@@ -108,7 +108,7 @@ TEST_F(Mutation, OfBytesIsLoadedOrRefused) {
     std::vector<std::uint8_t> bytes = whole;
     for (std::size_t flips = 1 + below(3); flips > 0; --flips) {
       std::uint8_t& byte = bytes[below(bytes.size())];
-      // Digits turn into digits now and then, so that the JSON stays JSON.
+      // Digits often become other digits, so that the JSON stays valid.
       byte = byte >= '0' && byte <= '9' && below(4) != 0 ? static_cast<std::uint8_t>('0' + below(10))
                                                          : static_cast<std::uint8_t>(below(256));
     }
@@ -118,11 +118,11 @@ TEST_F(Mutation, OfBytesIsLoadedOrRefused) {
   EXPECT_GT(refused_, 100);
 }
 
-TEST_F(Mutation, OfLengthIsLoadedOrRefused) {
+TEST_F(Mutation, TruncatedFilesAreRefused) {
   const std::vector<std::uint8_t> whole = rich_file();
   for (std::size_t length = 0; length < whole.size(); length += 3) {
     std::vector<std::uint8_t> bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
-    if (length >= 12) {  // with a header that fits, so that the chunks are looked at
+    if (length >= 12) {  // with the right length in the header, so that the chunks are read
       for (std::size_t i = 0; i < 4; ++i) bytes[8 + i] = static_cast<std::uint8_t>(length >> (8 * i));
     }
     try_bytes(bytes, "length " + std::to_string(length));
@@ -130,7 +130,7 @@ TEST_F(Mutation, OfLengthIsLoadedOrRefused) {
   EXPECT_EQ(loaded_, 0);
 }
 
-TEST_F(Mutation, OfJsonValuesIsLoadedOrRefused) {
+TEST_F(Mutation, ChangedJsonValuesAreLoadedOrRefused) {
   const std::vector<std::uint8_t> whole = rich_file();
   const std::size_t size = whole[12] | static_cast<std::size_t>(whole[13]) << 8;
   const json original =

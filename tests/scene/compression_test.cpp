@@ -40,7 +40,7 @@ std::vector<std::uint32_t> sheet_indices() {
   return list;
 }
 
-/// Compressors reorder: a mesh as the set of its triangles, each from its smallest corner on.
+/// Returns a mesh as the set of its triangles, each from its smallest corner on, because compressors reorder.
 std::set<std::vector<long>> triangle_set(const Mesh& mesh, float grid) {
   std::set<std::vector<long>> result;
   for (const auto& t : mesh.triangles) {

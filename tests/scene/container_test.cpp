@@ -89,7 +89,7 @@ TEST(Container, BytesAfterTheEndAreIgnoredWithAWarning) {
   expect_messages(load_gltf(folder.path() / "test.glb").warnings, {{"5"}});
 }
 
-TEST(Container, WhatIsNoGltfIsRefusedInOneLine) {
+TEST(Container, TextThatIsNotGltfIsRefusedInOneLine) {
   for (const char* text :
        {"{", "[]", "null", "{}", "{\"asset\":{}}", "\xff\xfe{}", "{\"asset\":{\"version\":\"2.0\"},}",
         "{\n\"asset\":\n1e999}", "{\"asset\":{\"version\":\"2.0\\n3\"}}"}) {
@@ -97,7 +97,7 @@ TEST(Container, WhatIsNoGltfIsRefusedInOneLine) {
   }
 }
 
-TEST(Container, DeepNestingIsRefusedNotFollowed) {
+TEST(Container, DeepNestingIsRefused) {
   const std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1000000, '[');
   expect_refused_bytes(text_bytes(deep), {"100"}, "test.gltf");
 }
@@ -122,7 +122,7 @@ TEST(Extensions, UnknownAndUsedIsOneWarning) {
   expect_messages(file.load().warnings, {{"ACME_strange"}});
 }
 
-TEST(Extensions, AllOursAreAccepted) {
+TEST(Extensions, AllSupportedExtensionsAreAccepted) {
   GltfBuilder file = triangle_file();
   for (const char* name :
        {"KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_ior",
@@ -136,7 +136,7 @@ TEST(Extensions, AllOursAreAccepted) {
   EXPECT_TRUE(file.load().warnings.empty());
 }
 
-TEST(Buffers, OutsideTheFolderAreRefused) {
+TEST(Buffers, PathsOutsideTheFolderAreRefused) {
   for (const char* uri :
        {"../data.bin", "/etc/passwd", "https://example.com/data.bin", "data:no-comma", ""}) {
     GltfBuilder file = triangle_file();
@@ -149,7 +149,7 @@ TEST(Buffers, OutsideTheFolderAreRefused) {
   }
 }
 
-TEST(Buffers, EndAtTheirByteLengthWhateverTheFileHolds) {
+TEST(Buffers, EndAtTheirByteLengthInALargerFile) {
   GltfBuilder file = triangle_file();
   file.root["buffers"] = {{{"byteLength", file.bin.size()}, {"uri", "data.bin"}}};
   const TemporaryFolder folder;

@@ -19,7 +19,7 @@ namespace {
 
 using tests::expect_refusal;
 
-/// A file with these angles and candela, plane after plane.
+/// Returns a file with these angles and candela, plane after plane.
 std::string web(const std::vector<double>& vertical, const std::vector<double>& horizontal,
                 const std::vector<double>& candela, const std::string& factors = "1 1 1") {
   return fmt::format(
@@ -29,7 +29,7 @@ std::string web(const std::vector<double>& vertical, const std::vector<double>& 
       fmt::join(candela, " "));
 }
 
-/// A direction by the angles of the file, in degrees.
+/// Returns a direction from the angles of the file, in degrees.
 Vec3 direction(double vertical, double horizontal) {
   const double v = vertical * M_PI / 180.0, h = horizontal * M_PI / 180.0;
   return Eigen::Vector3d(std::sin(v) * std::cos(h), std::sin(v) * std::sin(h), -std::cos(v)).cast<float>();
@@ -50,7 +50,7 @@ TEST(IesProfile, ADownlightIsTheSameAllAroundAndDarkAboveItsLastAngle) {
   EXPECT_NEAR(profile.extent(), 90.25 * M_PI / 180.0, 1e-5);
 }
 
-TEST(IesProfile, TheLastHorizontalAngleTellsTheSymmetry) {
+TEST(IesProfile, TheLastHorizontalAngleSetsTheSymmetry) {
   const auto all_around = [](const std::vector<double>& horizontal, const std::vector<double>& at_90) {
     std::vector<double> candela;
     for (const double value : at_90) candela.insert(candela.end(), {value, value});
@@ -80,7 +80,7 @@ TEST(IesProfile, FactorsMultiplyAndTiltIsSkipped) {
 
 TEST(IesProfile, BrokenFilesAreRefusedByTheirValue) {
   const auto refuse = [](const std::string& text, const tests::NameList& names) {
-    expect_refusal<SceneError>([&] { IesProfile profile(text); }, names);
+    expect_refusal<InputError>([&] { IesProfile profile(text); }, names);
   };
   const std::string good = web({0, 90}, {0}, {10, 40});
   const auto with = [&](const std::string& part, const std::string& other) {
@@ -113,7 +113,7 @@ Scene scene_with_lights() {
   return scene;
 }
 
-TEST(LightProfiles, GoToLightsByNameWhichBecomePointLights) {
+TEST(LightProfiles, AreAssignedByNameAndMakePointLights) {
   const tests::TemporaryFolder folder;
   const std::string down = folder.write("down.ies", web({0, 90}, {0}, {10, 40}));
   const std::string up = folder.write("up.ies", web({90, 180}, {0}, {10, 70}));
@@ -132,7 +132,7 @@ TEST(LightProfiles, UnknownLightsAndFilesAreRefused) {
   const std::string bad = folder.write("bad.ies", "TILT=NONE 1 2");
   Scene scene = scene_with_lights();
   const auto refuse = [&](const LightProfile& profile, const tests::NameList& names) {
-    expect_refusal<SceneError>([&] { give_profiles(scene, {profile}); }, names);
+    expect_refusal<InputError>([&] { give_profiles(scene, {profile}); }, names);
   };
   refuse({"moon", good}, {"lit.glb", "'moon'", "'lamp left'", "'lamp right'"});
   refuse({"sun", good}, {"lit.glb", "'sun'"});

@@ -100,7 +100,7 @@ TEST(Images, FilesMayHavePercentEncodedNames) {
   EXPECT_EQ(scene.images.at(0).width, 2);
 }
 
-TEST(Images, TheBytesTellTheFormatNotTheName) {
+TEST(Images, TheBytesDecideTheFormatNotTheName) {
   const TemporaryFolder folder;
   write_bytes(folder.path() / "really_a_png.jpg", kGrey);
   EXPECT_EQ(load_gltf(with_image({{"uri", "really_a_png.jpg"}}).write(folder)).images.at(0).pixels.at(1),
@@ -108,7 +108,7 @@ TEST(Images, TheBytesTellTheFormatNotTheName) {
 }
 
 TEST(Images, ColourProfilesAreIgnoredInSilence) {
-  // A gAMA chunk of 0 and a profile that is none: decoders warn about both, on stderr.
+  // A gAMA chunk of 0 and an invalid profile: decoders warn about both on stderr.
   std::vector<std::uint8_t> bytes(kGrey.begin(), kGrey.begin() + 33);
   for (const char* type : {"gAMA", "iCCP"}) {
     for (const int b : {0, 0, 0, 4}) bytes.push_back(static_cast<std::uint8_t>(b));
@@ -151,22 +151,22 @@ TEST(Images, DamageUnderRightChecksumsIsRefusedInSilence) {
   }
 }
 
-TEST(Images, AHeaderBehindThePictureIsRefused) {
+TEST(Images, AHeaderAfterThePixelsIsRefused) {
   std::vector<std::uint8_t> bytes = kGrey;
   bytes.insert(bytes.end() - 12, kGrey.begin() + 8, kGrey.begin() + 33);
   with_bytes(bytes).expect_refused({"images[0]"});
 }
 
-TEST(Images, AJpegThatLibjpegMakesUpIsRefused) {
+TEST(Images, AJpegThatLibjpegWouldCompleteIsRefused) {
   const Scene whole = with_bytes(kJpeg).load();
   EXPECT_THAT(whole.images.at(0).pixels, ::testing::Each(128));
   EXPECT_THAT(whole.warnings, ::testing::IsEmpty());
   std::vector<std::uint8_t> cut = kJpeg;
-  cut.erase(cut.end() - kJpegScan, cut.end() - kJpegScan + 1);  // the block alone
+  cut.erase(cut.end() - kJpegScan, cut.end() - kJpegScan + 1);  // only the block
   with_bytes(cut).expect_refused({"images[0]"});
   EXPECT_THAT(with_bytes(cut).load({.missing_is_error = false}).images.at(0).pixels,
               ElementsAre(255, 255, 255));
-  // Bytes between segments are nobody's loss.
+  // Extra bytes between segments are harmless.
   std::vector<std::uint8_t> more = kJpeg;
   constexpr std::ptrdiff_t kFrame = 2 + 2 + 67;
   more.insert(more.begin() + kFrame, {1, 2, 3});
@@ -216,7 +216,7 @@ TEST(Images, DamagedWebpAndAnimationsAreRefused) {
   with_image({{"uri", kMovingWebp}}).expect_refused({"images[0]", "an animation"});
 }
 
-/// A texture with a PNG and another picture of an extension.
+/// Returns a texture with a PNG and another picture from an extension.
 GltfBuilder with_two(const char* extension, const char* uri) {
   GltfBuilder file = with_image({{"uri", kRgba}});
   file.root["textures"][0]["extensions"][extension]["source"] = file.add("images", {{"uri", uri}});
@@ -224,7 +224,7 @@ GltfBuilder with_two(const char* extension, const char* uri) {
   return file;
 }
 
-TEST(Images, ATextureTakesItsWebpAndFallsBackFromWhatNobodyReads) {
+TEST(Images, ATextureTakesItsWebpAndFallsBackFromUnsupportedFormats) {
   const Scene webp = with_two("EXT_texture_webp", kLossyWebp).load();
   ASSERT_EQ(webp.images.size(), 1u);
   EXPECT_EQ(webp.images[0].width, 4);
@@ -238,7 +238,7 @@ TEST(Images, ATextureTakesItsWebpAndFallsBackFromWhatNobodyReads) {
   }
 }
 
-TEST(Images, WithoutAFallbackAConverterIsNamed) {
+TEST(Images, WithoutAFallbackTheMessageNamesAConverter) {
   struct Case {
     const char *extension, *uri, *converter;
   };
@@ -287,7 +287,7 @@ TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
     return folder / "test.glb";
   };
   for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
-    expect_refused(with(inner, uri), {"images[0].uri", uri, "--allow-external"});
+    expect_refused(with(inner, uri), {"images[0].uri", uri, "`allow-external`"});
   }
   expect_refused(with(inner, "dangling.png"), {"images[0]", "dangling.png"});
   EXPECT_EQ(refusal(with(inner, "other.png")), "");
@@ -297,7 +297,7 @@ TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
   EXPECT_EQ(refusal(with(outer.path() / "scene-link", "other.png")), "");
 }
 
-TEST(Images, OfOtherFoldersAreReadWhereThatIsAllowed) {
+TEST(Images, FilesOfOtherFoldersAreReadWhereThatIsAllowed) {
   const TemporaryFolder outer;
   write_bytes(outer.path() / "grey 1.png", kGrey);
   const std::filesystem::path inner = outer.path() / "scene";
@@ -318,7 +318,7 @@ TEST(Images, OfOtherFoldersAreReadWhereThatIsAllowed) {
   }
 }
 
-TEST(Images, WithTheSameBytesBehindThemAreDecodedOnce) {
+TEST(Images, WithEqualBytesAreDecodedOnce) {
   GltfBuilder file;
   const int view = file.view(kGrey);
   json primitive = file.triangle();
@@ -344,14 +344,14 @@ TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
   expect_messages(scene.warnings, {{"textures[0]"}});
 }
 
-TEST(Images, AMeshWithoutTextureCoordinatesIsWarnedOf) {
+TEST(Images, AMeshWithoutTextureCoordinatesGivesAWarning) {
   GltfBuilder file = with_image({{"uri", kRgba}});
   EXPECT_THAT(file.load().warnings, ::testing::IsEmpty());
   file.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   expect_messages(file.load().warnings, {{}});
 }
 
-TEST(Images, OfMaterialsThatNobodyShowsAreNotDecoded) {
+TEST(Images, OfUnusedMaterialsAreNotDecoded) {
   GltfBuilder file = with_image({{"uri", "absent.png"}});
   file.root["meshes"][0]["primitives"][0].erase("material");
   const Scene scene = file.load();

@@ -27,7 +27,7 @@ bool same(const Color& a, const Color& b) {
   return (a == b).all();
 }
 
-TEST(LightAdjustments, ANameIsThatOfALightOrOfAnEmissiveMaterial) {
+TEST(LightAdjustments, NamesSelectLightsAndEmissiveMaterials) {
   Scene scene = lit_scene();
   adjust_lights(scene, {{"sun", Color(0.5f, 1.0f, 2.0f)}, {"screen", Color::Zero()}});
   EXPECT_TRUE(same(scene.lights[2].intensity, Color(0.5f, 2.0f, 8.0f)));
@@ -37,7 +37,7 @@ TEST(LightAdjustments, ANameIsThatOfALightOrOfAnEmissiveMaterial) {
   EXPECT_TRUE(same(scene.materials[1].emission, Color(3.0f, 3.0f, 3.0f)));
 }
 
-TEST(LightAdjustments, AStarEndsABeginningAndTheLastThatFitsCounts) {
+TEST(LightAdjustments, AStarMatchesAnyEndingAndTheLastMatchCounts) {
   Scene scene = lit_scene();
   adjust_lights(scene,
                 {{"*", Color::Zero()}, {"lamp*", Color::Constant(2.0f)}, {"lamp right", Color::Ones()}});
@@ -48,10 +48,10 @@ TEST(LightAdjustments, AStarEndsABeginningAndTheLastThatFitsCounts) {
   EXPECT_TRUE(same(scene.materials[1].emission, Color::Constant(6.0f)));
 }
 
-TEST(LightAdjustments, UnknownNamesAreRefusedWithWhatThereIs) {
+TEST(LightAdjustments, UnknownNamesAreRefusedWithTheKnownOnes) {
   Scene scene = lit_scene();
   const auto refuse = [&](const std::string& name, const tests::NameList& names) {
-    tests::expect_refusal<SceneError>([&] { adjust_lights(scene, {{name, Color::Ones()}}); }, names);
+    tests::expect_refusal<InputError>([&] { adjust_lights(scene, {{name, Color::Ones()}}); }, names);
   };
   refuse("moon", {"lit.glb", "'moon'", "'lamp left'", "'sun'", "'lamp shade'", "'screen'"});
   refuse("wall", {"lit.glb", "'wall'", "'sun'"});  // it does not emit
@@ -60,7 +60,7 @@ TEST(LightAdjustments, UnknownNamesAreRefusedWithWhatThereIs) {
   refuse("moon*", {"'moon*'"});
   Scene dark;
   dark.path = "dark.glb";
-  tests::expect_refusal<SceneError>(
+  tests::expect_refusal<InputError>(
       [&] {
         adjust_lights(dark, {{"*", Color::Ones()}});
       },
@@ -68,23 +68,23 @@ TEST(LightAdjustments, UnknownNamesAreRefusedWithWhatThereIs) {
   adjust_lights(dark, {});
 }
 
-TEST(LightAdjustments, ALongListIsCutAndAProductIsFinite) {
+TEST(LightAdjustments, ALongListIsCutAndAnInfiniteProductIsRefused) {
   Scene scene;
   for (int i = 0; i < 100; ++i) scene.lights.push_back({.name = "light " + std::to_string(100 + i)});
-  tests::expect_refusal<SceneError>(
+  tests::expect_refusal<InputError>(
       [&] {
         adjust_lights(scene, {{"x", Color::Ones()}});
       },
       {"'light 100'", "76"});
   scene.lights[0].intensity = Color::Constant(1e30f);
-  tests::expect_refusal<SceneError>(
+  tests::expect_refusal<InputError>(
       [&] {
         adjust_lights(scene, {{"*", Color(1.0f, 1e30f, 1.0f)}});
       },
       {"'light 100'", "1e+30", "finite"});
 }
 
-TEST(LightAdjustments, TheLoaderAppliesThem) {
+TEST(LightAdjustments, TheLoaderAppliesAdjustments) {
   GltfBuilder b;
   b.root["extensionsUsed"] = {"KHR_lights_punctual"};
   b.root["extensions"]["KHR_lights_punctual"]["lights"] = {

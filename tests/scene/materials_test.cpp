@@ -11,7 +11,7 @@ namespace {
 using testing::ElementsAre;
 using tests::expect_messages;
 
-/// A scene of one triangle with the given material; two textures are there (of one missing image).
+/// Loads a scene of one triangle with the given material and two textures (of one missing image).
 Scene load_material(const json& material, GltfBuilder file = {}) {
   file.add("images", {{"uri", "absent.png"}});
   file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
@@ -84,7 +84,7 @@ TEST(Materials, DefaultsAreThoseOfTheSpecification) {
   EXPECT_EQ(m.attenuation_distance, kInfinity);
 }
 
-TEST(Materials, APrimitiveWithoutOneGetsTheDefault) {
+TEST(Materials, APrimitiveWithoutMaterialGetsTheDefault) {
   GltfBuilder file;
   file.add("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
   file.node({{"mesh", file.mesh(file.triangle())}});
@@ -99,7 +99,7 @@ TEST(Materials, EmissiveStrengthMultiplies) {
   EXPECT_TRUE(only_material(material).emission.isApprox(Color(40, 20, 0)));
 }
 
-TEST(Materials, SpecularAndGlossinessBecomeADielectricOfThatReflectance) {
+TEST(Materials, SpecularGlossinessBecomesADielectricOfThatReflectance) {
   json material =
       extension("KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
                                                         {"diffuseTexture", {{"index", 0}}},
@@ -121,7 +121,7 @@ TEST(Materials, SpecularAndGlossinessBecomeADielectricOfThatReflectance) {
   EXPECT_EQ(defaults.roughness, 0.0f);
 }
 
-TEST(Materials, BackFacesAreShownCulledOrLitAsAsked) {
+TEST(Materials, BackFacesAreShownCulledOrLitByOption) {
   GltfBuilder file;
   for (const bool double_sided : {false, true}) {
     for (const bool emits : {false, true}) {
@@ -196,7 +196,7 @@ TEST(Materials, Iridescence) {
   EXPECT_FALSE(m.iridescence_texture);
 }
 
-TEST(Materials, OnlyAnInsideDisperses) {
+TEST(Materials, OnlyVolumesDisperse) {
   json material = extension("KHR_materials_dispersion", {{"dispersion", 0.36}});
   EXPECT_FLOAT_EQ(only_material(material).dispersion, 0.36f);
   material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1;
@@ -225,10 +225,10 @@ TEST(Materials, DiffuseTransmission) {
 }
 
 TEST(Materials, Anisotropy) {
-  const json brushed = extension(
+  const json anisotropic = extension(
       "KHR_materials_anisotropy",
       {{"anisotropyStrength", 0.6}, {"anisotropyRotation", -1.5}, {"anisotropyTexture", {{"index", 0}}}});
-  const Material m = only_material(brushed);
+  const Material m = only_material(anisotropic);
   EXPECT_FLOAT_EQ(m.anisotropy, 0.6f);
   EXPECT_FLOAT_EQ(m.anisotropy_rotation, -1.5f);
   EXPECT_TRUE(m.anisotropy_texture);
@@ -237,16 +237,16 @@ TEST(Materials, Anisotropy) {
       << "its factor is zero";
 }
 
-TEST(Materials, ABrushedMeshTakesTangentsFromItsTextureCoordinates) {
-  const json brushed = extension("KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}});
-  const Scene scene = load_material(brushed);
+TEST(Materials, AnAnisotropicMeshTakesTangentsFromItsTextureCoordinates) {
+  const json anisotropic = extension("KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}});
+  const Scene scene = load_material(anisotropic);
   ASSERT_EQ(scene.meshes.at(0).tangents.size(), 3u);
   EXPECT_TRUE(scene.meshes[0].tangents[0].isApprox(Vec4(1, 0, 0, 1))) << "along u";
   EXPECT_TRUE(scene.warnings.empty());
   GltfBuilder bare;
   json primitive = bare.triangle();
   primitive["attributes"].erase("TEXCOORD_0");
-  primitive["material"] = bare.add("materials", brushed);
+  primitive["material"] = bare.add("materials", anisotropic);
   bare.node({{"mesh", bare.mesh(primitive)}});
   const Scene without = bare.load();
   EXPECT_TRUE(without.meshes.at(0).tangents.empty());

@@ -16,7 +16,7 @@ Material glass() {
   return m;
 }
 
-/// Boxes of glass, each a placement of its own.
+/// Boxes of glass, each with its own placement.
 struct Boxes : SceneBuilder {
   int of_glass = material(glass());
 
@@ -30,7 +30,7 @@ struct Boxes : SceneBuilder {
 
 using Numbers = std::vector<std::uint32_t>;
 
-TEST(NestedVolumes, BoxesApartAreNotListed) {
+TEST(NestedVolumes, SeparateBoxesAreNotListed) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {1, 1, 1});
   boxes.add({2, 0, 0}, {3, 1, 1});
@@ -38,7 +38,7 @@ TEST(NestedVolumes, BoxesApartAreNotListed) {
   EXPECT_FALSE(compute_requirements(boxes.scene()).nested_volumes);
 }
 
-TEST(NestedVolumes, WhatLiesInsideIsStronger) {
+TEST(NestedVolumes, TheInnerVolumeHasPriority) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {9, 9, 9});
   boxes.add({2, 2, 2}, {3, 3, 3});
@@ -49,7 +49,7 @@ TEST(NestedVolumes, WhatLiesInsideIsStronger) {
   EXPECT_TRUE(compute_requirements(boxes.scene()).nested_volumes);
 }
 
-TEST(NestedVolumes, PrioritiesDecideBeforeSizesAndTheOrderOfTheFileAfterThem) {
+TEST(NestedVolumes, PrioritiesDecideBeforeSizesAndFileOrder) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {2, 2, 2});
   boxes.add({1, 0, 0}, {3, 2, 2});
@@ -75,7 +75,7 @@ TEST(NestedVolumes, PrimitivesOfOnePlacementCloseOneVolume) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {9, 9, 9});
   boxes.add({1, 1, 1}, {2, 2, 2});
-  // The second box in two primitives; the other one is a lid of metal.
+  // Splits the second box into two primitives; its lid is metal.
   Scene& scene = boxes.scene();
   Mesh& open = scene.meshes[1];
   Mesh lid = open;
@@ -91,19 +91,19 @@ TEST(NestedVolumes, PrimitivesOfOnePlacementCloseOneVolume) {
   EXPECT_TRUE(boxes.numbers().empty());
 }
 
-TEST(NestedVolumes, MaterialsThatCloseAloneAreBodiesOfTheirOwn) {
+TEST(NestedVolumes, EachClosedMaterialIsASeparateVolume) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {9, 9, 9});
   boxes.add({1, 1, 1}, {2, 2, 2});
   Scene& scene = boxes.scene();
   scene.instances[1].placement = scene.instances[0].placement;
-  // Two shells of one material are one volume, which touches nothing.
+  // Two shells of one material are one volume, which touches no other.
   EXPECT_TRUE(boxes.numbers().empty());
   scene.meshes[1].material = boxes.material(glass());
   EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
 }
 
-TEST(NestedVolumes, WhatRaysPassAtRandomBoundsNothing) {
+TEST(NestedVolumes, AMaskedSurfaceBoundsNoVolume) {
   for (const bool masked : {false, true}) {
     Boxes boxes;
     boxes.add({0, 0, 0}, {9, 9, 9});
@@ -115,11 +115,11 @@ TEST(NestedVolumes, WhatRaysPassAtRandomBoundsNothing) {
   }
 }
 
-TEST(NestedVolumes, VerticesApartByRoundingAreOne) {
+TEST(NestedVolumes, VerticesThatDifferByRoundingAreMerged) {
   for (const float gap : {1e-6f, 1e-3f}) {
     Boxes boxes;
     boxes.add({0, 0, 0}, {9, 9, 9});
-    // Each triangle with vertices of its own, wherever a grid may part them.
+    // Each triangle has its own vertices, which a grid could separate.
     Mesh cut;
     boxes.add({1.1f, 1.2f, 1.3f}, {2.7f, 2.9f, 3.1f});
     const Mesh whole = boxes.scene().meshes[1];
@@ -136,7 +136,7 @@ TEST(NestedVolumes, VerticesApartByRoundingAreOne) {
   }
 }
 
-TEST(NestedVolumes, ManyBodiesAtOnePlaceTakeNoTime) {
+TEST(NestedVolumes, ManyVolumesAtOnePlaceAreFast) {
   Boxes boxes;
   boxes.add({0, 0, 0}, {1, 1, 1}).baked = false;
   Scene& scene = boxes.scene();
@@ -157,7 +157,7 @@ TEST(NestedVolumes, SeamsAndPolesAreNoHoles) {
   EXPECT_EQ(boxes.numbers(), (Numbers{1, 0}));
 }
 
-TEST(NestedVolumes, SharedMeshesCountAsTheyArePlaced) {
+TEST(NestedVolumes, SharedMeshesCountForEachPlacement) {
   Boxes boxes;
   boxes.add({-1, -1, -1}, {1, 1, 1});
   Scene& scene = boxes.scene();

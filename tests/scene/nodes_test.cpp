@@ -79,7 +79,7 @@ TEST(Nodes, ADeepChainNeitherOverflowsNorLosesItsPlace) {
   file.root["nodes"] = nodes;
   file.root["scenes"] = {{{"nodes", {0}}}};
   const Scene scene = file.load();
-  // So far away, the scene is moved to its centre.
+  // The scene is so far from the origin that the loader moves it to its centre.
   EXPECT_EQ(Vec3(only_mesh(scene).positions[0] + scene.origin), Vec3(0.5f * (depth - 1), 0, 0));
 }
 
@@ -125,7 +125,7 @@ TEST(Nodes, MeshesScaledToNothingAreLeftOut) {
   expect_messages(scene.warnings, {{"meshes"}});
 }
 
-TEST(Nodes, TellThePriorityOfAMediumInTheirExtras) {
+TEST(Nodes, ReadThePriorityOfAMediumFromTheirExtras) {
   GltfBuilder file;
   const int mesh = file.mesh(file.triangle());
   file.node({{"mesh", mesh}});
@@ -137,7 +137,7 @@ TEST(Nodes, TellThePriorityOfAMediumInTheirExtras) {
   EXPECT_EQ(scene.instances[1].dielectric_priority, -2.5f);
   EXPECT_EQ(scene.instances[2].dielectric_priority, 0.0f);
   EXPECT_LT(scene.instances[0].placement, scene.instances[1].placement);
-  // Other applications may mean something else by it.
+  // Other applications may use the name for something else.
   for (const json& other : {json("high"), json(1e300), json(nullptr), json::object()}) {
     GltfBuilder odd;
     odd.node({{"mesh", odd.mesh(odd.triangle())}, {"extras", {{"dielectric_priority", other}}}});
@@ -148,14 +148,14 @@ TEST(Nodes, TellThePriorityOfAMediumInTheirExtras) {
   }
 }
 
-TEST(Nodes, WhatIsNotVisibleShowsNeitherMeshesNorLights) {
+TEST(Nodes, HiddenNodesShowNeitherMeshesNorLights) {
   GltfBuilder file;
   file.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};
   file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
   const auto visible = [](bool value) { return json{{"visible", value}}; };
   const int mesh = file.mesh(file.triangle());
-  // A child that is visible, of a parent that is not: still hidden. Cameras are not affected.
+  // A visible child of a hidden parent is still hidden. Cameras are not affected.
   const int child = file.add(
       "nodes",
       {{"mesh", mesh},
@@ -273,7 +273,7 @@ TEST(Lights, AnEmptyConeIsRefused) {
   file.expect_refused({"lights[0].spot", "innerConeAngle", "0.6"});
 }
 
-/// A scene with a light of six images of one pixel.
+/// Returns a scene with an image-based light of six images of one pixel.
 GltfBuilder with_image_light() {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}});
@@ -349,7 +349,7 @@ TEST(Instancing, CountsThatDifferAreRefused) {
   file.expect_refused({"accessors[0]", "2", "TRANSLATION", "nodes[0]", "3"});
 }
 
-TEST(Instancing, AttributesOfAnApplicationCountToo) {
+TEST(Instancing, CustomAttributesSetTheCountToo) {
   for (const int count : {2, 0}) {
     GltfBuilder file;
     json attributes = json::object();

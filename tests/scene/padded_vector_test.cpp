@@ -1,4 +1,4 @@
-#include "scene/padded_vector.h"
+#include "base/padded_vector.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace gatelight::scene {
 namespace {
 
-/// Whether 16 bytes can be read at the last position, and are ours. Of six positions, 72 bytes, the allocator
-/// of the C library would give no byte more than asked for; the address sanitizer sees the read itself.
+/// Expects that 16 bytes can be read at the last position and belong to the vector. For six positions, 72
+/// bytes, the C library's allocator would give no more than requested; the address sanitizer checks the read.
 void expect_padding(const Mesh& mesh) {
   ASSERT_EQ(mesh.positions.size(), 6u);
   float read[4];
@@ -28,7 +28,7 @@ Mesh six_positions() {
   return mesh;
 }
 
-TEST(PaddedVector, ReadsOf16BytesStayInsideWhereverAMeshHasBeen) {
+TEST(PaddedVector, ReadsOf16BytesStayInsideAfterCopiesMovesAndResizes) {
   Mesh mesh = six_positions();
   expect_padding(mesh);
   const Mesh copied = mesh;

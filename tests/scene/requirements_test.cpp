@@ -37,7 +37,7 @@ TEST(Requirements, AnEmptySceneNeedsNothing) {
   EXPECT_EQ(r.emissive_triangles, 0u);
 }
 
-TEST(Requirements, OnlyLambertIsIndependentOfTheView) {
+TEST(Requirements, OnlyLambertIsViewIndependent) {
   EXPECT_FALSE(compute_requirements(scene_of({lambert()})).view_dependent);
   EXPECT_TRUE(compute_requirements(scene_of({Material{}})).view_dependent);
   const auto with = [](auto change) {

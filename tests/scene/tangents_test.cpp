@@ -9,7 +9,7 @@
 namespace gatelight::scene {
 namespace {
 
-/// A unit quad in the plane z = 0 that faces +z. `uv` of its corners (0,0) (1,0) (1,1) (0,1).
+/// Returns a unit quad in the plane z = 0 that faces +z. `uv` is for its corners (0,0) (1,0) (1,1) (0,1).
 Mesh quad(const std::vector<Vec2>& uv) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -32,7 +32,7 @@ void expect_frame(const Mesh& mesh, std::size_t vertex, const Vec3& tangent, con
   EXPECT_TRUE(Vec3(n.cross(t) * mesh.tangents[vertex].w()).isApprox(bitangent, 1e-5f));
 }
 
-TEST(Tangents, PointAlongUAndUpThePicture) {
+TEST(Tangents, FollowUAndTheUpDirectionOfThePicture) {
   Mesh mesh = quad({{0, 1}, {1, 1}, {1, 0}, {0, 0}});
   generate_tangents(mesh, slot());
   ASSERT_EQ(mesh.tangents.size(), 4u);
@@ -88,7 +88,7 @@ TEST(Tangents, FlatMeshesGetAFrameForEachTriangle) {
   for (const Vec4& t : mesh.tangents) EXPECT_NEAR(t.head<3>().norm(), 1.0f, 1e-5f);
 }
 
-TEST(Tangents, OfFlatTrianglesWithoutAPictureLieInTheTriangle) {
+TEST(Tangents, TangentsWithoutUvGradientLieInTheTriangle) {
   Mesh mesh = quad({{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
   mesh.normals.clear();
   for (Vec3& p : mesh.positions) p.z() = -p.x();  // a ramp
@@ -123,16 +123,16 @@ GltfBuilder with_normal_map() {
   return file;
 }
 
-TEST(Tangents, OfTheFileAreUsedWhenANormalMapNeedsThem) {
+TEST(Tangents, TangentsOfTheFileAreUsedWhenANormalMapNeedsThem) {
   GltfBuilder file = with_normal_map();
   const LoadOptions options{.missing_is_error = false};
   const Mesh own = only_mesh(file.load(options));
   EXPECT_TRUE(own.tangents.at(0).isApprox(Vec4(0, 1, 0, -1)));
-  EXPECT_NEAR(own.tangents.at(2).head<3>().norm(), 1.0f, 1e-5f) << "mended";
+  EXPECT_NEAR(own.tangents.at(2).head<3>().norm(), 1.0f, 1e-5f) << "repaired";
   file.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
   EXPECT_TRUE(only_mesh(file.load(options)).tangents.at(0).isApprox(Vec4(1, 0, 0, 1))) << "generated";
   file.root["materials"][0] = json::object();
-  EXPECT_TRUE(only_mesh(file.load(options)).tangents.empty()) << "nobody reads them";
+  EXPECT_TRUE(only_mesh(file.load(options)).tangents.empty()) << "unused";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ using testing::ElementsAre;
 using tests::expect_messages;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Five vertices of a convex polygon, with a mode and perhaps indices.
+/// Loads five vertices of a convex polygon, with a mode and optional indices.
 Scene load_polygon(int mode, const std::vector<std::uint32_t>& indices) {
   GltfBuilder file;
   json primitive = {
@@ -78,7 +78,7 @@ TEST(Topology, AnIndexBeyondTheVerticesIsRefused) {
 }
 
 TEST(Topology, VerticesThatNoTriangleUsesAreDropped) {
-  // Few of many, and most of them: the two ways of renumbering.
+  // The loader renumbers in two ways: for few of many vertices, and for most of them.
   const Scene few = load_polygon(4, {3, 4, 1});
   EXPECT_THAT(few.meshes.at(0).positions, ElementsAre(Vec3(1, 0, 0), Vec3(1, 2, 0), Vec3(0, 1, 0)));
   EXPECT_THAT(few.meshes.at(0).triangles, ElementsAre(Triangle{1, 2, 0}));
@@ -96,7 +96,7 @@ TEST(Topology, VerticesThatNoTriangleUsesAreDropped) {
   EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{2, 0, 1}));
 }
 
-TEST(Topology, BrokenNormalsAreReplacedByTheTriangles) {
+TEST(Topology, BrokenNormalsAreReplacedByTriangleNormals) {
   GltfBuilder file;
   json primitive = file.triangle();
   primitive["attributes"]["NORMAL"] =
@@ -115,8 +115,8 @@ TEST(Topology, MissingNormalsStayMissing) {
   EXPECT_TRUE(only_mesh(file.load()).normals.empty());
 }
 
-// A count is cheap to write: some hundred bytes would ask for gigabytes.
-TEST(Claims, MoreGeometryThanTheFileCanMeanIsRefused) {
+// A file of some hundred bytes could contain counts that need gigabytes.
+TEST(Claims, TooMuchGeometryForTheFileIsRefused) {
   const auto with_primitives = [](int primitives, std::size_t count) {
     GltfBuilder file;
     const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});
@@ -130,7 +130,7 @@ TEST(Claims, MoreGeometryThanTheFileCanMeanIsRefused) {
   with_primitives(20, 1 << 20).expect_refused({"meshes[0].primitives[13]", "1024"});
 }
 
-TEST(Claims, MoreInstancesThanTheFileCanMeanAreRefused) {
+TEST(Claims, TooManyInstancesForTheFileAreRefused) {
   const auto with_nodes = [](int nodes, std::size_t count, int primitives) {
     GltfBuilder file;
     const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});

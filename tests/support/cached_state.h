@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "renderer/cache/cache_state.h"
-#include "tests/support/held_state.h"
 #include "tests/support/model_cases.h"
+#include "tests/support/stored_state.h"
 
 namespace gatelight::testing {
 

@@ -1,13 +1,13 @@
 #pragma once
-// The denoiser of tests: that of GATELIGHT_OIDN, or what the program would find.
+// The denoiser of tests: that of GATELIGHT_OIDN, or the one that the program would find.
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <string>
 
+#include "base/errors.h"
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/machine/errors.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::testing {
@@ -17,12 +17,12 @@ inline std::string denoiser_place() {
   return place ? place : "";
 }
 
-/// Why there is no denoiser; empty where there is one.
+/// The reason why there is no denoiser; empty where there is one.
 inline std::string missing_denoiser() {
   try {
     renderer::load_oidn(denoiser_place());
     return "";
-  } catch (const renderer::MissingDenoiser& error) {
+  } catch (const MissingDenoiser& error) {
     return error.what();
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A disk that is full, as far as this process can tell.
+// A full disk, simulated for this process.
 
 #include <sys/resource.h>
 

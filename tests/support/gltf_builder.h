@@ -37,12 +37,12 @@ inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// What load_gltf says when it refuses; empty when it loads.
+/// The error of load_gltf; empty when it loads.
 inline std::string refusal(const std::filesystem::path& path, const LoadOptions& options = {}) {
-  return tests::refusal<SceneError>([&] { load_gltf(path, options); });
+  return tests::refusal<InputError>([&] { load_gltf(path, options); });
 }
 
-/// Refused with a message that has the path and all the names in it.
+/// Expects a refusal with a message that has the path and all the names in it.
 inline void expect_refused(const std::filesystem::path& path, tests::NameList names,
                            const LoadOptions& options = {}, tests::Place place = tests::Place::current()) {
   names.push_back(path.string());

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes made of emissive triangles, and the closed form of what they send to a point.
+// Scenes made of emissive triangles, and the closed form of their irradiance at a point.
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,6 @@
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::testing {
-
-using scene::Color;
-using scene::Vec2;
-using scene::Vec3;
 using Triangle = std::array<Vec3, 3>;
 
 /// Adds a mesh with a material of its own, used by one instance; returns the index of the instance.
@@ -64,7 +60,7 @@ inline renderer::EnvironmentOptions uniform_picture(const tests::TemporaryFolder
   return options;
 }
 
-/// A scene with all that its Lights refer to.
+/// A scene with its Lights and all the data that they refer to.
 struct LitScene {
   scene::Scene scene;
   renderer::Textures textures;

@@ -1,6 +1,6 @@
 #pragma once
-// What a test asks of an error or a warning: its type, one line, and the names and values in it. The wording
-// is recorded with the test's results; house.messages compares it with golden/messages.txt.
+// Checks of an error or a warning: its type, one line, and the names and values in it. The wording is
+// recorded with the test's results; house.messages compares it with golden/messages.txt.
 
 #include <gtest/gtest.h>
 
@@ -35,16 +35,17 @@ inline bool has_name(std::string_view text, std::string_view name) {
   return false;
 }
 
-/// One line that has all the names in it. For texts of libraries and machines, whose wording is not ours.
+/// Expects one line that has all the names in it. For texts of libraries and the platform, whose wording is
+/// not ours.
 inline void expect_names(const std::string& message, const NameList& names, Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()),
                                      "message: " + message);
-  EXPECT_NE(message, "") << "nothing was said";
+  EXPECT_NE(message, "") << "expected a message";
   EXPECT_EQ(message.find('\n'), std::string::npos) << "expected one line";
   for (const std::string& name : names) EXPECT_TRUE(has_name(message, name)) << "expected '" << name << "'";
 }
 
-/// The same, and the wording is recorded.
+/// Like expect_names(), and the wording is recorded.
 inline void expect_message(const std::string& message, const NameList& names,
                            Place place = Place::current()) {
   expect_names(message, names, place);
@@ -52,7 +53,7 @@ inline void expect_message(const std::string& message, const NameList& names,
   ::testing::Test::RecordProperty("message" + std::to_string(result->test_property_count()), message);
 }
 
-/// As many messages as lists of names, in this order.
+/// Expects as many messages as lists of names, in this order.
 inline void expect_messages(const std::vector<std::string>& messages, const std::vector<NameList>& names,
                             Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "messages");
@@ -60,7 +61,7 @@ inline void expect_messages(const std::vector<std::string>& messages, const std:
   for (std::size_t i = 0; i < names.size(); ++i) expect_message(messages[i], names[i], place);
 }
 
-/// What `act` says when it throws exactly an `Error`; empty where it throws nothing.
+/// The message of `act`, which throws exactly an `Error`; empty where it throws nothing.
 template <typename Error, typename Act>
 std::string refusal(const Act& act) {
   try {

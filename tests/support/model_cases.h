@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "neural/base/batch.h"
-#include "neural/base/random.h"
+#include "base/random.h"
+#include "neural/model/batch.h"
 #include "neural/model/model.h"
 #include "neural/model/training_options.h"
 
@@ -188,7 +188,7 @@ inline std::vector<std::pair<std::string, ModelConfig>> all_model_configs() {
   const ModelConfig gate = default_gate_config(), hash = default_hash_config(),
                     plain = default_plain_config();
 
-  // The two configurations that the benchmarks are about.
+  // The two configurations of the benchmarks.
   add("nrc", gate);
   ModelConfig nao = gate;
   nao.gate.features = 2;
@@ -308,9 +308,9 @@ inline std::vector<std::pair<std::string, ModelConfig>> all_model_configs() {
   widest.auxiliary = {{InputSource::position, InputEncoding::one_blob, 64},
                       {InputSource::roughness, InputEncoding::one_blob, 64}};
   add("plain_256_inputs", widest);
-  ModelConfig gate_alone = gate;
-  gate_alone.auxiliary.clear();
-  add("gate_alone", gate_alone);
+  ModelConfig gate_only = gate;
+  gate_only.auxiliary.clear();
+  add("gate_only", gate_only);
 
   for (std::uint32_t features = 1; features <= 16; ++features) {
     ModelConfig c = hash;
@@ -325,9 +325,9 @@ inline std::vector<std::pair<std::string, ModelConfig>> all_model_configs() {
     c.hash_grid.growth = 1.4f;
     add(fmt::format("hash_{}_levels", levels), c);
   }
-  ModelConfig hash_alone = hash;
-  hash_alone.auxiliary.clear();
-  add("hash_alone", hash_alone);
+  ModelConfig hash_only = hash;
+  hash_only.auxiliary.clear();
+  add("hash_only", hash_only);
   ModelConfig tiny = hash;
   tiny.hash_grid.log2_table_size = 3;
   tiny.hash_grid.base_resolution = 1;
@@ -401,7 +401,7 @@ inline std::vector<OptionsCase> all_training_options(const Model& model) {
 
 enum class Fate : std::uint8_t { accepted, clipped, rejected, unstored };
 
-/// What a backend has to make of each record stands in `fates`.
+/// `fates` has the result that a backend must give for each record.
 struct OwnedBatch {
   std::vector<std::uint32_t> surfaces, triangles;
   std::vector<Float2> barycentrics;
@@ -425,8 +425,8 @@ struct BatchOptions {
   /// Shares of the records that get NaN or infinity, lie where nothing is stored, or have a target beyond
   /// 1e9 (finite). Without gate nothing is unstored.
   float nonfinite = 0, unstored = 0, beyond = 0;
-  /// Share of barycentrics at corners, on edges and slightly outside: there a weight's being 0 or 1e-9 hangs
-  /// on the precision, and with it whether a node is touched.
+  /// Share of barycentrics at corners, on edges and slightly outside: there the precision decides whether a
+  /// weight is 0 or 1e-9, and with it whether a node is touched.
   float border = 0;
   float crowded = 0.25f;  ///< share of records on one triangle, so that gradients add up
 };
@@ -450,7 +450,7 @@ inline void spoil(OwnedBatch& batch, std::size_t record, std::uint32_t outputs, 
 
 }  // namespace detail
 
-/// Records of points that the model can be asked about; spans that it does not read stay empty.
+/// Records of points at which the model can be queried; spans that it does not read stay empty.
 inline OwnedBatch make_batch(const Model& model, std::size_t size, std::uint64_t seed,
                              const BatchOptions& options = {}) {
   OwnedBatch batch;

@@ -1,6 +1,5 @@
 #pragma once
-// What it means that a fast backend agrees with the reference: states, batches and differences to compare
-// them by.
+// Comparison of a fast backend with the reference: states, batches and differences.
 
 #include <gtest/gtest.h>
 
@@ -100,8 +99,8 @@ inline OwnedBatch make_smooth_batch(const Model& model, const ModelState& state,
   return batch;
 }
 
-/// Nodes that no accepted record reads with a weight that is surely not 0: whether a step touches them hangs
-/// on the last bit.
+/// Nodes that no accepted record reads with a weight that is surely not 0: the last bit decides whether a
+/// step touches them.
 inline std::vector<bool> doubtful_nodes(const Model& model, const OwnedBatch& batch) {
   std::vector<bool> read(model.parameters.node_count, false), sure = read;
   for (std::size_t r = 0; r < batch.size(); ++r) {
@@ -157,7 +156,7 @@ inline double tensor_difference(const Model& model, const std::vector<float>& a,
   return worst;
 }
 
-/// Of all features, the share that differs by more than `tolerance` times the greatest.
+/// The share of features that differ by more than `tolerance` times the greatest.
 inline double differing_share(const Model& model, const std::vector<float>& a, const std::vector<float>& b,
                               double tolerance) {
   const std::span x = std::span(a).first(model.parameters.network);
@@ -189,7 +188,7 @@ inline void expect_ranges(const Model& model, const OwnedBatch& batch, std::span
   EXPECT_GT(nan, 0u);
 }
 
-/// The worst difference of each kind, for each instruction set, and where it was met.
+/// The worst difference of each kind, for each instruction set, and the case where it was met.
 class Worst {
  public:
   void meet(std::string_view isa, const std::string& kind, double value, const std::string& where) {

@@ -1,5 +1,5 @@
 #pragma once
-// Right checksums for the chunks of a mutated PNG, so that more than its first mutation is looked at.
+// Right checksums for the chunks of a mutated PNG, so that more than its first mutation is decoded.
 
 #include <cstdint>
 #include <vector>

@@ -12,7 +12,7 @@
 namespace gatelight::tests {
 
 struct Output {
-  int exit_code = -1;   ///< 128 + signal where a signal ended it, as a shell says it
+  int exit_code = -1;   ///< 128 + signal where a signal ended it, as in a shell
   bool killed = false;  ///< by a signal
   std::string out;
   std::string err;
@@ -50,17 +50,17 @@ class Process {
   Output output_;
 };
 
-/// The same without a process of its own: for runs that fail early.
+/// Runs gatelight within this process: for runs that fail early.
 Output run_gatelight_inside(const std::vector<std::string>& arguments);
 
 Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
 
-/// It ended by itself with this code, and stderr is one line, an error that has all the names in it. For
-/// errors that tell of the machine.
+/// Expects that it ended by itself with this code, and that stderr is one line, an error that has all the
+/// names in it. For errors that depend on the platform.
 void expect_failure_names(const Output& output, int exit_code, const NameList& names,
                           Place place = Place::current());
 
-/// The same, and the wording is recorded.
+/// Like expect_failure_names(), and the wording is recorded.
 void expect_failure(const Output& output, int exit_code, const NameList& names,
                     Place place = Place::current());
 

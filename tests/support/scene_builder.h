@@ -9,9 +9,6 @@
 
 namespace gatelight::testing {
 
-using scene::Color;
-using scene::Vec3;
-
 class SceneBuilder {
  public:
   SceneBuilder() { scene_.path = "built.glb"; }
@@ -43,7 +40,7 @@ class SceneBuilder {
   }
 
   /// Adds a mesh in world space. Counter-clockwise is the front.
-  scene::Mesh& mesh(int material, scene::PaddedVector<Vec3> positions,
+  scene::Mesh& mesh(int material, PaddedVector<Vec3> positions,
                     std::vector<std::array<std::uint32_t, 3>> triangles) {
     scene::Mesh m;
     m.material = material;
@@ -65,7 +62,7 @@ class SceneBuilder {
 
   /// Fronts look outwards, or inwards.
   void box(int material, const Vec3& low, const Vec3& high, bool inwards = false) {
-    scene::PaddedVector<Vec3> p;
+    PaddedVector<Vec3> p;
     for (int i = 0; i < 8; ++i) {
       p.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
     }
@@ -78,15 +75,15 @@ class SceneBuilder {
     mesh(material, p, t);
   }
 
-  /// Latitude-longitude sphere, fronts outwards; smooth normals where asked for.
+  /// Latitude-longitude sphere, fronts outwards; smooth normals on request.
   scene::Mesh& sphere(int material, const Vec3& center, float radius, int segments, bool smooth) {
-    scene::PaddedVector<Vec3> p;
+    PaddedVector<Vec3> p;
     std::vector<std::array<std::uint32_t, 3>> t;
     const int rings = segments / 2;
     for (int i = 0; i <= rings; ++i) {
       for (int j = 0; j <= segments; ++j) {
-        const float theta = scene::kPi * static_cast<float>(i) / static_cast<float>(rings);
-        const float phi = 2.0f * scene::kPi * static_cast<float>(j % segments) / static_cast<float>(segments);
+        const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
+        const float phi = 2.0f * kPi * static_cast<float>(j % segments) / static_cast<float>(segments);
         p.push_back(center + radius * Vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
                                            -std::sin(theta) * std::sin(phi)));
       }

@@ -1,5 +1,5 @@
 #pragma once
-// What must hold for anything that loads: the renderer trusts it.
+// Invariants of any scene that loads: the renderer relies on them.
 
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace gatelight::scene {
 
-/// Nothing, or what is wrong with the scene.
+/// The first violated invariant; empty where there is none.
 inline std::string scene_fault(const Scene& scene) {
   const auto unit = [](const Vec3& v) { return std::abs(v.norm() - 1.0f) <= 1e-4f; };
   const auto index = [](int i, std::size_t size) { return i >= 0 && static_cast<std::size_t>(i) < size; };

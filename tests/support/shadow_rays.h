@@ -5,13 +5,13 @@
 
 namespace gatelight::testing {
 
-/// What is left of a shadow ray of this length along -z, from height z.
-inline scene::Color passed_down(const renderer::World& world, float z, float length) {
+/// Transmittance of a shadow ray of this length along -z, from height z.
+inline Color passed_down(const renderer::World& world, float z, float length) {
   renderer::Ray ray;
-  ray.origin = scene::Vec3(0.1f, 0.2f, z);
-  ray.direction = scene::Vec3(0, 0, -1);
+  ray.origin = Vec3(0.1f, 0.2f, z);
+  ray.direction = Vec3(0, 0, -1);
   ray.t_max = length;
-  scene::Color result;
+  Color result;
   world.accel.transmittance({&ray, 1}, {&result, 1});
   return result;
 }

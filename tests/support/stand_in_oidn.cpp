@@ -1,4 +1,4 @@
-// A library with the names that Gatelight calls of Open Image Denoise, which denoises nothing. It tells the
+// A library with the names that Gatelight calls of Open Image Denoise, which denoises nothing. It reports the
 // version GATELIGHT_STAND_IN_VERSION.
 
 #include <cstring>

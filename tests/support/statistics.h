@@ -1,6 +1,6 @@
 #pragma once
 // Statistics for tests: tail probabilities, the correction for many tests, and the chi-square test of a
-// histogram. All in double precision; nothing here knows what is being tested.
+// histogram. All in double precision; nothing here depends on the code under test.
 
 #include <gtest/gtest.h>
 
@@ -175,7 +175,7 @@ inline ChiSquareResult chi_square_test(std::span<const double> observed, std::sp
   return result;
 }
 
-/// For EXPECT_TRUE: says the statistic when the hypothesis is rejected.
+/// For EXPECT_TRUE: reports the statistic when the hypothesis is rejected.
 inline ::testing::AssertionResult accepts(const ChiSquareResult& result, double significance) {
   if (result.p_value >= significance) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()

@@ -9,7 +9,7 @@
 
 namespace gatelight::tests {
 
-/// A fresh folder that goes away with the object.
+/// A fresh folder that is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

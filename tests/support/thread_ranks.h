@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/ranks/ranks.h"
+#include "renderer/distributed/ranks.h"
 
 namespace gatelight::tests {
 
 using renderer::Bytes;
 
-/// What the ranks have sent: message number n of each rank to each.
+/// The sent messages: message number n of each rank to each.
 class Mailboxes {
  public:
   explicit Mailboxes(int count) : count_(static_cast<std::size_t>(count)) {}
@@ -67,8 +67,8 @@ class ThreadRank final : public renderer::Ranks {
   void broadcast(Bytes& bytes) override {
     bytes = exchange(std::vector<Bytes>(boxes_.count(), rank_ == 0 ? bytes : Bytes()))[0];
   }
-  std::unique_ptr<Gathering> begin_gather(Bytes mine) override {
-    struct Coming : Gathering {
+  std::unique_ptr<AllGather> begin_gather(Bytes mine) override {
+    struct Coming : AllGather {
       ThreadRank* rank;
       std::uint64_t number;
       std::vector<Bytes> wait() override { return rank->boxes_.receive(rank->rank_, number); }
@@ -89,7 +89,7 @@ class ThreadRank final : public renderer::Ranks {
   std::uint64_t sent_ = 0;
 };
 
-/// Runs the function at so many ranks, each a thread. It must end at all ranks or at none. Throws what the
+/// Runs the function at `count` ranks, each a thread. It must end at all ranks or at none. Throws what the
 /// first rank of them throws.
 inline void run_ranks(int count, const std::function<void(renderer::Ranks&)>& function) {
   Mailboxes boxes(count);

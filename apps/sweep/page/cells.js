@@ -14,7 +14,7 @@ const kMetrics = [
   {key: "mse", label: "MSE", of: errors => errors.mse, means: "mean squared difference of radiance: bright pixels decide it"},
 ];
 
-const kKinds = {path: "path tracing", ao: "ambient occlusion", cache: "what the cache is to hold"};
+const kKinds = {path: "path tracing", ao: "ambient occlusion", cache: "what the cache should store"};
 
 function errorOf(cell, metric) {
   const value = metric.of(cell.errors ?? {});
@@ -26,17 +26,17 @@ function secondsOf(cell) {
   return isNumber(value) ? value : null;
 }
 
-/// Errors against different references are different things. Older results name the kind alone.
+/// Errors against different references are different things. Older results name only the kind.
 function referenceOf(cell) {
   return cell.reference_id ?? cell.reference ?? "path";
 }
 
-/// Of an entry of a scene's "references", as cells name it.
+/// Key of an entry of a scene's "references", as cells name it.
 function keyOf(reference) {
   return reference.id ?? reference.kind;
 }
 
-/// What is the same in all cells of a group and not in all groups: axes, else options.
+/// Names of groups: the values that all cells of a group share and not all groups have; axes, else options.
 function differencesOf(groups) {
   for (const of of [cell => cell.axes ?? {}, cell => cell.options ?? {}]) {
     const text = (cell, name) => (of(cell)[name] === undefined ? undefined : String(of(cell)[name]));
@@ -49,8 +49,8 @@ function differencesOf(groups) {
   return groups.map((_, i) => `#${i + 1}`);
 }
 
-/// Of a scene's cells: what each is compared with, by referenceOf(), in words. Several of a kind are told apart by what
-/// their cells differ in.
+/// Names of the references of a scene's cells, by referenceOf(). Several of a kind are distinguished by the values in
+/// which their cells differ.
 function referenceNames(cells) {
   const names = new Map();
   for (const cell of cells) names.set(referenceOf(cell), "");
@@ -101,7 +101,7 @@ function mean(values) {
   return numbers.length === 0 ? null : numbers.reduce((sum, x) => sum + x, 0) / numbers.length;
 }
 
-/// Of the sample; null for fewer than two.
+/// Standard deviation of the sample; null for fewer than two values.
 function deviation(values) {
   const numbers = values.filter(isNumber);
   if (numbers.length < 2) return null;
@@ -151,7 +151,7 @@ function seriesOf(configurations) {
   }));
 }
 
-/// Those that no other beats in both time and error, by time.
+/// The configurations that no other beats in both time and error, by time.
 function frontOf(configurations) {
   const front = [];
   for (const c of [...configurations].sort((a, b) => a.seconds - b.seconds || a.error - b.error)) {
@@ -160,7 +160,7 @@ function frontOf(configurations) {
   return front;
 }
 
-/// What `gatelight sweep --advise` would say of these: the quickest of which no seed was above the error, or without an error
+/// The advice of `gatelight sweep --advise` for these: the quickest of which no seed was above the error, or without an error
 /// the most accurate within the seconds. Where none meets the limits, the one that comes nearest. null: no limit.
 function adviceOf(configurations, {error, seconds}) {
   const worse = error === null ? "error" : "high";

@@ -144,7 +144,7 @@ function drawFront(chart, ctx, area, front) {
   ctx.stroke();
 }
 
-/// What is asked for as lines, and a ring around the answer.
+/// The limits of the advice as lines, and a ring around the advised configuration.
 function drawLimits(chart, ctx, area, {error, seconds, chosen, color}) {
   const {x, y} = chart.scales;
   ctx.strokeStyle = color;

@@ -53,7 +53,7 @@ const kWords = {
   gate: "the cache keeps what it learned on the triangles of the scene",
   hashgrid: "the cache keeps what it learned in a table over space",
   bare: "--preset bare: the cache answers at the first surface that is no mirror",
-  standard: "--preset standard: paths go on until they have spread out and ask the cache there, and the picture is denoised",
+  standard: "--preset standard: paths go on until they have spread out and query the cache there, and the picture is denoised",
   denoised: "Open Image Denoise takes the noise out, guided by albedo and normals",
 };
 
@@ -157,7 +157,7 @@ function drawParetoChart(series, all, shown, limits) {
     (limits.chosen ? " The ring is around the one to take." : "");
 }
 
-/// What the fronts without a cache take to the same error: {traced, denoised}. Each is null where there is no such
+/// The seconds that the fronts without a cache take to the same error: {traced, denoised}. Each is null where there is no such
 /// front, or where the configuration belongs to it or has less than it.
 function rivalsOf(configuration, shown) {
   const seconds = denoised => {
@@ -180,7 +180,7 @@ function sign(rival) {
   return rival.above ? "> " : rival.below ? "< " : "";
 }
 
-/// A limit to begin with, in two digits: what the middle of the front keeps.
+/// A limit to begin with, in two digits: the error in the middle of the front.
 function suggestedError(shown) {
   const front = frontOf(shown);
   if (front.length === 0) return "";

@@ -80,7 +80,7 @@ function drawFailures() {
   makeTable("failures-table", [
     {label: "Configuration", value: cell => `${cell.series}, ${pointName(cell)}`},
     {label: "Seed", number: true, value: cell => cell.seed, show: value => String(value)},
-    {label: "What it said", value: cell => cell.error, className: "line"},
+    {label: "Message", value: cell => cell.error, className: "line"},
     {label: "Command", fixed: true, value: cell => cell.command, show: value => copyButton(value)},
   ], failed);
 }

@@ -1,10 +1,10 @@
 "use strict";
 // Two pictures with a border that moves, and their FLIP maps.
 
-/// Of a finger: below this it is a tap.
+/// Distance in pixels below which a finger's move is a tap.
 const kSlop = 8;
 
-/// What stands at each side now.
+/// The picture that each side shows now.
 const sides = {left: null, right: null};
 
 function moveBorder(percent) {
@@ -29,8 +29,8 @@ function listenToKeys() {
 }
 
 /// The mouse takes the border anywhere. A finger that goes up or down scrolls the page, so it takes the border with its first
-/// move sideways. Where the pictures are larger than their window both move them in it, and the border by its handle
-/// alone. A click or a tap puts the border where it is.
+/// move sideways. Where the pictures are larger than their window both move them in it, and the border only by its
+/// handle. A click or a tap puts the border where it is.
 function listenToPointer() {
   const [stage, handle, scroller] = [at("stage"), at("handle"), at("stage-scroller")];
   let down = null;
@@ -80,14 +80,14 @@ function flipText(cell) {
   return isNumber(cell.errors?.flip) ? `FLIP ${formatNumber(cell.errors.flip)}` : "";
 }
 
-/// Of a render that has estimated its own error.
+/// Text of the error that the render itself estimated.
 function estimateText(cell) {
   const error = relativeErrorOf(cell);
   const percent = x => `${formatNumber(100 * x, 2)}\u00a0%`;
   return error ? `relative error ${isNumber(error.is) ? percent(error.is) : kNone}, estimated ${percent(error.estimated)}` : "";
 }
 
-/// Entries of the index: {file, exposure, tonemap (of references alone), size, width, element}.
+/// Entries of the index: {file, exposure, tonemap (only of references), size, width, element}.
 function entriesOf(file) {
   return file ? pictureIndex.filter(entry => entry.file === file) : [];
 }
@@ -117,7 +117,7 @@ function referencePictures(reference, names) {
   }));
 }
 
-/// What can be shown of a scene: {id, group, name, detail, reference, display, entry, map, cell}, references first.
+/// The pictures of a scene: {id, group, name, detail, reference, display, entry, map, cell}, references first.
 function picturesOf(scene, cells) {
   const names = referenceNames(cells);
   const references = (scene.references ?? []).flatMap(reference => referencePictures(reference, names));
@@ -135,7 +135,7 @@ function picturesOf(scene, cells) {
   return [...references, ...made];
 }
 
-/// What a picture was compared with, shown likewise.
+/// The reference that a picture was compared with, shown likewise.
 function referencePictureOf(pictures, picture) {
   const own = pictures.filter(p => !p.cell && p.reference === picture.reference);
   return own.find(p => sameDisplay(p.display, picture.display)) ?? own[0];

@@ -1,5 +1,5 @@
 "use strict";
-// The controls, and who is told when they change.
+// The controls, and the parts of the page that change with them.
 
 function fillScenes() {
   at("scenes").hidden = scenes.length < 2;

@@ -1,11 +1,11 @@
 "use strict";
-// The results, and what of them is shown.
+// The results, and the part of them that is shown.
 
 const results = JSON.parse(document.getElementById("results").textContent);
 const pictureIndex = JSON.parse(document.getElementById("pictures").textContent);
 const scenes = results.scenes ?? [];
 const cells = results.cells ?? [];
-/// limits: what is asked for, as it was typed; of the error for each metric.
+/// limits: those of the advice, as they were typed; of the error for each metric.
 const state = {scene: scenes[0]?.name, reference: null, metric: kMetrics[0], hidden: new Set(), limits: {errors: new Map(), seconds: ""}};
 const at = id => document.getElementById(id);
 

@@ -9,7 +9,7 @@ function sameTime(pictures, chosen) {
     : comparable.filter(p => wayOf(p.cell) === way).sort((a, b) => ratio(a) - ratio(b))[0])).filter(Boolean);
 }
 
-/// Whose time can be chosen: the pictures of the last way that has any, by time.
+/// The pictures whose time can be chosen: those of the last way that has any, by time.
 function anchorsOf(pictures, reference) {
   const made = pictures.filter(p => p.cell && p.reference === reference && secondsOf(p.cell) > 0);
   const last = [...kWays].reverse().find(way => made.some(p => wayOf(p.cell) === way));

@@ -40,7 +40,7 @@ vec3 corner_weights(vec2 second_and_third) {
 }
 
 // The small triangle around a point: integer barycentrics of its nodes, and weights. R minus the sum of the
-// floors of R b tells the case: 1 is a small triangle with the big one's orientation, 2 an inverted one, 0
+// floors of R b selects the case: 1 is a small triangle with the big one's orientation, 2 an inverted one, 0
 // and 3 a node.
 void small_triangle(vec3 b, uint resolution, out uvec3 nodes[3], out vec3 weights) {
   const vec3 scaled = b * float(resolution);

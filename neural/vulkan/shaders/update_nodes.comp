@@ -102,7 +102,7 @@ void move(uint node, AdamStep adam) {
   }
 }
 
-// With fp16 alone an average follows the rounded feature.
+// With fp16 without masters an average follows the rounded feature.
 void follow(uint node, AdamStep adam) {
   for (uint f = 0u; f < kFeatures; ++f) {
     const float target = kFloats ? changed[f] : half_to_float(float_to_half(changed[f]));

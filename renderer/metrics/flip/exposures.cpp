@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/finite_float.h"
 #include "renderer/image/tonemap.h"
-#include "renderer/machine/finite_float.h"
 
 namespace gatelight::renderer::flip {
 namespace {

@@ -16,7 +16,7 @@ struct Exposures {
 /// `reference` is radiance without negative values.
 Exposures choose_exposures(const RgbPlanes& reference);
 
-/// What a screen shows: radiance times 0.6 * 2^stops through the ACES curve filmic().
+/// Display values: radiance times 0.6 * 2^stops through the ACES curve filmic().
 RgbPlanes expose(const RgbPlanes& radiance, double stops);
 
 }  // namespace gatelight::renderer::flip

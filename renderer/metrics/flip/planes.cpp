@@ -9,7 +9,7 @@ namespace gatelight::renderer::flip {
 RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
   const Beauty beauty(named);
   const std::size_t pixels = pixel_count(named.picture);
-  if (pixels == 0) throw CompareError(fmt::format("'{}' has no pixels", named.name));
+  if (pixels == 0) throw InputError(fmt::format("'{}' has no pixels", named.name));
   RgbPlanes planes;
   for (Plane* plane : {&planes.r, &planes.g, &planes.b}) {
     plane->resize(named.picture.height, named.picture.width);
@@ -23,8 +23,8 @@ RgbPlanes read_planes(const NamedPicture& named, const char* measure) {
     planes.b.data()[p] = static_cast<float>(std::max(color[2], 0.0));
   }
   if (not_finite > 0) {
-    throw CompareError(fmt::format("'{}' has {} pixels that are not finite; {} is defined for finite ones",
-                                   named.name, not_finite, measure));
+    throw InputError(fmt::format("'{}' has {} pixels that are not finite; {} is defined for finite ones",
+                                 named.name, not_finite, measure));
   }
   return planes;
 }
@@ -36,7 +36,7 @@ RgbPlanes read_shown(const NamedPicture& named, const char* measure, float expos
     float& r = planes.r.data()[i];
     float& g = planes.g.data()[i];
     float& b = planes.b.data()[i];
-    const scene::Color shown = tonemapped(scene::Color(r, g, b) * scale, tonemap);
+    const gatelight::Color shown = tonemapped(gatelight::Color(r, g, b) * scale, tonemap);
     r = shown[0];
     g = shown[1];
     b = shown[2];

@@ -19,7 +19,7 @@ struct RgbPlanes {
   Eigen::Index height() const { return r.rows(); }
 };
 
-/// Reads radiance. Negative values, which no screen shows, become 0. Throws CompareError for a picture
+/// Reads radiance. Negative values, which no screen shows, become 0. Throws InputError for a picture
 /// without a beauty layer, without pixels or with values that are not finite. `measure` is the metric's name
 /// for the message.
 RgbPlanes read_planes(const NamedPicture& named, const char* measure);

@@ -105,7 +105,7 @@ TEST(CacheStatistics, AreAbsentWithoutACache) {
   EXPECT_FALSE(stats["memory_bytes"].contains("parameters"));
 }
 
-TEST(CacheStatistics, AreSummedUpForPeople) {
+TEST(CacheStatistics, AreSummarisedAsText) {
   renderer::CacheStatistics s = some_statistics();
   EXPECT_THAT(cache_summary(s, ""),
               AllOf(HasSubstr("128 steps (chosen)"), HasSubstr("2.10 M records"), HasSubstr("loss 0.25"),
@@ -172,7 +172,7 @@ TEST(CacheReport, JsonHoldsEveryInstance) {
   EXPECT_EQ(report["instances"][3], third);
 }
 
-TEST(StopNotice, TellsOfTheTrainingThatItCutShort) {
+TEST(StopNotice, MentionsTrainingThatWasCutShort) {
   RenderSettings settings;
   settings.outputs = {"a.exr"};
   settings.render.integrator = Integrator::nrc;
@@ -185,11 +185,11 @@ TEST(StopNotice, TellsOfTheTrainingThatItCutShort) {
     tests::expect_message(stop_notice(settings, report), {"signal 2", "1", "64", "a.exr"});
     EXPECT_FALSE(tests::has_name(stop_notice(settings, report), "c.safetensors"));
   };
-  expect_picture();  // it had learned all
+  expect_picture();  // training was complete
   report.statistics.cache.steps = 37;
   tests::expect_message(stop_notice(settings, report), {"signal 2", "37", "128", "c.safetensors"});
   settings.render.cache.train_seconds = report.statistics.cache.train_seconds;
-  expect_picture();  // its time was over
+  expect_picture();  // training had reached --train-time
   settings.render.cache.train_seconds = 0.0;
   settings.render.integrator = Integrator::path;
   expect_picture();  // there is no cache

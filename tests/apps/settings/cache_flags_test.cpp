@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;
 using tests::expect_message;
 using tests::TemporaryFolder;
 
-/// What `gatelight render room.glb -o a.exr WORDS` is asked to do.
+/// Settings of `gatelight render room.glb -o a.exr WORDS`.
 RenderSettings read(Words words) {
   CLI::App root("", "gatelight");
   root.fallthrough();
@@ -66,8 +66,8 @@ std::string refusal(const Words& words) {
 std::set<std::string> cache_flags() {
   RenderSettings settings;
   std::set<std::string> flags;
-  for (const renderer::Option& option : option_table(settings)) {
-    if (option.of_cache && option.has_flag()) flags.insert(option.flag());
+  for (const Option& option : option_table(settings)) {
+    if (option.of_cache) flags.insert(option.flag());
   }
   return flags;
 }
@@ -201,7 +201,7 @@ TEST(CacheFlags, EachFlagSetsItsMember) {
   EXPECT_EQ(read_cache({"--view", "cache"}).view, renderer::CacheView::cache);
 }
 
-TEST(CacheFlags, WordsThatStandForNoNumber) {
+TEST(CacheFlags, AutoAndOffLeaveNumbersUnset) {
   const CacheOptions none = read_cache({"--train-steps", "auto", "--self-training", "off", "--node-spacing",
                                         "auto", "--normal-input", "auto"});
   EXPECT_EQ(none.train_steps, std::nullopt);
@@ -247,10 +247,10 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
 }
 
-TEST(Presets, AreBelowEveryFlagWhereverTheyStand) {
+TEST(Presets, EveryFlagOverridesThemInAnyOrder) {
   const Words flags = {"--spp",        "3", "--size", "64x32", "--query-at", "gather",
                        "--candidates", "2", "--aov",  "all"};
-  // The paper's view is the bare answer, for which gathering means nothing.
+  // The paper's view is the bare answer, where gathering has no effect.
   Words before = {"--preset", "paper-nrc", "--view", "final"};
   before.insert(before.end(), flags.begin(), flags.end());
   Words after = flags;
@@ -267,7 +267,7 @@ TEST(Presets, AreBelowEveryFlagWhereverTheyStand) {
   EXPECT_EQ(resolved_options(first), resolved_options(read(after)));
 }
 
-TEST(Presets, AreBelowEveryFlagOfAConfigFile) {
+TEST(Presets, EveryFlagOfAConfigFileOverridesThem) {
   TemporaryFolder folder;
   const std::string flags = "spp = 3\ncandidates = 2\nstack = [\"adaptive\", 4]\nreproducible = true\n";
   const std::string without = folder.write("w.toml", flags);
@@ -297,7 +297,7 @@ TEST(Presets, ChooseTheIntegratorUnlessItIsGiven) {
   EXPECT_TRUE(read({"--preset", "final"}).render.choose_integrator);
   EXPECT_FALSE(read({"--preset", "final", "--integrator", "nrc"}).render.choose_integrator);
   EXPECT_FALSE(read({"--preset", "final", "--train-steps", "9"}).render.choose_integrator)
-      << "a flag of the cache asks for one";
+      << "a flag of the cache implies one";
   // Paths get more samples in the same time, unless their number is given.
   for (const char* const flag : {"--integrator=path", "--light-groups=a=*"}) {
     const RenderSettings paths = read({"--preset", "standard", flag});
@@ -325,7 +325,7 @@ TEST(CacheFlags, AreRefusedWithoutACache) {
   expect_message(refusal({"--aov", "albedo,training-count"}), {"--aov", "training-count", "path"});
 }
 
-TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
+TEST(CacheFlags, AovAllSelectsTheLayersOfTheIntegrator) {
   const std::vector<Aov> path = read({"--aov", "all"}).render.aovs;
   const std::vector<Aov> cache = read({"--aov", "all", "--integrator", "nrc"}).render.aovs;
   EXPECT_EQ(path.size(), 12u);
@@ -340,7 +340,7 @@ TEST(CacheFlags, AllLayersAreThoseThatTheIntegratorHas) {
               ElementsAre(Aov::albedo, Aov::resolution));
 }
 
-TEST(CacheFlags, ThoseOfAnotherEncodingOrRuleAreRefused) {
+TEST(CacheFlags, FlagsOfAnotherEncodingOrRuleAreRefused) {
   expect_message(refusal(with_cache({"--hash-levels", "4"})), {"--hash-levels", "--encoding hashgrid"});
   expect_message(refusal(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
                  {"--stack", "--encoding gate"});
@@ -351,14 +351,14 @@ TEST(CacheFlags, ThoseOfAnotherEncodingOrRuleAreRefused) {
   expect_message(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
                  {"--candidates", "--encoding gate"});
   EXPECT_EQ(refusal(with_cache({"--encoding", "hashgrid", "--candidates", "1"})), "");
-  // A preset's values are no flags.
+  // A preset's values are not flags.
   const RenderSettings preset = read({"--preset", "paper-nrc", "--encoding", "hashgrid"});
   EXPECT_EQ(preset.render.cache.training.feature_step, neural::FeatureStep::per_node);
   EXPECT_EQ(preset.render.cache.candidates, 1);
   EXPECT_EQ(read({"--preset", "paper-nrc"}).render.cache.candidates, 16);
 }
 
-TEST(CacheFlags, ThoseOfRadianceAreRefusedWithOcclusion) {
+TEST(CacheFlags, RadianceFlagsAreRefusedWithOcclusion) {
   const std::vector<Words> cases = {
       {"--cache-holds", "all"},
       {"--query-at", "primary"},
@@ -382,7 +382,7 @@ TEST(CacheFlags, ThoseOfRadianceAreRefusedWithOcclusion) {
   EXPECT_EQ(refusal({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}), "");
 }
 
-TEST(CacheFlags, ThoseWithoutEffectBesideOthersAreRefused) {
+TEST(CacheFlags, FlagsWithoutEffectBesideOthersAreRefused) {
   expect_message(refusal(with_cache({"--spread-threshold", "0.5"})),
                  {"--spread-threshold", "--query-at spread"});
   for (const char* flag :
@@ -395,7 +395,7 @@ TEST(CacheFlags, ThoseWithoutEffectBesideOthersAreRefused) {
     expect_message(refusal(with_cache({"--view", "cache", "--query-at", place})),
                    {"--query-at", "--view final"});
   }
-  // Where the bare answer is asked is told as it is.
+  // The settings say where the bare answer is queried.
   EXPECT_EQ(read_cache({"--view", "cache"}).query_at, renderer::QueryAt::primary);
   EXPECT_EQ(read_cache({"--view", "cache", "--query-at", "none"}).query_at, renderer::QueryAt::none);
 }
@@ -428,7 +428,7 @@ TEST(CheckpointFlags, NeedAFile) {
   EXPECT_EQ(read({"--checkpoint", "c"}).render.checkpoint.every_seconds, 60.0);
 }
 
-TEST(FileNames, WhatIsReadOrWrittenIsNotWrittenByAnotherFlag) {
+TEST(FileNames, NoFlagWritesAFileThatAnotherReadsOrWrites) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "d");
   std::filesystem::create_directory_symlink("d", folder / "dl");
@@ -450,11 +450,11 @@ TEST(FileNames, WhatIsReadOrWrittenIsNotWrittenByAnotherFlag) {
        {"--cache-out", "room.glb", "SCENE"}},
   };
   for (const auto& [words, names] : cases) expect_message(refusal(words), names);
-  EXPECT_EQ(refusal(with_cache({"--cache-in", "c", "--cache-out", "c"})), "") << "a cache that goes on";
+  EXPECT_EQ(refusal(with_cache({"--cache-in", "c", "--cache-out", "c"})), "") << "trained further";
   EXPECT_EQ(refusal({"--stats", "-"}), "");
 }
 
-TEST(Recipe, CanBeGivenBackAsFlags) {
+TEST(Recipe, CanBePassedBackAsFlags) {
   const std::vector<Words> cases = {
       {"--size",        "64x32",      "--region",      "1,2,3,4", "--spp", "3",
        "--seed",        "4294967295", "--aov",         "all",     "--eye", "1,-2.5,3",
@@ -477,7 +477,7 @@ TEST(Recipe, CanBeGivenBackAsFlags) {
     settings.preset.reset();
     const ordered_json options = resolved_options(settings);
     Words again;
-    for (const renderer::Option& option : option_table(settings)) {
+    for (const Option& option : option_table(settings)) {
       if (options.contains(option.name) && option.read && !option.text().empty())
         again.push_back(option.flag() + "=" + option.text());
     }
@@ -486,7 +486,7 @@ TEST(Recipe, CanBeGivenBackAsFlags) {
   }
 }
 
-TEST(CacheRecipe, IsThereOnlyWithACache) {
+TEST(CacheRecipe, ExistsOnlyWithACache) {
   const ordered_json path = resolved_options(read({}));
   const ordered_json cache =
       resolved_options(read({"--integrator", "nrc", "--cache-out", "o", "--cache-roughness", "0.3"}));

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "apps/settings/common_flags.h"
+#include "apps/settings/option_table.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -24,8 +24,8 @@ class Usage : public ::testing::Test {
   std::string scene() const { return folder.write("scene.gltf", tiny_scene()); }
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
-  /// Runs a render of the tiny scene that is to be refused. Within this process: there are many of them, and
-  /// the program takes its time to start.
+  /// Runs a render of the tiny scene that must be refused. It runs in this process, because there are many
+  /// and the program starts slowly.
   Output refused(const std::vector<std::string>& flags) const {
     std::vector<std::string> arguments = {"render", scene(), "-o", path("a.png")};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -54,7 +54,8 @@ TEST_F(Usage, HelpFitsOnTwoScreens) {
 TEST_F(Usage, EachFlagOfTheShortHelpExists) {
   const std::string all =
       run_gatelight_inside({"render", "--help-all"}).out + run_gatelight_inside({"info", "--help-all"}).out;
-  for (const std::string& name : apps::common_flags()) EXPECT_THAT(all, HasSubstr("--" + name)) << name;
+  apps::RenderSettings settings;
+  for (const std::string& name : apps::common_names(apps::option_table(settings))) EXPECT_THAT(all, HasSubstr("--" + name)) << name;
 }
 
 TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
@@ -158,10 +159,10 @@ TEST_F(Usage, UnknownFlagsAreRefusedByName) {
 
 struct Misspelt {
   std::vector<std::string> arguments;
-  const char* meant;  ///< empty: nothing is near
+  const char* meant;  ///< empty: no name is near
 };
 
-TEST_F(Usage, TheNearestWordIsOffered) {
+TEST_F(Usage, TheNearestNameIsSuggested) {
   const std::string config = folder.write("c.toml", "expsure = 1\n");
   const std::vector<Misspelt> cases = {
       {{"render", scene(), "-o", "a.png", "--aperure", "3"}, "--aperture"},
@@ -354,11 +355,11 @@ TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {
   expect_failure(missing, 2, {"missing.toml"});
 }
 
-TEST_F(Usage, AConfigFileIsAShortText) {
+TEST_F(Usage, AConfigFileIsTextOfAtMostOneMebibyte) {
   const std::string zero = folder.write("zero.toml", std::string("spp = 2\0\n", 9));
   expect_failure(refused({"--config", "/dev/zero"}), 2, {"/dev/zero", "1 MiB"});
   expect_failure(refused({"--config", zero}), 2, {zero});
-  // Some editors begin a text with a mark of its byte order.
+  // Some editors begin a text with a byte order mark.
   const Output marked = refused({"--config", folder.write("mark.toml", "\xEF\xBB\xBFspp = 0\n")});
   expect_failure(marked, 1, {path("mark.toml"), "--spp"});
   const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
@@ -371,7 +372,7 @@ TEST_F(Usage, AFlagGivenTwiceIsNamed) {
   expect_failure(output, 1, {"--spp", "2"});
 }
 
-TEST_F(Usage, AValueOfAConfigFileIsSaidToStandThere) {
+TEST_F(Usage, AnErrorInAValueOfAConfigFileNamesTheFile) {
   const std::string config = folder.write("c.toml", "eye = [1, 2]\nspp = 4\nbatch = 256\n");
   const auto expect_refused = [&](std::vector<std::string> words, const char* flag, bool from_file) {
     words.insert(words.begin(), {"--config", config});
@@ -382,7 +383,7 @@ TEST_F(Usage, AValueOfAConfigFileIsSaidToStandThere) {
   expect_refused({}, "--eye", true);
   expect_refused({"--eye", "1,2"}, "--eye", false);
   expect_refused({"--eye", "1,2,3", "--spp", "0"}, "--spp", false);
-  // Of what does not go together.
+  // The settings conflict: --batch has no effect without a cache.
   expect_refused({"--eye", "1,2,3", "--target", "0,0,0"}, "--batch", true);
 }
 

@@ -75,7 +75,7 @@ STEPS = (8, 16, 32, 64, 128, 256, 512, 1024)
 
 
 def full():
-    """Two scenes, three seeds, two encodings, path tracing; in the first also what the cache holds, and failures."""
+    """Two scenes, three seeds, two encodings, path tracing; in the first also what the cache stores, and failures."""
     cells = []
     for name in ("kitchen", "sponza"):
         for seed in (1, 2, 3):
@@ -107,7 +107,7 @@ def two_depths():
 
 
 def older():
-    """What full() was before references had names and cells their makers."""
+    """full() as it was before references had ids, and cells their version and processor."""
     data = full()
     for record in data["cells"] + [r for s in data["scenes"] for r in s["references"]]:
         for key in ("reference_id", "version", "cpu", "isa"):
@@ -143,7 +143,7 @@ def ways():
 
 
 def edges():
-    """Sweeps that lack something or have more than usual, by name."""
+    """Sweeps that lack data or have more than usual, by name."""
     nothing = {key: None for key in ("mse", "rel_mse", "rel_mse_clean", "psnr", "ssim", "flip", "hdr_flip")}
     gate = [cell("room", "nrc gate", 1, steps) for steps in STEPS]
     hostile = "</script><script>window.broken = 1</script><!--\u2028\"'"

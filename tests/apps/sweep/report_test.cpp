@@ -9,8 +9,8 @@
 
 #include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
+#include "base/image/jpeg_read.h"
 #include "renderer/image/image_write.h"
-#include "scene/jpeg_read.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
@@ -47,7 +47,7 @@ struct Decoded {
 Decoded decode(const std::string& uri) {
   EXPECT_THAT(uri, StartsWith(kJpeg));
   const std::string jpeg = decode_base64(uri.substr(std::string(kJpeg).size()));
-  scene::JpegReader reader({jpeg.begin(), jpeg.end()});
+  JpegReader reader({jpeg.begin(), jpeg.end()});
   return {reader.width(), reader.height(), reader.read_8()};
 }
 
@@ -60,7 +60,7 @@ renderer::Picture flat_picture(int width, int height, std::array<float, 3> color
   return picture;
 }
 
-/// What stands in the page's script of this id.
+/// Content of the page's script with this id.
 std::string text_of(const std::string& page, const std::string& id) {
   const std::string open = "\" id=\"" + id + "\">";
   const std::size_t from = page.find(open);
@@ -111,7 +111,7 @@ TEST(ReportPage, JsonCannotEndItsScriptAndReadsTheSame) {
   EXPECT_EQ(ordered_json::parse(text), hostile);
 }
 
-TEST(ReportPage, WhatJsonCannotSayIsNullOrReplaced) {
+TEST(ReportPage, ValuesThatJsonCannotStoreAreNullOrReplaced) {
   EXPECT_EQ(json_for_script({{"x", std::numeric_limits<double>::infinity()}}), R"({"x":null})");
   EXPECT_EQ(json_for_script({{"x", std::numeric_limits<double>::quiet_NaN()}}), R"({"x":null})");
   EXPECT_EQ(json_for_script("\xff"), R"("\ufffd")");
@@ -131,13 +131,13 @@ TEST(ReportPage, HoldsItsScriptsAndTheLicenceOfChartJs) {
   EXPECT_THAT(page, HasSubstr("function frontOf("));
   EXPECT_THAT(page, HasSubstr("--series-1:"));
   EXPECT_THAT(page, Not(HasSubstr("{{script}}")));
-  // Each element is ended by its own end alone.
+  // Only its own end tag ends each element.
   EXPECT_EQ(count(page, "<script"), 4u);
   EXPECT_EQ(count(page, "</script>"), 4u);
   EXPECT_EQ(count(page, "</style>"), 1u);
 }
 
-TEST(ReportPage, AsksForNothingOutside) {
+TEST(ReportPage, LoadsNothingFromOutside) {
   const std::string page = make_page(one_cell(), {});
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   const std::regex loads(R"re((src|href)\s*=\s*["'](?!data:)|@import|url\(\s*["']?https?:)re");
@@ -145,7 +145,7 @@ TEST(ReportPage, AsksForNothingOutside) {
   EXPECT_FALSE(std::regex_search(page, found, loads)) << found.str();
 }
 
-TEST(ReportPicture, KeepsSizeAndColourOfWhatThePngShows) {
+TEST(ReportPicture, KeepsSizeAndColourOfThePng) {
   const Decoded small = decode(embed_picture(flat_picture(64, 40, {0.5f, 0.1f, 0.02f}), {}).uri);
   EXPECT_EQ(small.width, 64);
   EXPECT_EQ(small.height, 40);
@@ -209,7 +209,7 @@ TEST(Report, EmbedsPicturesMapsAndReferencesByTheirNames) {
               renderer::display_byte(0.5f, 1.0f, renderer::Tonemap::filmic), 2);
 }
 
-TEST(Report, ShowsAReferenceAsEachOfThePicturesBesideIt) {
+TEST(Report, ShowsAReferenceWithTheExposureOfEachPictureBesideIt) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "references");
   renderer::write_image(flat_picture(8, 8, {0.1f, 0.1f, 0.1f}), folder / "references/r.exr");
@@ -218,7 +218,7 @@ TEST(Report, ShowsAReferenceAsEachOfThePicturesBesideIt) {
   results["cells"].push_back(results["cells"][0]);
   results["cells"][1]["picture"] = "pictures/2.png";
   results["cells"][1]["options"]["exposure"] = 2.0;
-  // Neither has a picture to stand beside.
+  // A cell without a picture needs no reference.
   results["cells"].push_back(results["cells"][0]);
   results["cells"][2]["picture"] = nullptr;
   results["cells"][2]["options"]["exposure"] = 3.0;
@@ -234,7 +234,7 @@ TEST(Report, ShowsAReferenceAsEachOfThePicturesBesideIt) {
   }
 }
 
-TEST(Report, AReferenceIsThatOfTheCellsThatNameIt) {
+TEST(Report, EmbedsOnlyReferencesThatACellNames) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "references");
   ordered_json results = one_cell({{"reference_id", "b"}});
@@ -290,7 +290,7 @@ TEST(Report, ManyPicturesAreSmaller) {
   EXPECT_EQ(widths(428), std::pair(480, 360));
 }
 
-TEST(Report, KnowsItsSize) {
+TEST(Report, StatesItsSize) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "pictures");
   renderer::write_image(flat_picture(64, 64, {0.5f, 0.5f, 0.5f}), folder / "pictures/1.png");

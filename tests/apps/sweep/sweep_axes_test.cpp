@@ -1,4 +1,4 @@
-// Lists of values, and the words of a sweep.
+// Lists of values, and the arguments of a sweep.
 
 #include "apps/sweep/axes.h"
 
@@ -82,7 +82,7 @@ TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySize
   EXPECT_EQ(request.first_seed, 1u);
 }
 
-TEST(SweepRequest, WithAnAxisItIsAnAcceleratedPictureFromFewToManySteps) {
+TEST(SweepRequest, WithAnAxisTheDefaultIsNrcFromFewToManySteps) {
   const SweepRequest request = make_request(words_for({}, {"features=2,4"}));
   ASSERT_EQ(request.blocks.size(), 1u);
   EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
@@ -90,14 +90,14 @@ TEST(SweepRequest, WithAnAxisItIsAnAcceleratedPictureFromFewToManySteps) {
   EXPECT_TRUE(request.plain);
 }
 
-TEST(SweepRequest, APresetOfRenderSaysIntegratorAndSamplesItself) {
+TEST(SweepRequest, APresetOfRenderSetsIntegratorAndSamples) {
   SweepWords words = words_for({});
   words.preset = "final";
   EXPECT_THAT(make_request(words).blocks[0].base, ElementsAre(Pair("--preset", "final")));
   EXPECT_THAT(make_request(words_for({}, {"preset=preview,final"})).blocks[0].base, ElementsAre());
 }
 
-TEST(SweepRequest, WhatIsBothFixedAndVariedIsRefused) {
+TEST(SweepRequest, FlagsThatAreFixedAndVariedAreRefused) {
   SweepWords both = words_for({{"--encoding", "gate"}});
   both.axes = {{kAxisFlags[1], "gate,hashgrid"}};
   expect_message(refused(both), {"--encoding", "--encodings", "gate"});
@@ -111,7 +111,7 @@ TEST(SweepRequest, WhatIsBothFixedAndVariedIsRefused) {
   expect_message(refused(preset), {"--preset"});
 }
 
-TEST(SweepRequest, WhatCannotBeVariedIsRefusedWithWhatToUse) {
+TEST(SweepRequest, FlagsThatCannotBeVariedAreRefusedWithAnAlternative) {
   expect_message(refused(words_for({}, {"seed=1,2"})), {"--seeds"});
   expect_message(refused(words_for({}, {"spp=1,2"})), {"--cache-spp"});
   expect_message(refused(words_for({}, {"train-steps=1,2"})), {"--train-steps"});
@@ -122,7 +122,7 @@ TEST(SweepRequest, WhatCannotBeVariedIsRefusedWithWhatToUse) {
   EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})), "");
 }
 
-TEST(SweepRequest, SeedsBeginWhereTheySay) {
+TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
   SweepWords words = words_for({{"--seed", "40"}});
   words.seeds = "3";
   const SweepRequest request = make_request(words);
@@ -156,7 +156,7 @@ TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
   expect_message(refused(words), {"paper-table3", "paper-table1", "preview"});
 }
 
-TEST(SweepRequest, WhatARowIsNamedAfterHasNoOtherValue) {
+TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
   const auto refused_by = [](const std::string& preset, FlagValues base, std::vector<std::string> vary = {}) {
     SweepWords words = words_for(std::move(base), std::move(vary));
     words.preset = preset;

@@ -5,7 +5,7 @@
 namespace gatelight::apps {
 namespace {
 
-TEST(SweepClock, KnowsTheRestOnceEachKindWasSeen) {
+TEST(SweepClock, EstimatesTheRestOnceEachKindWasTimed) {
   SweepClock clock;
   clock.plan_rest({{{"a nrc", "nrc"}, 10.0}, {{"a path", "path"}, 4.0}, {{"a nrc", "nrc"}, 20.0}});
   EXPECT_EQ(clock.count(), 3u);
@@ -19,15 +19,15 @@ TEST(SweepClock, KnowsTheRestOnceEachKindWasSeen) {
   EXPECT_DOUBLE_EQ(*clock.left(40.0, 0.0), 0.0);
   clock.finish(10.0);
   EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 0.0);
-  // Another scene is guessed from this one.
+  // Another scene is estimated from this one.
   clock.plan_rest({{{"b nrc", "nrc"}, 2.0}, {{"b nrc", "nrc"}, 4.0}});
   EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 3.0);
-  // As soon as it has a task of its own, by that.
+  // Once it has a finished task of its own, the estimate uses that one.
   clock.finish(10.0);
   EXPECT_DOUBLE_EQ(*clock.left(0.0, 0.0), 20.0);
 }
 
-TEST(SweepClock, HasAFirstGuessOfWhatWasNeverSeen) {
+TEST(SweepClock, EstimatesKindsThatWereNeverTimed) {
   const PlannedScene scene{.name = "a"};
   RenderSettings settings;
   settings.render.width = 10;

@@ -39,7 +39,7 @@ class SweepCommand : public ::testing::Test {
     Words all = {"sweep", scene, "-o", path(out), "--quiet"};
     const Words defaults = {"--size",  "24x16", "--train-steps",   "2,4", "--spp",      "1,4",
                             "--batch", "256",   "--reference-spp", "8",   "--denoiser", "none"};
-    // Rows of a preset say themselves what is denoised.
+    // Rows of a preset set the denoiser themselves.
     const bool preset = std::find(more.begin(), more.end(), "--preset") != more.end();
     for (std::size_t i = 0; i < defaults.size(); i += 2) {
       if (preset && defaults[i] == "--denoiser") continue;
@@ -49,7 +49,7 @@ class SweepCommand : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// Tells cells and tasks as JSON.
+  /// Prints cells and tasks as JSON.
   static Words loud(Words call) {
     std::erase(call, "--quiet");
     call.insert(call.end(), {"--progress", "json"});
@@ -74,7 +74,7 @@ class SweepCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-/// That the reference of this key has of its own.
+/// Noise of the reference with this key.
 double noise_of(const json& results, const std::string& id) {
   for (const json& reference : results["scenes"][0]["references"]) {
     if (reference["id"] == id) return reference["rel_mse_noise"];
@@ -94,7 +94,7 @@ std::map<std::string, fs::file_time_type> times_of(const std::vector<fs::path>& 
   return found;
 }
 
-/// Without what no two runs have in common.
+/// The results without the command and times, which differ between two runs.
 json without_seconds(json results) {
   results.erase("command");
   for (json& scene : results["scenes"]) {
@@ -111,7 +111,7 @@ std::size_t count(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-TEST_F(SweepCommand, TheReportHoldsEveryPicture) {
+TEST_F(SweepCommand, TheReportContainsEveryPicture) {
   ASSERT_EQ(run_gatelight(words("out", {"--seeds", "2"})).exit_code, 0);
   const std::string report = read_file(folder / "out/report.html");
   const std::string open = R"(<script type="application/json" id="pictures">)";
@@ -190,7 +190,7 @@ TEST_F(SweepCommand, ACellIsThePictureThatItsCommandMakes) {
   }
 }
 
-/// Nothing says what is wanted, so it is the bare and the finished cache beside path tracing of both kinds.
+/// A sweep by default measures the bare and the finished cache beside path tracing of both kinds.
 class SweepOfASceneAlone : public SweepCommand {
  protected:
   void SetUp() override { GATELIGHT_NEEDS_DENOISER(); }
@@ -202,7 +202,7 @@ class SweepOfASceneAlone : public SweepCommand {
   }
 };
 
-TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
+TEST_F(SweepOfASceneAlone, ContainsTheFinishedPicturesThatTheCommandsMake) {
   const Output output = run_gatelight_inside(all_rows("out"));
   ASSERT_EQ(output.exit_code, 0) << output.err;
   const json all = results("out");
@@ -231,7 +231,7 @@ TEST_F(SweepOfASceneAlone, HoldsTheFinishedPicturesThatTheCommandsMake) {
   EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr("axis_denoiser"));
 }
 
-TEST_F(SweepOfASceneAlone, GoesOnWhereItWasStoppedAndSharesCellsWithASweepOfLess) {
+TEST_F(SweepOfASceneAlone, ResumesAfterAStopAndSharesCellsWithASmallerSweep) {
   ASSERT_EQ(run_gatelight_inside(all_rows("straight")).exit_code, 0);
   Process process(loud(all_rows("out")));
   process.wait_for_error_text("\"event\":\"cell\"");
@@ -248,7 +248,7 @@ TEST_F(SweepOfASceneAlone, GoesOnWhereItWasStoppedAndSharesCellsWithASweepOfLess
   EXPECT_EQ(times_of({folder / "out/cells"}).size(), 12u + 2u);
 }
 
-TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
+TEST_F(SweepOfASceneAlone, AdviceIncludesFinishedPictures) {
   Words call = all_rows("out");
   ASSERT_EQ(run_gatelight_inside(call).exit_code, 0);
   const json all = results("out");
@@ -263,7 +263,7 @@ TEST_F(SweepOfASceneAlone, IsAdvisedAmongFinishedPicturesToo) {
                                 HasSubstr("\n  " + best["command"].get<std::string>() + "\n")));
 }
 
-TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
+TEST_F(SweepCommand, ASecondCallRepeatsNothing) {
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
   const json first = results("out");
   const auto times = [&] {
@@ -273,11 +273,11 @@ TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
   EXPECT_EQ(times(), before);
   EXPECT_EQ(results("out"), first);
-  // More of the same adds what is missing alone.
+  // A larger sweep adds only the missing cells.
   ASSERT_EQ(run_gatelight_inside(words("out", {"--hidden", "16,32"})).exit_code, 0);
   EXPECT_GT(times().size(), before.size());
   for (const auto& [file, time] : before) EXPECT_EQ(times().at(file), time) << file;
-  // A cell whose picture somebody has deleted is made again.
+  // A cell whose picture was deleted is made again.
   const std::string picture = path("out/" + first["cells"][0]["picture"].get<std::string>());
   const std::string whole = read_file(picture);
   fs::remove(picture);
@@ -290,7 +290,7 @@ TEST_F(SweepCommand, ASecondCallMakesNothingAgain) {
     ASSERT_EQ(output.exit_code, 0) << output.err;
     EXPECT_EQ(read_file(picture), whole) << length;
   }
-  // A record that is no file cannot be replaced.
+  // A record that is not a file cannot be replaced.
   const std::string record = path("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json");
   fs::remove(record);
   fs::create_directory(record);
@@ -315,7 +315,7 @@ TEST_F(SweepCommand, AnotherSceneOfTheSameNameIsNotMixedUp) {
 }
 
 TEST_F(SweepCommand, AFailedCellDoesNotEndTheRest) {
-  // The first step already leaves answers that are no numbers.
+  // The first step already leaves answers that are not numbers.
   const Words flags = words("out", {"--learning-rate", "1e30,0.01", "--train-steps", "1,2,4"});
   const Output output = run_gatelight_inside(flags);
   expect_failure(output, 7, {"3", "8"});
@@ -346,11 +346,11 @@ TEST_F(SweepCommand, ASceneThatCannotBeReadDoesNotEndTheRest) {
   for (const json& cell : all["cells"]) {
     EXPECT_EQ(cell["status"], cell["scene"] == "broken" ? "failed" : "done");
   }
-  // Alone it is an error like any other.
+  // By itself it is an error like any other.
   EXPECT_EQ(run_gatelight_inside(words("alone", {}, path("broken.gltf"))).exit_code, 2);
 }
 
-TEST_F(SweepCommand, InterruptedAndGoneOnWithItHasTheSameResults) {
+TEST_F(SweepCommand, AnInterruptedAndResumedSweepHasTheSameResults) {
   const Words flags = {"--seeds", "3", "--hidden", "16,32", "--reference-spp", "256"};
   ASSERT_EQ(run_gatelight_inside(words("straight", flags)).exit_code, 0);
   const struct {
@@ -396,7 +396,7 @@ TEST_F(SweepCommand, InterruptedAndGoneOnWithItHasTheSameResults) {
   }
 }
 
-TEST_F(SweepCommand, WhatAnEarlierCallHasMadeStaysInTheResultsOfOneThatIsStopped) {
+TEST_F(SweepCommand, CellsOfAnEarlierCallStayInTheResultsOfAStoppedOne) {
   folder.write("room.gltf", tiny_scene());
   const auto both = [&](const std::string& hidden) {
     Words call = words("out", {"--hidden", hidden, "--environment", "1,1,1"});
@@ -427,7 +427,7 @@ TEST_F(SweepCommand, WhatAnEarlierCallHasMadeStaysInTheResultsOfOneThatIsStopped
   EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr(before.begin()->first));
 }
 
-TEST_F(SweepCommand, TheReportIsThereAfterEachScene) {
+TEST_F(SweepCommand, TheReportIsWrittenAfterEachScene) {
   folder.write("room.gltf", tiny_scene());
   Words call = words("out", {"--environment", "1,1,1", "--seeds", "4"});
   call.insert(call.begin() + 1, path("room.gltf"));
@@ -438,7 +438,7 @@ TEST_F(SweepCommand, TheReportIsThereAfterEachScene) {
   EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr("\"scene\":\"room\""));
 }
 
-TEST_F(SweepCommand, OneAtATimeWorksInAFolder) {
+TEST_F(SweepCommand, OnlyOneSweepAtATimeUsesAFolder) {
   fs::create_directories(folder / "out");
   const int descriptor = ::open(path("out/.lock").c_str(), O_CREAT | O_RDWR, 0666);
   ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
@@ -450,7 +450,7 @@ TEST_F(SweepCommand, OneAtATimeWorksInAFolder) {
   EXPECT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
 }
 
-TEST_F(SweepCommand, CellsOfAnotherVersionAreKeptAndTold) {
+TEST_F(SweepCommand, CellsOfAnotherVersionAreKeptAndReported) {
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
   const json first = results("out");
   for (std::size_t i = 0; i < 2; ++i) {
@@ -484,7 +484,7 @@ TEST_F(SweepCommand, OtherKernelsAreMeasuredAgain) {
   }
 }
 
-TEST_F(SweepCommand, ResultsTellWhatRanAndWhatWasChosen) {
+TEST_F(SweepCommand, ResultsNameTheVersionsAndTheChosenOptions) {
   ASSERT_EQ(run_gatelight_inside(words("out", {"--isa", "scalar", "--threads", "1"})).exit_code, 0);
   const json all = results("out");
   EXPECT_EQ(all["machine"]["isa"], "scalar");
@@ -501,7 +501,7 @@ TEST_F(SweepCommand, ResultsTellWhatRanAndWhatWasChosen) {
   }
 }
 
-TEST_F(SweepCommand, ThePlanIsPrintedAndNothingIsDone) {
+TEST_F(SweepCommand, ADryRunOnlyPrintsThePlan) {
   const Output output =
       run_gatelight_inside(words("out", {"--dry-run", "--features", "2,4", "--seeds", "3"}));
   EXPECT_EQ(output.exit_code, 0) << output.err;
@@ -510,7 +510,7 @@ TEST_F(SweepCommand, ThePlanIsPrintedAndNothingIsDone) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_F(SweepCommand, BadWordsAreCode1BeforeAnythingIsDone) {
+TEST_F(SweepCommand, BadArgumentsAreCode1BeforeTheWork) {
   const auto expect_refused = [&](const Words& more, const NameList& names) {
     expect_failure(run_gatelight_inside(words("out", more)), 1, names);
     EXPECT_FALSE(fs::exists(folder / "out"));
@@ -534,7 +534,7 @@ TEST_F(SweepCommand, AFolderThatCannotBeWrittenIsCode3) {
   EXPECT_EQ(run_gatelight_inside(words("file/sub", {})).exit_code, 3);
 }
 
-TEST_F(SweepCommand, AReferenceOfOnesOwnIsCompared) {
+TEST_F(SweepCommand, AGivenReferenceIsCompared) {
   ASSERT_EQ(run_gatelight_inside({"render", cornell(), "-o", path("r.exr"), "--size", "24x16", "--spp", "16",
                                   "--seed", "77", "--quiet"})
                 .exit_code,
@@ -547,7 +547,7 @@ TEST_F(SweepCommand, AReferenceOfOnesOwnIsCompared) {
   EXPECT_EQ(all["scenes"][0]["references"][0]["spp"], 16);
   EXPECT_FALSE(fs::exists(folder / "out/references"));
   EXPECT_EQ(all["cells"][0]["reference_id"], all["scenes"][0]["references"][0]["id"]);
-  // One that fits no cell is told before the first is made.
+  // A reference that fits no cell is reported before the first cell is made.
   const auto refused = [&](const Words& more) {
     Words flags = {"--reference", path("r.exr"), "--no-plain"};
     flags.insert(flags.end(), more.begin(), more.end());
@@ -566,7 +566,7 @@ TEST_F(SweepCommand, AReferenceOfOnesOwnIsCompared) {
   expect_failure(missing, 2, {"none.exr"});
 }
 
-TEST_F(SweepCommand, ReferencesMayLieElsewhereForSeveralSweeps) {
+TEST_F(SweepCommand, SweepsMayShareAFolderOfReferences) {
   const Words shared = {"--reference-dir", path("shared"), "--no-plain"};
   ASSERT_EQ(run_gatelight_inside(words("a", shared)).exit_code, 0);
   ASSERT_EQ(count(folder / "shared"), 4u);
@@ -623,7 +623,7 @@ TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
   }
 }
 
-TEST_F(SweepCommand, FilesOfAnotherShapeAreNoResults) {
+TEST_F(SweepCommand, ResultsOfAnotherShapeAreRefused) {
   fs::create_directories(folder / "out/cells");
   for (const char* text : {R"({"schema": 2, "cells": [{"status": "done"}]})", R"({"schema": 2, "cells": 7})",
                            R"({"schema": 2, "cells": [{"status": "done", "errors": []}]})"}) {
@@ -639,7 +639,7 @@ TEST_F(SweepCommand, FilesOfAnotherShapeAreNoResults) {
   EXPECT_EQ(without_seconds(results("out")), without_seconds(first));
 }
 
-TEST_F(SweepCommand, ProgressTellsCellsTasksAndTimeLeft) {
+TEST_F(SweepCommand, ProgressReportsCellsTasksAndTimeLeft) {
   const Output output = run_gatelight_inside(loud(words("out", {})));
   ASSERT_EQ(output.exit_code, 0) << output.err;
   std::istringstream lines(output.err);

@@ -68,7 +68,7 @@ TEST(SweepPlan, TooManyCellsAreRefusedBeforeTheyAreCombined) {
   tests::expect_refusal<UsageError>([&] { plan_of({}, {batches, rates}); }, {"4000000", "10000"});
 }
 
-TEST(SweepPlan, AFlagWithoutEffectIsLeftOutAndEqualCellsAreOne) {
+TEST(SweepPlan, FlagsWithoutEffectAreLeftOutAndEqualCellsAreMerged) {
   const SweepPlan plan = plan_of({}, {"encoding=gate,hashgrid", "features=2,4", "hash-levels=4,8"});
   EXPECT_THAT(labels(plan), ElementsAre("nrc gate features 2", "nrc gate features 4",
                                         "nrc hashgrid hash-levels 4", "nrc hashgrid hash-levels 8"));
@@ -87,7 +87,7 @@ TEST(SweepPlan, BaseFlagsOfACacheDoNotReachPlainIntegrators) {
   EXPECT_EQ(plan.scenes[0].series[1].settings.render.cache.batch, 512u);
 }
 
-TEST(SweepPlan, ThePlainIntegratorStandsBesideEachCache) {
+TEST(SweepPlan, EachCacheHasThePlainIntegratorBesideIt) {
   const SweepPlan plan = plan_of({}, {"integrator=nrc,nao", "features=2,4"}, false);
   EXPECT_THAT(labels(plan), UnorderedElementsAre("nrc gate features 2", "nrc gate features 4", "path",
                                                  "nao gate features 2", "nao gate features 4", "ao"));
@@ -95,7 +95,7 @@ TEST(SweepPlan, ThePlainIntegratorStandsBesideEachCache) {
     const bool radiance = s.label.starts_with("nrc") || s.label == "path";
     EXPECT_EQ(s.reference, radiance ? ReferenceKind::path : ReferenceKind::ao) << s.label;
   }
-  // What changes the plain picture is measured for each value.
+  // A flag that changes the plain picture is measured for each value.
   EXPECT_THAT(labels(plan_of({}, {"max-depth=2,3"}, false)),
               UnorderedElementsAre("nrc gate max-depth 2", "path max-depth 2", "nrc gate max-depth 3",
                                    "path max-depth 3"));
@@ -117,7 +117,7 @@ SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> var
   return make_plan(make_request(words));
 }
 
-TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
+TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
   const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
   ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 2", "path denoised",
                                         "nrc standard spp 7", "nrc standard spp 28"));
@@ -139,7 +139,7 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   EXPECT_EQ(cell_command(all[3], "room.glb", 1, 4),
             "gatelight render room.glb --size 64x36 --integrator path --denoiser oidn --spp 4 --seed 1 -o "
             "out.exr");
-  // Steps that are given hold for all rows.
+  // Given steps apply to all rows.
   const SweepPlan short_plan = plan_of_scene_alone({}, {}, "8,16");
   for (const PlannedSeries& s : short_plan.scenes[0].series) {
     if (s.has_cache()) {
@@ -148,14 +148,14 @@ TEST(SweepPlan, WhereNothingIsAskedForItIsTheBareAndTheFinishedCacheBesidePathTr
   }
 }
 
-TEST(SweepPlan, WhatRowsPromiseIsNotChangedSilently) {
+TEST(SweepPlan, FlagsThatContradictTheDefaultRowsReplaceThem) {
   EXPECT_THAT(labels(plan_of_scene_alone({{"--query-at", "gather"}})), ElementsAre("nrc gate", "path"));
   EXPECT_THAT(labels(plan_of_scene_alone({{"--view", "cache"}})), ElementsAre("nrc gate"));
   EXPECT_THAT(labels(plan_of_scene_alone({{"--denoiser", "oidn"}})),
               ElementsAre("nrc gate denoised", "path", "path denoised"));
 }
 
-TEST(SweepPlan, WhatIsDenoisedHasPathTracingOfBothKindsBesideIt) {
+TEST(SweepPlan, DenoisedRowsHavePathTracingOfBothKindsBesideThem) {
   EXPECT_THAT(labels(plan_of_scene_alone({}, {"denoiser=none,oidn"})),
               ElementsAre("nrc gate", "path", "nrc gate denoised", "path denoised"));
   EXPECT_THAT(labels(plan_of({}, {"integrator=path", "denoiser=none,oidn"})),
@@ -177,7 +177,7 @@ TEST(SweepPlan, APresetOfRenderIsAValueLikeAnyOther) {
   EXPECT_THAT(plan.scenes[0].series[3].flags, Contains(Pair("--size", "1920x1080")));
 }
 
-TEST(SweepPlan, MemoryOfGateIsAskedForWithAllThatDecidesIt) {
+TEST(SweepPlan, MemoryOfGateIsComputedWithAllFlagsThatDecideIt) {
   const SweepPlan plan =
       plan_of({}, {"encoding=gate,hashgrid", "features=2,4", "cache-memory=same-as-gate,same-as-gate/2,3"});
   // GATE is itself with same-as-gate, whatever the divisor; the limit of 3 MiB is another cache.
@@ -205,11 +205,11 @@ TEST(SweepPlan, ABadValueInAnyCellIsRefusedAtOnce) {
   expect_message(refusal({}, {"features=2,17"}), {"--features", "17"});
   expect_message(refusal({}, {"encoding=gate,grid"}), {"--encoding", "grid"});
   expect_message(refusal({{"--size", "0x3"}}, {}), {"--size", "0x3"});
-  // Of no effect beside the others, but wrong all the same.
+  // The flag has no effect here, but its value is still checked.
   expect_message(refusal({{"--hash-levels", "x"}}, {}), {"--hash-levels", "x"});
 }
 
-TEST(SweepPlan, ScenesMayReachOutWhereTheSweepIsAllowedToAndTheCommandSaysSo) {
+TEST(SweepPlan, AllowExternalAppliesToScenesAndIsInTheCommand) {
   for (const bool allowed : {false, true}) {
     SweepWords words;
     words.scenes = {"room.glb"};
@@ -223,7 +223,7 @@ TEST(SweepPlan, ScenesMayReachOutWhereTheSweepIsAllowedToAndTheCommandSaysSo) {
   }
 }
 
-TEST(SweepPlan, TheCommandMakesTheCell) {
+TEST(SweepPlan, TheCommandReproducesTheCell) {
   const SweepPlan plan = plan_of({{"--camera", "it's here"}, {"--exposure", "-1"}},
                                  {"stack=adaptive,1;adaptive", "preset=bare,paper-nrc"}, false);
   ASSERT_EQ(plan.scenes[0].series.size(), 5u);
@@ -244,7 +244,7 @@ TEST(SweepPlan, TheCommandMakesTheCell) {
   }
 }
 
-TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
+TEST(SweepPlan, SeriesWithDifferentFlagsHaveDifferentKeys) {
   std::set<std::string> texts;
   const SweepPlan plan = plan_of({}, {"features=2,4", "exposure=0,1", "threads=1,2", "camera=a,b",
                                       "environment=none;1,1,1", "tonemap=none,filmic"});
@@ -252,7 +252,7 @@ TEST(SweepPlan, SeriesDifferInWhatDecidesThem) {
   EXPECT_EQ(texts.size(), 64u);
 }
 
-TEST(SweepPlan, SkiesAndAdjustedLightsDecideACell) {
+TEST(SweepPlan, SkiesAndAdjustedLightsArePartOfTheKey) {
   std::set<std::string> texts;
   const SweepPlan plan = plan_of({}, {"sky=none;sun=90,20;sun=90,40"});
   for (const PlannedSeries& s : plan.scenes[0].series) texts.insert(deciding_text(s.settings));
@@ -263,7 +263,7 @@ TEST(SweepPlan, SkiesAndAdjustedLightsDecideACell) {
   EXPECT_THROW(plan_of({}, {"lights=lamp=2;lamp=3"}), UsageError) << "a scene is loaded once";
 }
 
-TEST(SweepPlan, ScenesOfOneNameAreToldApart) {
+TEST(SweepPlan, ScenesOfOneNameGetDifferentNames) {
   SweepWords words;
   words.scenes = {"a/room.glb", "b/room.glb", "hall.glb"};
   std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// References: what they have in common with the cells, their noise, and that they can be stopped.
+// References: sharing between cells, their noise, and stopping.
 
 #include "apps/sweep/references.h"
 
@@ -88,14 +88,14 @@ TEST_F(SweepReferences, AreSharedByCellsThatEstimateTheSame) {
   RenderSettings reach = cell;
   reach.render.ao_distance = 1.0f;
   EXPECT_NE(plan(reach, ReferenceKind::ao).key, plan(cell, ReferenceKind::ao).key);
-  // What the cache holds is what it should answer, and matters to its bare view alone.
+  // What the cache stores is what it should answer. It matters only to the bare view.
   RenderSettings holds = cell;
   holds.render.cache.holds = renderer::CacheHolds::all;
   EXPECT_EQ(plan(holds, ReferenceKind::path).key, key);
   EXPECT_NE(plan(holds, ReferenceKind::cache).key, plan(cell, ReferenceKind::cache).key);
 }
 
-TEST_F(SweepReferences, TellTheirNoiseByTheirHalves) {
+TEST_F(SweepReferences, EstimateTheirNoiseFromTheirHalves) {
   for (const ReferenceKind kind : {ReferenceKind::path, ReferenceKind::ao, ReferenceKind::cache}) {
     const RenderSettings cell = settings(kind == ReferenceKind::ao ? Integrator::nao : Integrator::nrc);
     Reference reference = plan(cell, kind);
@@ -124,7 +124,7 @@ TEST_F(SweepReferences, TellTheirNoiseByTheirHalves) {
   }
 }
 
-TEST_F(SweepReferences, StoppedAgainAndAgainTheyHaveTheSameBits) {
+TEST_F(SweepReferences, RepeatedStopsDoNotChangeTheirBits) {
   const RenderSettings cell = settings(Integrator::path);
   Reference reference = plan(cell, ReferenceKind::path);
   const Picture straight = *make_reference(reference, *scene_, cell, {});
@@ -143,7 +143,7 @@ TEST_F(SweepReferences, StoppedAgainAndAgainTheyHaveTheSameBits) {
   EXPECT_EQ(other.count_files(), 4u) << "two halves, their mean and its numbers";
 }
 
-TEST_F(SweepReferences, ACheckpointThatIsDamagedIsBegunAnew) {
+TEST_F(SweepReferences, ADamagedCheckpointIsReplaced) {
   const RenderSettings cell = settings(Integrator::path);
   Reference reference = plan(cell, ReferenceKind::path);
   folder.write(reference.key + "_a.checkpoint", "not a checkpoint");
@@ -151,7 +151,7 @@ TEST_F(SweepReferences, ACheckpointThatIsDamagedIsBegunAnew) {
   EXPECT_EQ(folder.count_files(), 4u);
 }
 
-TEST_F(SweepReferences, ThatCannotBeReadAreMadeAnew) {
+TEST_F(SweepReferences, UnreadableOnesAreRenderedAgain) {
   const RenderSettings cell = settings(Integrator::path);
   Reference reference = plan(cell, ReferenceKind::path);
   const Picture whole = *make_reference(reference, *scene_, cell, {});
@@ -171,7 +171,7 @@ TEST_F(SweepReferences, ThatCannotBeReadAreMadeAnew) {
   EXPECT_EQ(folder.count_files(), 4u);
 }
 
-TEST_F(SweepReferences, OnesOwnIsKnownByItsPixels) {
+TEST_F(SweepReferences, AGivenReferenceIsIdentifiedByItsPixels) {
   Picture picture{.width = 1, .height = 1, .metadata = {{"spp", "7"}}};
   picture.layers = {{.channels = {"R", "G", "B"}, .values = {1.0f, 2.0f, 3.0f}}};
   const std::string file = (folder / "r.exr").string();
@@ -186,7 +186,7 @@ TEST_F(SweepReferences, OnesOwnIsKnownByItsPixels) {
   EXPECT_NE(given_reference(ReferenceKind::path, file, cell).key, first.key);
 }
 
-TEST_F(SweepReferences, OnesOwnFitsTheCellsOrIsRefused) {
+TEST_F(SweepReferences, AGivenReferenceFitsTheCellsOrIsRefused) {
   const std::string file = (folder / "r.exr").string();
   const auto give = [&](const Picture& picture, const renderer::RenderOptions& cell) {
     renderer::write_image(picture, file, {.exr_float = true});
@@ -197,20 +197,20 @@ TEST_F(SweepReferences, OnesOwnFitsTheCellsOrIsRefused) {
   cell.height = 2;
   Picture picture{.width = 2, .height = 2};
   picture.layers = {{.channels = {"R", "G", "B"}, .values = std::vector<float>(12, 1.0f)}};
-  expect_refusal<renderer::CompareError>([&] { give(picture, cell); }, {file, "2x2", "3x2"});
+  expect_refusal<InputError>([&] { give(picture, cell); }, {file, "2x2", "3x2"});
   cell.region = std::array{1, 0, 3, 2};
   EXPECT_NO_THROW(give(picture, cell));
   Picture grey = picture;
   grey.layers = {{.channels = {"Y"}, .values = std::vector<float>(4, 1.0f)}};
-  expect_refusal<renderer::CompareError>([&] { give(grey, cell); }, {file});
+  expect_refusal<InputError>([&] { give(grey, cell); }, {file});
   Picture depth = picture;
   depth.layers = {{.name = "depth", .channels = {"Z"}, .values = std::vector<float>(4, 1.0f)}};
-  expect_refusal<renderer::CompareError>([&] { give(depth, cell); }, {file});
+  expect_refusal<InputError>([&] { give(depth, cell); }, {file});
   picture.layers[0].values[5] = std::nanf("");
   expect_refusal<InputError>([&] { give(picture, cell); }, {file, "1"});
 }
 
-TEST_F(SweepReferences, NamesAreRelativeWithinTheFolderAndWholeOutside) {
+TEST_F(SweepReferences, NamesAreRelativeWithinTheFolderAndAbsoluteOutside) {
   const Reference inside{.key = "k", .file = "/a/b/references/k.exr"};
   EXPECT_EQ(reference_json(inside, "/a/b")["id"], "k");
   EXPECT_EQ(reference_json(inside, "/a/b")["file"], "references/k.exr");
@@ -220,7 +220,7 @@ TEST_F(SweepReferences, NamesAreRelativeWithinTheFolderAndWholeOutside) {
   EXPECT_EQ(reference_json(given, "/a/b")["file"], (fs::current_path() / "r.exr").string());
 }
 
-TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsRemembered) {
+TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsStored) {
   renderer::RenderOptions options = settings(Integrator::nrc).render;
   options.cache.gate.features = 3;
   const std::string file = (folder / "memory.json").string();
@@ -231,13 +231,13 @@ TEST_F(SweepReferences, MemoryOfGateIsThatOfItsFeaturesAndIsRemembered) {
   EXPECT_GT(bytes + 64 * 1024, report.statistics.parameter_bytes) << "the network is small";
   EXPECT_TRUE(GateMemoryStore(file).knows("k"));
   EXPECT_FALSE(GateMemoryStore(file).knows("other"));
-  // Another key is another cache; a known one is not asked for again.
+  // Another key is another cache; the memory of a stored key is not computed again.
   options.cache.gate.features = 1;
   EXPECT_EQ(GateMemoryStore(file).bytes("k", *scene_, options), bytes);
   EXPECT_LT(GateMemoryStore(file).bytes("other", *scene_, options), bytes);
 }
 
-TEST_F(SweepReferences, HdrFlipOfACellCanBeEnded) {
+TEST_F(SweepReferences, HdrFlipOfACellCanBeStopped) {
   Picture bright{.width = 4, .height = 1};
   bright.layers = {{.channels = {"R", "G", "B"}, .values = {9, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}}};
   Picture other = bright;
@@ -265,7 +265,7 @@ TEST_F(SweepReferences, CellsOfOtherMachinesHaveOtherNames) {
   const std::string fastest = machine_text(options);
   EXPECT_THAT(fastest, HasSubstr(cpu_name()));
   options.isa = renderer::best_isa();
-  EXPECT_EQ(machine_text(options), fastest) << "what was chosen counts, not how";
+  EXPECT_EQ(machine_text(options), fastest) << "the chosen instruction set counts, not how it was chosen";
   options.integrator = Integrator::nrc;
   const std::string kernels = machine_text(options);
   EXPECT_NE(kernels, fastest);

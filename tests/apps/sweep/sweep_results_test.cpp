@@ -70,7 +70,7 @@ CellErrors errors() {
   return e;
 }
 
-TEST(SweepRecord, HoldsWhatWasMeasured) {
+TEST(SweepRecord, ContainsTheMeasurements) {
   const SweepPlan plan = small_plan();
   const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
   const ordered_json r = done_record(place, statistics(), errors(), true, 2.5f);
@@ -96,7 +96,7 @@ TEST(SweepRecord, HoldsWhatWasMeasured) {
   EXPECT_EQ(r["picture"], "pictures/0123.png");
 }
 
-TEST(SweepRecord, OfAPlainIntegratorHasNoCache) {
+TEST(SweepRecord, APlainIntegratorHasNoCache) {
   const SweepPlan plan = small_plan();
   const PlannedSeries& series = plan.scenes[0].series[1];
   ASSERT_EQ(series.label, "path");
@@ -129,7 +129,7 @@ TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
   EXPECT_EQ(r["options"]["denoiser"], "oidn");
 }
 
-TEST(SweepRecord, TellsWhoMadeItAndWhatWasChosenOnTheWay) {
+TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
   const SweepPlan plan = small_plan();
   const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
   const ordered_json r = done_record(place, statistics(), errors(), true, 2.5f);
@@ -169,7 +169,7 @@ TEST(SweepRecord, PixelsThatAreNotFiniteHaveNoFlip) {
   EXPECT_FALSE(r["picture"].is_null());
 }
 
-TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
+TEST(SweepRecord, IsReadBackWithTheNamesOfTheCurrentPlan) {
   const TemporaryFolder folder;
   const std::string root = folder.path().string();
   const SweepPlan plan = small_plan();
@@ -192,7 +192,7 @@ TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
   EXPECT_EQ(found["seconds"], record["seconds"]);
   EXPECT_EQ(found["picture"], "pictures/0123.png");
   EXPECT_TRUE(found["error_map"].is_null());
-  EXPECT_EQ(found["options"], record["options"]) << "what was chosen on the way is known";
+  EXPECT_EQ(found["options"], record["options"]) << "the options that the render chose are kept";
   // Neither failed cells nor half files count.
   folder.write("cells/0123.json", failed_record(place, "why").dump());
   EXPECT_FALSE(read(false).has_value());
@@ -203,7 +203,7 @@ TEST(SweepRecord, IsReadBackWithThePlansWordsOfToday) {
   EXPECT_FALSE(read(false).has_value());
 }
 
-TEST(SweepRecord, OfAnotherShapeOrSchemaIsNone) {
+TEST(SweepRecord, AnotherShapeOrSchemaIsIgnored) {
   const TemporaryFolder folder;
   const SweepPlan plan = small_plan();
   const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
@@ -272,7 +272,7 @@ std::vector<std::vector<std::string>> read_csv(const std::string& text) {
   return rows;
 }
 
-TEST(SweepResults, TheTableSaysWhatTheJsonSays) {
+TEST(SweepResults, TheTableEqualsTheJson) {
   const SweepPlan plan = small_plan();
   SceneResults scene;
   scene.scene = {{"name", "a"}};
@@ -322,7 +322,7 @@ TEST(SweepResults, HaveTheSameColumnsWhateverTheirCells) {
   EXPECT_EQ(header({done_record({plan.scenes[0], series[1], 1, 8, "p", "ref"}, statistics(), errors(), true,
                                 2.5f)}),
             std::vector<std::string>(columns.begin(), columns.end() - 1));
-  // Each number of a record has its own.
+  // Each number of a record has its own column.
   std::set<std::string> expected;
   for (const auto& [key, value] : made.items()) {
     if (key == "options" || key == "axes" || key == "schema") continue;
@@ -460,7 +460,7 @@ TEST(SweepAdvice, IsTextWithACommandForEachSceneAndKind) {
               HasSubstr("no cell"));
 }
 
-TEST(SweepAdvice, SaysWhatHasNone) {
+TEST(SweepAdvice, NamesScenesWhereNoCellMeetsTheLimits) {
   ordered_json results = trade();
   results["cells"].push_back(cell("gate", 8, 0.5, 1.0, 1, "hall"));
   const std::string unmet = give_advice(results, {.max_error = 0.26, .max_seconds = 9.5}).unmet;
@@ -484,7 +484,7 @@ TEST(SweepAdvice, ErrorsAgainstDifferentReferencesAreNotCompared) {
   EXPECT_THAT(give_advice(results, {.max_error = 0.05, .max_seconds = {}}).text,
               AllOf(HasSubstr("room (path, max-depth 2): gate max-depth 2"),
                     HasSubstr("room (path, max-depth 8): gate max-depth 8"), Not(HasSubstr("integrator"))));
-  // Where no axis tells them apart.
+  // No axis distinguishes them here.
   for (ordered_json& one : results["cells"]) one["axes"] = ordered_json::object();
   EXPECT_THAT(give_advice(results, {.max_error = 0.05, .max_seconds = {}}).text,
               AllOf(HasSubstr("room (path, reference 2): "), HasSubstr("room (path, reference 8): ")));

@@ -4,7 +4,7 @@
 
 #include <new>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
@@ -25,33 +25,40 @@ Failure failure_of(const Exception& exception) {
 
 TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
   EXPECT_EQ(failure_of(UsageError("m")).code, 1);
-  EXPECT_EQ(failure_of(renderer::BadOption("m")).code, 1);
-  EXPECT_EQ(failure_of(renderer::UnknownFormat("m")).code, 1);
+  EXPECT_EQ(failure_of(BadOption("m")).code, 1);
+  EXPECT_EQ(failure_of(UnknownFormat("m")).code, 1);
   EXPECT_EQ(failure_of(InputError("m")).code, 2);
-  EXPECT_EQ(failure_of(scene::SceneError("m")).code, 2);
-  EXPECT_EQ(failure_of(renderer::ImageError("m")).code, 2);
-  EXPECT_EQ(failure_of(std::runtime_error("m")).code, 2);
-  EXPECT_EQ(failure_of(renderer::OutputError("m")).code, 3);
-  EXPECT_EQ(failure_of(renderer::OutOfMemory("m")).code, 4);
+  EXPECT_EQ(failure_of(OutputError("m")).code, 3);
+  EXPECT_EQ(failure_of(OutOfMemory("m")).code, 4);
+  EXPECT_EQ(failure_of(OutOfDeviceMemory("m")).code, 4);
   EXPECT_EQ(failure_of(std::bad_alloc()).code, 4);
   EXPECT_EQ(failure_of(std::bad_array_new_length()).code, 4);
-  EXPECT_EQ(failure_of(renderer::Unavailable("m")).code, 5);
-  EXPECT_EQ(failure_of(neural::BadConfiguration("m")).code, 1);
-  EXPECT_EQ(failure_of(neural::CacheFileError("m")).code, 2);
-  EXPECT_EQ(failure_of(neural::Unavailable("m")).code, 5);
-  EXPECT_EQ(failure_of(renderer::NumericalError("m")).code, 6);
-  EXPECT_EQ(failure_of(renderer::TrainingDiverged("m")).code, 6);
+  EXPECT_EQ(failure_of(Unavailable("m")).code, 5);
+  EXPECT_EQ(failure_of(MissingDenoiser("m")).code, 5);
+  EXPECT_EQ(failure_of(MissingLibrary("m")).code, 5);
+  EXPECT_EQ(failure_of(DeviceLost("m")).code, 5);
+  EXPECT_EQ(failure_of(BadConfiguration("m")).code, 1);
+  EXPECT_EQ(failure_of(CacheFileError("m")).code, 2);
+  EXPECT_EQ(failure_of(NumericalError("m")).code, 6);
+  EXPECT_EQ(failure_of(TrainingDiverged("m")).code, 6);
+  EXPECT_EQ(failure_of(MpiError("m")).code, 9);
+}
+
+TEST(ExitCodes, AnExceptionWithoutAKindIsAnErrorOfTheProgram) {
+  const Failure failure = failure_of(std::logic_error("m"));
+  EXPECT_EQ(failure.code, 1);
+  tests::expect_message(failure.message, {"internal error"});
 }
 
 TEST(ExitCodes, TheMessageIsKeptAndAdviceGiven) {
-  const Failure failure = failure_of(renderer::OutOfMemory("needs 3 GiB"));
+  const Failure failure = failure_of(OutOfMemory("needs 3 GiB"));
   EXPECT_EQ(failure.message, "needs 3 GiB");
   tests::expect_message(failure.advice, {"limit"});
 }
 
 TEST(ExitCodes, ADivergedTrainingHasAdviceOfItsOwn) {
-  tests::expect_message(failure_of(renderer::TrainingDiverged("m")).advice, {"--learning-rate"});
-  tests::expect_message(failure_of(renderer::NumericalError("m")).advice, {"--nan drop"});
+  tests::expect_message(failure_of(TrainingDiverged("m")).advice, {"--learning-rate"});
+  tests::expect_message(failure_of(NumericalError("m")).advice, {"--nan drop"});
 }
 
 TEST(ExitCodes, TheLastLineIsOneLine) {

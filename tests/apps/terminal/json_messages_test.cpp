@@ -47,24 +47,24 @@ class JsonMessages : public ::testing::Test {
     const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "call");
     const Output output = run_gatelight_inside(call);
     EXPECT_EQ(output.exit_code, code);
-    const std::vector<json> told = events(output);
-    ASSERT_EQ(told.size(), 1u) << output.err;
-    EXPECT_EQ(told[0]["event"], "error");
-    EXPECT_EQ(told[0]["code"], code);
-    EXPECT_NE(told[0]["advice"], "");
-    expect_message(told[0]["message"], names, place);
+    const std::vector<json> description = events(output);
+    ASSERT_EQ(description.size(), 1u) << output.err;
+    EXPECT_EQ(description[0]["event"], "error");
+    EXPECT_EQ(description[0]["code"], code);
+    EXPECT_NE(description[0]["advice"], "");
+    expect_message(description[0]["message"], names, place);
   }
 
   TemporaryFolder folder;
   std::string scene = folder.write("scene.gltf", tiny_scene());
 };
 
-TEST_F(JsonMessages, ARunIsToldWithItsSummary) {
+TEST_F(JsonMessages, ARunIsReportedWithItsSummary) {
   const Output output = run_gatelight(words({"--progress", "json", "--verbose", "--environment", "1,1,1"}));
   EXPECT_EQ(output.exit_code, 0) << output.err;
-  const std::vector<json> told = events(output);
-  EXPECT_THAT(kinds(told), Contains("detail"));
-  const json& done = told.back();
+  const std::vector<json> description = events(output);
+  EXPECT_THAT(kinds(description), Contains("detail"));
+  const json& done = description.back();
   EXPECT_EQ(done["event"], "done");
   EXPECT_EQ(done["outputs"], json({path("a.png")}));
   EXPECT_EQ(done["spp"], 1);
@@ -75,11 +75,11 @@ TEST_F(JsonMessages, ARunIsToldWithItsSummary) {
 }
 
 TEST_F(JsonMessages, WarningsAreEvents) {
-  const std::vector<json> told =
+  const std::vector<json> description =
       events(run_gatelight(words({"--progress=json", "--environment", "none", "--exposure", "0"})));
-  const auto warning =
-      std::find_if(told.begin(), told.end(), [](const json& e) { return e["event"] == "warning"; });
-  ASSERT_NE(warning, told.end());
+  const auto warning = std::find_if(description.begin(), description.end(),
+                                    [](const json& e) { return e["event"] == "warning"; });
+  ASSERT_NE(warning, description.end());
   expect_message((*warning)["message"], {scene, "light", "black"});
   EXPECT_EQ(run_gatelight(words({"--progress=json", "--environment", "none", "--quiet"})).err, "");
 }
@@ -107,7 +107,7 @@ TEST_F(JsonMessages, ErrorsAreEventsWhereverTheyAreFound) {
   expect_error(words({"--config", value}), 1, {value, "--clamp"});
 }
 
-TEST_F(JsonMessages, AreAskedForByEachCallAnew) {
+TEST_F(JsonMessages, EachCallSelectsThemForItself) {
   expect_error(words({"--progress", "json", "--clamp", "-1"}), 1, {"--clamp"});
   expect_failure(run_gatelight_inside(words({"--clamp", "-1"})), 1, {"--clamp"});
 }
@@ -120,14 +120,14 @@ TEST_F(JsonMessages, ASignalIsANotice) {
   run.send(SIGINT);
   const Output output = run.finish();
   EXPECT_EQ(output.exit_code, 130);
-  const std::vector<json> told = events(output);
-  EXPECT_EQ(told.back()["event"], "notice");
-  EXPECT_EQ(told.back()["code"], 130);
-  expect_names(told.back()["message"], {"signal 2", path("a.png")});
-  EXPECT_THAT(kinds(told), Not(Contains("error")));
+  const std::vector<json> description = events(output);
+  EXPECT_EQ(description.back()["event"], "notice");
+  EXPECT_EQ(description.back()["code"], 130);
+  expect_names(description.back()["message"], {"signal 2", path("a.png")});
+  EXPECT_THAT(kinds(description), Not(Contains("error")));
 }
 
-TEST_F(JsonMessages, ASweepTellsItsWarningsSoToo) {
+TEST_F(JsonMessages, ASweepEmitsWarningEventsToo) {
   const Output output = run_gatelight({"sweep", scene, path("broken.gltf"), "-o", path("out"), "--size",
                                        "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
                                        "--environment", "1,1,1", "--progress", "json"});
@@ -138,10 +138,10 @@ TEST_F(JsonMessages, ASweepTellsItsWarningsSoToo) {
                                        "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
                                        "--environment", "1,1,1", "--progress", "json"});
   EXPECT_EQ(partly.exit_code, 7) << partly.err;
-  const std::vector<json> told = events(partly);
-  EXPECT_THAT(kinds(told), Contains("warning"));
-  EXPECT_EQ(told.back()["event"], "error");
-  EXPECT_EQ(told.back()["code"], 7);
+  const std::vector<json> description = events(partly);
+  EXPECT_THAT(kinds(description), Contains("warning"));
+  EXPECT_EQ(description.back()["event"], "error");
+  EXPECT_EQ(description.back()["code"], 7);
 }
 
 }  // namespace

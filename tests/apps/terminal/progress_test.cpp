@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What the reporter says of a picture of 1000 pixels.
+/// The reporter's output for a picture of 1000 pixels.
 std::string report(ProgressMode mode, const std::vector<Progress>& updates) {
   ::testing::internal::CaptureStderr();
   ProgressReporter reporter(mode, 1000.0);
@@ -71,7 +71,7 @@ TEST(Progress, TimeLeftAndSpeedCountFromTheFirstUpdateOfThePhase) {
       << "a quarter of 8000 samples in a second";
 }
 
-TEST(Progress, WhereTimeOrAnErrorEndsThePictureTheyAreTold) {
+TEST(Progress, TimeOrErrorIsShownWhereItEndsThePicture) {
   const Progress timed = {.phase = Phase::render, .spp_done = 2, .spp = renderer::kOpenSpp, .samples = 2.0};
   EXPECT_THAT(report(ProgressMode::bar, {timed}), HasSubstr("  2 spp  0 samples/s"));
   const Progress to_error = {.phase = Phase::render, .spp_done = 2, .spp = 8, .samples = 2.0, .error = 0.031};
@@ -80,7 +80,7 @@ TEST(Progress, WhereTimeOrAnErrorEndsThePictureTheyAreTold) {
   EXPECT_FALSE(report_json({timed})[0].contains("estimated_error"));
 }
 
-TEST(Progress, WhereNothingIsTrainedThereIsNoLoss) {
+TEST(Progress, WithoutTrainingThereIsNoLoss) {
   const Progress none = {.phase = Phase::train, .fraction = 1.0};
   EXPECT_THAT(report(ProgressMode::bar, {none}), AllOf(HasSubstr("0/0 steps"), Not(HasSubstr("loss"))));
   EXPECT_FALSE(report_json({none})[0].contains("loss"));

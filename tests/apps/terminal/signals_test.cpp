@@ -21,7 +21,7 @@ class Signals : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
-  /// Would take days.
+  /// Arguments of a render that would take days.
   std::vector<std::string> endless() const {
     return {"render",        scene,   "-o",      path("a.exr"),  "-o",        path("b.png"),
             "--environment", "1,1,1", "--size",  "64x64",        "--spp",     "16777216",
@@ -54,7 +54,7 @@ TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
   }
 }
 
-TEST_F(Signals, WhatIsResumedAddsUp) {
+TEST_F(Signals, StatisticsOfResumedRunsAddUp) {
   std::vector<std::string> arguments = endless();
   arguments.insert(arguments.end(), {"--checkpoint", path("k"), "--resume"});
   Process process(arguments);

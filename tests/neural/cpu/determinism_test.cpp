@@ -119,7 +119,7 @@ TEST(Determinism, EveryOptionIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// 65536 nodes and more: a thousand buckets of many nodes each, and one that all records meet in.
+// More than 65536 nodes: a thousand buckets of many nodes each, and one bucket that all records share.
 TEST(Determinism, ManyNodesAreTheSameForAnyNumberOfThreads) {
   ModelConfig config = default_gate_config();
   config.gate.stack = {kMaxResolution, 1};

@@ -11,27 +11,27 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using simd::Isa;
 using reference::make_reference_backend;
+using simd::Isa;
 
 // Differences are relative to the greatest magnitude in the same tensor (or in a batch's answers). A float
-// holds 2^-24 = 6e-8 of a number; sums of up to 256 terms, sums over records that nearly cancel, and a place
-// among 64 nodes or bins leave up to 8e-6. Squares (second moments) are off by twice as much.
+// has a relative error of 2^-24 = 6e-8. Sums of up to 256 terms, sums over records that nearly cancel, and
+// positions among 64 nodes or bins have errors of up to 8e-6. Squares (second moments) have twice the error.
 constexpr double kTolerance = 3e-5;
-// A float holds a place among a level's 256 to 466 cells with that much fewer digits of the cell.
+// A float position among a level's 256 to 466 cells has that many fewer digits within the cell.
 constexpr double kHashGridTolerance = 5e-5;
-// Features in fp16 that the last bit of the float puts on the other side of a rounding: one step of fp16, and
-// one more for an average. Few do.
+// The last bit of a float can round a feature to the next fp16 number: one step of fp16, and one more for an
+// average. This happens to few features.
 constexpr double kHalfTolerance = 0x1p-9;
 constexpr double kHalfShare = 0.02;
-// Inputs, weights and activations of bf16 queries have eight significant bits, so that each product is off by
-// up to 2^-8: the worst of the answers and their root of the mean square.
+// Inputs, weights and activations of bf16 queries have eight significant bits, so each product has an error
+// of up to 2^-8. Bounds of the worst answer and of the root mean square.
 constexpr double kBf16Tolerance = 0.025;
 constexpr double kBf16MeanTolerance = 0.006;
-// Steps with the default epsilon follow the sign of a gradient that rounding may have turned.
+// With the default epsilon a step follows the sign of the gradient, which rounding may have changed.
 constexpr double kLaterLossTolerance = 1e-4;
 
-// The kernels work on 16, 8 or 1 lanes, tiles of 48 and chunks of 768; between these, primes.
+// Sizes around the kernels' 16, 8 and 1 lanes, tiles of 48 and chunks of 768, with primes between them.
 constexpr std::size_t kAllSizes[] = {0,  1,  2,   3,   5,   7,   8,   9,   11,  13,  15,  16,  17,
                                      19, 23, 29,  31,  37,  41,  43,  47,  48,  49,  61,  89,  95,
                                      96, 97, 127, 191, 193, 251, 384, 509, 767, 768, 769, 1021};
@@ -49,7 +49,7 @@ double tolerance_of(const Model& model) {
 TrainingOptions smooth_options() {
   TrainingOptions options;
   make_smooth(options.adam);
-  options.start_at_mean = false;  // which puts targets near answers (make_smooth_batch)
+  options.start_at_mean = false;  // it would put targets near answers (make_smooth_batch)
   return options;
 }
 
@@ -195,7 +195,7 @@ TEST_F(KernelParity, AStepOfEveryModel) {
 
 TEST_F(KernelParity, AnswersAndStepsOfEveryBatchSize) {
   std::uint64_t seed = 200;
-  for (const char* name : {"nrc", "hash_alone"}) {
+  for (const char* name : {"nrc", "hash_only"}) {
     const ModelCase c = find_model_case(name);
     const TrainingOptions options = smooth_options();
     const ModelState state = random_state(*c.model, options, ++seed, true);
@@ -270,8 +270,8 @@ TEST_F(KernelParity, TheLastTargetIsClampedToo) {
   }
 }
 
-// One record for each float of each input, and for each way not to be finite.
-TEST_F(KernelParity, EachInputThatIsNotFiniteRejectsItsRecordAlone) {
+// One record for each float of each input and for each of NaN, infinity and minus infinity.
+TEST_F(KernelParity, ANonFiniteInputRejectsOnlyItsRecord) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (const char* name : {"gate_with_everything", "hash_with_everything", "plain_with_everything"}) {
     const ModelCase c = find_model_case(name);
@@ -313,7 +313,7 @@ TEST_F(KernelParity, InputsThatTheModelDoesNotReadMayBeAnything) {
   expect_same_answers(c, options, batch, state);
 }
 
-// At places that floats hold exactly, on nodes and on the lines between them, there is no doubt.
+// The points are exact in float and lie on nodes and on the lines between them, so the weights are exact.
 TEST_F(KernelParity, NodesWithoutWeightAreNotTouched) {
   for (const char* name : {"gate_L2_stack_4_2_1", "gate_L2_stack_64", "gate_L2_stack_1"}) {
     const ModelCase c = find_model_case(name);
@@ -339,7 +339,7 @@ TEST_F(KernelParity, NodesWithoutWeightAreNotTouched) {
   }
 }
 
-TEST_F(KernelParity, LossesOfLaterStepsStayTogether) {
+TEST_F(KernelParity, LossesOfLaterStepsAgree) {
   for (const char* name : {"nrc", "nao", "hash_F4"})
     for (const Loss loss : {Loss::l2, Loss::relative_l2}) {
       const ModelCase c = find_model_case(name);

@@ -1,4 +1,4 @@
-// The kernels read whole vectors, but nothing behind the end of a batch: the page there is forbidden.
+// The kernels read whole vectors, but nothing beyond the end of a batch: the page there is not accessible.
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -66,7 +66,7 @@ struct EdgeBatch {
   std::size_t size;
 };
 
-TEST(KernelReads, NothingBehindTheEndOfABatch) {
+TEST(KernelReads, NothingIsReadBeyondTheEndOfABatch) {
   for (const char* name : {"nrc", "nao", "gate_with_everything", "hash_F4", "plain_with_everything"}) {
     const ModelCase c = find_model_case(name);
     for (const std::size_t size : {1u, 15u, 16u, 48u, 50u, 96u, 768u}) {

@@ -68,7 +68,7 @@ TEST(Clusters, AreTheVerticesOfACellThatFaceTheSameWay) {
               place += double{to_world[3 * i + r]} * p[i];
               normal[r] += double{normals_to_world[3 * i + r]} * p[i];
             }
-            // Cells of coarser levels are made of those of the finest.
+            // Cells of coarser levels consist of cells of the finest level.
             const double finest = std::floor(place / (0.5 * spacing) + 0.3819660112501051);
             cell[r] =
                 std::floor((finest + std::floor(0.3819660112501051 * divisors[level])) / divisors[level]);
@@ -76,7 +76,7 @@ TEST(Clusters, AreTheVerticesOfACellThatFaceTheSameWay) {
           std::array<double, 3> sorted = {std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])};
           const auto axis = static_cast<int>(std::ranges::max_element(sorted) - sorted.begin());
           std::ranges::sort(sorted);
-          // Too near to call between two axes: the mesh's normals are not exactly the sphere's.
+          // Undecided between two axes, because the mesh's normals are not exactly the sphere's.
           if (sorted[1] > 0.93 * sorted[2]) continue;
           const Key key = {cell[0], cell[1], cell[2], 2 * axis + (normal[axis] < 0)};
           found[key].insert(corner(layout, t, k, level));
@@ -89,7 +89,7 @@ TEST(Clusters, AreTheVerticesOfACellThatFaceTheSameWay) {
   }
 }
 
-/// Nodes of a level of surface 0 that has no edges.
+/// Returns the number of nodes of a level of surface 0 that has no edges.
 std::uint32_t corner_count(const GateLayout& layout, const Mesh& mesh, std::uint32_t level) {
   std::uint32_t count = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -97,7 +97,7 @@ std::uint32_t corner_count(const GateLayout& layout, const Mesh& mesh, std::uint
   return count;
 }
 
-TEST(Clusters, ThoseOfACoarserLevelAreMadeOfFinerOnes) {
+TEST(Clusters, ClustersOfACoarserLevelConsistOfFinerClusters) {
   const Mesh mesh = testing::sphere(96, 1);
   const GateLayout layout =
       layout_of(testing::one_instance(mesh), 0.2f, {adaptive_part(5), kAdaptive, adaptive_part(2)});
@@ -115,14 +115,14 @@ TEST(Clusters, ACoarserLevelHasFewerNodes) {
       layout_of(testing::one_instance(mesh), 0.5f, {kAdaptive, adaptive_part(4), adaptive_part(16)});
   const std::array<std::uint32_t, 3> nodes = {corner_count(layout, mesh, 0), corner_count(layout, mesh, 1),
                                               corner_count(layout, mesh, 2)};
-  // Cells of 0.25, 1 and 4 units, and those that stand out over the rim.
+  // Cells of 0.25, 1 and 4 units, and cells that reach beyond the rim.
   EXPECT_NEAR(nodes[0], 65 * 65, 65);
   EXPECT_NEAR(nodes[1], 17 * 17, 17);
   EXPECT_NEAR(nodes[2], 5 * 5, 5);
   EXPECT_EQ(nodes[0] + nodes[1] + nodes[2], layout.node_count);
 }
 
-TEST(Clusters, OnlyLevelsWithResolutionOneWhoseCellsMergeVerticesHaveThem) {
+TEST(Clusters, OnlyLevelsWithResolutionOneWhoseCellsMergeVerticesHaveClusters) {
   // Triangles with legs of 1, and R of 2, 1 and 1 with cells of 0.2, 0.6 and 2.4.
   const Mesh mesh = testing::grid(12, 12);
   const GateLayout layout = layout_of(testing::one_instance(mesh, Sides::both), 0.4f,
@@ -140,14 +140,14 @@ TEST(Clusters, OnlyLevelsWithResolutionOneWhoseCellsMergeVerticesHaveThem) {
   EXPECT_EQ(layout.report.cluster_nodes, 2 * clusters);
   EXPECT_EQ(layout.report.vertex_nodes, 2 * 3 * mesh.positions.size());
   EXPECT_EQ(layout.report.edge_nodes, 2 * testing::count_edges(mesh));
-  // Edges and vertices are those of a layout without the clusters.
+  // Edges and vertices are as in a layout without clusters.
   const GateLayout plain =
       layout_of(testing::one_instance(mesh, Sides::both), 0.4f, {kAdaptive, adaptive_part(3)});
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t w = 0; w < 6; ++w) ASSERT_EQ(layout.topology[9 * t + w], plain.topology[6 * t + w]);
 }
 
-TEST(Clusters, RowsHoldNoWordsThatNoLevelReads) {
+TEST(Clusters, RowsHaveNoUnusedWords) {
   struct Case {
     float spacing;
     Stack stack;
@@ -178,7 +178,7 @@ TEST(Clusters, RowsHoldNoWordsThatNoLevelReads) {
   }
 }
 
-TEST(Clusters, InstancesWithoutThemShareTheTableOfTheirMesh) {
+TEST(Clusters, InstancesWithoutClustersShareTheTableOfTheirMesh) {
   const Mesh mesh = testing::grid(40, 10);
   SurfaceLayout scene = testing::one_instance(mesh);
   for (const float scale : {1.0f, 4.0f, 0.1f, 4.0f, 0.1f})
@@ -220,7 +220,7 @@ TEST(Clusters, MemoryFollowsTheAreaInsteadOfTheTessellation) {
   EXPECT_NEAR(nodes[2] / nodes[1], 1, 0.1);
 }
 
-TEST(Clusters, APlaneHasAboutOneInEachCell) {
+TEST(Clusters, APlaneHasAboutOneClusterPerCell) {
   const Mesh mesh = testing::grid(200, 10);
   for (const float spacing : {0.5f, 1.0f, 2.0f}) {
     const double cells = std::ceil(10 / (0.5 * spacing) + 0.5);
@@ -228,7 +228,7 @@ TEST(Clusters, APlaneHasAboutOneInEachCell) {
   }
 }
 
-TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitThem) {
+TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitClusters) {
   // A floor at the height of a multiple of the cell, and a roof of 45 degrees, without and with noise.
   for (const float slope : {0.0f, 1.0f}) {
     std::vector<std::uint32_t> nodes;
@@ -243,8 +243,8 @@ TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitThem) {
   }
 }
 
-TEST(Clusters, TheTwoSidesOfAThinWallStayApart) {
-  // A box of 2 x 2 x 0.01: cells hold both faces, normals tell them apart.
+TEST(Clusters, TheTwoSidesOfAThinWallShareNoClusters) {
+  // A box of 2 x 2 x 0.01: cells contain both faces, normals separate them.
   Mesh mesh = testing::grid(40, 2);
   const auto half = static_cast<std::uint32_t>(mesh.positions.size());
   const std::size_t triangles = mesh.triangles.size();
@@ -262,7 +262,7 @@ TEST(Clusters, TheTwoSidesOfAThinWallStayApart) {
   for (const std::uint32_t cluster : below) EXPECT_FALSE(above.contains(cluster));
 }
 
-TEST(Clusters, BothSidesReadOneTableWithBasesOfTheirOwn) {
+TEST(Clusters, BothSidesShareATableAndHaveSeparateBases) {
   const Mesh mesh = testing::sphere(64, 1);
   const GateLayout layout = layout_of(testing::one_instance(mesh, Sides::both), 0.5f);
   const GateLayout front = layout_of(testing::one_instance(mesh), 0.5f);
@@ -276,7 +276,7 @@ TEST(Clusters, BothSidesReadOneTableWithBasesOfTheirOwn) {
   EXPECT_EQ(bases.size(), 4u);
 }
 
-TEST(Clusters, InstancesInOneCellStayApart) {
+TEST(Clusters, InstancesInOneCellShareNoClusters) {
   const Mesh mesh = testing::sphere(32, 0.1f);
   SurfaceLayout scene = testing::one_instance(mesh);
   scene.instances.resize(3, scene.instances[0]);
@@ -287,7 +287,7 @@ TEST(Clusters, InstancesInOneCellStayApart) {
   EXPECT_LE(alone.node_count, 2u * 6);
 }
 
-TEST(Clusters, WhereEveryVertexWouldBeOneNothingIsClustered) {
+TEST(Clusters, NothingIsClusteredWhereEveryVertexWouldBeACluster) {
   const Mesh mesh = testing::grid(10, 10);  // triangles of the spacing's size: R is 1, cells are smaller
   const GateLayout layout = layout_of(testing::one_instance(mesh), 1.0f);
   EXPECT_EQ(layout.levels[0].resolution, 1u);
@@ -296,7 +296,7 @@ TEST(Clusters, WhereEveryVertexWouldBeOneNothingIsClustered) {
   EXPECT_EQ(layout.report.vertex_nodes, 2 * mesh.positions.size());
 }
 
-TEST(Clusters, AreNotMadeWhereTheyWereNotAskedFor) {
+TEST(Clusters, AreMadeOnlyWhereTheOptionsAllowThem) {
   const Mesh mesh = testing::sphere(64, 1);
   const auto clustered = [&](const std::function<void(GateOptions&)>& change) {
     GateOptions options;
@@ -314,7 +314,7 @@ TEST(Clusters, AreNotMadeWhereTheyWereNotAskedFor) {
   EXPECT_EQ(clustered([](GateOptions& o) { o.stack = {2, kAdaptive}; }), 1u);
 }
 
-TEST(Clusters, HugeAndTinyCoordinatesAndSpacingsAreCellsLikeOthers) {
+TEST(Clusters, HugeAndTinyCoordinatesAndSpacingsGiveValidClusters) {
   const Mesh mesh = testing::sphere(32, 1);
   for (const float scale : {1e-30f, 1.0f, 1e30f})
     for (const float shift : {0.0f, 1e30f, -3e38f})

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/neural/layout/meshes.h"
 #include "tests/support/messages.h"
@@ -65,7 +65,7 @@ std::vector<GateOptions> many_options() {
   parts.node_spacing = 0.02f;
   parts.stack = {kAdaptive, adaptive_part(4), 1};
   all.push_back(parts);
-  // Levels with cells of their own; with little memory vertices of all instances share clusters.
+  // Levels with separate cells; with little memory all instances share clusters.
   GateOptions cells;
   cells.features = 1;
   cells.node_spacing = 0.1f;
@@ -147,7 +147,7 @@ TEST(GateLayout, ASpacingScaleIsTheSpacingOfItsInstance) {
   for (GateOptions options : many_options()) {
     if (options.rule != ResolutionRule::uniform) continue;
     for (const float scale : {0.3f, 2.0f, 8.0f}) {
-      // A given spacing of one instance, with any scale.
+      // One instance and a given spacing: any scale works.
       const Scene all;
       if (options.memory_budget == 0) {
         for (const SurfaceInstance& instance : all.surfaces.instances) {
@@ -160,7 +160,7 @@ TEST(GateLayout, ASpacingScaleIsTheSpacingOfItsInstance) {
           testing::expect_same_tables(scaled, build_gate_layout(one, wide));
         }
       }
-      // One that is solved for, with powers of two, for which the search is the same.
+      // All instances and perhaps a memory budget: for powers of two the search takes the same steps.
       if (scale < 1) continue;
       Scene equal;
       for (SurfaceInstance& instance : equal.surfaces.instances) instance.spacing_scale = scale;
@@ -195,7 +195,7 @@ TEST(GateLayout, SpacingScalesOfOtherInstancesChangeNothing) {
   EXPECT_GT(after.node_count, before.node_count);
 }
 
-TEST(GateLayout, EveryNodeBelongsToAStoredSurfaceAndNoTwoPlacesToOne) {
+TEST(GateLayout, EveryNodeIsReachedAndCountedOnce) {
   const Scene scene;
   for (const GateOptions& options : many_options()) {
     const GateLayout layout = build_gate_layout(scene.surfaces, options);
@@ -211,7 +211,7 @@ TEST(GateLayout, EveryNodeBelongsToAStoredSurfaceAndNoTwoPlacesToOne) {
   }
 }
 
-TEST(GateLayout, TheSideWithoutStorageAnswersWithTheOther) {
+TEST(GateLayout, ASideWithoutStorageUsesTheNodesOfTheOther) {
   const Mesh mesh = testing::tetrahedron();
   const auto layout_of = [&](Sides sides) {
     return build_gate_layout(testing::one_instance(mesh, sides), testing::fixed_options(4));
@@ -341,7 +341,7 @@ TEST(GateLayout, OptionsOutOfRangeAreRefusedByName) {
   expect_refused("bytes of a feature", "3", [](GateOptions& o) { o.bytes_per_feature = 3; });
 }
 
-TEST(GateLayout, SurfacesThatCannotBeAreRefusedByName) {
+TEST(GateLayout, InvalidSurfacesAreRefusedByName) {
   Mesh mesh = testing::tetrahedron();
   const auto expect_refused = [&](const SurfaceLayout& scene, const gatelight::tests::NameList& names) {
     expect_refusal<BadConfiguration>([&] { build_gate_layout(scene, {}); }, names);

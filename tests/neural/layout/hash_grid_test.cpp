@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::neural {
 namespace {
@@ -63,18 +63,18 @@ TEST(HashGrid, MemoryTargetIsMetWithinOneStepOfTheTableSize) {
         EXPECT_LE(bytes(layout, options), target);
         EXPECT_EQ(table % 8, 0u);
         if (hashed > 0) {
-          // Eight entries more for every level that is cut would be too many.
+          // Eight more entries for every hashed level would exceed the target.
           EXPECT_GT(bytes(layout, options) + hashed * 8 * features * bytes_per_feature, target);
         }
       }
 }
 
-TEST(HashGrid, TargetThatHoldsAllLevelsMakesAllDense) {
+TEST(HashGrid, ATargetForAllLevelsMakesAllDense) {
   HashGridOptions options;
   options.levels = 5;
   options.memory_target = std::numeric_limits<std::uint64_t>::max();
   for (const HashGridLevel& level : build_hash_grid_layout(options).levels) EXPECT_EQ(level.dense, 1u);
-  // More than 32 bits can number: as many as they can.
+  // All levels have more entries than 32 bits can number: the layout has as many as they can.
   options.levels = 16;
   const std::uint32_t nodes = build_hash_grid_layout(options).node_count;
   EXPECT_GT(nodes, std::numeric_limits<std::uint32_t>::max() - 16 * 8);

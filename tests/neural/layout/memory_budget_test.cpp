@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/layout/build_gate_layout.h"
 #include "neural/layout/mesh_colors.h"
 #include "tests/neural/layout/meshes.h"
@@ -21,7 +21,7 @@ using testing::Mesh;
 
 constexpr std::uint64_t kMegabyte = 1000000;
 
-/// The fewest bytes that a refused budget's message names.
+/// Returns the least number of bytes, which the message of a refused budget names.
 std::uint64_t least_bytes(const SurfaceLayout& scene, GateOptions options) {
   options.memory_budget = 1;
   const std::string message = tests::refusal<BadConfiguration>([&] { build_gate_layout(scene, options); });
@@ -82,7 +82,7 @@ TEST(MemoryBudget, TheReportedSpacingGivesTheSameLayout) {
   }
 }
 
-TEST(MemoryBudget, WithoutClustersTheNextFinerFloatWouldNotFit) {
+TEST(MemoryBudget, WithoutClustersTheNextFinerSpacingWouldNotFit) {
   const Scene scene;
   for (const NodeStorage storage : {NodeStorage::shared, NodeStorage::per_triangle})
     for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper}) {
@@ -138,7 +138,7 @@ SurfaceLayout many_instances(const Mesh& mesh, std::uint32_t count) {
   return scene;
 }
 
-TEST(MemoryBudget, ManyInstancesLoseFirstTheNormalThenTheirOwnClusters) {
+TEST(MemoryBudget, ManyInstancesFirstMergeNormalsThenShareClusters) {
   const Mesh mesh = testing::sphere(8, 0.5f);
   const SurfaceLayout scene = many_instances(mesh, 1000);  // 1500 sides
   GateOptions options;
@@ -160,7 +160,7 @@ TEST(MemoryBudget, ManyInstancesLoseFirstTheNormalThenTheirOwnClusters) {
   EXPECT_EQ(nodes_per_side(600), 4u);
 }
 
-TEST(MemoryBudget, ACapLeavesWhatFitsAsItIs) {
+TEST(MemoryBudget, ACapDoesNotChangeALayoutThatFits) {
   const Scene scene;
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
     for (const bool cluster : {false, true}) {
@@ -180,7 +180,7 @@ TEST(MemoryBudget, ACapLeavesWhatFitsAsItIs) {
     }
 }
 
-TEST(MemoryBudget, ACapMakesWhatIsTooMuchCoarserAndNoMoreThanItMust) {
+TEST(MemoryBudget, ACapMakesALayoutNoCoarserThanNecessary) {
   const Scene scene;
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper})
     for (const bool cluster : {false, true})
@@ -212,7 +212,7 @@ TEST(MemoryBudget, ACapMakesWhatIsTooMuchCoarserAndNoMoreThanItMust) {
       }
 }
 
-TEST(MemoryBudget, WhereACapHoldsNotEvenTheCoarsestItIsOverlooked) {
+TEST(MemoryBudget, ACapBelowTheCoarsestLayoutIsIgnored) {
   const Scene scene;
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
     for (const bool cluster : {false, true})
@@ -272,7 +272,7 @@ TEST(MemoryBudget, CellsOfDifferentScalesAreNotMerged) {
   }
 }
 
-TEST(MemoryBudget, AScaleOfAllInstancesIsOneOfTheSpacing) {
+TEST(MemoryBudget, AScaleOfAllInstancesScalesTheSpacing) {
   for (const std::uint64_t budget : {20'000u, 200'000u}) {
     GateOptions options;
     options.memory_budget = budget;
@@ -303,7 +303,7 @@ TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
     }
 }
 
-TEST(MemoryBudget, TheLeastPossibleIsNamedAndAccepted) {
+TEST(MemoryBudget, TheLeastBudgetIsNamedAndAccepted) {
   const Scene scene;
   std::vector<GateOptions> all(8);
   all[0].cluster = false;

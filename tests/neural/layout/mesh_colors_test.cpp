@@ -37,7 +37,7 @@ void expect_valid(const MeshColorSample<T>& sample, std::uint32_t resolution) {
   ASSERT_NEAR(sum, T(1), 4 * std::numeric_limits<T>::epsilon());
 }
 
-/// What the weights make of the nodes' own barycentrics: the point itself.
+/// Returns the weighted sum of the nodes' own barycentrics, which is the point itself.
 template <typename T>
 std::array<double, 3> interpolated_place(const MeshColorSample<T>& sample, std::uint32_t resolution) {
   std::array<double, 3> place = {0, 0, 0};
@@ -71,7 +71,7 @@ TYPED_TEST(MeshColors, WeightsAreAPartitionOfUnityAndReproduceAffineFields) {
     }
 }
 
-TYPED_TEST(MeshColors, EveryNodeIsReachedAndAnswersAloneAtItsPlace) {
+TYPED_TEST(MeshColors, EveryNodeHasTheWholeWeightAtItsPosition) {
   for (std::uint32_t r = 1; r <= kMaxResolution; ++r)
     for (const NodeBarycentrics& node : all_nodes(r)) {
       std::array<TypeParam, 3> b;
@@ -195,13 +195,13 @@ TEST_P(MeshColorField, ContinuousAcrossVirtualEdgesAndNodes) {
   }
 }
 
-TEST_P(MeshColorField, NodeIndicesAreThoseOfTheLayoutEachOnceAndNoOther) {
+TEST_P(MeshColorField, EachPositionHasOneNodeAndEachNodeOnePosition) {
   const NodeStorage storage = GetParam();
   for (const Mesh& mesh : {testing::tetrahedron(), testing::grid(2, 1), testing::three_winged()})
     for (std::uint32_t r = 1; r <= kMaxResolution; ++r) {
       const GateLayout layout =
           build_gate_layout(testing::one_instance(mesh), testing::fixed_options(r, storage));
-      // Nodes that lie at one place: at a mesh vertex, at a place of a mesh edge, or in one triangle alone.
+      // Node indices by position: at a mesh vertex, on a mesh edge, or inside one triangle.
       std::map<std::array<std::uint32_t, 4>, std::set<std::uint32_t>> places;
       std::set<std::uint32_t> indices;
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -239,7 +239,7 @@ TEST(MeshColorCounts, SharedNodesAreVerticesAndEdgesAndInteriors) {
     }
 }
 
-TEST(MeshColorCounts, TrianglesHaveTheNodesOfTheirParts) {
+TEST(MeshColorCounts, NodesOfATriangleAreCornersEdgesAndInterior) {
   const std::array<std::array<std::uint32_t, 2>, 8> expected = {
       {{1, 3}, {2, 6}, {3, 10}, {4, 15}, {8, 45}, {16, 153}, {32, 561}, {64, 2145}}};
   for (const auto& [r, count] : expected) EXPECT_EQ(nodes_per_triangle(r), count);
@@ -287,7 +287,7 @@ TEST(MeshColorEdges, ALoopOfATriangleWithEqualCornersHasNodesOfItsOwn) {
   }
 }
 
-TEST(MeshColorEdges, FloatLooksUpWhatDoubleDoes) {
+TEST(MeshColorEdges, FloatAndDoubleLookUpTheSameValues) {
   const Mesh mesh = testing::grid(4, 1);
   const GateLayout layout = build_gate_layout(testing::one_instance(mesh), testing::fixed_options(5));
   for (std::uint32_t n = 0; n < 5000; ++n) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/layout/mesh_colors.h"
 
 namespace gatelight::neural::testing {
@@ -86,7 +86,7 @@ inline SurfaceMesh view(const Mesh& mesh) {
   return {mesh.positions, mesh.triangles};
 }
 
-/// The mesh refers to `mesh`, which must live on.
+/// The layout refers to `mesh`, which must outlive it.
 inline SurfaceLayout one_instance(const Mesh& mesh, Sides sides = Sides::front) {
   return {{view(mesh)}, {{.mesh = 0, .sides = sides}}};
 }
@@ -113,7 +113,7 @@ inline std::uint64_t feature_bytes(const GateLayout& layout, const GateOptions& 
   return std::uint64_t{layout.node_count} * options.features * options.bytes_per_feature;
 }
 
-/// All but the report.
+/// Compares everything except the report.
 inline void expect_same_tables(const GateLayout& a, const GateLayout& b) {
   EXPECT_EQ(a.features, b.features);
   EXPECT_EQ(a.stack, b.stack);
@@ -134,7 +134,7 @@ inline void expect_same_tables(const GateLayout& a, const GateLayout& b) {
   for (std::size_t l = 0; l < a.levels.size(); ++l) EXPECT_EQ(level(a.levels[l]), level(b.levels[l]));
 }
 
-/// That the nodes of all triangles are all nodes there are.
+/// Expects that the triangles reach every node of the layout.
 inline void expect_all_nodes_reached(const GateLayout& layout) {
   std::vector<char> reached(layout.node_count, 0);
   for (std::uint32_t s = 0; s < layout.surfaces.size(); ++s)

@@ -12,7 +12,7 @@ namespace {
 
 using testing::Mesh;
 
-/// Right triangles with legs of these lengths, apart from each other.
+/// Right triangles with legs of these lengths, which share no vertices.
 Mesh triangles_with_legs(const std::vector<float>& legs) {
   Mesh mesh;
   for (const float leg : legs) {
@@ -93,7 +93,7 @@ TEST(Resolution, DegenerateTrianglesDoNotCount) {
   EXPECT_EQ(resolution_of(layout, 1), 32u);
 }
 
-TEST(Resolution, WithoutAreaItIsOne) {
+TEST(Resolution, AnInstanceWithoutAreaHasResolutionOne) {
   const Mesh none = {{{1, 1, 1}, {2, 2, 2}}, {{0, 1, 0}, {1, 1, 1}}};
   const Mesh empty = {};
   const Mesh normal = triangles_with_legs({2});
@@ -107,7 +107,7 @@ TEST(Resolution, WithoutAreaItIsOne) {
     const GateLayout layout = build_gate_layout(scene, options_of(rule));
     for (std::uint32_t instance = 0; instance < 4; ++instance) EXPECT_EQ(resolution_of(layout, instance), 1u);
     EXPECT_GT(resolution_of(layout, 4), 1u);
-    // And where no instance has any.
+    // The same where no instance has an area.
     const GateLayout flat = build_gate_layout({scene.meshes, {{0}, {1}}}, options_of(rule));
     EXPECT_EQ(resolution_of(flat, 0), 1u);
     EXPECT_EQ(flat.report.resolution_histogram[1], 2u);
@@ -136,7 +136,7 @@ TEST(Resolution, PaperIsTheClampedQuadraticOfTheNormalisedMeanArea) {
   }
 }
 
-TEST(Resolution, PaperNormalisesByInstancesWithStorageAlone) {
+TEST(Resolution, PaperNormalisesOnlyByInstancesWithStorage) {
   const Mesh small = triangles_with_legs({1});
   const Mesh large = triangles_with_legs({100});
   const SurfaceLayout scene = {{testing::view(small), testing::view(large)},
@@ -155,7 +155,7 @@ TEST(Resolution, FixedIsTheSameEverywhereAndNotClamped) {
   }
 }
 
-TEST(Resolution, StaysWithinOneAndTheGreatest) {
+TEST(Resolution, StaysBetweenOneAndTheMaximum) {
   const Mesh mesh = triangles_with_legs({2});
   EXPECT_EQ(uniform_resolution(mesh, 1e-30f, kIdentity), 32u);
   EXPECT_EQ(uniform_resolution(mesh, 1e30f, kIdentity), 1u);
@@ -165,7 +165,7 @@ TEST(Resolution, StaysWithinOneAndTheGreatest) {
   EXPECT_EQ(resolution_of(build_gate_layout(testing::one_instance(mesh), options), 0), 7u);
 }
 
-TEST(Resolution, LevelsOfTheStackAreAdaptiveOrTheirOwn) {
+TEST(Resolution, LevelsOfTheStackAreAdaptiveOrFixed) {
   const Mesh mesh = triangles_with_legs({2});
   GateOptions options = options_of(ResolutionRule::uniform);
   options.node_spacing = 0.2f;

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/layout/surface_layout.h"
 
 namespace gatelight::neural {

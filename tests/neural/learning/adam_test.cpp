@@ -42,7 +42,7 @@ TEST(Adam, FollowsAnExampleWorkedByHand) {
   }
 }
 
-TEST(Adam, FirstStepIsTheLearningRateWhateverTheGradient) {
+TEST(Adam, FirstStepIsTheLearningRateForAnyGradient) {
   const AdamOptions options;
   for (const double gradient : {1e-6, 1.0, 1e12}) {
     Moments moments;
@@ -99,7 +99,7 @@ struct Trained {
   std::vector<bool> touched;
 };
 
-/// A step with one batch, then a step with another; `touched` are the nodes of the second one.
+/// Trains a step with one batch, then a step with another; `touched` are the nodes of the second batch.
 Trained train_twice(const Model& model, const std::shared_ptr<const Model>& shared,
                     const TrainingOptions& options) {
   const auto backend = make_reference_backend(shared, options);
@@ -166,7 +166,7 @@ TEST(Adam, CountersPerNodeCountTheStepsThatTouchedIt) {
   EXPECT_EQ(state.node_steps, expected);
 }
 
-/// A point at a node that only its triangles share.
+/// A batch of one record.
 OwnedBatch one_record(std::uint32_t surface, std::uint32_t triangle, Float2 barycentrics) {
   OwnedBatch batch;
   batch.surfaces = {surface};
@@ -199,7 +199,7 @@ TEST(Adam, CountersPerTriangleGiveTheNodeTheGreatestOfTheTrianglesThatTouchIt) {
   EXPECT_EQ(before.triangle_steps[first], 3u);
   EXPECT_EQ(before.triangle_steps[first + 1], 1u);
 
-  // Both triangles at once: t is 4 for the nodes of the left one, 2 for the corner of the right one alone.
+  // Both triangles at once: t is 4 for the nodes of the left one, 2 for the corner of only the right one.
   OwnedBatch both = left;
   both.surfaces.push_back(surface);
   both.triangles.push_back(1);
@@ -229,7 +229,7 @@ TEST(Adam, CountersPerTriangleGiveTheNodeTheGreatestOfTheTrianglesThatTouchIt) {
   EXPECT_EQ(alone, 1);
 }
 
-TEST(Adam, L2PullsOnWeightsOnly) {
+TEST(Adam, L2RegularisesOnlyWeights) {
   const auto model_case = find_model_case("nrc");
   const ParameterLayout& layout = model_case.model->parameters;
   const OwnedBatch batch = make_batch(*model_case.model, 50, 4);

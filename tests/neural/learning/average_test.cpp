@@ -83,7 +83,7 @@ TEST(Average, EqualsTheParametersWhereItIsOff) {
     }
 }
 
-TEST(Average, IsWhatQueriesReadUnlessTheyAskForTheRawParameters) {
+TEST(Average, IsReadByQueriesUnlessTheyRequestRawParameters) {
   const auto model = find_model_case("nrc").model;
   const auto backend = make_reference_backend(model, {});
   for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 100, step).training());

@@ -14,13 +14,14 @@
 #include <string_view>
 #include <vector>
 
-#include "neural/base/random.h"
+#include "base/random.h"
 #include "neural/cpu/cpu_backend.h"
 #include "neural/layout/surface_layout.h"
 #include "neural/trainer.h"
 
 namespace {
 
+using namespace gatelight;
 using namespace gatelight::neural;
 
 constexpr std::size_t kBatch = 1024;
@@ -45,8 +46,8 @@ as they fall, for one instruction set or for all that this machine has.
                arithmetic of the answers that are measured (default: fp32)
   --help       this text
 
-The error is the root of the mean squared error over that of the radiance. Ends with 1 where it rises by more than
-a tenth from one line to the next, or after 512 steps is not below 0.08 for GATE or 0.09 for the hash grid.
+The error is the root mean squared error over the root mean square of the radiance. Ends with 1 where it rises by
+more than a tenth from one line to the next, or after 512 steps is not below 0.08 for GATE or 0.09 for the hash grid.
 )";
 
 // ---- the scene: radiance L(p, w) at the point p of the unit sphere into the direction w
@@ -60,7 +61,7 @@ float dot(const Float3& a, const Float3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Two bands of spherical harmonics, a spot of some 15 degrees, and a highlight that moves with the
+/// Two bands of spherical harmonics, a spot of about 15 degrees, and a highlight that depends on the
 /// direction.
 Float3 radiance(const Float3& p, const Float3& outgoing) {
   static const Float3 spot = normalized({1, 2, 2}), lamp = normalized({-1, 1, 0.5f});
@@ -108,7 +109,7 @@ Sphere make_sphere(int cells) {
   return sphere;
 }
 
-// ---- points on it, with what leaves them
+// ---- points on the sphere, with the radiance that leaves them
 
 struct Records {
   std::vector<std::uint32_t> surfaces, triangles;
@@ -168,7 +169,7 @@ Records make_records(const Sphere& sphere, std::size_t count, std::uint64_t seed
 
 // ---- learning
 
-/// Root of the mean squared error over that of the radiance.
+/// Root mean squared error divided by the root mean square of the radiance.
 double relative_error(const Trainer& trainer, const Records& records, QueryPrecision precision) {
   std::vector<float> answers(records.targets.size());
   trainer.query(records.points(), {.precision = precision}, answers);
@@ -246,7 +247,7 @@ bool learn(const Models& models, const Sphere& sphere, simd::Isa isa, const Argu
 
 // ---- command line
 
-/// Nothing for wrong usage, which `complaint` then tells.
+/// Returns nothing for wrong usage, which `complaint` then describes.
 std::optional<Arguments> parse(int count, char** words, std::string& complaint) {
   Arguments arguments;
   for (int i = 1; i < count; ++i) {

@@ -28,7 +28,7 @@ TEST(Loss, ValuesByHand) {
   EXPECT_DOUBLE_EQ(loss_value(outputs, targets, denominator), 5.0 / (1.815 * 1.815 + 0.01));
 }
 
-TEST(Loss, GradientHoldsTheDenominator) {
+TEST(Loss, GradientTreatsTheDenominatorAsConstant) {
   const std::vector<double> outputs = {1, 2, 3}, targets = {0, 2, 5};
   std::vector<double> gradients(3);
   const double denominator = loss_denominator(Loss::relative_l2, outputs);
@@ -44,7 +44,7 @@ TEST(Loss, DarkOutputsHaveAFiniteLoss) {
   EXPECT_DOUBLE_EQ(loss_value(outputs, targets, loss_denominator(Loss::relative_l2, outputs)), 300.0);
 }
 
-TEST(Loss, OfAStepIsTheMeanOverRecordsAndOutputsBeforeIt) {
+TEST(Loss, LossOfAStepIsTheMeanOverRecordsAndOutputsBeforeIt) {
   for (const char* name : {"nrc", "nao", "outputs_7"})
     for (const Loss loss : {Loss::l2, Loss::relative_l2}) {
       const auto model = testing::find_model_case(name).model;
@@ -67,7 +67,7 @@ TEST(Loss, OfAStepIsTheMeanOverRecordsAndOutputsBeforeIt) {
     }
 }
 
-TEST(Loss, GradientOfAStepIsThatOfTheMean) {
+TEST(Loss, GradientOfAStepIsTheGradientOfTheMean) {
   for (const char* name : {"nrc", "hash_F4", "outputs_7"}) {
     const auto model = testing::find_model_case(name).model;
     const testing::OwnedBatch batch = testing::make_batch(*model, 23, 1);
@@ -96,7 +96,7 @@ TEST(Loss, GradientOfAStepIsThatOfTheMean) {
 }
 
 TEST(Loss, DuplicatedRecordsChangeNoGradient) {
-  // The mean over records: a batch twice over teaches what it teaches once.
+  // The gradient is a mean over records, so a batch repeated twice has the same gradient.
   const auto model = testing::find_model_case("nrc").model;
   testing::OwnedBatch batch = testing::make_batch(*model, 20, 1);
   const auto once = make_reference_backend(model, {}), twice = make_reference_backend(model, {});

@@ -57,7 +57,7 @@ std::vector<std::uint32_t> every_third_triangle() {
   return candidates;
 }
 
-TEST(TrainingCounts, WeightIsTheInverseOfTheCountWithin1And512) {
+TEST(TrainingCounts, WeightIsTheInverseOfTheCountClampedTo1And512) {
   EXPECT_EQ(training_weight(0), 1.0f);
   EXPECT_EQ(training_weight(1), 1.0f);
   EXPECT_EQ(training_weight(2), 0.5f);
@@ -100,7 +100,7 @@ TEST(TrainingCounts, ASingleCandidateIsChosen) {
   for (const float u : {0.0f, 0.5f, 0x1.fffffep-1f}) EXPECT_EQ(choose_candidate(candidate, {}, u), 0u);
 }
 
-// With the snapshot frozen a choice knows nothing of the ones before it, nor of triangles that are no
+// Choices read a frozen snapshot: they depend neither on earlier choices nor on triangles that are not
 // candidates.
 TEST(TrainingCounts, ChoicesOfABatchDoNotDependOnTheirOrder) {
   constexpr std::size_t kRecords = 1000;

@@ -1,4 +1,4 @@
-// Where training begins: the start of the parameters, and what is counted beside them.
+// The initial state of training: parameters and counters.
 
 #include "neural/model/state.h"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "neural/base/half.h"
+#include "base/half.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural {
@@ -53,7 +53,7 @@ TEST(InitialState, WeightsAreUniformInGlorotsRangeAndBiasesZero) {
   }
 }
 
-TEST(InitialState, HasTheCountersThatTheOptionsAskFor) {
+TEST(InitialState, HasTheCountersThatTheOptionsNeed) {
   const auto model = testing::find_model_case("nrc").model;
   TrainingOptions options;
   const ModelState sparse = initial_state(*model, options);

@@ -55,7 +55,7 @@ TEST(Encode, AzimuthWrapsAndPolarAngleDoesNot) {
 }
 
 TEST(Encode, OnlyDirectionsWrap) {
-  // The second coordinate of positions and albedos is no angle.
+  // The second coordinate of positions and albedos is not an angle.
   Point low;
   low.position = low.albedo = {0.5, 0, 0.5};
   for (const InputSource source : {InputSource::position, InputSource::albedo}) {
@@ -115,8 +115,8 @@ TEST(Encode, PositionsAreMappedToTheUnitCubeAndClamped) {
   EXPECT_EQ(read_point(*model, batch, 1).position, (std::array<double, 3>{0, 1, 0}));
 }
 
-TEST(Encode, WhatIsNotStoredEncodesToZero) {
-  const auto model_case = find_model_case("gate_alone");
+TEST(Encode, UnstoredPointsEncodeToZero) {
+  const auto model_case = find_model_case("gate_only");
   const Model& model = *model_case.model;
   testing::BatchOptions options;
   options.unstored = 1;
@@ -129,7 +129,7 @@ TEST(Encode, WhatIsNotStoredEncodesToZero) {
   }
 }
 
-TEST(Encode, EqualFeaturesOfALevelComeThroughTheWeights) {
+TEST(Encode, EqualFeaturesOfALevelAreInterpolatedExactly) {
   // Partition of unity for every encoding: all nodes 1 gives features of 1.
   for (const auto& [name, config] : testing::all_model_configs()) {
     const auto model_case = testing::make_case(name, config);

@@ -1,7 +1,7 @@
 // Every gradient of the reference against central differences.
 //
 // Within one linear piece of the leaky ReLUs the outputs are affine in any single weight, bias, feature or
-// input, so that the error with its denominator held is quadratic and a central difference is exact up to
+// input, so that the error with a constant denominator is quadratic and a central difference is exact up to
 // rounding, for any step that crosses no kink.
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ struct Problem {
     }
   }
 
-  /// On which side of their kinks all hidden units of all records are.
+  /// Returns on which side of its kink each hidden unit of each record is.
   std::vector<bool> sides() const {
     std::vector<bool> result;
     for (const Point& point : points) append_sides(encode(model, parameters, point), result);
@@ -89,7 +89,7 @@ double central_difference(double& x, const std::function<double()>& f,
   return std::nan("");
 }
 
-/// Counts of what was compared, so that a test sees that it compared something.
+/// Counts comparisons, so that a test can check that it made some.
 struct Comparison {
   int compared = 0;     ///< gradients large enough for the tolerance to be above the rounding of f
   int near_a_kink = 0;  ///< skipped
@@ -115,7 +115,7 @@ double mean_error(const Problem& problem, std::span<const double> denominators) 
   return sum / static_cast<double>(kRecords * problem.model.config.mlp.outputs);
 }
 
-/// The gradient of the mean error by parameters, compared at those that `choose` names.
+/// Compares the gradient of the mean error with central differences at the `chosen` parameters.
 void compare_parameters(Problem& problem, Loss loss, const std::vector<std::size_t>& chosen,
                         Comparison& comparison) {
   const Model& model = problem.model;
@@ -246,7 +246,7 @@ TEST(Gradient, OfNodesThatNoPointReadsIsZero) {
   }
 }
 
-TEST(Gradient, OfRecordsAdds) {
+TEST(Gradient, OfARepeatedRecordIsTwiceItsGradient) {
   Problem problem(testing::find_model_case("nrc"), 4);
   std::vector<double> once(problem.parameters.size(), 0.0), twice = once;
   add_record_gradient(problem.model, Loss::relative_l2, problem.parameters, problem.points[0],

@@ -21,7 +21,7 @@ double sum(const std::vector<double>& values) {
 
 constexpr std::size_t kBins[] = {2, 4, 8, 16, 64};
 
-TEST(OneBlob, KernelsIntegralIsItsClosedForm) {
+TEST(OneBlob, KernelsIntegralMatchesItsClosedForm) {
   // 15/16 (1 - u^2)^2, summed by the midpoint rule.
   EXPECT_EQ(quartic_cdf(-1.0), 0.0);
   EXPECT_EQ(quartic_cdf(-5.0), 0.0);
@@ -37,7 +37,7 @@ TEST(OneBlob, KernelsIntegralIsItsClosedForm) {
   }
 }
 
-TEST(OneBlob, BinsHoldTheBumpThatLiesOverThem) {
+TEST(OneBlob, BinsAreIntegralsOfTheBump) {
   // k = 4, x = 3/8: the bump covers [1/8, 5/8]; its middle lies in the middle of bin 1.
   const double half = 2.0 * (quartic_cdf(0.5) - 0.5);
   const std::vector<double> bins = blob(0.375, false, 4);
@@ -52,7 +52,7 @@ TEST(OneBlob, WrappedBinsSumToOneEverywhere) {
     for (int i = -50; i <= 150; ++i) EXPECT_NEAR(sum(blob(i / 100.0, true, k)), 1.0, 1e-14);
 }
 
-TEST(OneBlob, UnwrappedBinsSumToOneInsideAndLoseWhatLiesBeyondTheBorder) {
+TEST(OneBlob, UnwrappedBinsSumToOneInsideAndToLessAtTheBorder) {
   for (const std::size_t k : kBins) {
     const double width = 1.0 / static_cast<double>(k);
     for (int i = 0; i <= 100; ++i) {
@@ -67,14 +67,14 @@ TEST(OneBlob, UnwrappedBinsSumToOneInsideAndLoseWhatLiesBeyondTheBorder) {
   }
 }
 
-TEST(OneBlob, WrappingMakesBothEndsOne) {
+TEST(OneBlob, WrappingJoinsBothEnds) {
   for (const std::size_t k : kBins) {
     for (std::size_t b = 0; b < k; ++b) {
       EXPECT_NEAR(blob(0.0, true, k)[b], blob(1.0, true, k)[b], 1e-15);
       EXPECT_NEAR(blob(-0.25, true, k)[b], blob(0.75, true, k)[b], 1e-15);
       EXPECT_NEAR(blob(1e-9, true, k)[b], blob(1 - 1e-9, true, k)[b], 1e-6);
     }
-    // Without, the ends share nothing but with so few bins that one reaches both.
+    // Without wrapping, the first bin is empty at one end and the last at the other.
     const std::vector<double> low = blob(0.0, false, k), high = blob(1.0, false, k);
     EXPECT_NEAR(low.front(), 0.5, 1e-15);
     EXPECT_EQ(high.front(), 0.0);
@@ -83,7 +83,7 @@ TEST(OneBlob, WrappingMakesBothEndsOne) {
   }
 }
 
-TEST(OneBlob, WrappedBinsTurnWithTheirInput) {
+TEST(OneBlob, WrappedBinsShiftWithTheirInput) {
   for (const std::size_t k : kBins) {
     const std::vector<double> here = blob(0.3, true, k);
     const std::vector<double> turned = blob(0.3 + 1.0 / static_cast<double>(k), true, k);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "neural/base/errors.h"
-#include "neural/base/half.h"
+#include "base/errors.h"
+#include "base/half.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
 #include "tests/support/model_cases.h"
@@ -115,14 +115,14 @@ TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothin
   const OwnedBatch batch = make_batch(*model, 5, 1);
   std::vector<float> few(5 * 3 - 1);
   EXPECT_THROW(backend->query(batch.points(), {}, few), BadConfiguration);
-  // What the model does not read may be left empty, but not be half there.
-  const auto gate_alone = make_reference_backend(find_model_case("gate_alone").model, {});
-  OwnedBatch more = make_batch(*find_model_case("gate_alone").model, 5, 1);
-  EXPECT_EQ(gate_alone->train(more.training()).records, 5u);
+  // Inputs that the model does not read may be empty, but not of another length.
+  const auto gate_only = make_reference_backend(find_model_case("gate_only").model, {});
+  OwnedBatch more = make_batch(*find_model_case("gate_only").model, 5, 1);
+  EXPECT_EQ(gate_only->train(more.training()).records, 5u);
   more.normals.resize(5);
-  EXPECT_EQ(gate_alone->train(more.training()).records, 5u);
+  EXPECT_EQ(gate_only->train(more.training()).records, 5u);
   more.normals.resize(3);
-  EXPECT_THROW(gate_alone->train(more.training()), BadConfiguration);
+  EXPECT_THROW(gate_only->train(more.training()), BadConfiguration);
 }
 
 TEST(ReferenceBackend, OptionsOutOfRangeAreRefused) {
@@ -224,7 +224,7 @@ TEST(ReferenceBackend, OutputBiasStartsAtTheMeanTargetOfTheFirstBatch) {
   EXPECT_EQ(from_zero->export_state().parameters[last.biases], 0.0f);
 }
 
-TEST(ReferenceBackend, CountsTheNodesThatAreReadWithAWeight) {
+TEST(ReferenceBackend, CountsTheNodesWithANonZeroWeight) {
   const auto model = find_model_case("gate_L2_stack_3").model;
   const auto backend = make_reference_backend(model, {});
   OwnedBatch batch = make_batch(*model, 1, 1);
@@ -236,8 +236,8 @@ TEST(ReferenceBackend, CountsTheNodesThatAreReadWithAWeight) {
   EXPECT_EQ(backend->train(batch.training()).touched_nodes, 2u);
 }
 
-TEST(ReferenceBackend, WeightsWithAGradientThatIsNotFiniteAreLeftAlone) {
-  const auto model = find_model_case("gate_alone").model;
+TEST(ReferenceBackend, WeightsWithANonFiniteGradientAreNotChanged) {
+  const auto model = find_model_case("gate_only").model;
   const ParameterLayout& layout = model->parameters;
   TrainingOptions options;
   options.loss = Loss::l2;
@@ -262,7 +262,7 @@ TEST(ReferenceBackend, WeightsWithAGradientThatIsNotFiniteAreLeftAlone) {
   EXPECT_EQ(after.node_steps, state.node_steps);
 }
 
-TEST(ReferenceBackend, HalfFeaturesAreReadRoundedAndMastersKeepTheRest) {
+TEST(ReferenceBackend, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
   const auto model = find_model_case("nrc").model;
   const auto holds = [&](const ModelState& state) {
     std::size_t count = 0;
@@ -282,7 +282,7 @@ TEST(ReferenceBackend, HalfFeaturesAreReadRoundedAndMastersKeepTheRest) {
       EXPECT_EQ(holds(state), model->parameters.network);
     else
       EXPECT_LT(holds(state), model->parameters.network * 9 / 10);
-    // A backend in fp32 with the rounded features answers the same.
+    // A backend in fp32 with the rounded features gives the same answers.
     const std::vector<float> half = answers(*backend, *model, points);
     for (std::size_t p = 0; p < model->parameters.network; ++p)
       state.averages[p] = half_to_float(float_to_half(state.averages[p]));
@@ -309,9 +309,9 @@ TEST(ReferenceBackend, HalfFeaturesStayWithinTheirRange) {
   }
 }
 
-TEST(ReferenceBackend, TrainingReadsMastersRounded) {
+TEST(ReferenceBackend, TrainingReadsRoundedMasters) {
   // Masters between two halves give the loss that the half gives.
-  const auto model = find_model_case("gate_alone").model;
+  const auto model = find_model_case("gate_only").model;
   TrainingOptions options;
   options.start_at_mean = false;
   options.precision = FeaturePrecision::fp16_masters;
@@ -346,7 +346,7 @@ TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
   EXPECT_EQ(backend->export_state().triangle_steps, expected);
 }
 
-TEST(ReferenceBackend, QueriesKeepTheirRange) {
+TEST(ReferenceBackend, AnswersAreClampedToTheirRange) {
   const auto model = find_model_case("nrc").model;
   const auto backend = make_reference_backend(model, {});
   ModelState state = backend->export_state();

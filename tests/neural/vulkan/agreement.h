@@ -1,5 +1,5 @@
 #pragma once
-// What it means that the Vulkan backend agrees with the reference.
+// Checks that the Vulkan backend agrees with the reference.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace gatelight::neural::testing {
 
-// As for the CPU's kernels (kernel_parity_test.cpp), which add in another order.
+// The tolerances of the CPU's kernels (kernel_parity_test.cpp), which add in another order.
 inline constexpr double kVulkanTolerance = 3e-5;
 inline constexpr double kVulkanHashGridTolerance = 5e-5;
 inline constexpr double kVulkanHalfTolerance = 0x1p-9;
@@ -87,7 +87,7 @@ class Agreement {
   }
 
  private:
-  /// Returns the nodes to leave out: those of which the last bit decides whether they are touched.
+  /// Returns the nodes to leave out, where the last bit of a float decides whether they are touched.
   static std::vector<bool> expect_same_counts(const Model& model, const OwnedBatch& batch,
                                               const StepStatistics& expected,
                                               const StepStatistics& statistics, const ModelState& after,
@@ -117,7 +117,7 @@ class Agreement {
 inline TrainingOptions smooth_options() {
   TrainingOptions options;
   make_smooth(options.adam);
-  options.start_at_mean = false;  // which puts targets near answers (make_smooth_batch)
+  options.start_at_mean = false;  // it would put targets near answers (make_smooth_batch)
   return options;
 }
 

@@ -17,8 +17,8 @@ class VulkanAnswers : public OnVulkan {
   static inline std::unique_ptr<Agreement> agreement_;
 };
 
-// The others are in every_model_slow_test.cpp.
-TEST_F(VulkanAnswers, OfUsualModels) {
+// The other models are in every_model_slow_test.cpp.
+TEST_F(VulkanAnswers, AgreeForUsualModels) {
   std::uint64_t seed = 1;
   for (const char* name :
        {"nrc", "nao", "gate_L5_per_triangle_stack_5_a_1", "gate_L8_cells_0", "gate_L2_stack_64", "hash_F4",
@@ -35,8 +35,8 @@ TEST_F(VulkanAnswers, OfUsualModels) {
   }
 }
 
-// Where an angle is 0 / 0, and where barycentrics are a node's or huge.
-TEST_F(VulkanAnswers, AtPolesCornersAndFarOutside) {
+// Directions whose angle is 0 / 0, and barycentrics that are on a node or huge.
+TEST_F(VulkanAnswers, AgreeAtPolesCornersAndFarOutside) {
   constexpr std::array<std::array<float, 3>, 7> kDirections = {
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, 0, 0}}};
   constexpr float kBelowOne = 0x1.fffffep-1f;
@@ -60,8 +60,8 @@ TEST_F(VulkanAnswers, AtPolesCornersAndFarOutside) {
   }
 }
 
-// A query goes in chunks of 2^18 points.
-TEST_F(VulkanAnswers, OfMorePointsThanAChunk) {
+// A query is split into chunks of 2^18 points.
+TEST_F(VulkanAnswers, AgreeForMorePointsThanAChunk) {
   const ModelCase c = find_model_case("nao");
   const TrainingOptions options;
   const ModelState state = random_state(*c.model, options, 5, true);
@@ -76,10 +76,10 @@ TEST_F(VulkanAnswers, OfMorePointsThanAChunk) {
             kVulkanTolerance);
 }
 
-// As for the CPU's kernels (kernel_parity_test.cpp): inputs, weights and activations have eight bits.
+// The bound of the CPU's kernels (kernel_parity_test.cpp): inputs, weights and activations have eight bits.
 constexpr double kBf16Tolerance = 0.025;
 
-TEST_F(VulkanAnswers, InBf16) {
+TEST_F(VulkanAnswers, AgreeInBf16) {
   std::uint64_t seed = 600;
   for (const char* name : {"nrc", "nao", "hash_F4", "gate_with_everything", "mlp_5x128", "outputs_16"}) {
     const ModelCase c = find_model_case(name);
@@ -97,7 +97,7 @@ TEST_F(VulkanAnswers, InBf16) {
       const std::vector<float> got = Agreement::answers(*device, *c.model, batch, bf16);
       EXPECT_LE(relative_difference(got, Agreement::answers(*reference, *c.model, batch, bf16)),
                 kBf16Tolerance);
-      // The same numbers are rounded; a sum's last bit may take one of them to the other side.
+      // The same numbers are rounded; a sum's last bit may round one of them the other way.
       EXPECT_LE(relative_difference(got, Agreement::answers(*host, *c.model, batch, bf16)),
                 0.3 * kBf16Tolerance);
       EXPECT_NE(got, Agreement::answers(*device, *c.model, batch, fp32)) << "bf16 is to round";
@@ -105,7 +105,7 @@ TEST_F(VulkanAnswers, InBf16) {
   }
 }
 
-TEST_F(VulkanAnswers, RangesClampTheRawOnes) {
+TEST_F(VulkanAnswers, AreClampedToTheRange) {
   const ModelCase c = find_model_case("nrc");
   const TrainingOptions options;
   ModelState state = random_state(*c.model, options, 4, true);
@@ -121,8 +121,8 @@ TEST_F(VulkanAnswers, RangesClampTheRawOnes) {
   expect_ranges(*c.model, batch, raw, positive, unit);
 }
 
-// Steps, averages and roundings change what is packed for queries.
-TEST_F(VulkanAnswers, FollowEachStep) {
+// Steps, averages and rounding change the parameters that are packed for queries.
+TEST_F(VulkanAnswers, AreUpToDateAfterEachStep) {
   const ModelCase c = find_model_case("nrc");
   const TrainingOptions options;
   const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);

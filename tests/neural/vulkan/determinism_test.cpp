@@ -1,4 +1,5 @@
-// The same bits each time, however arrays are cut and steps overlap; and states that move between devices.
+// Results have the same bits each time, however arrays are split and steps overlap. States can move between
+// devices.
 
 #include <unistd.h>
 #include <filesystem>
@@ -6,7 +7,7 @@
 #include "neural/trainer.h"
 #include "neural/vulkan/feature_store.h"
 #include "tests/neural/vulkan/agreement.h"
-#include "tests/support/held_state.h"
+#include "tests/support/stored_state.h"
 
 namespace gatelight::neural {
 namespace {
@@ -26,7 +27,7 @@ std::vector<OwnedBatch> some_batches(const Model& model) {
   return batches;
 }
 
-/// Every option with one model, the defaults with the others.
+/// Returns every option for one model, the defaults for the others.
 std::vector<OptionsCase> options_for(const std::string& name, const Model& model) {
   return name == "nrc" ? all_training_options(model) : std::vector<OptionsCase>{{"defaults", {}}};
 }
@@ -51,7 +52,7 @@ void expect_same(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(std::memcmp(a.answers.data(), b.answers.data(), 4 * a.answers.size()), 0);
 }
 
-TEST_F(VulkanDeterminism, StepsRepeatedHaveTheSameBits) {
+TEST_F(VulkanDeterminism, RepeatedStepsHaveTheSameBits) {
   for (const char* name : kModels) {
     const ModelCase c = find_model_case(name);
     const auto batches = some_batches(*c.model);
@@ -78,7 +79,7 @@ TEST_F(VulkanDeterminism, ArraysInManyPartsHaveTheSameBits) {
   }
 }
 
-TEST_F(VulkanDeterminism, StepsUnderWayTogetherHaveTheBitsOfStepsOneByOne) {
+TEST_F(VulkanDeterminism, OverlappingStepsHaveTheBitsOfSequentialSteps) {
   const ModelCase c = find_model_case("nrc");
   const auto batches = some_batches(*c.model);
   const auto one_by_one = make_vulkan_backend(test_machine(), c.model, {});
@@ -93,7 +94,7 @@ TEST_F(VulkanDeterminism, StepsUnderWayTogetherHaveTheBitsOfStepsOneByOne) {
   expect_same(expected, outcome);
 }
 
-TEST_F(VulkanDeterminism, StatesComeBackFromImportAndGoOnWithTheSameBits) {
+TEST_F(VulkanDeterminism, ImportedStatesAreExportedAndTrainedWithTheSameBits) {
   for (const char* name : {"nrc", "gate_L5", "hash_F2", "plain_direction_identity"}) {
     const ModelCase c = find_model_case(name);
     for (const OptionsCase& o : all_training_options(*c.model)) {

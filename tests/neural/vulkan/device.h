@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "neural/vulkan/vulkan_backend.h"
 
 namespace gatelight::neural::testing {
 
-/// What the validation layer said of all machines of this program.
+/// Messages of the validation layer about all machines of this program.
 inline const std::shared_ptr<std::vector<std::string>>& validation_messages() {
   static const auto messages = std::make_shared<std::vector<std::string>>();
   return messages;
 }
 
-/// Null where there is no device (or no validation layer) and GATELIGHT_REQUIRE_VULKAN is not set.
+/// Returns null where there is no device (or no validation layer) and GATELIGHT_REQUIRE_VULKAN is not set.
 inline std::shared_ptr<vulkan::Machine> open_test_machine(std::uint64_t longest_part = 0) {
   vulkan::MachineOptions options;
   options.validate = true;
@@ -39,7 +39,7 @@ inline const std::shared_ptr<vulkan::Machine>& test_machine() {
   return machine;
 }
 
-/// Skips without a device; fails where the validation layer has said something by the end of the test.
+/// Skips without a device; fails if the validation layer has reported a message by the end of the test.
 class OnVulkan : public ::testing::Test {
  protected:
   void SetUp() override {

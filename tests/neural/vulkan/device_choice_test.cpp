@@ -1,4 +1,4 @@
-// Which device is taken, and what is said of the others: no device is needed for it.
+// The choice of a device and the messages about the others. No device is needed.
 
 #include "neural/vulkan/device_choice.h"
 
@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "tests/support/messages.h"
 
 namespace gatelight::neural::vulkan {
@@ -56,7 +56,7 @@ TEST(DeviceChoice, ANamedDeviceThatCannotBeUsedIsRefusedWithItsReason) {
   expect_refused(devices, "old", {"old H200", "64 threads"});
 }
 
-TEST(DeviceChoice, NoDeviceAtAllIsSaid) {
+TEST(DeviceChoice, AMissingDeviceIsReported) {
   expect_refused({}, "", {"Vulkan"});
   expect_refused({}, "0", {"Vulkan"});
 }

@@ -1,5 +1,5 @@
-// Answers and a step of every model that the library allows agree with the reference. Slow for the compiler
-// of a device in software: each shape of a network is a pipeline of its own.
+// Answers and a step of every model that the library allows agree with the reference. The test is slow on a
+// software device, which compiles a pipeline for each shape of a network.
 
 #include "tests/neural/vulkan/agreement.h"
 
@@ -21,7 +21,7 @@ class VulkanEveryModel : public OnVulkan {
 // Tiles hold up to 64 points.
 constexpr std::size_t kSizes[] = {1, 63, 64, 65, 97, 130, 7};
 
-TEST_F(VulkanEveryModel, Answers) {
+TEST_F(VulkanEveryModel, AnswersAgree) {
   std::uint64_t seed = 1;
   for (const ModelCase& c : all_model_cases()) {
     const TrainingOptions options;
@@ -32,7 +32,7 @@ TEST_F(VulkanEveryModel, Answers) {
   }
 }
 
-TEST_F(VulkanEveryModel, Learns) {
+TEST_F(VulkanEveryModel, AStepAgrees) {
   std::uint64_t seed = 100;
   for (const ModelCase& c : all_model_cases()) {
     const TrainingOptions options = smooth_options();

@@ -1,4 +1,4 @@
-// Nothing that a batch can hold makes a weight NaN or infinite, or reads beyond an array.
+// No batch makes a weight NaN or infinite, or reads beyond an array.
 
 #include <functional>
 
@@ -102,8 +102,8 @@ TEST_F(VulkanExtremes, SurfacesAndTrianglesBeyondTheLayoutAreUnstored) {
   }
 }
 
-// Outputs that overflow leave no gradient that is finite.
-TEST_F(VulkanExtremes, WeightsAndNodesWithoutAFiniteGradientAreLeftAlone) {
+// If the outputs overflow, no gradient is finite.
+TEST_F(VulkanExtremes, WeightsAndNodesWithoutAFiniteGradientAreNotChanged) {
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options;
   options.start_at_mean = false;

@@ -1,4 +1,4 @@
-// What a device can refuse becomes the library's exceptions, and leaves states as they were where it can.
+// A device's failures become the library's exceptions, and leave states unchanged where possible.
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@ using namespace testing;
 using tests::expect_names;
 using tests::refusal;
 
-// The names of devices are those of the machine, and so are the messages.
+// The names of devices, and so the messages, depend on the machine.
 class VulkanFailures : public OnVulkan {};
 
-TEST_F(VulkanFailures, ALostDeviceIsSaidByStepsAnswersAndStates) {
+TEST_F(VulkanFailures, ALostDeviceIsReportedByStepsAndAnswers) {
   const ModelCase c = find_model_case("nrc");
   const OwnedBatch batch = make_batch(*c.model, 50, 1);
   vulkan::MachineOptions options;
@@ -31,8 +31,8 @@ TEST_F(VulkanFailures, ALostDeviceIsSaidByStepsAnswersAndStates) {
   EXPECT_THROW(backend->query(batch.points(), {}, out), DeviceLost);
 }
 
-// 2^31 nodes of 16 numbers are 128 GiB, and as much again three times: more than any device has.
-TEST_F(VulkanFailures, TooLittleMemoryIsSaidWithTheDevice) {
+// 2^31 nodes of 16 numbers are 128 GiB, and there are four such arrays: more than any device has.
+TEST_F(VulkanFailures, TooLittleMemoryIsReportedWithTheDevice) {
   ModelConfig config = default_hash_config();
   config.hash_grid.levels = 1;
   config.hash_grid.features = 16;
@@ -43,15 +43,15 @@ TEST_F(VulkanFailures, TooLittleMemoryIsSaidWithTheDevice) {
                {vulkan::machine_name(*test_machine()), "MiB"});
 }
 
-TEST_F(VulkanFailures, DevicesThatAreNotThereAreRefused) {
+TEST_F(VulkanFailures, MissingDevicesAreRefused) {
   vulkan::MachineOptions options;
   options.device = "99";
   expect_names(refusal<Unavailable>([&] { vulkan::open_machine(options); }),
                {"99", vulkan::machine_name(*test_machine())});
 }
 
-// A buffer of no bytes is against the rules, and harmless.
-TEST_F(VulkanFailures, AMessageOfTheValidationLayerEndsTheNextDeed) {
+// A buffer of zero bytes is invalid, but harmless.
+TEST_F(VulkanFailures, AMessageOfTheValidationLayerFailsTheNextStep) {
   vulkan::MachineOptions options;
   options.validate = true;
   options.messages = std::make_shared<std::vector<std::string>>();
@@ -66,7 +66,7 @@ TEST_F(VulkanFailures, AMessageOfTheValidationLayerEndsTheNextDeed) {
     const vk::raii::Buffer buffer(machine->device().handle(), nothing);
   }
   ASSERT_FALSE(options.messages->empty());
-  expect_names(refusal<ValidationFailed>([&] { backend->train(batch.training()); }),
+  expect_names(refusal<vulkan::ValidationFailed>([&] { backend->train(batch.training()); }),
                {options.messages->front()});
 }
 

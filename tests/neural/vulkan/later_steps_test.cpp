@@ -10,15 +10,15 @@ using namespace testing;
 
 class VulkanLaterSteps : public OnVulkan {};
 
-// Of the greatest parameter in the same tensor. Rounding errors grow with each step, and a hidden unit at its
-// kink now and then takes another side.
+// Tolerances after a number of steps, relative to the greatest parameter in the same tensor. Rounding errors
+// grow with each step, and a hidden unit at its kink may take the other side.
 constexpr std::pair<int, double> kTolerances[] = {{1, 2e-5}, {10, 1e-4}, {100, 1e-3}};
 
 TrainingOptions steady_options(Loss loss) {
   TrainingOptions options;
   options.loss = loss;
-  // A step that is a smooth function of the gradient: the default epsilon follows the sign of a gradient of
-  // rounding errors.
+  // These make the step a smooth function of the gradient. With the default epsilon a step follows the sign
+  // of a gradient that is only rounding errors.
   options.adam.learning_rate = 0.01f;
   options.adam.epsilon = 1e-1f;
   return options;
@@ -53,7 +53,7 @@ void expect_same_parameters(const std::string& name, const std::shared_ptr<const
   }
 }
 
-TEST_F(VulkanLaterSteps, OfEveryEncodingAndLoss) {
+TEST_F(VulkanLaterSteps, AgreeForEveryEncodingAndLoss) {
   for (const char* name : {"nrc", "nao", "gate_L5_per_triangle_stack_5_a_1", "gate_L8_cells_0", "hash_F4",
                            "plain_with_everything"})
     for (const Loss loss : {Loss::l2, Loss::relative_l2}) {
@@ -62,12 +62,12 @@ TEST_F(VulkanLaterSteps, OfEveryEncodingAndLoss) {
     }
 }
 
-TEST_F(VulkanLaterSteps, OfLongTrainings) {
+TEST_F(VulkanLaterSteps, AgreeInLongTraining) {
   for (const char* name : {"nrc", "hash_F4"})
     expect_same_parameters(name, find_model_case(name).model, Loss::relative_l2, 100);
 }
 
-TEST_F(VulkanLaterSteps, OfEveryWidth) {
+TEST_F(VulkanLaterSteps, AgreeForEveryWidth) {
   for (const char* name : {"mlp_2x16", "mlp_3x32", "mlp_2x64", "mlp_2x128"}) {
     const ModelCase c = find_model_case(name);
     expect_same_parameters(name, c.model, Loss::relative_l2);

@@ -1,4 +1,4 @@
-// What benchmarks compare with: rates that a device can have.
+// The measured rates of a device, with which benchmarks compare, are plausible.
 
 #include "neural/vulkan/measured_limits.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 class VulkanLimits : public testing::OnVulkan {};
 
-TEST_F(VulkanLimits, AreThoseOfADevice) {
+TEST_F(VulkanLimits, ArePlausible) {
   const vulkan::MeasuredLimits limits = vulkan::measure_limits(*testing::test_machine(), 16u << 20);
   // From one slow core to a hundred times the fastest device there is.
   EXPECT_GT(limits.operations_per_second, 1e6);

@@ -1,4 +1,4 @@
-// Single shaders against the reference: what encode and train_network leave in memory.
+// Single shaders against the reference: the arrays that encode and train_network write.
 
 #include "neural/reference/loss.h"
 #include "neural/vulkan/barrier.h"
@@ -56,7 +56,7 @@ class Bench {
     upload(batch);
   }
 
-  /// One dispatch, waited for.
+  /// Runs one dispatch and waits for it.
   void run(Shader shader, const Constants& constants, std::uint64_t groups, std::uint32_t argument = 0) {
     Commands commands(submission_.commands.front(), machine_, model_block_.address(), batch_.address());
     commands.dispatch(shader, constants, groups, argument);
@@ -118,7 +118,7 @@ class Bench {
   Buffer inputs, status, keys, weights, gradients, losses, partials, statistics;
 };
 
-// A float holds a place among 64 bins with six bits less, and one among a level's 256 cells with eight.
+// A float position among 64 bins has six bits fewer, one among a level's 256 cells eight.
 constexpr double kEncodeTolerance = 1e-5;
 constexpr double kHashGridTolerance = 3e-5;
 
@@ -155,7 +155,7 @@ TEST_F(VulkanShaders, EncodeFindsTheReferencesNodesAndInputs) {
         got.push_back(inputs[i * batch.size() + r]);
         expected.push_back(static_cast<float>(encoded[i]));
       }
-      // Weights at the same nodes: near a line between cells another three or eight may be taken.
+      // The nodes are the same, except near a line between cells, where the weights of others are small.
       const auto nodes = reference::encoding_nodes(model, point);
       for (std::size_t s = 0; s < nodes.size(); ++s)
         if (nodes[s].weight > 1e-3) {

@@ -1,4 +1,4 @@
-// The sort of references by node and its cut into runs and pieces, against the standard library's.
+// The sort of references by node and its split into runs and pieces, against the standard library.
 
 #include <algorithm>
 #include <numeric>
@@ -103,7 +103,7 @@ void expect_sorted(const Words& keys, std::uint32_t nodes) {
   EXPECT_EQ(got.keys, expected.keys);
   EXPECT_EQ(got.values, expected.values);
   EXPECT_EQ(got.nodes, expected.nodes);
-  if (expected.nodes.empty()) return;  // there is no end of what is not there
+  if (expected.nodes.empty()) return;  // an empty list has no end
   EXPECT_EQ(got.node_pieces, expected.node_pieces);
   EXPECT_EQ(got.piece_starts, expected.piece_starts);
 }
@@ -113,17 +113,17 @@ TEST_F(VulkanSort, IsStableForManySizesAndNodes) {
   for (const std::uint32_t nodes : {1u, 15u, 16u, 300u, 70000u, 20000000u})
     for (const std::size_t references : {1u, 2u, 64u, 127u, 2047u, 2048u, 2049u, 10000u}) {
       Words keys(references);
-      for (std::uint32_t& key : keys) key = random.below(nodes + 1);  // nodes: none
+      for (std::uint32_t& key : keys) key = random.below(nodes + 1);  // the key `nodes` is no node
       expect_sorted(keys, nodes);
     }
 }
 
-TEST_F(VulkanSort, KeepsTheOrderOfOneNodeThatAllShare) {
+TEST_F(VulkanSort, KeepsTheOrderWhereAllReferencesShareANode) {
   expect_sorted(Words(5000, 3), 10);
   expect_sorted(Words(5000, 10), 10);
 }
 
-TEST_F(VulkanSort, GoesOverManyBlocks) {
+TEST_F(VulkanSort, SortsManyBlocks) {
   neural::testing::Random random{2};
   Words keys(300000);
   for (std::uint32_t& key : keys) key = random.below(5000);

@@ -19,8 +19,8 @@ class VulkanStep : public OnVulkan {
   static inline std::unique_ptr<Agreement> agreement_;
 };
 
-// The others are in every_model_slow_test.cpp.
-TEST_F(VulkanStep, OfUsualModels) {
+// The other models are in every_model_slow_test.cpp.
+TEST_F(VulkanStep, AgreesForUsualModels) {
   std::uint64_t seed = 100;
   for (const char* name :
        {"nrc", "nao", "gate_L16", "gate_L8_cells_0", "gate_L2_stack_64", "hash_F4", "hash_memory_target",
@@ -34,7 +34,7 @@ TEST_F(VulkanStep, OfUsualModels) {
   }
 }
 
-TEST_F(VulkanStep, UnderEveryOption) {
+TEST_F(VulkanStep, AgreesUnderEveryOption) {
   std::uint64_t seed = 300;
   for (const char* name : {"nrc", "gate_L5_per_triangle_stack_5_a_1", "hash_F3"}) {
     const ModelCase c = find_model_case(name);
@@ -53,8 +53,8 @@ TEST_F(VulkanStep, UnderEveryOption) {
   }
 }
 
-// Tiles hold up to 64 records, blocks of the sort 2048 references, pieces 64.
-TEST_F(VulkanStep, OfBatchesOfManySizes) {
+// Tiles have up to 64 records, blocks of the sort 2048 references, pieces 64.
+TEST_F(VulkanStep, AgreesForManyBatchSizes) {
   for (const char* name : {"nrc", "hash_F4", "plain_with_everything"}) {
     const ModelCase c = find_model_case(name);
     const TrainingOptions options = smooth_options();
@@ -68,7 +68,7 @@ TEST_F(VulkanStep, OfBatchesOfManySizes) {
   }
 }
 
-TEST_F(VulkanStep, Of16384Records) {
+TEST_F(VulkanStep, AgreesFor16384Records) {
   for (const char* name : {"nrc", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
     const TrainingOptions options = smooth_options();
@@ -79,8 +79,8 @@ TEST_F(VulkanStep, Of16384Records) {
   }
 }
 
-// Two and a half tiles for each of them.
-TEST_F(VulkanStep, OfTilesThatShareAWorkgroup) {
+// Two and a half tiles for each workgroup.
+TEST_F(VulkanStep, AgreesWhereTilesShareAWorkgroup) {
   const ModelCase c = find_model_case("mlp_5x128");
   const std::uint32_t tile = vulkan::training_tile(*c.model, test_machine()->device().limits().shared_bytes);
   const std::uint32_t groups = vulkan::cut_step(*c.model, std::uint64_t{1} << 24, tile).groups;
@@ -91,8 +91,8 @@ TEST_F(VulkanStep, OfTilesThatShareAWorkgroup) {
   agreement().expect_same_step(c.name, c.model, options, batch, state);
 }
 
-// Beyond the table of Adam's factors the shader works them out.
-TEST_F(VulkanStep, AfterMoreStepsThanAreTabulated) {
+// Beyond the table of Adam's factors the shader computes them.
+TEST_F(VulkanStep, AgreesAfterMoreStepsThanAreTabulated) {
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options = smooth_options();
   for (const float beta2 : {0.99f, 0.999999f}) {
@@ -109,7 +109,7 @@ TEST_F(VulkanStep, AfterMoreStepsThanAreTabulated) {
   }
 }
 
-TEST_F(VulkanStep, CountersOfTrianglesEndAtTheirGreatest) {
+TEST_F(VulkanStep, TriangleCountersSaturate) {
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options = smooth_options();
   options.feature_step = FeatureStep::per_triangle;
@@ -139,7 +139,7 @@ TEST_F(VulkanStep, ABatchWithoutAnAcceptedRecordChangesNothing) {
   }
 }
 
-TEST_F(VulkanStep, BatchesThatAreWrongAreRefused) {
+TEST_F(VulkanStep, InvalidBatchesAreRefused) {
   const ModelCase c = find_model_case("nrc");
   const auto backend = vulkan::make_vulkan_backend(test_machine(), c.model, {});
   OwnedBatch batch = make_batch(*c.model, 10, 1);

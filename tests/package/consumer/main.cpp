@@ -1,5 +1,5 @@
-// A stranger's program: it finds the package, loads a scene and renders it through the installed headers, and
-// teaches a network its mean.
+// An external program: it finds the package, loads a scene and renders it through the installed headers, and
+// trains a network.
 #include <algorithm>
 #include <cstdio>
 
@@ -7,7 +7,7 @@
 #include "renderer/render.h"
 #include "scene/gltf.h"
 
-// Whether a network of directions learns to answer 1.
+// Whether a network with directions as input can be trained to answer 1.
 static bool learns() {
   namespace neural = gatelight::neural;
   neural::ModelConfig config;

@@ -16,19 +16,20 @@ struct BsdfCase {
   bool front = true;
   bool layered = false;  ///< clearcoat or sheen
 
-  /// About the xz plane.
+  /// Whether the material is symmetric about the xz plane.
   bool symmetric() const {
-    return material.anisotropy == 0.0f || std::abs(material.brushed.x() * material.brushed.y()) < 1e-3f;
+    return material.anisotropy == 0.0f ||
+           std::abs(material.anisotropy_direction.x() * material.anisotropy_direction.y()) < 1e-3f;
   }
 };
 
-/// White materials: a furnace shows one.
+/// White materials: their albedo is one.
 inline std::vector<BsdfCase> white_cases() {
   std::vector<BsdfCase> cases;
   const auto add = [&](const char* name, bool front, bool layered, auto&& change) {
     SurfaceMaterial material;
     material.diffuse_transmission_color.setOnes();
-    material.brushed = Vec3::UnitX();
+    material.anisotropy_direction = Vec3::UnitX();
     change(material);
     cases.push_back({name, material, front, layered});
   };
@@ -100,23 +101,23 @@ inline std::vector<BsdfCase> white_cases() {
     glass(1.5f, 1.0f)(m);
     film(1.3f, 250.0f)(m);
   });
-  const auto brushed = [](float strength, float turn) {
+  const auto anisotropic = [](float strength, float turn) {
     return [=](SurfaceMaterial& m) {
       m.metallic = 1.0f;
       m.anisotropy = strength;
-      m.brushed = Vec3(std::cos(turn), std::sin(turn), 0.0f);
+      m.anisotropy_direction = Vec3(std::cos(turn), std::sin(turn), 0.0f);
     };
   };
-  add("brushed along", true, false, brushed(0.7f, 0.0f));
-  add("brushed across", true, false, brushed(0.7f, 1.5708f));
-  add("brushed askew", true, false, brushed(0.45f, 0.6f));
-  add("fully brushed", true, false, brushed(1.0f, 2.5f));
-  add("brushed plastic", true, false, [](SurfaceMaterial& m) {
+  add("anisotropic along", true, false, anisotropic(0.7f, 0.0f));
+  add("anisotropic across", true, false, anisotropic(0.7f, 1.5708f));
+  add("anisotropic askew", true, false, anisotropic(0.45f, 0.6f));
+  add("fully anisotropic", true, false, anisotropic(1.0f, 2.5f));
+  add("anisotropic plastic", true, false, [](SurfaceMaterial& m) {
     m.anisotropy = 0.6f;
     m.ior = 2.0f;
   });
-  add("brushed sheet", true, false, [&brushed](SurfaceMaterial& m) {
-    brushed(0.5f, 0.9f)(m);
+  add("anisotropic sheet", true, false, [&anisotropic](SurfaceMaterial& m) {
+    anisotropic(0.5f, 0.9f)(m);
     m.metallic = 0.0f;
     m.transmission = 1.0f;
   });

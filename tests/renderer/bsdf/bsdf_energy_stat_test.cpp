@@ -23,14 +23,14 @@ TEST(BsdfFurnace, WhiteSurfacesReturnAllLight) {
     // Tables interpolate: within 1 % below, and above by 0.2 %, 0.5 % with the coarser ones.
     double above = refracts || (c.material.sheen_color > 0.0f).any() ? 0.005 : 0.002;
     if (c.material.anisotropy > 0.0f) above = 0.012;
-    // A film's reflectance at the angle of the surface stands for that of its microfacets.
+    // A film's reflectance at the angle of the surface is used for all its microfacets.
     if (c.material.iridescence > 0.0f) above = 0.04;
     for (const float roughness : kRoughnesses) {
       for (const float cosine : kCosines) {
         const Bsdf bsdf = flat_bsdf(c, roughness, incident(cosine));
         const Furnace result = furnace(bsdf, random);
         const double noise = std::min(3.0 * result.error, 0.004);
-        // Under a film the channel that it reflects most decides what the base gets.
+        // Under a film the channel with the highest reflectance decides the light of the base.
         const double below = c.material.iridescence > 0.0f ? 0.12 : 0.01;
         EXPECT_GT(result.mean[0], 1.0 - below - noise) << describe(c, roughness, cosine);
         EXPECT_LT(result.mean[0], 1.0 + above + noise) << describe(c, roughness, cosine);
@@ -39,19 +39,19 @@ TEST(BsdfFurnace, WhiteSurfacesReturnAllLight) {
   }
 }
 
-TEST(BsdfFurnace, AlbedoIsWhatTheFurnaceShows) {
+TEST(BsdfFurnace, AlbedoIsTheReflectanceInAFurnace) {
   Random random(4);
   for (const BsdfCase& c : colored_cases()) {
     const bool refracts = c.material.transmission > 0.0f && !c.material.thin_walled;
-    // How tinted glass splits reflection and transmission around the critical angle is coarse in denser
-    // media.
+    // In denser media the split of tinted glass into reflection and transmission is coarse around the
+    // critical angle.
     if (refracts && c.material.ior > 1.5f) continue;
     for (const float roughness : kRoughnesses) {
       for (const float cosine : {0.9f, 0.3f, 0.05f}) {
         const Bsdf bsdf = flat_bsdf(c, roughness, incident(cosine));
         const Furnace result = furnace(bsdf, random);
         double tolerance = (refracts && roughness > 0.0f ? 0.05 : 0.003) + 3.0 * result.error;
-        // Steps of the table of brushed lobes.
+        // The steps of the table of anisotropic lobes are coarse.
         if (c.material.anisotropy > 0.0f) tolerance += 0.012;
         if (c.material.iridescence > 0.0f) tolerance += 0.08;
         for (int k = 0; k < 3; ++k) {
@@ -135,7 +135,7 @@ TEST(BsdfFurnace, GlassBallIsInvisibleInAWhiteRoom) {
       }
       radiance.add(weight);
     }
-    // The noise is what the tables leave: deltas have none.
+    // The noise comes from the tables; deltas have none.
     EXPECT_NEAR(radiance.mean(), 1.0, 0.01 + 4.0 * radiance.standard_error()) << "roughness " << roughness;
     if (roughness == 0.0f) {
       EXPECT_NEAR(radiance.mean(), 1.0, 1e-4);

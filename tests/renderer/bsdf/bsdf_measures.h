@@ -1,5 +1,5 @@
 #pragma once
-// What the samples of a BSDF add up to, and whether they follow their density.
+// The sum of the samples of a BSDF, and a test that they follow their density.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ testing::ChiSquareResult samples_against_density(const Bsdf& bsdf, int steps, in
     mass *= samples;
   }
   EXPECT_LT(sum, 1.0 + 1e-3);
-  // The last cell is for deltas and for what was rejected below the surface.
+  // The last cell is for deltas and for samples rejected below the surface.
   expected.push_back(std::max(0.0, 1.0 - sum) * samples);
   for (int i = 0; i < samples; ++i) {
     const BsdfSample sample = draw();

@@ -16,7 +16,7 @@ std::array<Bsdf, 2> parts(const Bsdf& whole, float roughness) {
   return {whole.wide_part(roughness), whole.narrow_part(roughness)};
 }
 
-TEST(BsdfPartsFurnace, AlbedoIsWhatTheFurnaceShows) {
+TEST(BsdfPartsFurnace, AlbedoIsTheReflectanceInAFurnace) {
   Random random(1);
   for (const BsdfCase& c : colored_cases()) {
     const bool refracts = c.material.transmission > 0.0f && !c.material.thin_walled;
@@ -54,7 +54,7 @@ TEST(BsdfPartsSampling, SamplesFollowTheDensity) {
   for (const BsdfCase& c : cases) {
     for (const float roughness : {0.3f, 0.7f}) {
       for (const float cosine : {0.8f, 0.1f}) {
-        // 0.45 parts the base's microfacets, or the coat, from the rest.
+        // A threshold of 0.45 separates the base's microfacets, or the coat, from the rest.
         for (const Bsdf& part : parts(flat_bsdf(c, roughness, incident(cosine)), 0.45f)) {
           SCOPED_TRACE(describe(c, roughness, cosine));
           EXPECT_TRUE(testing::accepts(samples_against_density(part, 4, kSamples, c.symmetric(), random),

@@ -1,4 +1,4 @@
-// A surface split at a roughness: the parts add up to the whole, and neither knows the other's lobes.
+// A surface split at a roughness: the parts add up to the whole, and no lobe is in both.
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@ namespace {
 
 using testing::Random;
 
-// Deltas alone, between the lobes of the cases, everything.
+// Only deltas, between the lobes of the cases, everything.
 constexpr std::array<float, 5> kThresholds{0.0f, 0.15f, 0.35f, 0.7f, 1.1f};
 constexpr std::array<float, 4> kRoughnesses{0.0f, 0.1f, 0.3f, 0.8f};
 
-/// With the clearcoat's normal apart, so that no two deltas coincide.
+/// A BSDF with a separate normal of the clearcoat, so that no two deltas coincide.
 Bsdf tilted_bsdf(const BsdfCase& c, float roughness, const Vec3& wo) {
   SurfaceMaterial material = c.material;
   material.roughness = roughness;
@@ -59,7 +59,7 @@ TEST(BsdfParts, ValuesAddUpToTheWhole) {
     const Bsdf wide = whole.wide_part(threshold);
     const Bsdf narrow = whole.narrow_part(threshold);
     for (int i = 0; i < 60; ++i) {
-      // Half of them where the lobes are.
+      // Half of the directions are where the lobes are.
       Vec3 wi = i % 2 == 0 ? draw(whole, random).wi : Vec3(Vec3::Zero());
       if (wi.isZero(0.0f)) {
         const float x = random.uniform_float();
@@ -72,7 +72,7 @@ TEST(BsdfParts, ValuesAddUpToTheWhole) {
   });
 }
 
-TEST(BsdfParts, DeltasAreThoseOfTheWholeAndInTheNarrowPartAlone) {
+TEST(BsdfParts, DeltasAreThoseOfTheWholeAndOnlyInTheNarrowPart) {
   Random random(2);
   int found = 0;
   for_each_split([&](const BsdfCase&, float, const Bsdf& whole, float threshold) {
@@ -98,8 +98,8 @@ TEST(BsdfParts, DeltasAreThoseOfTheWholeAndInTheNarrowPartAlone) {
         }
       }
     }
-    EXPECT_TRUE((wide.straight_transmittance() == 0.0f).all());
-    EXPECT_TRUE((narrow.straight_transmittance() == whole.straight_transmittance()).all());
+    EXPECT_TRUE((wide.unrefracted_transmittance() == 0.0f).all());
+    EXPECT_TRUE((narrow.unrefracted_transmittance() == whole.unrefracted_transmittance()).all());
   });
   EXPECT_GT(found, 10000);
 }
@@ -134,7 +134,7 @@ TEST(BsdfParts, WeightIsValueOverDensity) {
   EXPECT_GT(compared, 10000);
 }
 
-TEST(BsdfParts, EachSamplesItsOwnLobesAlone) {
+TEST(BsdfParts, EachSamplesOnlyItsOwnLobes) {
   Random random(4);
   for_each_split([&](const BsdfCase& c, float roughness, const Bsdf& whole, float threshold) {
     const Bsdf wide = whole.wide_part(threshold);
@@ -149,7 +149,7 @@ TEST(BsdfParts, EachSamplesItsOwnLobesAlone) {
         ASSERT_GE(a.spread, alpha);
       }
       const BsdfSample b = draw(narrow, random);
-      // A brushed lobe is as narrow as its narrow side.
+      // An anisotropic lobe is as narrow as its narrow side.
       if (b.pdf > 0.0f && !scatters && c.material.anisotropy == 0.0f) {
         ASSERT_TRUE(b.delta || b.spread < alpha);
       }
@@ -157,14 +157,14 @@ TEST(BsdfParts, EachSamplesItsOwnLobesAlone) {
   });
 }
 
-TEST(BsdfParts, APartThatHasLobesSendsLightAndOneWithoutIsBlack) {
+TEST(BsdfParts, APartWithLobesScattersLightAndOneWithoutIsBlack) {
   for_each_split([&](const BsdfCase&, float, const Bsdf& whole, float threshold) {
     const Bsdf wide = whole.wide_part(threshold);
     const Bsdf narrow = whole.narrow_part(threshold);
     EXPECT_EQ(is_black(wide), !whole.has_wide(threshold));
     EXPECT_EQ(is_black(narrow), !whole.has_narrow(threshold));
     EXPECT_TRUE(whole.has_wide(threshold) || whole.has_narrow(threshold));
-    // Parts of a part: itself, or nothing.
+    // The parts of a part are itself and nothing.
     EXPECT_FALSE(wide.has_narrow(threshold) || narrow.has_wide(threshold));
     EXPECT_EQ(wide.has_wide(threshold), whole.has_wide(threshold));
     EXPECT_EQ(narrow.has_narrow(threshold), whole.has_narrow(threshold));
@@ -236,8 +236,8 @@ TEST(BsdfParts, EachLobeGoesToItsSide) {
   }
 }
 
-TEST(BsdfParts, TheBaseIsNoBrighterForLosingItsGloss) {
-  // Diffuse light under a smooth and under a rough dielectric: what the dielectric reflects is missing.
+TEST(BsdfParts, TheBaseIsNoBrighterWithoutItsGloss) {
+  // Diffuse light under a smooth and under a rough dielectric lacks the light that the dielectric reflects.
   SurfaceMaterial material;
   material.roughness = 0.1f;
   const Vec3 n = Vec3::UnitZ();
@@ -245,7 +245,7 @@ TEST(BsdfParts, TheBaseIsNoBrighterForLosingItsGloss) {
   const Bsdf wide = Bsdf(material, n, n, n, wo, true).wide_part(0.2f);
   material.specular = 0.0f;
   const Bsdf bare(material, n, n, n, wo, true);
-  // Away from the mirror direction the whole has nothing but its base.
+  // Away from the mirror direction the whole has only its base.
   const Vec3 wi = Vec3(0.3f, 0.2f, 0.9f).normalized();
   EXPECT_LT(wide.evaluate(wi).value.x(), 0.8f * bare.evaluate(wi).value.x());
   EXPECT_LT(wide.albedo().x(), 0.8f);

@@ -57,7 +57,7 @@ TEST(BsdfSampling, WeightIsValueOverDensity) {
   }
 }
 
-TEST(BsdfSampling, EveryLobeIsFoundAtBothEndsOfItsShare) {
+TEST(BsdfSampling, EveryLobeIsSampledAtBothEndsOfItsShare) {
   // The largest number below one must not fall through to no lobe at all.
   const float last = 1.0f - 0x1p-24f;
   for (const BsdfCase& c : colored_cases()) {

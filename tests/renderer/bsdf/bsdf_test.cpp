@@ -18,7 +18,7 @@ Vec3 random_direction(Random& random) {
 }
 
 SurfaceMaterial random_material(Random& random) {
-  // Extremes as often as the middle.
+  // Extremes are as frequent as the middle.
   const auto unit = [&] {
     const double u = random.uniform();
     return u < 0.2 ? 0.0f : u < 0.4 ? 1.0f : random.uniform_float();
@@ -47,7 +47,7 @@ bool finite(const Color& c) {
 TEST(BsdfProperties, ReflectionIsReciprocal) {
   Random random(1);
   for (const BsdfCase& c : colored_cases()) {
-    if (c.layered) continue;  // scaled by what the layer above lets through towards wo only
+    if (c.layered) continue;  // scaled by the transmittance of the layer above towards wo only
     for (int i = 0; i < 2000; ++i) {
       const float roughness = 0.1f + 0.9f * random.uniform_float();
       Vec3 a = random_direction(random);
@@ -146,7 +146,7 @@ TEST(BsdfProperties, MirrorDirectionIsAboveTheSurfaceForAnyShadingNormal) {
   }
 }
 
-TEST(BsdfProperties, NothingIsEverNotANumber) {
+TEST(BsdfProperties, ResultsAreFiniteAndNotNegative) {
   Random random(5);
   for (int i = 0; i < 200000; ++i) {
     const SurfaceMaterial material = random_material(random);
@@ -167,7 +167,7 @@ TEST(BsdfProperties, NothingIsEverNotANumber) {
     ASSERT_TRUE(finite(bsdf.albedo())) << bsdf.albedo();
     ASSERT_GE(bsdf.albedo().minCoeff(), 0.0f);
     ASSERT_LE(bsdf.albedo().maxCoeff(), 1.0f);
-    ASSERT_TRUE(finite(bsdf.straight_transmittance()));
+    ASSERT_TRUE(finite(bsdf.unrefracted_transmittance()));
 
     Vec3 wi = random_direction(random);
     const double choice = random.uniform();
@@ -205,7 +205,7 @@ TEST(BsdfProperties, NothingIsReflectedInThePlaneOfTheShadingNormal) {
   }
 }
 
-/// As renderer/bsdf/README.md says.
+/// The threshold in renderer/bsdf/README.md.
 TEST(BsdfProperties, ALobeIsADeltaBelowTheRoughness003) {
   SurfaceMaterial metal;
   metal.metallic = 1.0f;
@@ -237,7 +237,7 @@ TEST(BsdfProperties, SmoothLimitIsTheDelta) {
   }
 }
 
-TEST(BsdfProperties, StraightTransmittanceIsTheMeanOfTheStraightSamples) {
+TEST(BsdfProperties, UnrefractedTransmittanceIsTheMeanOfTheUnrefractedSamples) {
   Random random(7);
   SurfaceMaterial material;
   material.base_color = Color(0.9f, 0.5f, 0.3f);
@@ -257,12 +257,12 @@ TEST(BsdfProperties, StraightTransmittanceIsTheMeanOfTheStraightSamples) {
     }
     red.add(straight ? static_cast<double>(sample.weight.x()) : 0.0);
   }
-  EXPECT_GT(testing::mean_p_value(red, static_cast<double>(bsdf.straight_transmittance().x())), 1e-5);
+  EXPECT_GT(testing::mean_p_value(red, static_cast<double>(bsdf.unrefracted_transmittance().x())), 1e-5);
   material.roughness = 0.3f;
-  EXPECT_TRUE((Bsdf(material, n, n, n, wo, true).straight_transmittance() == 0.0f).all());
+  EXPECT_TRUE((Bsdf(material, n, n, n, wo, true).unrefracted_transmittance() == 0.0f).all());
   material.roughness = 0.0f;
   material.thin_walled = false;
-  EXPECT_TRUE((Bsdf(material, n, n, n, wo, true).straight_transmittance() == 0.0f).all());
+  EXPECT_TRUE((Bsdf(material, n, n, n, wo, true).unrefracted_transmittance() == 0.0f).all());
 }
 
 TEST(BsdfProperties, SmoothGlassFollowsSnellAndFresnel) {

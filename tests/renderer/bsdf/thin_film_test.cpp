@@ -10,8 +10,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using scene::Color;
-
 /// Airy's reflectance of a film at normal incidence, as the eye sees it.
 Eigen::Array3d airy_color(double film, double base, double thickness) {
   const double r12 = (1.0 - film) / (1.0 + film), r23 = (film - base) / (film + base);
@@ -20,7 +18,7 @@ Eigen::Array3d airy_color(double film, double base, double thickness) {
     return (r12 * r12 + r23 * r23 + 2.0 * r12 * r23 * c) /
            (1.0 + r12 * r12 * r23 * r23 + 2.0 * r12 * r23 * c);
   };
-  // The mean over all phases; what differs from it has a colour.
+  // The mean over all phases; differences from it have a colour.
   const double rr = r12 * r12 * r23 * r23;
   const double mean = r12 * r12 + (1.0 - r12 * r12) * (1.0 - r12 * r12) * r23 * r23 / (1.0 - rr);
   Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
@@ -45,8 +43,8 @@ TEST(ThinFilm, AtNormalIncidenceHasTheColoursOfAirysFormula) {
   }
 }
 
-TEST(ThinFilm, AQuarterWaveOfTheRightIndexTakesTheReflectionAway) {
-  // The root of the base's index, and a quarter of 550 nm within it.
+TEST(ThinFilm, AQuarterWaveOfTheRightIndexRemovesTheReflection) {
+  // The film's index is the root of the base's, its thickness a quarter of 550 nm within it.
   const float base = 1.9f, index = std::sqrt(base);
   const float without = dielectric_f0(base);
   const ThinFilm film{1.0f, index, 550.0f / (4.0f * index)};
@@ -61,7 +59,7 @@ TEST(ThinFilm, WithoutThicknessOrWeightChangesNothing) {
   }
 }
 
-TEST(ThinFilm, ReflectsNoMoreThanAllAndNeverLessThanNothing) {
+TEST(ThinFilm, ReflectanceIsBetweenZeroAndOne) {
   for (float cosine = 0.0f; cosine <= 1.0f; cosine += 0.05f) {
     for (const float thickness : {0.0f, 50.0f, 333.0f, 1000.0f, 1e6f}) {
       for (const float ior : {1.0f, 1.3f, 2.5f}) {

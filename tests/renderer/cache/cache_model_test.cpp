@@ -1,4 +1,4 @@
-// What the network reads beside the position follows from scene, encoding and preset.
+// The network's inputs beside the position follow from scene, encoding and preset.
 
 #include "renderer/cache/cache_model.h"
 
@@ -25,7 +25,7 @@ class CacheModel : public ::testing::Test {
   World world_{matte_quad()};
 };
 
-TEST_F(CacheModel, TheNormalIsReadUnlessThePapersGateIsAskedFor) {
+TEST_F(CacheModel, TheNormalIsAnInputExceptForThePapersGate) {
   RenderOptions options;
   EXPECT_TRUE(required_inputs(world_, options).normal);
   options.cache.encoding = neural::FeatureEncoding::hash_grid;
@@ -42,7 +42,7 @@ TEST_F(CacheModel, TheNormalIsReadUnlessThePapersGateIsAskedFor) {
   }
 }
 
-TEST_F(CacheModel, TheDirectionIsReadWhereLightThatTheCacheHoldsDependsOnIt) {
+TEST_F(CacheModel, TheDirectionIsAnInputWhereCachedLightDependsOnIt) {
   RenderOptions options;
   options.integrator = Integrator::nrc;
   options.cache.min_roughness = 0.25f;

@@ -1,5 +1,5 @@
-// A cache that learns: what it answers, what it counts, when it stops, and that threads and interruptions
-// change no bit.
+// Training of a cache: its answers, its counts, when it stops, and that threads and interruptions change no
+// bit.
 
 #include "renderer/cache/cache_session.h"
 
@@ -9,8 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "neural/base/errors.h"
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/statistics.h"
 
@@ -31,7 +30,7 @@ RenderOptions small(Integrator integrator) {
   return options;
 }
 
-/// What the camera sees, as points to ask about.
+/// The points that the camera sees, as points to query.
 SurfacePoints seen_points(const ViewedWorld& viewed, const CacheSession& session) {
   SurfacePoints points(session.inputs());
   for (int y = 1; y < viewed.region.height(); y += 3) {
@@ -55,7 +54,7 @@ std::vector<float> answers_of(CacheSession& session, const SurfacePoints& points
   return answers;
 }
 
-/// Mean of all answers at what the camera sees.
+/// Mean of all answers at the points that the camera sees.
 double mean_answer(CacheSession& session, const ViewedWorld& viewed) {
   testing::Moments moments;
   for (const float a : answers_of(session, seen_points(viewed, session))) moments.add(static_cast<double>(a));
@@ -100,8 +99,8 @@ TEST_P(CacheSessionLearns, TheLightOfAClosedFurnace) {
   session.train(100, {});
   EXPECT_EQ(session.steps(), 100u);
   const double sent = 30.0 / (1.0 - 0.6);
-  const double held = GetParam().holds == CacheHolds::indirect ? sent - 30.0 : sent;
-  EXPECT_NEAR(mean_answer(session, viewed) / held, 1.0, 0.03);
+  const double cached = GetParam().holds == CacheHolds::indirect ? sent - 30.0 : sent;
+  EXPECT_NEAR(mean_answer(session, viewed) / cached, 1.0, 0.03);
 
   const CacheStatistics s = session.statistics();
   EXPECT_EQ(s.steps, 100);
@@ -237,15 +236,15 @@ TEST(CacheSession, SeedsLearnDifferently) {
   EXPECT_FALSE(same_bits(states[0].model.parameters, states[1].model.parameters));
 }
 
-TEST(CacheSession, ItStopsWhenAskedOrOutOfTime) {
+TEST(CacheSession, ItStopsOnRequestOrOutOfTime) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
   RenderOptions options = small(Integrator::nrc);
   CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-  std::vector<int> told;
+  std::vector<int> reported;
   std::vector<std::uint64_t> exported;
   CacheSession::Watch watch;
   watch.progress = [&](int done, int steps, double loss) {
-    told.push_back(done);
+    reported.push_back(done);
     EXPECT_EQ(steps, 100);
     EXPECT_TRUE(std::isfinite(loss));
   };
@@ -253,8 +252,8 @@ TEST(CacheSession, ItStopsWhenAskedOrOutOfTime) {
   watch.stop = [&] { return session.steps() >= 70; };
   session.train(100, watch);
   // Groups grow to 65536 records: 32 batches of 2048.
-  EXPECT_EQ(told, (std::vector<int>{1, 2, 4, 8, 16, 32, 64, 96}));
-  EXPECT_EQ(exported, std::vector<std::uint64_t>(told.begin(), told.end()));
+  EXPECT_EQ(reported, (std::vector<int>{1, 2, 4, 8, 16, 32, 64, 96}));
+  EXPECT_EQ(exported, std::vector<std::uint64_t>(reported.begin(), reported.end()));
   options.cache.train_seconds = 1e-9;
   watch.stop = {};
   session.train(100, watch);
@@ -263,7 +262,7 @@ TEST(CacheSession, ItStopsWhenAskedOrOutOfTime) {
   EXPECT_EQ(session.steps(), 100u) << "nothing left to do";
 }
 
-/// All answers of the model are this number, before the scale: the network's last layer has its bias alone.
+/// Makes all answers of the model this number, before the scale: the network's last layer has only its bias.
 void answer_always(CacheSession& session, float value) {
   CacheState state = session.export_state();
   const neural::LayerLayout& last = session.model().parameters.layers.back();
@@ -288,7 +287,7 @@ TEST(CacheSession, NegativeAnswersAreZeroAndCounted) {
   for (const float a : answers) ASSERT_FLOAT_EQ(a, 0.5f / session.setup().target_scale);
 }
 
-TEST(CacheSession, WildAnswersAreFinite) {
+TEST(CacheSession, OverflowingAnswersAreFinite) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 8.0f));
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
     const RenderOptions options = small(integrator);
@@ -349,7 +348,8 @@ TEST(CacheSession, SamplesOfAPointDoNotMultiplyTheWork) {
     session.train(3, {});
     const CacheStatistics s = session.statistics();
     EXPECT_NEAR(static_cast<double>(s.records), 3.0 * 2048.0, 0.03 * 3.0 * 2048.0);
-    // Paths of a given length teach at their first vertex: one record for eight paths. Some more than needed.
+    // Paths of a given length write a record at their first vertex only: one for eight paths. Some more paths
+    // than needed are traced.
     const double paths_per_record = times;
     EXPECT_NEAR(static_cast<double>(s.training_paths) / static_cast<double>(s.records), paths_per_record,
                 0.1 * paths_per_record);
@@ -366,13 +366,13 @@ TEST(CacheSession, MirrorsAreCountedWherePathsBegin) {
   const neural::GateSurface& mirror = session.model().gate.surfaces[neural::surface_index(2, 0)];
   ASSERT_EQ(mirror.triangle_count, 2u);
   for (std::uint32_t t = 0; t < 2; ++t)
-    EXPECT_EQ(session.triangle_counts()[mirror.first_triangle + t], 12u) << "each step, as the walls";
+    EXPECT_EQ(session.triangle_counts()[mirror.first_triangle + t], 12u) << "in each step, like the walls";
   const neural::GateSurface& walls = session.model().gate.surfaces[neural::surface_index(0, 0)];
   for (std::uint32_t t = 0; t < walls.triangle_count; ++t)
     EXPECT_EQ(session.triangle_counts()[walls.first_triangle + t], 12u);
 }
 
-TEST(CacheSession, TrianglesAreCountedOnlyWhereSomethingReadsTheCounts) {
+TEST(CacheSession, TrianglesAreCountedOnlyWhereTheCountsAreUsed) {
   const ViewedWorld viewed(room());
   const auto counted = [&](int candidates, const std::vector<Aov>& aovs, neural::FeatureEncoding encoding) {
     RenderOptions options = small(Integrator::nrc);
@@ -388,7 +388,7 @@ TEST(CacheSession, TrianglesAreCountedOnlyWhereSomethingReadsTheCounts) {
   EXPECT_FALSE(counted(1, {}, neural::FeatureEncoding::hash_grid));
 }
 
-TEST(CacheSession, WithNothingToLearnFromItStillRuns) {
+TEST(CacheSession, WithoutTrainingRecordsItStillRuns) {
   SceneBuilder builder;
   builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
@@ -407,11 +407,11 @@ TEST(CacheSession, WithNothingToLearnFromItStillRuns) {
   }
 }
 
-TEST(CacheSession, WhatNoModelCanBeIsRefused) {
+TEST(CacheSession, InvalidModelsAndDevicesAreRefused) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
   RenderOptions options = small(Integrator::nrc);
   options.cache.mlp.width = 33;
-  EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), neural::BadConfiguration);
+  EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), BadConfiguration);
   options = small(Integrator::nrc);
   options.cache.device = "abacus";
   EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), Unavailable);

@@ -1,10 +1,10 @@
-// Pictures with a cache of scenes that have next to nothing to learn from: defined, finite, right.
+// Pictures with a cache of scenes that give almost no training records are defined, finite and right.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 #include "renderer/render.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/statistics.h"
@@ -46,7 +46,7 @@ void expect_sound(const Picture& picture) {
   for (const float v : pixels(picture)) ASSERT_TRUE(std::isfinite(v) && v >= 0.0f) << v;
 }
 
-/// Pictures of each kind of a scene.
+/// Renders a scene with each kind of cache.
 void expect_right_picture(SceneBuilder builder, const Color& sky, const Color& expected, double tolerance) {
   struct Kind {
     neural::FeatureEncoding encoding;
@@ -67,10 +67,10 @@ void expect_right_picture(SceneBuilder builder, const Color& sky, const Color& e
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_NEAR(mean_of(picture, c), static_cast<double>(expected[static_cast<Eigen::Index>(c)]),
                   tolerance);
-    // Where nothing is found no time is spent on looking for it.
+    // Where paths find no records, training does not trace more of them.
     EXPECT_LE(renderer.statistics().cache.training_paths, 4u * 300u);
   }
-  for (const float distance : {-1.0f, scene::kInfinity}) {
+  for (const float distance : {-1.0f, kInfinity}) {
     RenderOptions options = small(Integrator::nao);
     options.environment.constant = sky;
     options.ao_distance = distance;
@@ -94,7 +94,7 @@ SceneBuilder closed_box(const Color& albedo, const Color& emission) {
 }
 
 TEST(CachedPassEdges, NoLight) {
-  // What was never lit is black but for the start of the network, which training leaves behind.
+  // An unlit scene is black but for the initial answers of the network, which training removes.
   SceneBuilder builder = closed_box(Color::Constant(0.5f), Color::Zero());
   for (const QueryAt at : {QueryAt::primary, QueryAt::gather}) {
     RenderOptions options = small(Integrator::nrc);

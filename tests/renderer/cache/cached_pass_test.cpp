@@ -81,7 +81,7 @@ TEST_P(CachedFurnace, ShowsEmissionOverOneMinusAlbedo) {
   EXPECT_NEAR(moments_of(picture).mean() / (2.0 / (1.0 - 0.6)), 1.0, 0.03);
   const CacheStatistics& s = renderer.statistics().cache;
   const double paths = GetParam().query_at == QueryAt::none ? 0.0 : 64.0 * 48.0 * 4.0;
-  // One a path, but for those that roulette ends before they have spread.
+  // One query a path, except for paths that roulette ends before they have spread.
   EXPECT_NEAR(static_cast<double>(s.queries), paths, GetParam().query_at == QueryAt::spread ? 100.0 : 0.0);
   EXPECT_EQ(s.unstored_hits, 0u);
   EXPECT_EQ(s.steps, 60);
@@ -171,7 +171,7 @@ TEST(CachedPass, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-/// One pass over a region with a session that somebody trained.
+/// One pass over a region with a trained session.
 Picture pass_over(const ViewedWorld& viewed, const RenderOptions& options, CacheSession& session,
                   const PixelRect& region, CacheStatistics* statistics = nullptr) {
   const TileGrid tiles(region);
@@ -207,7 +207,7 @@ TEST(CachedPass, ARegionOfATrainedCacheIsThatPartOfTheWhole) {
 }
 
 TEST(CachedPass, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
-  // A mirror and matte walls: what is followed before the cache answers has no noise.
+  // A mirror and matte walls: the part of a path before the query has no noise.
   SceneBuilder builder;
   const int wall = builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f)));
   builder.quad(wall, Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4));
@@ -223,7 +223,7 @@ TEST(CachedPass, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
   builder.scene().lights = {sun};
   builder.scene().cameras.push_back(view_from(Vec3(0.4f, 1.3f, 4), Vec3(0, 1, 0)));
   for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta}) {
-    // Where the cache does not hold the sun, other lights would take samples from it.
+    // Where the cache does not store the sun, other lights would take samples from it.
     const bool sky = holds == CacheHolds::all;
     const ViewedWorld viewed(builder, {.constant = sky ? Color(0.2f, 0.3f, 0.5f) : Color(Color::Zero())});
     RenderOptions options = small(Integrator::nrc);
@@ -243,7 +243,7 @@ TEST(CachedPass, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
   }
 }
 
-TEST(CachedPass, WhatHasNoStorageIsTraced) {
+TEST(CachedPass, SurfacesWithoutStorageAreTraced) {
   SceneBuilder builder = room();
   const EnvironmentOptions sky{.constant = Color(0.2f, 0.3f, 0.5f)};
   const ViewedWorld viewed(builder, sky);
@@ -270,7 +270,7 @@ TEST(CachedPass, WhatHasNoStorageIsTraced) {
   }
 }
 
-TEST(CachedPass, InstancesWithoutStorageStandBesideOthersThatHaveIt) {
+TEST(CachedPass, ASceneMayMixInstancesWithAndWithoutStorage) {
   SceneBuilder builder = testing::closed_furnace(0.6f, 2.0f);
   builder.box(0, Vec3(-0.8f, -0.9f, -1.0f), Vec3(0.6f, 0.4f, 0.2f));
   const ViewedWorld viewed(builder);
@@ -291,8 +291,8 @@ TEST(CachedPass, InstancesWithoutStorageStandBesideOthersThatHaveIt) {
   EXPECT_NEAR(moments_of(picture).mean(), 5.0, 0.15);
 }
 
-TEST(CachedPass, ASideWithoutStorageDoesNotShowTheOther) {
-  // Unless a material does not tell them apart.
+TEST(CachedPass, ASideWithoutStorageDoesNotReadTheOther) {
+  // A single-sided material does not distinguish its sides.
   scene::Material card = SceneBuilder::lambert(Color::Constant(0.5f));
   for (const bool double_sided : {true, false}) {
     card.double_sided = double_sided;
@@ -315,7 +315,7 @@ TEST(CachedPass, ASideWithoutStorageDoesNotShowTheOther) {
   }
 }
 
-TEST(CachedPass, NegativeAnswersAreCountedAndNeverSeen) {
+TEST(CachedPass, NegativeAnswersAreCountedAndBlack) {
   const ViewedWorld viewed(room(), {.constant = Color(0.2f, 0.3f, 0.5f)});
   RenderOptions options = small(Integrator::nrc);
   options.max_depth = 5;
@@ -337,7 +337,7 @@ TEST(CachedPass, NegativeAnswersAreCountedAndNeverSeen) {
 }
 
 TEST(CachedPass, WithoutQueriesTheCachesViewIsTheMeanOfRecords) {
-  // Sun and sky over a plane that itself shines: closed forms of what the cache holds.
+  // Sun and sky over a plane that emits light: closed forms of the light that the cache stores.
   SceneBuilder builder;
   builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f), Color::Constant(5.0f))),
                Vec3(-500, 0, 500), Vec3(1000, 0, 0), Vec3(0, 0, -1000));
@@ -372,14 +372,14 @@ TEST(CachedPass, WithoutQueriesTheCachesViewIsTheMeanOfRecords) {
   }
 }
 
-TEST(CachedPass, TheCachesViewIsWhatItLearned) {
+TEST(CachedPass, TheCachesViewIsTheLearnedLight) {
   SceneBuilder builder = testing::closed_furnace(0.6f, 2.0f);
   RenderOptions options = small(Integrator::nrc);
   options.cache.view = CacheView::cache;
   for (const QueryAt at : {QueryAt::primary, QueryAt::gather}) {
     options.cache.query_at = at;
     Renderer renderer(builder.scene(), options);
-    // Neither the emission of what is seen nor its reflectance.
+    // The view has neither the emission nor the reflectance of the visible surface.
     EXPECT_NEAR(moments_of(renderer.render()).mean(), 5.0, 0.15);
   }
 }
@@ -409,9 +409,9 @@ TEST(CachedPass, OcclusionIsNearTheReference) {
   EXPECT_GT(moments_of(reference).variance(), 0.02);
 }
 
-TEST(CachedPass, ErrorsAreOfTheVertexThatAsks) {
-  // A floor that is seen and a ceiling that shines, without end and one metre apart. By directions of the
-  // BSDF alone every target is exact: of the floor 40/3, of the ceiling 20/3.
+TEST(CachedPass, ErrorsAreThoseOfTheVertexOfTheQuery) {
+  // A visible floor and an emitting ceiling, endless, at a distance of one metre. By directions of the BSDF
+  // without MIS every target is exact: 40/3 on the floor, 20/3 on the ceiling.
   SceneBuilder builder;
   const Color half = Color::Constant(0.5f);
   builder.quad(builder.material(SceneBuilder::lambert(half)), Vec3(-5e3f, 0, 5e3f), Vec3(1e4f, 0, 0),
@@ -431,7 +431,7 @@ TEST(CachedPass, ErrorsAreOfTheVertexThatAsks) {
     Moments answers;
     for (const float a : picture.find("cache-answer")->values) answers.add(static_cast<double>(a));
     EXPECT_NEAR(answers.mean(), (at == QueryAt::primary ? 40.0 : 20.0) / 3.0, 1.0)
-        << "but for what paths miss that end at the greatest depth";
+        << "except for the light that paths of the greatest depth miss";
     Moments errors;
     for (const float e : picture.find("cache-error")->values) errors.add(static_cast<double>(e));
     EXPECT_GT(errors.mean(), 0.0);

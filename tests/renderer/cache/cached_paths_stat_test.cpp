@@ -1,4 +1,4 @@
-// Paths that end in the cache, in scenes where what comes back has a closed form: reflections that roulette
+// Paths that end in the cache, in scenes where their radiance has a closed form: reflections that roulette
 // leaves out, media that absorb.
 
 #include "renderer/cache/cached_paths.h"
@@ -19,7 +19,7 @@ using testing::SceneBuilder;
 constexpr double kSky = 2.0;
 const double kSignificance = testing::sidak(1e-4, 4);
 
-/// So many paths from (0, 5, 0) straight down, below a sky of kSky.
+/// Traces `paths` paths from (0, 5, 0) down, below a sky of kSky.
 PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t paths) {
   const World world(scene, {.constant = Color::Constant(static_cast<float>(kSky))});
   RenderOptions options;
@@ -40,7 +40,7 @@ PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t
   return batch;
 }
 
-/// Of green, where the cache answers everything with `answer`.
+/// Radiance in green, where the cache answers every query with `answer`.
 Moments radiance_of(PathBatch batch, float answer) {
   std::vector<Color> radiance(batch.paths());
   batch.resolve(std::vector<float>(3 * batch.queries.size(), answer), radiance);
@@ -54,17 +54,17 @@ void expect_mean(const Moments& moments, double expected, double rounding) {
       << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
 }
 
-/// Light from beyond its edge comes in too flat to count.
+/// Adds a floor. Light from beyond its edge arrives at too flat an angle to count.
 void add_floor(SceneBuilder& builder, const scene::Material& material, float height) {
   builder.quad(builder.material(material), Vec3(-50, height, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
 }
 
-TEST(CachedPaths, ReflectionsOfAFaintVarnishAreRightInTheMean) {
+TEST(CachedPaths, ReflectionsOfAWeakVarnishAreRightInTheMean) {
   scene::Material varnished;
   varnished.base_color = Color::Constant(0.5f);
   varnished.metallic = 0.0f;
   varnished.roughness = 0.0f;
-  varnished.specular = 0.1f;  // of the 4 % of an index of 1.5: few of the paths that it reflects are followed
+  varnished.specular = 0.1f;  // of the 4 % of an index of 1.5: few reflected paths are followed
   SceneBuilder builder;
   add_floor(builder, varnished, 0.0f);
   PathPlan plan;
@@ -72,14 +72,14 @@ TEST(CachedPaths, ReflectionsOfAFaintVarnishAreRightInTheMean) {
   const PathBatch batch = look_down(builder.scene(), plan, 20000);
   EXPECT_EQ(batch.queries.size(), 20000u);
   const Moments moments = radiance_of(batch, 0.0f);
-  EXPECT_GT(moments.variance(), 0.0) << "all are followed: this tests nothing";
+  EXPECT_GT(moments.variance(), 0.0) << "all paths are followed, so roulette is not tested";
   expect_mean(moments, 0.004 * kSky, 1e-5);
 }
 
 constexpr double kDepth = 0.8;
 constexpr double kAbsorbed = 0.9;  ///< per metre, of green
 
-/// Light goes straight into a medium that ends at its floor.
+/// A medium that light enters unrefracted, above this floor.
 SceneBuilder pool(const scene::Material& floor) {
   scene::Material water;
   water.metallic = 0.0f;

@@ -26,7 +26,7 @@ Moments targets(const ViewedWorld& viewed, float distance, std::size_t points, i
   RecordBatch batch;
   const RecordRequest request{.step = 1, .points = points};
   records.trace(request, batch);
-  records.deal(request, batch);
+  records.split(request, batch);
   Moments moments;
   for (const float t : batch.targets) moments.add(static_cast<double>(t));
   return moments;
@@ -38,18 +38,18 @@ void expect_mean(const Moments& m, double expected) {
       << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
 }
 
-TEST(OcclusionRecordsStat, NothingHidesAPlane) {
+TEST(OcclusionRecordsStat, NothingOccludesAPlane) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(-90, 0, 90), Vec3(180, 0, 0), Vec3(0, 0, -180));
   builder.scene().cameras.push_back(view_from(Vec3(0, 1, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
-  expect_mean(targets(viewed, scene::kInfinity, 1000), 1.0);
+  expect_mean(targets(viewed, kInfinity, 1000), 1.0);
 }
 
-TEST(OcclusionRecordsStat, EverythingHidesAClosedRoom) {
+TEST(OcclusionRecordsStat, AClosedRoomIsFullyOccluded) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
-  const Moments m = targets(viewed, scene::kInfinity, 2000);
+  const Moments m = targets(viewed, kInfinity, 2000);
   expect_mean(m, 0.0);
   EXPECT_EQ(m.variance(), 0.0);
 }
@@ -64,7 +64,7 @@ SceneBuilder slab() {
   return builder;
 }
 
-TEST(OcclusionRecordsStat, ACeilingHidesWhatItsDistanceSays) {
+TEST(OcclusionRecordsStat, ACeilingOccludesByItsDistance) {
   const ViewedWorld viewed(slab());
   // A ray with the cosine c reaches the ceiling after 1 / c metres; c^2 is uniform.
   expect_mean(targets(viewed, 2.0f, 6000), 0.25);
@@ -77,11 +77,11 @@ TEST(OcclusionRecordsStat, SamplesOfAPointAreAveraged) {
   const Moments m = targets(viewed, 2.0f, 3000, 16);
   EXPECT_NEAR(static_cast<double>(m.count()), 3000.0, 60.0);
   expect_mean(m, 0.25);
-  // Of a binomial variable with 16 trials; the standard deviation of the variance is 2.6 percent.
+  // The targets are binomial with 16 trials; the standard deviation of the variance is 2.6 percent.
   EXPECT_NEAR(m.variance() / (0.25 * 0.75 / 16.0), 1.0, 0.12);
 }
 
-TEST(OcclusionRecordsStat, TheReferenceSeesTheSame) {
+TEST(OcclusionRecordsStat, TheReferenceIntegratorAgrees) {
   SceneBuilder builder = slab();
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.2f)));
   builder.sphere(matte, Vec3(0.3f, 0.3f, -0.6f), 0.3f, 24, true);

@@ -1,4 +1,4 @@
-// One record of openness a point, whatever the threads.
+// Each point gives one record of openness, for any number of threads.
 
 #include "renderer/cache/occlusion_records.h"
 
@@ -24,7 +24,7 @@ RecordBatch made(const ViewedWorld& viewed, const RenderOptions& options, const 
   RecordBatch batch;
   records.trace(request, batch);
   records.finish({}, batch);
-  records.deal(request, batch);
+  records.split(request, batch);
   EXPECT_EQ(records.rays().camera,
             batch.paths_traced / static_cast<std::size_t>(options.cache.samples_per_point));
   return batch;
@@ -57,7 +57,7 @@ TEST(OcclusionRecords, APointIsOneRecordAndASkyIsNone) {
     std::set<float> distinct;
     for (const float t : batch.targets) {
       const float count = t * static_cast<float>(times);
-      ASSERT_EQ(count, std::round(count)) << "so many rays, each open or not";
+      ASSERT_EQ(count, std::round(count)) << "a whole number of open rays";
       ASSERT_TRUE(t >= 0.0f && t <= 1.0f);
       distinct.insert(t);
     }

@@ -1,4 +1,5 @@
-// Light on its way back along chains of vertices, worked by hand; records of one training point as one.
+// Radiance that is passed back along chains of vertices, against results by hand; records of one training
+// point merged into one.
 
 #include "renderer/cache/path_batch.h"
 
@@ -26,38 +27,38 @@ Color target(const PathBatch& batch, std::size_t record) {
 TEST(PathBatch, LightComesBackThroughPanesAnswersAndRecords) {
   PathBatch batch;
   batch.begin(2);
-  batch.emission[0] = Color(8.0f, 0.0f, 16.0f);  // what the eye sees first shines
+  batch.emission[0] = Color(8.0f, 0.0f, 16.0f);  // the first visible surface emits
   batch.emission[1] = Color(0.5f, 1.0f, 2.0f);   // the second path sees the sky
 
   PathVertex wall;  // a record behind a pane
   wall.link = Color(0.5f, 0.25f, 1.0f);
-  wall.known = Color(3.0f, 5.0f, 9.0f);
+  wall.direct = Color(3.0f, 5.0f, 9.0f);
   wall.reflectance = Color(0.5f, 0.25f, 0.125f);
   wall.record = 0;
   push_point(batch.records, 7);
   batch.targets = {1.5f, 2.5f, 3.5f};
 
-  PathVertex end;  // asks the cache, and goes on by a narrow lobe
+  PathVertex end;  // queries the cache, and goes on by a narrow lobe
   end.previous = 0;
   end.link = Color(0.375f, 0.5f, 0.5f);
-  end.held_link = Color(0.25f, 0.25f, 0.125f);
-  end.known = Color(2.0f, 3.0f, 4.0f);
+  end.cached_link = Color(0.25f, 0.25f, 0.125f);
+  end.direct = Color(2.0f, 3.0f, 4.0f);
   end.reflectance = Color(0.5f, 0.75f, 1.0f);
   end.query = 0;
   push_point(batch.queries, 9);
 
-  PathVertex mirrored;  // the last, without anything of the cache
+  PathVertex mirrored;  // the last vertex, without record and query
   mirrored.previous = 1;
   mirrored.link = Color(0.25f, 0.25f, 1.5f);
-  mirrored.held_link = Color(9.0f, 9.0f, 9.0f);  // no record is there to hold it
-  mirrored.known = Color(4.0f, 8.0f, 2.0f);
+  mirrored.cached_link = Color(9.0f, 9.0f, 9.0f);  // no record is there to store it
+  mirrored.direct = Color(4.0f, 8.0f, 2.0f);
   batch.vertices = {wall, end, mirrored};
 
   const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
   std::array<Color, 2> radiance;
   batch.resolve(answers, radiance);
 
-  // Back from the last:
+  // Back from the last vertex:
   // R(end) = (2,3,4) + (.5,.75,1)(10,20,30) + (.25,.25,1.5)(4,8,2) = (8, 20, 37).
   // R(wall) = (3,5,9) + (.375,.5,.5)(8,20,37) = (6, 15, 27.5).
   // H(wall) = (1.5,2.5,3.5) + (.25,.25,.125)(8,20,37) = (3.5, 7.5, 8.125).
@@ -67,7 +68,7 @@ TEST(PathBatch, LightComesBackThroughPanesAnswersAndRecords) {
   EXPECT_TRUE((radiance[1] == Color(0.5f, 1.0f, 2.0f)).all()) << radiance[1].transpose();
 }
 
-TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
+TEST(PathBatch, FirstHitsGetTheCacheRadianceOfEachPath) {
   PathBatch batch;
   batch.begin(3);
   batch.guides.resize(3);
@@ -76,17 +77,17 @@ TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
 
   PathVertex mirror;  // of the first path, lit by a lamp that it shows
   mirror.link = Color(0.5f, 0.25f, 1.0f);
-  mirror.known = Color(3.0f, 5.0f, 9.0f);
+  mirror.direct = Color(3.0f, 5.0f, 9.0f);
   PathVertex wall;  // behind the mirror: the guide
   wall.previous = 0;
   wall.link = Color(0.5f, 1.0f, 0.25f);
-  wall.known = Color(100.0f, 100.0f, 100.0f);  // what the path found there, which the cache knows
+  wall.direct = Color(100.0f, 100.0f, 100.0f);  // found by the path, but part of the cached light
   PathVertex beyond;
   beyond.previous = 1;
-  beyond.known = Color(50.0f, 50.0f, 50.0f);
+  beyond.direct = Color(50.0f, 50.0f, 50.0f);
   PathVertex glass;  // of the third path, which meets nothing wide
   glass.path = 2;
-  glass.known = Color(4.0f, 8.0f, 2.0f);
+  glass.direct = Color(4.0f, 8.0f, 2.0f);
   glass.link = Color(0.25f, 0.5f, 1.0f);
   batch.vertices = {mirror, wall, beyond, glass};
   batch.guides[0] = {1, 0, Color(0.5f, 0.75f, 1.0f), Color(1.0f, 2.0f, 4.0f)};
@@ -94,7 +95,7 @@ TEST(PathBatch, FirstHitsAreToldWhatTheCacheKnowsOfEachPath) {
 
   const std::array<float, 3> answers{10.0f, 20.0f, 30.0f};
   std::vector<FirstHit> hits(3);
-  batch.tell_guides(answers, hits);
+  batch.write_guides(answers, hits);
   const auto is = [&](std::size_t path, const Color& color) {
     return hits[path].guided && (hits[path].cache_radiance == color).all();
   };
@@ -149,14 +150,14 @@ TEST(PathBatch, FirstRecordsOfAPointBecomeTheirMeanAndOthersKeepTheirOrder) {
   }
 }
 
-TEST(PathBatch, APointWhoseFirstPathLeftNothingIsAveragedAllTheSame) {
+TEST(PathBatch, APointWhoseFirstPathLeftNoRecordIsStillAveraged) {
   PathBatch batch = recorded({10, 10}, {kNone, 0, 1});
   batch.average_first_records(3);
   EXPECT_EQ(triangles_of(batch), (std::vector<std::uint32_t>{10}));
   EXPECT_FLOAT_EQ(batch.targets[0], 0.5f);
 }
 
-TEST(PathBatch, FirstRecordsAtDifferentPointsStayApart) {
+TEST(PathBatch, FirstRecordsAtDifferentPointsStaySeparate) {
   // Behind glass: two paths were reflected to one point, two refracted to another.
   PathBatch batch = recorded({10, 20, 10, 20}, {0, 1, 2, 3});
   batch.average_first_records(4);

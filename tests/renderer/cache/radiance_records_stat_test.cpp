@@ -1,4 +1,4 @@
-// What records learn is right in the mean: closed forms of the part of the light that the cache holds.
+// The targets of records are right in the mean: closed forms of the light that the cache stores.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using testing::ViewedWorld;
 
 const double kSignificance = testing::sidak(1e-4, 40);
 
-/// One target a path: that of its record nearest to the eye.
+/// One target a path: that of its record nearest to the camera.
 Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, std::size_t points,
                       bool self_training = false, float answer = 0.0f) {
   const StoredSurfaces stored;
@@ -32,7 +32,7 @@ Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, s
   records.trace(request, batch);
   records.finish([&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); },
                  batch);
-  records.deal(request, batch);
+  records.split(request, batch);
   Moments moments;
   for (const PathBatch& block : batch.paths) {
     for (const std::int32_t record : block.first_records) {
@@ -59,11 +59,11 @@ RenderOptions deep() {
 constexpr float kAlbedo = 0.6f;
 constexpr float kEmission = 1.5f;
 
-/// What every point of the furnace sends: E + S.
+/// Radiance of every point of the furnace: E + S.
 constexpr double kSent = 1.5 / (1.0 - 0.6);
 
-/// Light that the cache stands for over the reflectance, in a furnace.
-double held_in_furnace(CacheHolds holds) {
+/// Cached light over the reflectance, in a furnace.
+double cached_in_furnace(CacheHolds holds) {
   return holds == CacheHolds::indirect ? kSent - 1.5 : kSent;
 }
 
@@ -73,7 +73,7 @@ TEST_P(RadianceRecordsStat, TargetsOfAClosedFurnaceAreItsLight) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
   options.cache.holds = GetParam();
-  expect_mean(first_targets(viewed, options, 8000), held_in_furnace(GetParam()));
+  expect_mean(first_targets(viewed, options, 8000), cached_in_furnace(GetParam()));
 }
 
 TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
@@ -94,7 +94,7 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
     const RecordRequest request{.step = 4, .points = 1000};
     records.trace(request, batch);
     records.finish({}, batch);
-    records.deal(request, batch);
+    records.split(request, batch);
     // The averaged record of a point stands before its paths' others.
     Moments moments;
     std::size_t begin = 0;
@@ -113,7 +113,7 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
   EXPECT_NEAR(variance[1] / variance[0], 1.0 / 8.0, 0.03);
 }
 
-TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveWhatIsHeldOfThem) {
+TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveTheirCachedShare) {
   SceneBuilder builder;
   builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f))), Vec3(-500, 0, 500),
                Vec3(1000, 0, 0), Vec3(0, 0, -1000));
@@ -133,7 +133,7 @@ TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveWhatIsHeldOfThem) {
   expect_mean(first_targets(viewed, options, 4000), expected);
 }
 
-TEST_P(RadianceRecordsStat, TintedPanesWeighWhatIsHeldBehindThem) {
+TEST_P(RadianceRecordsStat, TintedPanesWeightTheCachedLightBehindThem) {
   // A floor, a pane that reflects nothing, and a ceiling that shines: L(ceiling) = e + a tint L(floor),
   // L(floor) = b tint L(ceiling).
   constexpr double kTint = 0.5, kShine = 1.5, kCeiling = 0.8, kFloor = 0.6;
@@ -157,7 +157,7 @@ TEST_P(RadianceRecordsStat, TintedPanesWeighWhatIsHeldBehindThem) {
   options.cache.holds = GetParam();
   options.direct = DirectLight::bsdf;  // so wide a lamp so near is beyond the digits of light samples
   const double light = kShine / (1.0 - kCeiling * kFloor * kTint * kTint);
-  // What misses the ends of the planes is 1e-4 of all.
+  // Light that misses the ends of the planes is 1e-4 of all.
   expect_mean(first_targets(viewed, options, 8000),
               kTint * (GetParam() == CacheHolds::indirect ? light - kShine : light), 1e-4);
 }
@@ -176,30 +176,30 @@ TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
   }
 }
 
-TEST_P(RadianceRecordsStat, EndsInARightCacheKeepTheMean) {
+TEST_P(RadianceRecordsStat, EndsInAnExactCacheKeepTheMean) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
   options.cache.holds = GetParam();
-  const double held = held_in_furnace(GetParam());
+  const double cached = cached_in_furnace(GetParam());
   for (const int vertices : {1, 2}) {
     options.cache.self_training.vertices = vertices;
-    expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(held)), held);
+    expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(cached)), cached);
   }
 }
 
-TEST_P(RadianceRecordsStat, AttenuationWeakensTheEndsAlone) {
+TEST_P(RadianceRecordsStat, AttenuationWeakensOnlyTheEnds) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
   options.cache.holds = GetParam();
   options.cache.self_training.vertices = 1;
   options.cache.self_training.full_fraction = 0.0f;
   options.cache.self_training.attenuation = 0.25f;
-  const double held = held_in_furnace(GetParam());
-  // S of the second vertex: a quarter of the answer, with what the cache does not hold in full.
+  const double cached = cached_in_furnace(GetParam());
+  // S of the second vertex: a quarter of the answer, with all light that is not cached.
   const double direct = GetParam() == CacheHolds::indirect ? 1.5 : 0.0;
-  const double scattered = 0.6 * (0.25 * held + direct);
+  const double scattered = 0.6 * (0.25 * cached + direct);
   const double expected = GetParam() == CacheHolds::indirect ? scattered : 1.5 + scattered;
-  expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(held)), expected);
+  expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(cached)), expected);
 }
 
 std::string name_of(CacheHolds holds) {
@@ -211,8 +211,9 @@ INSTANTIATE_TEST_SUITE_P(Holds, RadianceRecordsStat,
                          ::testing::Values(CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect),
                          [](const auto& holds) { return name_of(holds.param); });
 
-TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
-  // Behind a half-mirroring pane lies a bright wall, before it a dark one: records at each learn their own.
+TEST(RadianceRecordsOfGlass, RecordsBehindReflectionAndRefractionAreNotMixed) {
+  // Behind a half-mirroring pane lies a bright wall, before it a dark one: the records at each wall have its
+  // own light.
   SceneBuilder builder;
   scene::Material pane = SceneBuilder::clear_glass();
   pane.ior = 3.0f;
@@ -243,7 +244,7 @@ TEST(RadianceRecordsOfGlass, PointsBehindARoughDecisionAreNotMixed) {
   const RecordRequest request{.step = 4, .points = 400};
   records.trace(request, batch);
   records.finish({}, batch);
-  records.deal(request, batch);
+  records.split(request, batch);
   Moments at_dark;
   Moments at_bright;
   for (std::size_t i = 0; i < batch.records.size(); ++i) {

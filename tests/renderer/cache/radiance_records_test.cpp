@@ -35,7 +35,7 @@ struct Made {
     RadianceRecords records(paths, points, options, with_positions());
     records.trace(request, batch);
     records.finish(answer, batch);
-    records.deal(request, batch);
+    records.split(request, batch);
   }
   std::uint32_t instance(std::size_t i) const { return batch.records.surface(i) / 2; }
 
@@ -59,14 +59,14 @@ SceneBuilder room() {
   return builder;
 }
 
-TEST(RadianceRecords, DeltaAndBlackVerticesWriteNone) {
+TEST(RadianceRecords, DeltaAndBlackVerticesWriteNoRecords) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
   const Made made(viewed, options, {.step = 1, .points = 2000});
   ASSERT_GT(made.batch.records.size(), 2000u);
   std::map<std::uint32_t, int> met;
   for (std::size_t i = 0; i < made.batch.records.size(); ++i) ++met[made.instance(i)];
-  EXPECT_EQ(met.size(), 1u) << "the room alone";
+  EXPECT_EQ(met.size(), 1u) << "only the room";
   EXPECT_EQ(met.begin()->first, 0u);
   // Paths that begin at mirror, block or pane still leave records behind them.
   std::size_t beyond = 0;
@@ -75,7 +75,7 @@ TEST(RadianceRecords, DeltaAndBlackVerticesWriteNone) {
       if (paths.first_records[p] == kNone) continue;
       const Eigen::Map<const Vec3> at(
           paths.records.batch().positions[static_cast<std::size_t>(paths.first_records[p])].data());
-      beyond += at.z() > 1.85f ? 1 : 0;  // behind the camera: seen in the mirror alone
+      beyond += at.z() > 1.85f ? 1 : 0;  // behind the camera: visible only in the mirror
     }
   }
   EXPECT_GT(beyond, 20u);
@@ -96,7 +96,7 @@ TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
   }
 }
 
-TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
+TEST(RadianceRecords, ExcessRecordsAreLeftOutEvenly) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
   const Made all(viewed, options, {.step = 1, .points = 1000});
@@ -105,7 +105,7 @@ TEST(RadianceRecords, WhatIsTooMuchIsLeftOutEvenly) {
     const Made some(viewed, options, {.step = 1, .points = 1000, .most_records = most});
     ASSERT_EQ(some.batch.records.size(), std::min(most, n));
     ASSERT_EQ(some.batch.targets.size(), 3 * some.batch.records.size());
-    // Each is one of all, in their order, with its own target; the gaps are as equal as they can be.
+    // Each record is one of all, in their order, with its own target; the gaps are as equal as possible.
     std::size_t at = 0;
     std::size_t last = 0;
     std::set<std::size_t> gaps;
@@ -133,12 +133,12 @@ TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
   const Made all(viewed, options, {.step = 1, .points = 1000});
   const std::size_t n = all.batch.records.size();
   for (const std::size_t most : {std::size_t{2}, std::size_t{301}, n, 2 * n}) {
-    const Made dealt(viewed, options, {.step = 1, .points = 1000, .most_records = most, .batches = 3});
+    const Made made(viewed, options, {.step = 1, .points = 1000, .most_records = most, .batches = 3});
     const Made one(viewed, options, {.step = 1, .points = 1000, .most_records = most});
-    ASSERT_EQ(dealt.batch.records.size(), std::min(most, n));
+    ASSERT_EQ(made.batch.records.size(), std::min(most, n));
     std::size_t seen = 0;
     for (std::size_t m = 0; m < 3; ++m) {
-      const neural::TrainingBatch batch = dealt.batch.batch(m);
+      const neural::TrainingBatch batch = made.batch.batch(m);
       ASSERT_EQ(batch.points.size, (std::min(most, n) + 2 - m) / 3);
       ASSERT_EQ(batch.targets.size(), 3 * batch.points.size);
       ASSERT_EQ(batch.points.triangles.size(), batch.points.size);
@@ -149,7 +149,7 @@ TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
           ASSERT_EQ(batch.targets[3 * i + c], one.batch.targets[3 * (3 * i + m) + c]);
       }
     }
-    EXPECT_EQ(seen, dealt.batch.records.size());
+    EXPECT_EQ(seen, made.batch.records.size());
   }
 }
 
@@ -187,7 +187,7 @@ TEST(RadianceRecords, ShortPathsEndAfterTheirRecordsAndSomeRunOn) {
   }
 }
 
-TEST(RadianceRecords, PathsOfGivenLengthTeachAtTheirFirstVertexAlone) {
+TEST(RadianceRecords, PathsOfGivenLengthWriteARecordOnlyAtTheirFirstVertex) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options;
   options.min_depth = 64;
@@ -227,7 +227,7 @@ TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   const RecordRequest request{.step = 1, .points = 100, .self_training = true};
   records.trace(request, batch);
   records.finish({}, batch);
-  records.deal(request, batch);
+  records.split(request, batch);
   EXPECT_EQ(batch.records.size(), 0u);
   EXPECT_EQ(batch.queries.size(), 0u);
   EXPECT_GT(records.rays().bounce, batch.paths_traced);
@@ -261,7 +261,7 @@ TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(places[0], places[2]);
 }
 
-TEST(RadianceRecords, ABatchThatIsUsedAgainIsAsNew) {
+TEST(RadianceRecords, AReusedBatchHasTheResultsOfANewOne) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
   const StoredSurfaces stored;
@@ -273,7 +273,7 @@ TEST(RadianceRecords, ABatchThatIsUsedAgainIsAsNew) {
     const RecordRequest request{.step = count, .points = count};
     records.trace(request, used);
     records.finish({}, used);
-    records.deal(request, used);
+    records.split(request, used);
   }
   const Made fresh(viewed, options, {.step = 300, .points = 300});
   EXPECT_EQ(used.targets, fresh.batch.targets);

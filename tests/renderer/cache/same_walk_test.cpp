@@ -1,4 +1,5 @@
-// Paths that ask no cache are the path tracer's, one by one: two ways to add up what one Walker meets.
+// Paths without cache queries equal the path tracer's, one by one: both integrators sum the light along the
+// same PathState.
 
 #include <gtest/gtest.h>
 
@@ -87,7 +88,7 @@ TEST(SameWalk, RouletteEndsPathsBehindThePanesOfTheLastDepth) {
   EXPECT_LT(both.path_tracer_rays.bounce, 256u * 4u);
 }
 
-/// Sheets of glass inside each other, which absorb nothing, in a white sky.
+/// Nested closed meshes of glass, which absorb nothing, in a white sky.
 BothWays sheets(float ior, int layers, bool lamp_inside) {
   SceneBuilder builder;
   scene::Material glass;
@@ -108,7 +109,7 @@ BothWays sheets(float ior, int layers, bool lamp_inside) {
   }
   builder.scene().cameras.push_back(testing::view_from(Vec3(0, 0, 5), Vec3::Zero(), 0.2f));
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
-  // Without roulette each path that gets out brings exactly 1.
+  // Without roulette each path that leaves the glass has a radiance of exactly 1.
   return trace(viewed, 60000, 60000, true);
 }
 
@@ -132,7 +133,7 @@ TEST(SameWalk, ARecordInsideGlassLearnsTheRadianceInsideGlass) {
   for (const float target : both.targets) EXPECT_NEAR(target, 2.25f, 1e-3f);
 }
 
-TEST(SameWalk, SheetsInsideEachOtherLoseNoLight) {
+TEST(SameWalk, NestedClosedMeshesLoseNoLight) {
   for (const float ior : {1.5f, 3.0f}) {
     const BothWays both = sheets(ior, 300, false);
     expect_same(both);
@@ -140,7 +141,7 @@ TEST(SameWalk, SheetsInsideEachOtherLoseNoLight) {
   }
 }
 
-TEST(SameWalk, WhatShinesInsideSheetsInsideEachOtherTeachesNoNonsense) {
+TEST(SameWalk, EmissionInsideNestedClosedMeshesIsNotARecord) {
   for (const int layers : {3, 300}) expect_same(sheets(1.5f, layers, true));
 }
 

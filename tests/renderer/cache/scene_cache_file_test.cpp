@@ -5,7 +5,7 @@
 #include <fstream>
 #include <functional>
 
-#include "neural/base/errors.h"
+#include "base/errors.h"
 #include "renderer/cache/cache_content.h"
 #include "tests/support/cached_state.h"
 #include "tests/support/messages.h"
@@ -13,8 +13,6 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using neural::CacheFileError;
 using neural::FeatureEncoding;
 using neural::TrainingOptions;
 using testing::any_cache_state;
@@ -54,7 +52,7 @@ TEST(SceneCacheFile, EverythingComesBackToTheBit) {
   }
 }
 
-TEST(SceneCacheFile, WhatMeansSomethingElseIsRefusedByName) {
+TEST(SceneCacheFile, FilesOfOtherOptionsOrScenesAreRefusedByName) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
@@ -120,7 +118,7 @@ TEST(SceneCacheFile, AnotherNetworkIsRefusedButNotAnotherLearningRate) {
                  {"average of network", "true", "false"});
 }
 
-TEST(SceneCacheFile, NumbersThatNoSetupHasAreRefused) {
+TEST(SceneCacheFile, ImpossibleSetupsAreRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const auto opening = [&](const std::function<void(CacheState&)>& change) {
@@ -176,36 +174,36 @@ TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
   expect_message(opening(bytes + '\0'), {"/b"});
 }
 
-TEST(SceneCacheFile, OneOfTheVersionWithoutADigestIsStillRead) {
+TEST(SceneCacheFile, AFileOfTheVersionWithoutADigestIsStillRead) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
   CacheContent content;
   fill_cache_content(content, *model, {}, state);
-  neural::Metadata metadata = content.model.metadata;
+  Metadata metadata = content.model.metadata;
   metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
-  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  write_safetensors(folder / "a", content.tensors, metadata);
   EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, {}), state));
   metadata["version"] = "3";
-  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  write_safetensors(folder / "a", content.tensors, metadata);
   expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a"); }), {"digest"});
 }
 
-// The setup in the file decides how many nodes the model has: the tensors must be there for them.
-TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeThereIsMemoryForIt) {
+// The setup in the file decides the number of nodes of the model: the tensors must have that size.
+TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeAllocation) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
   CacheContent content;
   fill_cache_content(content, *model, {}, state);
-  for (neural::TensorView& tensor : content.tensors) {
+  for (TensorView& tensor : content.tensors) {
     if (tensor.name != "features") continue;
     tensor.shape[0] = 1;
     tensor.data = tensor.data.first(4 * tensor.shape[1]);
   }
-  neural::Metadata metadata = content.model.metadata;
+  Metadata metadata = content.model.metadata;
   metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
-  neural::write_safetensors(folder / "a", content.tensors, metadata);
+  write_safetensors(folder / "a", content.tensors, metadata);
   const CacheFile file(folder / "a");
   expect_message(refusal<CacheFileError>([&] { file.expect_model(*model, {}); }), {"features", "F32 [1, 1]"});
 }

@@ -1,5 +1,5 @@
-// A scene as the cache knows it: welded meshes, transforms, and sides that mean the same to renderer and
-// neural for every kind of instance.
+// The layout of a scene for the cache: welded meshes, transforms, and sides with the same meaning in renderer
+// and neural for every kind of instance.
 
 #include "renderer/cache/scene_layout.h"
 
@@ -21,7 +21,7 @@ std::vector<neural::Sides> fronts(const scene::Scene& scene) {
   return std::vector<neural::Sides>(scene.instances.size(), neural::Sides::front);
 }
 
-TEST(SurfaceLayout, VerticesAtOnePositionAreOne) {
+TEST(SurfaceLayout, VerticesAtOnePositionAreWelded) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   // A quad whose triangles share no index, as files with a seam of normals along the diagonal have it.
@@ -50,21 +50,21 @@ TEST(SurfaceLayout, VerticesAtOnePositionAreOne) {
 
 /// One triangle, counter-clockwise seen from +z in the space of its mesh, placed by `transform`.
 struct OneTriangle {
-  explicit OneTriangle(const scene::Material& material, const scene::Affine& transform, bool baked = false) {
+  explicit OneTriangle(const scene::Material& material, const Affine& transform, bool baked = false) {
     builder.mesh(builder.material(material), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     scene::Instance& instance = builder.scene().instances[0];
     instance.transform = transform;
     instance.baked = baked;
     instance.mirrors = transform.linear().determinant() < 0.0f;
-    scene::Box& bounds = builder.scene().bounds;
+    Box& bounds = builder.scene().bounds;
     bounds.setEmpty();
     for (const Vec3& p : scene::world_triangle(builder.scene(), instance, 0)) bounds.extend(p);
   }
   SceneBuilder builder;
 };
 
-scene::Affine placed(bool mirrors) {
-  scene::Affine transform = scene::Affine::Identity();
+Affine placed(bool mirrors) {
+  Affine transform = Affine::Identity();
   transform.translate(Vec3(3, -2, 1));
   transform.rotate(Eigen::AngleAxisf(0.7f, Vec3(1, 2, 3).normalized()));
   transform.scale(Vec3(mirrors ? -2.0f : 2.0f, 1.5f, 1.0f));
@@ -90,7 +90,7 @@ TEST(SurfaceLayout, TransformsLeadToTheSameWorld) {
   }
 }
 
-/// neural's side of a viewer: 0 where the right-hand normal of the corners in the world points to.
+/// neural's side of a viewer: 0 where the right-hand normal of the corners points, in the world.
 std::uint32_t side_by_corners(const scene::Scene& scene, const Vec3& direction) {
   const std::array<Vec3, 3> p = scene::world_triangle(scene, scene.instances[0], 0);
   return (p[1] - p[0]).cross(p[2] - p[0]).dot(direction) <= 0.0f ? 0u : 1u;
@@ -142,12 +142,12 @@ TEST_P(SidesOfKinds, AViewersSideIsTheOneOfTheCornersAndHasStorage) {
     EXPECT_EQ(points.surface(0), neural::surface_index(0, side));
     EXPECT_GT(layout.surfaces[points.surface(0)].triangle_count, 0u);
     if (from_front) {
-      EXPECT_TRUE(has_side(possible, side)) << "fronts are always seen";
+      EXPECT_TRUE(has_side(possible, side)) << "fronts are always visible";
     }
     seen_sides |= 1u << side;
   }
   EXPECT_EQ(seen_sides, 3u);
-  // Both sides read the same nodes where there is one to store, else different ones.
+  // Both sides share nodes where only one side is stored, else they have separate ones.
   const bool shared = layout.levels[0].vertex_base == layout.levels[layout.stack].vertex_base;
   EXPECT_EQ(shared, possible != neural::Sides::both);
 }

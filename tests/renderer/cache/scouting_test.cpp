@@ -1,4 +1,4 @@
-// What a look at the scene finds: the sides that are met, how bright it is, how far it reaches.
+// The results of scouting: the sides that paths meet, the brightness and the extent of the scene.
 
 #include "renderer/cache/scouting.h"
 
@@ -51,7 +51,7 @@ SceneBuilder rooms(float scale = 1.0f) {
 }
 
 const std::vector<Sides>& expected_sides() {
-  // Of the room the fronts, which look inwards; of the mirrored card its front, which by its corners is the
+  // The room has its fronts, which look inwards; the mirrored card has its front, which by its corners is the
   // back.
   static const std::vector<Sides> sides{Sides::front, Sides::both, Sides::front, Sides::back, Sides::none};
   return sides;
@@ -65,7 +65,7 @@ TEST(Scouting, SidesAreStoredWhereTheyAreMet) {
   EXPECT_GT(report.rays.bounce, 0u);
 }
 
-TEST(Scouting, ForOcclusionOnlyWhatTheEyeSeesIsStored) {
+TEST(Scouting, ForOcclusionOnlySidesVisibleToTheCameraAreStored) {
   const ViewedWorld viewed(rooms());
   RenderOptions options;
   options.integrator = Integrator::nao;
@@ -76,7 +76,7 @@ TEST(Scouting, ForOcclusionOnlyWhatTheEyeSeesIsStored) {
   EXPECT_FLOAT_EQ(report.setup.records_per_path, 1.0f);
 }
 
-TEST(Scouting, WithoutScoutingAllThatMaterialsShowIsStored) {
+TEST(Scouting, WithoutScoutingAllSidesThatMaterialsShowAreStored) {
   const ViewedWorld viewed(rooms());
   RenderOptions options = nrc();
   options.cache.scout = false;
@@ -84,7 +84,7 @@ TEST(Scouting, WithoutScoutingAllThatMaterialsShowIsStored) {
             (std::vector<Sides>{Sides::both, Sides::both, Sides::both, Sides::back, Sides::both}));
 }
 
-TEST(Scouting, ABackThatIsMetBringsStorageToItsFront) {
+TEST(Scouting, ABackThatIsMetIsStoredAsItsFront) {
   SceneBuilder builder;
   builder.box(builder.material(SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f))),
               Vec3(-2, -1, -3), Vec3(2, 2, 3));  // fronts outwards, seen from inside
@@ -106,7 +106,7 @@ TEST(Scouting, TargetsAreScaledToAMeanOfOne) {
   }
 }
 
-TEST(Scouting, RecordsArePredicted) {
+TEST(Scouting, TheNumberOfRecordsIsPredicted) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options = nrc();
   options.min_depth = 64;
@@ -114,15 +114,15 @@ TEST(Scouting, RecordsArePredicted) {
   options.cache.self_training.vertices = 3;
   options.cache.self_training.full_fraction = 0.25f;
   const ScoutReport report = scouted(viewed, options);
-  // Roulette ends a path at once where it begins: the throughput is 2^-64 by then. A picture's depth does
-  // not.
+  // Roulette ends a path at the depth at which it begins, where the throughput is 2^-64. The depth of the
+  // picture does not end it.
   EXPECT_FLOAT_EQ(report.setup.records_per_path, 64.0f);
   EXPECT_FLOAT_EQ(report.setup.records_per_short_path, 0.25f * 64.0f + 0.75f * 3.0f);
   options.cache.path_length = 4;
   EXPECT_FLOAT_EQ(scouted(viewed, options).setup.records_per_path, 1.0f);
 }
 
-TEST(Scouting, AScaledSceneIsTheSameSceneWithLongerMetres) {
+TEST(Scouting, NodeSpacingScalesWithTheScene) {
   const ViewedWorld small(rooms());
   const ViewedWorld large(rooms(1000.0f));
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
@@ -160,7 +160,7 @@ TEST(Scouting, NodesOfOcclusionLieTwiceAsClose) {
   EXPECT_NEAR(scouted(viewed, options).setup.node_spacing, 0.5f * of_radiance, 0.02f * of_radiance);
 }
 
-TEST(Scouting, NodesLieCloserOnWhatIsNearTheCamera) {
+TEST(Scouting, NodesLieCloserNearTheCamera) {
   SceneBuilder builder;
   const int grey = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.box(grey, Vec3(-50, -50, -50), Vec3(50, 50, 50), true);
@@ -217,7 +217,7 @@ TEST(Scouting, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-TEST(Scouting, ScenesWithNothingToMeetHaveASetupAllTheSame) {
+TEST(Scouting, ScenesWithoutVisibleSurfacesHaveAValidSetup) {
   const auto check = [](const SceneBuilder& builder, Sides expected) {
     const ViewedWorld viewed(builder, {.constant = Color::Ones()});
     for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with closed forms for what the cache learns, and views of them.
+// Scenes with closed forms for the light that the cache learns, and views of them.
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -14,7 +14,7 @@
 
 namespace gatelight::testing {
 
-/// At `eye`, looking at `target`.
+/// A camera at `eye`, looking at `target`.
 inline scene::Camera view_from(const Vec3& eye, const Vec3& target, float vertical_fov = 0.9f) {
   const Vec3 back = (eye - target).normalized();
   const Vec3 up = std::abs(back.y()) > 0.99f ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
@@ -27,7 +27,7 @@ inline scene::Camera view_from(const Vec3& eye, const Vec3& target, float vertic
   return camera;
 }
 
-/// A closed box of one matte material that shines: every point of it sends Le / (1 - a).
+/// A closed box of one matte material that emits light: the radiance of every point is Le / (1 - a).
 inline SceneBuilder closed_furnace(float albedo, float emission) {
   SceneBuilder builder;
   const int m = builder.material(SceneBuilder::lambert(Color::Constant(albedo), Color::Constant(emission)));
@@ -49,7 +49,7 @@ struct ViewedWorld {
   renderer::Camera camera;
 };
 
-/// Runs in an arena of so many threads, however few processors there are.
+/// Runs the function in an arena of this number of threads, even with fewer processors.
 template <typename Function>
 void with_threads(int threads, Function function) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,

@@ -1,4 +1,4 @@
-// Points as growing arrays: what is kept, copied, and shown as a batch.
+// Points as growing arrays: the inputs that are stored, copying, and the view as a batch.
 
 #include "renderer/cache/surface_points.h"
 
@@ -13,7 +13,7 @@ PointInputs everything() {
   return inputs;
 }
 
-/// A point all of whose numbers tell which it is.
+/// Appends a point whose values all encode `number`.
 void push(SurfacePoints& points, int number) {
   const auto f = static_cast<float>(number);
   Hit hit;
@@ -44,7 +44,7 @@ void expect_point(const neural::QueryBatch& batch, std::size_t i, int number) {
   EXPECT_EQ(batch.roughnesses[i], 0.1f * f);
 }
 
-TEST(SurfacePoints, ABatchShowsWhatWasPushed) {
+TEST(SurfacePoints, ABatchHasThePushedPoints) {
   SurfacePoints points(everything());
   for (int i = 0; i < 5; ++i) push(points, i);
   EXPECT_EQ(points.size(), 5u);
@@ -56,7 +56,7 @@ TEST(SurfacePoints, ABatchShowsWhatWasPushed) {
   EXPECT_EQ(points.barycentrics(3), batch.barycentrics[3]);
 }
 
-TEST(SurfacePoints, InputsThatNobodyReadsAreNotStored) {
+TEST(SurfacePoints, UnusedInputsAreNotStored) {
   const auto sizes = [](const PointInputs& inputs) {
     SurfacePoints points(inputs);
     for (int i = 0; i < 3; ++i) push(points, i);
@@ -79,7 +79,7 @@ TEST(SurfacePoints, InputsThatNobodyReadsAreNotStored) {
   EXPECT_EQ(sizes(everything()), (Sizes{4, 4, 4, 4, 4}));
 }
 
-TEST(SurfacePoints, AModelSaysWhichInputsItReads) {
+TEST(SurfacePoints, TheInputsFollowFromTheModel) {
   neural::ModelConfig config;
   EXPECT_EQ(PointInputs(config), PointInputs());
   config.auxiliary = {{neural::InputSource::direction}, {neural::InputSource::roughness}};
@@ -93,7 +93,7 @@ TEST(SurfacePoints, AModelSaysWhichInputsItReads) {
   EXPECT_EQ(PointInputs(config), expected);
 }
 
-TEST(SurfacePoints, RangesAreCopiedWhereTheyAreWanted) {
+TEST(SurfacePoints, RangesAreCopiedToTheirDestinations) {
   SurfacePoints from(everything());
   for (int i = 0; i < 6; ++i) push(from, i);
   SurfacePoints to(everything());

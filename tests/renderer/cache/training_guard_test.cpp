@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -1,5 +1,5 @@
-// How often training begins where: surfaces by area, directions by cosine, candidates by how seldom they were
-// trained.
+// The distribution of the starts of training paths: surfaces by area, directions by cosine, candidates by how
+// seldom they were trained.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   // A fan of triangles of different areas, one of them degenerate; both sides.
-  scene::PaddedVector<Vec3> fan{Vec3::Zero()};
+  PaddedVector<Vec3> fan{Vec3::Zero()};
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t i = 0; i < 8; ++i) {
     const float a = 0.1f * static_cast<float>(i * i);
@@ -134,7 +134,7 @@ struct Strips {
   neural::GateLayout layout;
 };
 
-/// Starts in each strip.
+/// The number of starts in each strip.
 std::array<double, 4> chosen_strips(const Strips& strips, int candidates,
                                     std::array<std::uint32_t, 3> trained, std::size_t& made) {
   RenderOptions options;
@@ -168,12 +168,12 @@ std::array<double, 4> chosen_strips(const Strips& strips, int candidates,
 TEST(TrainingPointsStat, CandidatesAreChosenByHowSeldomTheyWereTrained) {
   const Strips strips;
   const std::array<std::uint32_t, 3> trained{400, 100, 1};
-  // Beyond 512 all are equal, and 0 is as 1.
+  // Counts beyond 512 are equal, and 0 counts as 1.
   for (const int candidates : {2, 3}) {
     std::size_t made = 0;
     const std::array<double, 4> met = chosen_strips(strips, candidates, trained, made);
-    // All draws of so many candidates with their probabilities. Those without storage are left out, and where
-    // there is no other the start stays in its place.
+    // All draws of `candidates` candidates with their probabilities. Those without storage are left out, and
+    // where there is no other the start stays in its place.
     const std::array<double, 3> weight{1.0 / 400.0, 1.0 / 100.0, 1.0};
     std::array<double, 4> expected{};
     const int draws = candidates == 2 ? 16 : 64;

@@ -1,4 +1,4 @@
-// Where training paths begin: in the picture, on surfaces, by keys that nothing but the step changes.
+// The starts of training paths: in the picture, on surfaces, with keys that only the step changes.
 
 #include "renderer/cache/training_points.h"
 
@@ -24,7 +24,7 @@ using testing::SceneBuilder;
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-/// At the origin, looking along -z.
+/// A camera at the origin, looking along -z.
 scene::Camera view() {
   scene::Camera camera;
   camera.vertical_fov = 0.9f;
@@ -58,7 +58,7 @@ TrainingStarts choose(const TwoWalls& walls, const RenderOptions& options, std::
   return result;
 }
 
-/// Where the ray passes the picture, in pixels.
+/// The position where the ray passes the picture, in pixels.
 std::array<double, 2> film_position(const Ray& ray) {
   const double half = std::tan(0.5 * static_cast<double>(view().vertical_fov));
   const Eigen::Vector3d d = ray.direction.cast<double>() / -static_cast<double>(ray.direction.z());
@@ -152,10 +152,10 @@ TEST(TrainingPoints, SamplesOfThePictureAreThoseThatItsPassesWouldTakeNext) {
     for (int x = region.x0; x < region.x1; ++x) EXPECT_EQ(film.taken({x, y}), 3u);
   }
   points.choose(7, 100, false, {}, starts, rays);
-  EXPECT_TRUE(starts.samples.empty()) << "others are points of the picture alone";
+  EXPECT_TRUE(starts.samples.empty()) << "without a first sample the points are no samples";
 }
 
-TEST(TrainingPoints, NumbersThatFillNoGridAreNearlyKept) {
+TEST(TrainingPoints, CountsThatFillNoGridAreNearlyKept) {
   const TwoWalls walls;
   const RenderOptions options;
   for (const std::size_t count : {1u, 2u, 7u, 100u, 1000u, 5297u}) {
@@ -219,7 +219,7 @@ TEST(TrainingPoints, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-TEST(TrainingPoints, HitsAreTracedWhenAsked) {
+TEST(TrainingPoints, HitsAreTracedOnRequest) {
   const TwoWalls walls;
   const RenderOptions options;
   std::uint64_t traced = 0;
@@ -236,7 +236,7 @@ TEST(TrainingPoints, HitsAreTracedWhenAsked) {
   EXPECT_EQ(traced, 0u);
 }
 
-TEST(TrainingPoints, SamplesOfAPointStandInARowUnderKeysOfTheirOwn) {
+TEST(TrainingPoints, SamplesOfAPointAreConsecutiveWithKeysOfTheirOwn) {
   const TwoWalls walls;
   for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
     RenderOptions options;
@@ -262,7 +262,7 @@ TEST(TrainingPoints, SamplesOfAPointStandInARowUnderKeysOfTheirOwn) {
   }
 }
 
-TEST(TrainingPoints, SurfacePointsLieWhereTheirRaysSay) {
+TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 0.5f, -1));
@@ -296,7 +296,7 @@ TEST(TrainingPoints, SurfacePointsLieWhereTheirRaysSay) {
     world.accel.intersect(std::span(&ray, 1), std::span(&met, 1), false);
     ASSERT_EQ(met.instance, hit.instance);
     ASSERT_EQ(met.primitive, hit.primitive);
-    // A side that has storage.
+    // The side of the hit has storage.
     const bool mirrors = hit.instance == 1;
     EXPECT_TRUE(has_side(sides[hit.instance], side_of(surface.front, mirrors)));
     mirrored_points += mirrors ? 1 : 0;

@@ -80,7 +80,7 @@ TEST_F(DenoisedPictures, WithAnAlphaKeepItsEdges) {
     const std::size_t x = i % 96;
     const float a = clean->alpha[i];
     if (x < 47) {
-      ASSERT_EQ(a, 1.0f) << i << ": what is opaque stays so";
+      ASSERT_EQ(a, 1.0f) << i << ": opaque pixels stay opaque";
     }
     if (x < 52) continue;
     sum += static_cast<double>(a);
@@ -109,7 +109,7 @@ TEST_F(DenoisedPictures, CanBeCancelledInAnyBand) {
   EXPECT_GT(last, 0.9);
 }
 
-TEST_F(DenoisedPictures, TimeIsExpectedToGrowWithThePixels) {
+TEST_F(DenoisedPictures, ExpectedTimeGrowsWithThePixels) {
   const double small = expect_denoise_seconds(*denoiser, {}, 256, 256);
   const double large = expect_denoise_seconds(*denoiser, {}, 2560, 2560);
   EXPECT_GT(small, 0.0);

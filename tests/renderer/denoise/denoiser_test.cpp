@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/denoise/exposure.h"
-#include "renderer/settings/words.h"
+#include "renderer/settings/enum_names.h"
 #include "tests/support/denoiser.h"
 #include "tests/support/noisy_image.h"
 
@@ -27,13 +27,13 @@ class Denoisers : public ::testing::Test {
   }
 };
 
-TEST_F(Denoisers, TakeMostOfTheNoiseAndKeepEdges) {
+TEST_F(Denoisers, RemoveMostOfTheNoiseAndKeepEdges) {
   const NoisyImage clean = clean_image(96, 64), noisy = noisy_image(96, 64);
   const double before = deviation(noisy.color, clean.color);
   for (const Prefilter prefilter : {Prefilter::accurate, Prefilter::none, Prefilter::fast}) {
     for (const DenoiseQuality quality : {DenoiseQuality::fast, DenoiseQuality::high}) {
       const NoisyImage denoised = filtered(noisy, {.prefilter = prefilter, .quality = quality});
-      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << word(prefilter);
+      EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before) << enum_name(prefilter);
       // Guides are filtered in place, or stay as they are.
       EXPECT_EQ(denoised.albedo == noisy.albedo, prefilter != Prefilter::accurate);
     }
@@ -94,7 +94,7 @@ TEST_F(Denoisers, WorkWithLittleMemory) {
   EXPECT_LT(deviation(image.color, clean.color), 0.15 * before);
 }
 
-TEST_F(Denoisers, TakeTheSmallestOfImages) {
+TEST_F(Denoisers, AcceptTheSmallestImages) {
   for (const auto& [width, height] : {std::pair(1, 1), {1, 40}, {40, 1}, {0, 0}}) {
     const NoisyImage image = filtered(noisy_image(width, height));
     for (const float value : image.color) EXPECT_TRUE(std::isfinite(value));

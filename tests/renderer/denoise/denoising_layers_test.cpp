@@ -78,7 +78,7 @@ TEST(DenoisingLayers, AreFoundByTheNamesOfOtherRenderers) {
     EXPECT_EQ(samples.albedo[0], 2.0f) << albedo;
     EXPECT_EQ(samples.normal[0], 3.0f) << normal;
   }
-  // The samples go before a beauty that is denoised already.
+  // The samples take precedence over a beauty that is denoised already.
   Picture blender = picture_with({"V.Combined", "V.Noisy Image", "V.Denoising Normal", "V.Denoising Albedo"});
   EXPECT_EQ(samples_of(blender).color[0], 2.0f);
   Picture own = picture_with({"", "raw"});
@@ -93,21 +93,21 @@ TEST(DenoisingLayers, CanBeNamed) {
   EXPECT_EQ(samples.albedo[0], 3.0f);
   EXPECT_EQ(samples.normal[0], 5.0f);
   Picture other = picture_with({"", "a"});
-  expect_refusal<ImageError>([&] { samples_of(other, {.normal = "b"}); }, {"'b'"});
+  expect_refusal<InputError>([&] { samples_of(other, {.normal = "b"}); }, {"'b'"});
 }
 
-TEST(DenoisingLayers, OneGuideAloneAndOtherChannelsAreRefused) {
+TEST(DenoisingLayers, ASingleGuideAndOtherChannelsAreRefused) {
   Picture one = picture_with({"", "albedo"});
-  expect_refusal<ImageError>([&] { samples_of(one); }, {"albedo", "normals"});
+  expect_refusal<InputError>([&] { samples_of(one); }, {"albedo", "normals"});
   Picture grey = picture_with({"", "albedo", "normal"});
   grey.layers[1].channels = {"Y"};
   grey.layers[1].values.resize(2);
-  expect_refusal<ImageError>([&] { samples_of(grey); }, {"albedo", "1", "3"});
+  expect_refusal<InputError>([&] { samples_of(grey); }, {"albedo", "1", "3"});
   Picture incomplete = picture_with({"", "denoising-color"});
-  expect_refusal<ImageError>([&] { samples_of(incomplete); }, {"denoising-albedo"});
+  expect_refusal<InputError>([&] { samples_of(incomplete); }, {"denoising-albedo"});
 }
 
-TEST(DenoisingLayers, WhatIsNotFiniteIsBlackAndAlphaIsLeftOut) {
+TEST(DenoisingLayers, NonFiniteValuesAreBlackAndAlphaIsLeftOut) {
   Picture picture = picture_with({""});
   picture.layers[0].channels = {"R", "G", "B", "A"};
   picture.layers[0].values = {1, 2, 3, 0.5f, std::nanf(""), std::numeric_limits<float>::infinity(), 6, 1};

@@ -1,5 +1,5 @@
-// Where the library is looked for, and what is refused. tests/support/stand_in_oidn.cpp is a library with the
-// names of Open Image Denoise, of a version that its file's name tells.
+// The search for the library, and the files that are refused. tests/support/stand_in_oidn.cpp is a library
+// with the names of Open Image Denoise, in the version of its file name.
 
 #include "renderer/denoise/oidn_library.h"
 
@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "renderer/machine/errors.h"
-#include "renderer/run/chosen_denoiser.h"
+#include "base/errors.h"
+#include "renderer/driver/chosen_denoiser.h"
 #include "tests/support/denoiser.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -51,7 +51,7 @@ TEST(OidnLibrary, AFileOrAFolderIsLoadedAndNothingElse) {
                                   {"Open Image Denoise", "none"});
 }
 
-TEST(OidnLibrary, ThatOfTheCacheFolderGoesFirstAndTheNewestOfThem) {
+TEST(OidnLibrary, TheNewestOneOfTheCacheFolderTakesPrecedence) {
   const TemporaryFolder cache;
   for (const char* const name : {"oidn-2.4.0", "oidn-2.5.1"}) {
     fs::create_directories(cache / "gatelight" / name / "lib");
@@ -71,9 +71,9 @@ TEST(OidnLibrary, OtherVersionsAndOtherLibrariesAreRefusedByName) {
   expect_refusal<MissingDenoiser>([&] { load_oidn("libm.so.6"); }, {"libm.so.6", "oidnNewDevice"});
 }
 
-TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsAskedFor) {
+TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsRequested) {
   DenoiseOptions options{.supersampling = 2, .library = "/none/libOpenImageDenoise.so.2"};
-  EXPECT_EQ(choose_denoiser(options, one_rank()).library, nullptr) << "nothing is looked for";
+  EXPECT_EQ(choose_denoiser(options, one_rank()).library, nullptr) << "there is no search";
   options.denoiser = DenoiserKind::oidn;
   expect_refusal<MissingDenoiser>([&] { choose_denoiser(options, one_rank()); }, {"/none"});
   options.denoiser = DenoiserKind::automatic;

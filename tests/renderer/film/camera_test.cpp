@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/errors.h"
 #include "renderer/film/camera_choice.h"
-#include "renderer/machine/errors.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 
@@ -98,11 +98,11 @@ TEST(Camera, AutoFramingFillsThePictureWithTheWholeSceneAtAnyScaleAndAspect) {
         builder.box(builder.material({}), low, high);
         const scene::Scene& s = builder.scene();
         const scene::Camera c = choose_camera(s, {}, aspect);
-        const scene::Affine to_camera(c.transform.inverse());
+        const Affine to_camera(c.transform.inverse());
         const float top = std::tan(0.5f * c.vertical_fov);
-        scene::Box picture;  // in units of half the picture's height
+        Box picture;  // in units of half the picture's height
         for (int i = 0; i < 8; ++i) {
-          const Vec3 p = to_camera * s.bounds.corner(static_cast<scene::Box::CornerType>(i));
+          const Vec3 p = to_camera * s.bounds.corner(static_cast<Box::CornerType>(i));
           ASSERT_LT(p.z(), 0.0f);
           picture.extend(Vec3(p.x(), p.y(), 0.0f) / (-p.z() * top));
         }
@@ -130,7 +130,7 @@ TEST(Camera, AutoFramingOfNothingAndOfAPointIsAView) {
 TEST(Camera, TargetsAndUpsOfAnyLengthAreDirections) {
   CameraOptions near;
   near.look_at = LookAt{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
-  const scene::Affine expected = choose_camera({}, near, 1.0f).transform;
+  const Affine expected = choose_camera({}, near, 1.0f).transform;
   for (const float length : {1e-30f, 1e30f, 3e38f}) {
     CameraOptions options;
     options.look_at = LookAt{{0, 0, 1}, {0, 0, -length}, {0, length, 0}};
@@ -146,7 +146,7 @@ TEST(Camera, BeyondWhatRaysCanReachItIsRefusedByName) {
   by_hand.look_at = LookAt{{1e12f, 0, 0}, {0, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(refusal({}, by_hand, 1.0f), "");
   by_hand.look_at->eye.x() = 1e20f;
-  expect_message(refusal({}, by_hand, 1.0f), {"--eye", "1e+20", "1e+12"});
+  expect_message(refusal({}, by_hand, 1.0f), {"`eye`", "1e+20", "1e+12"});
   scene::Scene s = scene_with_cameras();
   s.cameras[0].transform.translation().z() = -2e12f;
   expect_message(refusal(s, {}, 1.0f), {"front", "test.glb", "-2e+12"});

@@ -20,7 +20,7 @@ struct Maker {
     const Film film({0, 0, 8, 8}, 8, 8, {});
     std::vector<PixelSample> wanted;
     for (const Pixel& p : pixels) wanted.push_back({p, sample});
-    std::vector<CameraSample> result(3);  // what was there goes
+    std::vector<CameraSample> result(3);  // its old content is replaced
     make_camera_samples(wanted, film, options, camera, filter, result);
     return result;
   }
@@ -45,7 +45,7 @@ TEST(CameraSamples, EachPixelHasOneWithinIt) {
   }
 }
 
-TEST(CameraSamples, DependOnPixelSampleAndSeedAlone) {
+TEST(CameraSamples, DependOnlyOnPixelSampleAndSeed) {
   Maker maker;
   const CameraSample one = maker.samples({{2, 3}}, 5).front();
   EXPECT_EQ(maker.samples({{1, 1}, {2, 3}}, 5)[1].ray().direction, one.ray().direction);

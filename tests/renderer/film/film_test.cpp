@@ -63,13 +63,13 @@ FirstHit asked_hit(float answer, float error, float count, float resolution) {
   return hit;
 }
 
-TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
+TEST(Film, CacheColoursAreMeansOverSamplesAndCacheNumbersOverQueries) {
   Film film({0, 0, 1, 1}, 1, 1, {.aovs = kCacheAovs});
   EXPECT_TRUE(film.needs_first_hits());
   film.add(film.take({0, 0}), asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
   film.add(film.take({0, 0}), asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
   FirstHit silent = asked_hit(1e3f, 1e3f, 1e3f, 1e3f);
-  silent.asked = false;  // a hit where the cache was not asked: black, and no number
+  silent.asked = false;  // a hit without a query: black, and no number
   film.add(film.take({0, 0}), silent);
   FirstHit sky;
   sky.guided = true;
@@ -77,7 +77,7 @@ TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
   const Picture picture = film.resolve();
   const auto values = [&](const char* name) { return picture.find(name)->values; };
   EXPECT_EQ(values("cache-answer"), (std::vector<float>{2.0f, 4.0f, 8.0f}));
-  // Of all paths, hit or not.
+  // The mean is over all paths, with and without a hit.
   EXPECT_EQ(values("cache-radiance"), (std::vector<float>{5.25f, 6.0f, 6.75f}));
   EXPECT_EQ(values("nearest-node"), (std::vector<float>{0.25f, 0.125f, 0.5f}));
   EXPECT_EQ(values("cache-error"), std::vector<float>{1.0f});
@@ -85,7 +85,7 @@ TEST(Film, WhatTheCacheSaysIsAColourAndWhatItKnowsAMeanOverTheQuestions) {
   EXPECT_EQ(values("resolution"), std::vector<float>{3.0f});
 }
 
-TEST(Film, CacheLayersAreBlackWhereNoCacheWasAsked) {
+TEST(Film, CacheLayersAreBlackWithoutQueries) {
   Film film({0, 0, 2, 1}, 2, 1, {.aovs = kCacheAovs});
   FirstHit hit;
   hit.hit = true;
@@ -108,20 +108,20 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
     bool full_precision;
     float value;  ///< of the second pixel's first channel
   };
-  // Counts go beyond what a half float holds.
+  // Counts go beyond the range of a half float.
   const Expected all[] = {{"cache-radiance", rgb, true, 7.0f},    {"cache-answer", rgb, false, 1.0f},
                           {"cache-error", {"error"}, true, 2.0f}, {"training-count", {"count"}, true, 3.0f},
                           {"resolution", {"R"}, true, 4.0f},      {"nearest-node", rgb, false, 0.5f}};
   for (std::size_t i = 0; i < std::size(all); ++i) {
     SCOPED_TRACE(all[i].name);
-    const Layer& layer = picture.layers[1 + i];  // as asked for, after the beauty
+    const Layer& layer = picture.layers[1 + i];  // in the requested order, after the beauty
     EXPECT_EQ(layer.name, all[i].name);
     EXPECT_EQ(layer.channels, all[i].channels);
     EXPECT_EQ(layer.full_precision, all[i].full_precision);
     EXPECT_EQ(layer.values[0], 0.0f);
     EXPECT_EQ(layer.values[layer.channels.size()], all[i].value);
   }
-  // They come from the first hit, which costs memory; sample counts alone do not.
+  // They come from the first hit, which costs memory; sample counts do not.
   const FilmContents counts{.aovs = {Aov::sample_count}};
   EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, counts).needs_first_hits());
   EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}), Film::bytes_per_pixel(counts));
@@ -162,7 +162,7 @@ TEST(Film, AMillionSamplesDoNotDrift) {
   EXPECT_FLOAT_EQ(picture.layers[0].values[2], 1e6f);
 }
 
-TEST(Film, WhatLeavesSinglePrecisionBecomesItsGreatestNumber) {
+TEST(Film, ValuesBeyondSinglePrecisionBecomeItsGreatestNumber) {
   Film film({0, 0, 1, 1}, 1, 1, {.aovs = {Aov::variance}});
   film.add(film.take({0, 0}), Color(1e30f, 1.0f, 0.0f));
   film.add(film.take({0, 0}), Color(0.0f, 3.0f, 0.0f));

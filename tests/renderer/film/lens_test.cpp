@@ -1,19 +1,17 @@
-// Lenses, projections, and the matrices that tell a picture's view.
+// Lenses, projections, and the matrices of a picture's view.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "base/errors.h"
 #include "renderer/film/camera.h"
 #include "renderer/film/camera_choice.h"
-#include "renderer/machine/errors.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Vec2;
 using tests::expect_refusal;
 
 CameraOptions from_the_front(float distance) {
@@ -101,10 +99,10 @@ TEST(Lens, FocusesOnAnObjectByItsName) {
   options.lens = {.aperture = 0.1f, .focus = "vase"};
   EXPECT_FLOAT_EQ(choose_camera(s, options, 1.0f).focus_distance, 5.0f);
   options.lens.focus = "cup";
-  expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {"--focus cup", "built.glb"});
+  expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {"`focus` cup", "built.glb"});
   for (const char* distance : {"-1", "0", "inf", "nan", "1e20"}) {
     options.lens.focus = distance;
-    expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {std::string("--focus ") + distance});
+    expect_refusal<BadOption>([&] { choose_camera(s, options, 1.0f); }, {std::string("`focus` ") + distance});
   }
   options.lens.focus = "vase";
   options.look_at = LookAt{{0, 0, 4}, {0, 0, 8}, {0, 1, 0}};
@@ -129,17 +127,17 @@ TEST(Projection, AnOrthographicViewShowsTheTargetAsLargeAsThePerspective) {
   options.projection = Projection::orthographic;
   const View view = choose_camera({}, options, 1.0f);
   EXPECT_TRUE(view.orthographic);
-  EXPECT_NEAR(view.half_height, 4.0f * std::tan(scene::kPi / 6.0f), 1e-4f);
+  EXPECT_NEAR(view.half_height, 4.0f * std::tan(kPi / 6.0f), 1e-4f);
   options.view_height = 3.0f;
   EXPECT_FLOAT_EQ(choose_camera({}, options, 1.0f).half_height, 1.5f);
   options.projection = Projection::camera;
-  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--view-height", "orthographic"});
+  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"`view-height`", "orthographic"});
   options.view_height.reset();
   options.projection = Projection::panorama;
-  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--fov", "panorama"});
+  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"`fov`", "panorama"});
   options.fov_degrees.reset();
   options.lens.aperture = 0.1f;
-  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"--aperture"});
+  expect_refusal<BadOption>([&] { choose_camera({}, options, 1.0f); }, {"`aperture`"});
 }
 
 /// A point of the scene on a pixel's ray must be at that pixel again by worldToNDC.
@@ -157,8 +155,8 @@ TEST(ViewMatrices, TakePointsToTheirPixels) {
     for (const Vec2& pixel : {Vec2(0, 0), Vec2(160, 100), Vec2(33, 80)}) {
       const Ray ray = camera.ray(pixel.x(), pixel.y()).ray;
       const Vec3 point = ray.origin + 7.0f * ray.direction + origin;
-      const scene::Vec4 homogeneous(point.x(), point.y(), point.z(), 1.0f);
-      const scene::Vec4 at = to_ndc * homogeneous;
+      const Vec4 homogeneous(point.x(), point.y(), point.z(), 1.0f);
+      const Vec4 at = to_ndc * homogeneous;
       EXPECT_NEAR(at.x() / at.w(), pixel.x() / 160.0f, 2e-5f);
       EXPECT_NEAR(at.y() / at.w(), pixel.y() / 100.0f, 2e-5f);
       EXPECT_GT((to_camera * homogeneous).z(), 0.0f) << "z points into the picture";
@@ -166,7 +164,7 @@ TEST(ViewMatrices, TakePointsToTheirPixels) {
   }
 }
 
-TEST(CameraNames, ThoseOfNodesAreKnownAndAmbiguousOnesRefused) {
+TEST(CameraNames, NamesOfNodesAreAcceptedAndAmbiguousOnesRefused) {
   scene::Scene s;
   s.path = "test.glb";
   for (const char* node : {"door", "window", "door 2"}) {

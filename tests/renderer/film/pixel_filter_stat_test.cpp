@@ -38,7 +38,7 @@ TEST_P(PixelFilterStat, OffsetsAreDistributedAsTheFilter) {
   std::vector<double> y(kBins);
   for (std::uint32_t i = 0; i < kCount; ++i) {
     const Sampler sampler(SamplerKind::independent, 5, 0, 0, i);
-    const scene::Vec2 o = filter.sample(sampler.get_2d(0)) / filter.width() + scene::Vec2(0.5f, 0.5f);
+    const Vec2 o = filter.sample(sampler.get_2d(0)) / filter.width() + Vec2(0.5f, 0.5f);
     ASSERT_TRUE((o.array() >= 0.0f).all() && (o.array() <= 1.0f).all());
     ++x[std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(o.x() * kBins))];
     ++y[std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(o.y() * kBins))];

@@ -22,7 +22,7 @@ std::vector<std::vector<std::pair<int, int>>> tiles_of(const PixelRect& region) 
   return tiles;
 }
 
-TEST(Tiles, HoldEveryPixelOfTheRegionOnce) {
+TEST(Tiles, CoverEveryPixelOfTheRegionOnce) {
   for (const PixelRect& region :
        {PixelRect{0, 0, 1, 1}, PixelRect{0, 0, 50, 40}, PixelRect{17, 31, 49, 80}}) {
     std::vector<std::pair<int, int>> expected;
@@ -49,7 +49,7 @@ TEST(Tiles, EachPacketOfSixteenIsASquare) {
   }
 }
 
-TEST(Tiles, ARegionHasThoseOfTheWholePicture) {
+TEST(Tiles, ARegionHasTheTilesOfTheWholePicture) {
   const PixelRect region{20, 5, 70, 37};
   auto whole = tiles_of({0, 0, 80, 48});
   for (auto& tile : whole) {

@@ -1,5 +1,5 @@
-// The golden pictures reject small defects. Each is a change of the scene or of the options that a wrong
-// renderer would look like; without them the comparison might accept anything.
+// The golden pictures reject small defects. Each is a change of the scene or of the options that imitates a
+// wrong renderer; without them the comparison might accept anything.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ std::vector<Defect> defects() {
       {"AlbedoOnePercentLower", "furnace",
        [](Scene& s, RenderOptions&) { material(s, "furnace").base_color *= 0.99f; }},
       {"FillLightMissing", "living-room",
-       [](Scene& s, RenderOptions&) { material(s, "evening light").emission = scene::Color::Zero(); }},
+       [](Scene& s, RenderOptions&) { material(s, "evening light").emission = Color::Zero(); }},
       {"SpotMissing", "material-grid",
        [](Scene& s, RenderOptions&) {
          std::erase_if(s.lights, [](const auto& light) { return light.type == scene::LightType::spot; });
@@ -52,7 +52,7 @@ std::vector<Defect> defects() {
       {"IndexOfRefraction", "material-grid",
        [](Scene& s, RenderOptions&) { material(s, "green glass").ior = 1.2f; }},
       {"AbsorptionMissing", "material-grid",
-       [](Scene& s, RenderOptions&) { material(s, "green glass").attenuation_distance = scene::kInfinity; }},
+       [](Scene& s, RenderOptions&) { material(s, "green glass").attenuation_distance = kInfinity; }},
       {"CoatMissing", "material-grid",
        [](Scene& s, RenderOptions&) { material(s, "red lacquer").clearcoat = 0.0f; }},
       {"SkyTurnedByTenDegrees", "material-grid",
@@ -97,7 +97,7 @@ TEST_P(DefectsGolden, AreRejected) {
   const int reference_spp = std::stoi(reference.metadata.at("spp"));
   const GoldenVerdict verdict = compare_with_reference({image, options.spp}, {reference, reference_spp},
                                                        sidak(1e-4, golden_cases().size()));
-  EXPECT_FALSE(verdict.agrees) << "not noticed:\n" << verdict.report;
+  EXPECT_FALSE(verdict.agrees) << "not detected:\n" << verdict.report;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DefectsGolden, ::testing::ValuesIn(defects()),

@@ -18,8 +18,6 @@ namespace {
 
 using renderer::Integrator;
 using renderer::RenderOptions;
-using scene::Color;
-using scene::Vec3;
 
 std::filesystem::path scene_file(const GoldenCase& c) {
   return std::filesystem::path(GATELIGHT_SOURCE_DIR) / "data" / (c.scene + ".glb");
@@ -38,8 +36,8 @@ std::filesystem::path write_sky() {
   const Vec3 sun = Vec3(-0.5f, 0.6f, 0.62f).normalized();
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const float theta = scene::kPi * (static_cast<float>(y) + 0.5f) / kHeight;
-      const float phi = 2.0f * scene::kPi * ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f);
+      const float theta = kPi * (static_cast<float>(y) + 0.5f) / kHeight;
+      const float phi = 2.0f * kPi * ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f);
       const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
       Color sky(0.20f, 0.16f, 0.12f);
       if (d.y() > 0.0f) sky = Color(0.35f, 0.45f, 0.60f) + (0.3f - 0.3f * d.y());

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures that are compared with stored ones: which scene, seen how. Shared by the tests and by the
+// The pictures that are compared with stored ones: their scenes and views. Shared by the tests and by the
 // program that makes the references, so that both render the same thing.
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace gatelight::testing {
 
 struct GoldenCase {
-  std::string name;   ///< of the reference: tests/golden/NAME.exr
+  std::string name;   ///< file of the reference: tests/golden/NAME.exr
   std::string scene;  ///< data/SCENE.glb
   renderer::RenderOptions options;
   int reference_spp = 2048;
@@ -27,7 +27,7 @@ const GoldenCase& golden_case(const std::string& name);
 std::filesystem::path golden_reference(const GoldenCase& c);
 scene::Scene load_golden_scene(const GoldenCase& c);
 
-/// Of the bytes of the case's scene, as text: a reference belongs to one version of its scene.
+/// Hash of the bytes of the case's scene, as text: a reference belongs to one version of its scene.
 std::string golden_fingerprint(const GoldenCase& c);
 
 /// The case's picture with its variance layer, of a scene and with options that the caller may have changed.

@@ -11,7 +11,8 @@
 namespace gatelight::testing {
 namespace {
 
-/// What is summed before it is compared. Pixels show sharp differences, the rest faint ones.
+/// The blocks of pixels that are summed before the comparison. Single pixels show sharp differences, larger
+/// blocks small ones.
 struct Scale {
   const char* name;
   int side;  ///< pixels; 0: the whole picture
@@ -36,9 +37,9 @@ struct Sum {
 };
 
 /// Welch's test of two sums. The test's variance is estimated twice: from its own samples and from the
-/// reference's. The greater counts. Its own alone is too small whenever rare bright samples stayed away; the
-/// reference's alone takes a rare sample of the test, which the reference has met less often than it should,
-/// for a difference.
+/// reference's. The greater counts. The first by itself is too small when rare bright samples are missing.
+/// The second by itself takes a rare sample of the test, which the reference has met less often than it
+/// should, for a difference.
 class Score {
  public:
   void add(double test, double own_variance, double test_spp, double reference, double reference_variance,

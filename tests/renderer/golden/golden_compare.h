@@ -1,6 +1,6 @@
 #pragma once
-// Whether two pictures with variance layers can be estimates of the same one. tests/README.md explains the
-// test.
+// A test whether two pictures with variance layers can be estimates of the same one. tests/README.md explains
+// it.
 
 #include <cstddef>
 #include <string>
@@ -17,7 +17,7 @@ struct Rendered {
 
 struct GoldenVerdict {
   bool agrees = true;
-  std::string report;                 ///< what was rejected, or the smallest p-values
+  std::string report;                 ///< the rejections, or the smallest p-values
   std::vector<float> pixel_p_values;  ///< interleaved as the picture
 };
 

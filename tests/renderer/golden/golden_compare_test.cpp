@@ -45,7 +45,7 @@ double uniform(Random& random, int /*pixel*/) {
   return random.uniform();
 }
 
-/// One sample in two hundred carries nearly everything: at 64 samples most pixels have not seen it.
+/// One sample in two hundred carries nearly everything: at 64 samples most pixels have none of them.
 double firefly(Random& random, int /*pixel*/) {
   const double dim = 0.1 * random.uniform();
   return random.uniform() < 0.005 ? 100.0 + dim : dim;
@@ -62,12 +62,12 @@ TEST(GoldenCompare, RejectsEqualDistributionsNoMoreOftenThanItMay) {
   }
 }
 
-TEST(GoldenCompare, NoticesThatEverythingIsFourPercentBrighter) {
+TEST(GoldenCompare, DetectsThatEverythingIsFourPercentBrighter) {
   const Sample brighter = [](Random& random, int pixel) { return 1.04 * uniform(random, pixel); };
   EXPECT_FALSE(compare(brighter, uniform, 1, 1e-5).agrees);
 }
 
-TEST(GoldenCompare, NoticesOneWrongPixel) {
+TEST(GoldenCompare, DetectsOneWrongPixel) {
   const Sample wrong = [](Random& random, int pixel) {
     return uniform(random, pixel) + (pixel == 77 ? 0.4 : 0.0);
   };
@@ -78,7 +78,7 @@ TEST(GoldenCompare, NoticesOneWrongPixel) {
   EXPECT_LT(verdict.pixel_p_values[3 * 77], 1e-6f);
 }
 
-TEST(GoldenCompare, NoticesDifferencesThatCancelInEveryBlock) {
+TEST(GoldenCompare, DetectsDifferencesThatCancelInEveryBlock) {
   const Sample chequered = [](Random& random, int pixel) {
     return uniform(random, pixel) + ((pixel % kWidth + pixel / kWidth) % 2 ? 0.06 : -0.06);
   };

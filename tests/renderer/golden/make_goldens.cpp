@@ -11,7 +11,7 @@
 namespace gatelight::testing {
 namespace {
 
-/// Of the references; the tests have another.
+/// Seed of the references; the tests have another.
 constexpr std::uint32_t kSeed = 1;
 
 void make(const GoldenCase& c) {

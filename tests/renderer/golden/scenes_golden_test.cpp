@@ -14,7 +14,7 @@
 namespace gatelight::testing {
 namespace {
 
-/// What somebody who looks for the reason wants to see. Returns the names.
+/// Writes the picture, its reference and the p-values, for debugging. Returns the names of the files.
 std::string write_failure(const GoldenCase& c, const renderer::Picture& image,
                           const renderer::Picture& reference, const GoldenVerdict& verdict) {
   const std::filesystem::path folder = std::filesystem::path(GATELIGHT_BINARY_DIR) / "golden";

@@ -12,10 +12,10 @@
 
 #include <cmath>
 
+#include "base/errors.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/image/white_balance.h"
-#include "renderer/machine/errors.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -46,7 +46,7 @@ OIIO::ImageBuf read_raw(const std::filesystem::path& file) {
   return image;
 }
 
-TEST(Display, EveryFormatHoldsTheSameCodeValues) {
+TEST(Display, EveryFormatHasTheSameCodeValues) {
   const TemporaryFolder folder;
   const DisplayOptions display{.exposure = -0.5f, .white_balance = 5000.0f, .tonemap = Tonemap::neutral};
   for (const bool with_alpha : {false, true}) {
@@ -106,7 +106,7 @@ TEST(Display, EqualPicturesAreEqualFiles) {
   }
 }
 
-TEST(Display, AnExrHasPremultipliedAlphaAndTellsItsGamutAndView) {
+TEST(Display, AnExrHasPremultipliedAlphaItsGamutAndItsView) {
   const TemporaryFolder folder;
   Picture picture = gradient(true);
   picture.view.emplace();
@@ -184,7 +184,7 @@ TEST(Ocio, AViewReplacesTheCurve) {
   }
 }
 
-TEST(Ocio, WhatAConfigurationHasNotIsNamedWithWhatItHas) {
+TEST(Ocio, MissingNamesAreReportedWithTheAvailableOnes) {
   const TemporaryFolder folder;
   const std::string config = folder.write("config.ocio", kConfig).string();
   const auto check = [](const OcioView& view) { check_display({.ocio = view}); };
@@ -192,15 +192,15 @@ TEST(Ocio, WhatAConfigurationHasNotIsNamedWithWhatItHas) {
       [&] {
         check({config, "cinema", ""});
       },
-      {"--ocio-display 'cinema'", "screen", "wall"});
+      {"`ocio-display` 'cinema'", "screen", "wall"});
   expect_refusal<BadOption>(
       [&] {
         check({config, "screen", "film"});
       },
-      {"--ocio-view 'film'", "square root", "as it is"});
-  expect_refusal<BadOption>([&] { check({(folder / "no.ocio").string(), "", ""}); }, {"--ocio", "no.ocio"});
+      {"`ocio-view` 'film'", "square root", "as it is"});
+  expect_refusal<BadOption>([&] { check({(folder / "no.ocio").string(), "", ""}); }, {"`ocio`", "no.ocio"});
   const std::string broken = folder.write("broken.ocio", "displays: [").string();
-  expect_refusal<BadOption>([&] { check({broken, "", ""}); }, {"--ocio", "broken.ocio"});
+  expect_refusal<BadOption>([&] { check({broken, "", ""}); }, {"`ocio`", "broken.ocio"});
 }
 
 }  // namespace

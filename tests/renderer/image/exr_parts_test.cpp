@@ -28,7 +28,7 @@ struct Part {
   int width = 3;
 };
 
-/// Parts of a height of 2.
+/// Writes parts with a height of 2.
 std::string write_parts(const TemporaryFolder& folder, const std::vector<Part>& parts) {
   std::vector<Imf::Header> headers;
   for (const Part& part : parts) {
@@ -70,7 +70,7 @@ TEST(ExrParts, AreLayersWithTheNamesOfTheirChannelsOrTheirOwn) {
         10.0f},
        {"Denoising Normal", {"X", "Y", "Z"}, 20.0f}}));
   ASSERT_EQ(picture.layers.size(), 4u);
-  EXPECT_EQ(picture.layers[0].name, "View.Combined") << "what is shown comes first";
+  EXPECT_EQ(picture.layers[0].name, "View.Combined") << "the layer that is shown comes first";
   EXPECT_EQ(picture.layers[0].values[2], 4.0f);
   ASSERT_TRUE(picture.find("Denoising Normal")) << "channels without a layer take the name of the part";
   EXPECT_EQ(picture.find("View.Depth")->values, std::vector<float>(6, 1.0f));
@@ -93,7 +93,7 @@ TEST(ExrParts, OfAnotherSizeAndOfTheSameNameAreLeftOut) {
   EXPECT_EQ(picture.find("right")->values[0], 5.0f);
 }
 
-TEST(ExrParts, ShowTheOneThatIsCalledThePicture) {
+TEST(ExrParts, PutTheBeautyPartFirst) {
   const TemporaryFolder folder;
   const Picture picture = read_image(write_parts(
       folder,

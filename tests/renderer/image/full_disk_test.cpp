@@ -12,7 +12,7 @@ using tests::FileSizeLimit;
 using tests::read_file;
 using tests::TemporaryFolder;
 
-/// Does not compress.
+/// A picture that does not compress.
 Picture noise(int size) {
   Picture picture{.width = size, .height = size};
   Layer beauty{.channels = {"R", "G", "B"}};

@@ -60,7 +60,7 @@ TEST(ExrRoundTrip, FloatKeepsEveryBitOfEveryLayer) {
   EXPECT_EQ(read.metadata, written.metadata);
 }
 
-TEST(ExrRoundTrip, HalfIsNearestHalfAndLeavesFullPrecisionAlone) {
+TEST(ExrRoundTrip, HalfIsNearestHalfAndKeepsFullPrecision) {
   const TemporaryFolder folder;
   const Picture written = sample_picture();
   write_image(written, folder / "a.exr");
@@ -141,7 +141,7 @@ int srgb_byte(double linear) {
   return static_cast<int>(std::lround(255.0 * v));
 }
 
-/// A row of greys from -0.5 to 4, and what is not a number.
+/// A row of greys from -0.5 to 4, and a NaN.
 Picture grey_ramp() {
   Picture picture{.width = 512, .height = 1};
   Layer beauty{.channels = {"R", "G", "B"}};
@@ -153,7 +153,7 @@ Picture grey_ramp() {
   return picture;
 }
 
-/// The byte that a linear value read from a PNG was made of.
+/// The byte of a PNG from which a linear value was read.
 int byte_of(float linear) {
   return srgb_byte(linear);
 }
@@ -251,18 +251,18 @@ TEST(Formats, AnOutputWithoutAFolderIsNamedBeforeAnythingIsRendered) {
 TEST(Formats, UnreadableFilesAreNamedInOneLine) {
   const TemporaryFolder folder;
   const std::string missing = (folder / "missing.exr").string();
-  expect_message(refusal<ImageError>([&] { read_image(missing); }), {missing});
+  expect_message(refusal<InputError>([&] { read_image(missing); }), {missing});
   write_image(sample_picture(), folder / "whole.exr");
   const std::string whole = read_file(folder / "whole.exr");
   for (const char* extension : {".exr", ".png", ".hdr"}) {
     for (const std::string& content : {std::string(), std::string("not a picture"), whole.substr(0, 40),
                                        whole.substr(0, whole.size() / 2)}) {
       const std::filesystem::path file = folder.write(std::string("broken") + extension, content);
-      tests::expect_names(refusal<ImageError>([&] { read_image(file); }), {file.string()});
+      tests::expect_names(refusal<InputError>([&] { read_image(file); }), {file.string()});
     }
   }
   std::filesystem::create_directory(folder / "folder.png");
-  expect_message(refusal<ImageError>([&] { read_image(folder / "folder.png"); }),
+  expect_message(refusal<InputError>([&] { read_image(folder / "folder.png"); }),
                  {(folder / "folder.png").string()});
 }
 

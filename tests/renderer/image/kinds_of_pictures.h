@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of each kind, small enough to be made a dozen times, and what they must have in common.
+// Pictures of each kind, small enough to be made a dozen times, and their comparison.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The curves to the screen, and the exposure that a picture asks for.
+// The curves to the screen, and the automatic exposure of a picture.
 
 #include "renderer/image/tonemap.h"
 
@@ -12,7 +12,6 @@
 #include "renderer/image/auto_exposure.h"
 
 namespace gatelight::renderer {
-using scene::Color;
 
 namespace {
 
@@ -31,7 +30,7 @@ TEST_P(Curves, GreysRiseStayGreyAndStayInTheScreensRange) {
   EXPECT_LT(tonemapped(Color::Zero(), GetParam()).maxCoeff(), 1e-3f);
 }
 
-TEST_P(Curves, ValuesThatAreNoLightAreShownToo) {
+TEST_P(Curves, NonFiniteAndNegativeValuesStayInTheScreensRange) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinite = std::numeric_limits<float>::infinity();
   for (const Color& color :
@@ -53,16 +52,16 @@ TEST(Neutral, KeepsColoursBelowItsShoulderButForTheGlare) {
   const Color color(0.5f, 0.3f, 0.7f);
   EXPECT_TRUE(tonemapped(color, Tonemap::neutral).isApprox(color - 0.04f, 1e-6f));
   EXPECT_NEAR(tonemapped(Color::Constant(0.04f), Tonemap::neutral).x(), 6.25f * 0.04f * 0.04f, 1e-6f);
-  // Of a grey of 2, less 0.04: 1 - 0.24^2 / (1.96 + 0.24 - 0.76).
+  // A grey of 2, less 0.04, becomes 1 - 0.24^2 / (1.96 + 0.24 - 0.76).
   EXPECT_NEAR(tonemapped(Color::Constant(2.0f), Tonemap::neutral).x(), 0.96f, 1e-4f);
 }
 
-/// Where the middle channel lies between the least and the greatest.
+/// The position of the middle channel between the least and the greatest.
 float hue(const Color& c) {
   return (c[1] - c[2]) / (c[0] - c[2]);
 }
 
-TEST(Neutral, HoldsHuesThatClampingShifts) {
+TEST(Neutral, KeepsHuesThatClampingShifts) {
   const Color orange(10.0f, 2.0f, 0.1f);
   EXPECT_NEAR(hue(tonemapped(orange, Tonemap::neutral)), hue(orange), 1e-3f);
   EXPECT_GT(hue(tonemapped(orange, Tonemap::none)), 0.9f) << "clamped it is yellow";
@@ -91,7 +90,7 @@ TEST(AutoExposure, BringsTheLogAverageToMiddleGrey) {
   EXPECT_NEAR(auto_exposure(of({0.045f, 0.0f, 0.0f})), 2.0f, 1e-6f) << "black pixels do not count";
 }
 
-TEST(AutoExposure, SparesBrightPartsAndPicturesWithoutLight) {
+TEST(AutoExposure, LimitsBrightPartsAndIsZeroWithoutLight) {
   // A tenth of the picture is a window of 100 times the rest.
   std::vector<float> room(100, 0.02f);
   std::fill_n(room.begin(), 10, 20.0f);

@@ -22,7 +22,7 @@ SkyOptions sky(float elevation, float turbidity = 3.0f, float azimuth = 0.0f) {
 
 /// North is -z and east +x.
 Vec3 towards(float azimuth_degrees, float elevation_degrees) {
-  const float a = azimuth_degrees * scene::kPi / 180.0f, e = elevation_degrees * scene::kPi / 180.0f;
+  const float a = azimuth_degrees * kPi / 180.0f, e = elevation_degrees * kPi / 180.0f;
   return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
 }
 
@@ -54,17 +54,17 @@ TEST(ClearSky, IsBlueOverheadAtNoonAndRedAroundTheSunAtTheHorizon) {
 
 TEST(ClearSky, TheHorizonIsBrighterThanTheZenithAwayFromTheSun) {
   const ClearSky s = make_clear_sky(sky(40.0f, 2.0f), 1.0f);
-  const float zenith = scene::luminance(s.picture.radiance(Vec3(0, 1, 0)));
-  EXPECT_GT(scene::luminance(s.picture.radiance(towards(180.0f, 3.0f))), 1.5f * zenith);
+  const float zenith = luminance(s.picture.radiance(Vec3(0, 1, 0)));
+  EXPECT_GT(luminance(s.picture.radiance(towards(180.0f, 3.0f))), 1.5f * zenith);
 }
 
-TEST(ClearSky, ALowerSunIsFainterAndRedder) {
+TEST(ClearSky, ALowerSunIsDimmerAndRedder) {
   Color before = Color::Constant(1e9f);
   float redness = 0.0f;
   for (const float elevation : {90.0f, 60.0f, 40.0f, 20.0f, 10.0f, 5.0f, 2.0f, 0.0f}) {
     const Color sun = make_clear_sky(sky(elevation, 2.0f), 1.0f).sun_irradiance;
     EXPECT_TRUE((sun <= before).all()) << elevation;
-    EXPECT_LT(scene::luminance(sun), scene::luminance(before)) << elevation;
+    EXPECT_LT(luminance(sun), luminance(before)) << elevation;
     EXPECT_GT(sun.x() / sun.y(), redness) << elevation;
     before = sun;
     redness = sun.x() / sun.y();
@@ -74,7 +74,7 @@ TEST(ClearSky, ALowerSunIsFainterAndRedder) {
 TEST(ClearSky, AWhiteFloorInFullDaylightHasARadianceOfAboutOne) {
   const ClearSky s = make_clear_sky(sky(60.0f), 1.0f);
   // Below the horizon lies a floor of albedo 0.2.
-  const float floor = scene::luminance(s.picture.radiance(Vec3(0, -1, 0))) / 0.2f;
+  const float floor = luminance(s.picture.radiance(Vec3(0, -1, 0))) / 0.2f;
   EXPECT_GT(floor, 0.8f);
   EXPECT_LT(floor, 1.3f);
   SkyOptions twice = sky(60.0f);
@@ -84,7 +84,7 @@ TEST(ClearSky, AWhiteFloorInFullDaylightHasARadianceOfAboutOne) {
   EXPECT_TRUE(bright.picture.mean().isApprox(6.0f * s.picture.mean(), 1e-5f));
 }
 
-TEST(ClearSky, TheSunStandsWhereItIsSaidAndTheSkyIsSymmetricAboutIt) {
+TEST(ClearSky, TheSunStandsAtItsGivenPositionAndTheSkyIsSymmetricAboutIt) {
   EnvironmentOptions options;
   options.sky = sky(30.0f, 3.0f, 70.0f);
   const Environment environment(options);
@@ -121,7 +121,7 @@ TEST(ClearSky, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 /// The integral of radiance times cosine over the hemisphere of n: the picture by a midpoint rule, the disc
-/// apart.
+/// separately.
 Color integrate(const Environment& environment, const SkyOptions& options, const Vec3& n) {
   SkyOptions without = options;
   without.sun_size_degrees = 0.0f;
@@ -237,7 +237,7 @@ TEST(ClearSky, ExcludesAnotherEnvironment) {
   EnvironmentOptions options;
   options.sky = sky(40.0f);
   options.constant = Color::Ones();
-  tests::expect_refusal<std::runtime_error>([&] { Environment{options}; }, {"--sky", "--environment"});
+  tests::expect_refusal<InputError>([&] { Environment{options}; }, {"`sky`", "`environment`"});
 }
 
 }  // namespace

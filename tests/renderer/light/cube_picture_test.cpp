@@ -76,7 +76,7 @@ TEST(CubePicture, FacesAreThoseThatAViewerInsideSees) {
 TEST(CubePicture, RotationTurnsTheCubeInTheWorld) {
   scene::ImageBasedLight light = six_colors();
   // A quarter turn about y takes +z to +x.
-  light.rotation = Eigen::AngleAxisf(0.5f * scene::kPi, Vec3::UnitY()).toRotationMatrix();
+  light.rotation = Eigen::AngleAxisf(0.5f * kPi, Vec3::UnitY()).toRotationMatrix();
   const EnvironmentPicture picture = make_cube_picture(light, 1.0f);
   EXPECT_TRUE(picture.radiance(Vec3::UnitX()).isApprox(linear(200, 200, 0), 1e-4f));
   EXPECT_TRUE(picture.radiance(Vec3::UnitY()).isApprox(linear(150, 200, 0), 1e-4f));

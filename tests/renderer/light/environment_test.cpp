@@ -48,7 +48,8 @@ std::vector<Color> random_texels(int count, std::uint64_t seed) {
   return texels;
 }
 
-/// Cells of equal steps in the picture's plane, each finely summed up: chi-square and the integral.
+/// Tests by chi-square in cells of equal steps in the picture's plane, each finely integrated, and by the
+/// integral.
 void expect_samples_follow_density(const EnvironmentPicture& picture, std::uint64_t seed) {
   constexpr int kColumns = 24;
   constexpr int kRows = 12;
@@ -154,7 +155,7 @@ class EnvironmentFileTest : public ::testing::Test {
   tests::TemporaryFolder folder_;
 };
 
-TEST_F(EnvironmentFileTest, OrientationRotationAndScaleAreThoseOfTheContract) {
+TEST_F(EnvironmentFileTest, OrientationRotationAndScaleAreAsDocumented) {
   // Four columns, seen at +z (left half), -x, -z, +x in the order of u.
   std::vector<Color> texels;
   for (int y = 0; y < 4; ++y) {
@@ -162,7 +163,7 @@ TEST_F(EnvironmentFileTest, OrientationRotationAndScaleAreThoseOfTheContract) {
   }
   const std::string path = write(4, 4, texels);
   const auto at = [](const Environment& e, float u) {
-    const float phi = 2.0f * scene::kPi * (u - 0.5f);
+    const float phi = 2.0f * kPi * (u - 0.5f);
     return e.radiance(Vec3(std::sin(phi), 1.0f, -std::cos(phi)).normalized()).x();
   };
   const Environment plain({.file = path});
@@ -189,7 +190,7 @@ TEST_F(EnvironmentFileTest, OrientationRotationAndScaleAreThoseOfTheContract) {
 TEST_F(EnvironmentFileTest, BadTexelsCountAsZero) {
   std::vector<Color> texels(8 * 4, Color(1, 1, 1));
   texels[3] = Color(std::numeric_limits<float>::quiet_NaN(), 1, 1);
-  texels[9] = Color(scene::kInfinity, -1, 1);
+  texels[9] = Color(kInfinity, -1, 1);
   texels[20] = Color(1e38f, 1e-38f, 0);
   const Environment environment({.file = write(8, 4, texels), .scale = 100.0f});
   testing::Random random(9);
@@ -202,9 +203,9 @@ TEST_F(EnvironmentFileTest, BadTexelsCountAsZero) {
   EXPECT_TRUE(environment.mean().isFinite().all());
 }
 
-TEST_F(EnvironmentFileTest, InfiniteTexelsStayTheBrightestAndAreTold) {
+TEST_F(EnvironmentFileTest, InfiniteTexelsStayTheBrightestAndAreReported) {
   std::vector<Color> texels(8 * 4, Color(1, 1, 1));
-  texels[9] = Color(scene::kInfinity, 2, 1);
+  texels[9] = Color(kInfinity, 2, 1);
   const Environment half({.file = write(8, 4, texels), .scale = 2.0f});
   texels[9].x() = 65504.0f;
   const Environment finite({.file = write(8, 4, texels), .scale = 2.0f});
@@ -213,7 +214,7 @@ TEST_F(EnvironmentFileTest, InfiniteTexelsStayTheBrightestAndAreTold) {
   EXPECT_NE(half.warning().find("1 values are infinite and taken as 65504"), std::string::npos)
       << half.warning();
   EXPECT_EQ(finite.warning(), "");
-  texels[9].x() = scene::kInfinity;
+  texels[9].x() = kInfinity;
   texels[10] = Color(-1, 1e6f, std::numeric_limits<float>::quiet_NaN());
   const std::string warning = Environment({.file = write(8, 4, texels)}).warning();
   EXPECT_NE(warning.find("taken as 1000000, 2 negative or NaN"), std::string::npos) << warning;
@@ -236,18 +237,18 @@ TEST_F(EnvironmentFileTest, ColoursAreChosenByTheNamesOfTheirChannels) {
   const std::vector<std::vector<std::string>> without = {{"Z"},           {"A"},           {"R", "G"},
                                                          {"b", "g", "r"}, {"X", "Y", "Z"}, {"G", "Y"}};
   for (const std::vector<std::string>& channels : without) {
-    expect_refusal<ImageError>([&] { light(channels); }, {"sky.exr", channels[0], "R", "G", "B", "Y"});
+    expect_refusal<InputError>([&] { light(channels); }, {"sky.exr", channels[0], "R", "G", "B", "Y"});
   }
 }
 
-TEST_F(EnvironmentFileTest, WhatAPictureDoesNotStoreOfItsDisplayWindowIsBlack) {
+TEST_F(EnvironmentFileTest, PartsOfTheDisplayWindowThatAreNotStoredAreBlack) {
   const std::string path = (folder_.path() / "sky.exr").string();
   Picture picture{.width = 8, .height = 6, .x0 = -2, .y0 = -1, .full_width = 16, .full_height = 8};
   picture.layers = {{.channels = {"R", "G", "B"}, .values = std::vector<float>(8 * 6 * 3, 1.0f)}};
   write_image(picture, path);
   const Environment environment({.file = path});
   const auto at = [&](float u, float v) {
-    const float phi = 2.0f * scene::kPi * (u - 0.5f), theta = scene::kPi * v;
+    const float phi = 2.0f * kPi * (u - 0.5f), theta = kPi * v;
     return environment
         .radiance(Vec3(std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)))
         .x();
@@ -260,7 +261,7 @@ TEST_F(EnvironmentFileTest, WhatAPictureDoesNotStoreOfItsDisplayWindowIsBlack) {
   picture.full_width = 1 << 16;
   picture.full_height = 1 << 14;
   write_image(picture, path);
-  EXPECT_THROW(Environment({.file = path}), ImageError) << "a billion pixels by a word of the header";
+  EXPECT_THROW(Environment({.file = path}), InputError) << "a header that claims a billion pixels";
 }
 
 TEST_F(EnvironmentFileTest, ABlackPictureIsNoLight) {
@@ -285,10 +286,9 @@ TEST(EnvironmentTest, AConstantIsTheSameEverywhere) {
 }
 
 TEST(EnvironmentTest, AFileThatCannotBeReadIsNamed) {
-  expect_refusal<ImageError>([] { Environment({.file = "no/such/sky.exr"}); }, {"no/such/sky.exr"});
-  EXPECT_THROW(Environment({.constant = Color(1, 1, 1), .scale = -1.0f}), std::runtime_error);
-  EXPECT_THROW(Environment({.constant = Color(1, 1, 1), .rotation_degrees = scene::kInfinity}),
-               std::runtime_error);
+  expect_refusal<InputError>([] { Environment({.file = "no/such/sky.exr"}); }, {"no/such/sky.exr"});
+  EXPECT_THROW(Environment({.constant = Color(1, 1, 1), .scale = -1.0f}), InputError);
+  EXPECT_THROW(Environment({.constant = Color(1, 1, 1), .rotation_degrees = kInfinity}), InputError);
 }
 
 }  // namespace

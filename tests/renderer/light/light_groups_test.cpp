@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 #include "scene/light_adjustments.h"
 #include "tests/support/grouped_lights.h"
 #include "tests/support/light_scenes.h"
@@ -17,7 +17,7 @@ using testing::LitScene;
 using tests::expect_refusal;
 using Names = std::vector<std::string>;
 
-LitScene lit(const EnvironmentOptions& environment = {.constant = scene::Color(1, 1, 1)}) {
+LitScene lit(const EnvironmentOptions& environment = {.constant = Color(1, 1, 1)}) {
   return LitScene(testing::lit_by_all(), LightSelection::tree, environment);
 }
 
@@ -54,24 +54,24 @@ TEST(LightGroups, NamesStarsTheEnvironmentAndTheRest) {
   EXPECT_EQ(groups_of(lit({}), {{"a", {"*"}}}).names(), (Names{"a"}));
 }
 
-TEST(LightGroups, WhatIsSwitchedOffKeepsItsName) {
+TEST(LightGroups, LightsThatAreSwitchedOffKeepTheirNames) {
   scene::Scene scene = testing::lit_by_all();
-  scene::adjust_lights(scene, {{"panel", scene::Color::Zero()}, {"bulb", scene::Color::Zero()}});
+  scene::adjust_lights(scene, {{"panel", Color::Zero()}, {"bulb", Color::Zero()}});
   const LitScene dark(std::move(scene));
   EXPECT_EQ(groups_of(dark, {{"a", {"panel", "bulb"}}}).names(), (Names{"a", "rest"}));
   EXPECT_EQ(groups_of(dark, {{"a", {"glow", "torch", "noon"}}}).names(), (Names{"a"}));
 }
 
-TEST(LightGroups, UnknownNamesAreRefusedWithWhatThereIs) {
+TEST(LightGroups, UnknownNamesAreRefusedWithTheAvailableOnes) {
   const LitScene all = lit();
   const auto refuse = [&](const LitScene& of, const std::vector<LightGroup>& groups,
                           const tests::NameList& names) {
     expect_refusal<BadOption>([&] { groups_of(of, groups); }, names);
   };
   refuse(all, {{"key", {"bulb", "tourch"}}},
-         {"--light-groups", "key", "'tourch'", "'bulb'", "'glow'", "'environment'", "did you mean 'torch'"});
+         {"`light-groups`", "key", "'tourch'", "'bulb'", "'glow'", "'environment'", "did you mean 'torch'"});
   refuse(all, {{"key", {"moon*"}}}, {"'moon*'", "'noon'"});
-  refuse(lit({}), {{"sky", {"environment"}}}, {"--light-groups", "sky", "--environment", "--sky"});
+  refuse(lit({}), {{"sky", {"environment"}}}, {"`light-groups`", "sky", "`environment`", "`sky`"});
   refuse(lit({}), {{"key", {"lamp"}}}, {"'lamp'", "'bulb'"});
 }
 
@@ -81,7 +81,7 @@ TEST(LightGroups, ALightIsInOneGroup) {
       [&] {
         groups_of(all, {{"a", {"bulb"}}, {"b", {"noon", "bu*"}}});
       },
-      {"--light-groups", "'bulb'", "'a'", "'b'"});
+      {"`light-groups`", "'bulb'", "'a'", "'b'"});
   expect_refusal<BadOption>(
       [&] {
         groups_of(all, {{"a", {"environment"}}, {"b", {"environment"}}});

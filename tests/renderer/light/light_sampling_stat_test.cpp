@@ -54,7 +54,7 @@ void add_expected(const Lights& lights, const Triangle& t, std::uint32_t instanc
   }
 }
 
-/// Chi-square of where samples land on the triangles (cells of a barycentric grid, and one cell for "no
+/// Chi-square test of the positions of samples on the triangles (cells of a barycentric grid, and one for "no
 /// sample"). Returns the total mass of the densities.
 double expect_samples_follow_densities(const LitScene& lit, const Vec3& p, const Vec3& n, std::uint64_t seed,
                                        int samples = 60000) {
@@ -227,7 +227,7 @@ TEST(LightSamplingTest, AConstantSkyIsSampledByTheCosine) {
   EXPECT_EQ(lit.lights.pdf_environment(Vec3::Zero(), n, -n), 0.0f);
 }
 
-// Everything at once: the shares of tree, sun and sky, and densities that know of them.
+// Everything at once: the shares of tree, sun and sky, and densities that include them.
 TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
   scene::Scene scene;
   testing::add_light(scene, {kOverhead}, Color(1, 1, 1));
@@ -256,7 +256,7 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
       if (sample.delta) {
         EXPECT_NEAR(static_cast<double>(sample.pdf), 1.0 / c.parts, 1e-6);
         observed[sample.wi.y() > 0.0f ? 2 : 3] += 1.0;
-      } else if (sample.distance == scene::kInfinity) {
+      } else if (sample.distance == kInfinity) {
         EXPECT_NEAR(sample.pdf / lit.lights.pdf_environment(p, c.n, sample.wi), 1.0f, 1e-3f);
         observed[1] += 1.0;
       } else {
@@ -284,11 +284,10 @@ TEST(LightSamplingTest, AConstantSkyTakesNoSamplesFromOtherLights) {
   const LightSample towards_sun = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f));
   EXPECT_TRUE(towards_sun.delta);
   EXPECT_EQ(towards_sun.pdf, 1.0f);
-  // The density says so too, or multiple importance sampling would lose the sky.
+  // The density is zero too, or multiple importance sampling would lose the sky.
   EXPECT_EQ(lit.lights.pdf_environment(Vec3::Zero(), Vec3::UnitY(), Vec3(0.6f, 0.8f, 0)), 0.0f);
-  // Where the sun is below the horizon the sky is all there is to sample.
-  EXPECT_EQ(lit.lights.sample(Vec3::Zero(), -Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f)).distance,
-            scene::kInfinity);
+  // Where the sun is below the horizon only the sky can be sampled.
+  EXPECT_EQ(lit.lights.sample(Vec3::Zero(), -Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f)).distance, kInfinity);
   EXPECT_GT(lit.lights.pdf_environment(Vec3::Zero(), -Vec3::UnitY(), Vec3(0.6f, -0.8f, 0)), 0.0f);
 }
 

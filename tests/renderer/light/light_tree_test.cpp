@@ -85,8 +85,8 @@ TEST(LightTreeTest, ProbabilitiesSumUpToOneWhereEveryLightReaches) {
   }
 }
 
-// What makes selection by the tree unbiased: a light of which any part shines towards the receiver, and
-// stands above its horizon, has a chance.
+// Selection by the tree is unbiased: a light with a part that shines towards the receiver and stands above
+// its horizon has a nonzero probability.
 TEST(LightTreeTest, EveryLightThatShinesOnThePointCanBeChosen) {
   testing::Random random(5);
   for (const float size : {1e-3f, 1.0f, 1e6f}) {
@@ -134,8 +134,8 @@ TEST(LightTreeTest, PrefersTheNearTheBrightAndTheFacing) {
   EXPECT_NEAR(LightTree(lights).probability(Vec3::Zero(), Vec3::UnitY(), 0), 0.5f, 1e-3f);
 }
 
-/// Second moment of a sample's light over the squared mean, 1 at best: what the choice of a light costs in
-/// noise. Mean over some points among the lights.
+/// Second moment of a sample's light over the squared mean, 1 at best: the noise from the choice of a light.
+/// Mean over some points among the lights.
 double cost_of_choices(const std::vector<LightBounds>& lights) {
   const LightTree tree(lights);
   testing::Random random(31);
@@ -159,7 +159,7 @@ double cost_of_choices(const std::vector<LightBounds>& lights) {
   return cost;
 }
 
-TEST(LightTreeTest, PartsLightsByPlaceAndDirection) {
+TEST(LightTreeTest, SplitsLightsByPositionAndDirection) {
   // Shuffled: groups in the order of the list would cover the whole cube. Measured 2.08 (4.5 in such
   // groups) and 4.64.
   std::vector<LightBounds> lights = scattered(800, 17);

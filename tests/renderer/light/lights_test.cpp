@@ -1,4 +1,4 @@
-// Lights at the extremes of scale, brightness and geometry, and what of a material counts.
+// Lights at the extremes of scale, brightness and geometry, and the materials that emit light.
 
 #include "renderer/light/lights.h"
 
@@ -27,14 +27,14 @@ Vec3 random_vector(testing::Random& random, float size) {
   return 2.0f * size * Vec3(x, y, random.uniform_float() - 0.5f);
 }
 
-TEST(LightsTest, NothingIsEmptyAndGivesNothing) {
+TEST(LightsTest, AnEmptySceneHasNoSamples) {
   const LitScene lit{scene::Scene{}};
   EXPECT_TRUE(lit.lights.empty());
   EXPECT_EQ(lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.5f, 0.5f)).pdf, 0.0f);
   EXPECT_EQ(lit.lights.pdf_environment(Vec3::Zero(), Vec3::UnitY(), Vec3::UnitY()), 0.0f);
 }
 
-TEST(LightsTest, SamplesAreFiniteAndKnownToTheDensityAtEveryScale) {
+TEST(LightsTest, SamplesAreFiniteAndAgreeWithTheDensityAtEveryScale) {
   testing::Random random(1);
   for (const LightSelection selection : {LightSelection::tree, LightSelection::power}) {
     for (const float size : {1e-3f, 1.0f, 1e6f}) {
@@ -106,7 +106,7 @@ TEST(LightsTest, PointsOnTheLightAndInItsPlaneAreHarmless) {
   }
 }
 
-TEST(LightsTest, OnlyWhatEmitsCounts) {
+TEST(LightsTest, OnlyEmittersCount) {
   scene::Scene scene;
   const std::uint32_t lamp =
       add_light(scene, {kOverhead, {kOverhead[0], kOverhead[0], kOverhead[1]}}, Color(1, 1, 1));
@@ -203,15 +203,15 @@ TEST(LightsTest, ABlackTextureIsNoLight) {
   EXPECT_EQ(lit.lights.pdf_triangle(Vec3::Zero(), Vec3::UnitY(), 0, 0, Vec3::UnitY(), 2.0f), 0.0f);
 }
 
-// A light that is chosen less often than once in 2^24 lies between the numbers that a float can tell apart;
-// the second number lends the first its bits.
+// A light that is chosen less often than once in 2^24 lies between the numbers that a float can distinguish;
+// the second number gives more bits to the first.
 TEST(LightsTest, LightsBetweenTheStepsOfTheNumberAreStillChosen) {
   scene::Scene scene;
   const auto lamp = [](float x) { return Triangle{Vec3(x, 2, 0), Vec3(x + 0.1f, 2, 0), Vec3(x, 2, 0.1f)}; };
   add_light(scene, {lamp(0.0f)}, Color(1, 1, 1));
   add_light(scene, {lamp(0.5f)}, Color(1e-9f, 1e-9f, 1e-9f));
   const LitScene lit(std::move(scene), LightSelection::power);
-  // The table's second half belongs to the faint lamp for its first billionth, then to the bright one.
+  // The table's second half belongs to the dim lamp for its first billionth, then to the bright one.
   const LightSample bright = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.5f, 0.5f));
   const LightSample faint = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.0f, 0.5f));
   EXPECT_EQ(bright.radiance.x(), 1.0f);
@@ -267,7 +267,7 @@ scene::Scene delta_scene() {
   return scene;
 }
 
-/// What they send to the origin in all, weighted by the cosine with n; by 1 where n is zero.
+/// Their whole light at the origin, weighted by the cosine with n; by 1 where n is zero.
 Color delta_irradiance(const Vec3& n) {
   const auto seen = [&](const Color& irradiance, const Vec3& to_light) -> Color {
     return irradiance * (n.isZero(0.0f) ? 1.0f : std::max(0.0f, n.dot(to_light.normalized())));
@@ -299,7 +299,7 @@ TEST(LightsTest, DeltaSamplesAddUpToAllDeltaLightsAndNothingElse) {
         const float cosine = n.isZero(0.0f) ? 1.0f : std::max(0.0f, n.dot(sample.wi));
         sum += (sample.radiance * (cosine / sample.pdf)).cast<double>();
       }
-      // Each light's share of the numbers is met to within one of them.
+      // Each light's share of the numbers is right to within one of them.
       for (int k = 0; k < 3; ++k) {
         const double expected = static_cast<double>(delta_irradiance(n)[k]);
         EXPECT_NEAR(sum[k] / kNumbers, expected, 1e-3 * expected) << n.transpose() << ", channel " << k;
@@ -308,7 +308,7 @@ TEST(LightsTest, DeltaSamplesAddUpToAllDeltaLightsAndNothingElse) {
   }
 }
 
-TEST(LightsTest, DeltaSamplesLeaveOutWhatIsBelowTheHorizon) {
+TEST(LightsTest, DeltaSamplesLeaveOutLightsBelowTheHorizon) {
   const LitScene lit(delta_scene());
   for (int i = 0; i < 1000; ++i) {
     const float u_select = (static_cast<float>(i) + 0.5f) / 1000.0f;
@@ -322,7 +322,7 @@ TEST(LightsTest, DeltaSamplesLeaveOutWhatIsBelowTheHorizon) {
   }
 }
 
-TEST(LightsTest, WithoutDeltaLightsNothingIsBuiltForThem) {
+TEST(LightsTest, WithoutDeltaLightsNoTableIsBuiltForThem) {
   scene::Scene scene;
   add_light(scene, {kOverhead}, Color(1, 1, 1));
   scene.lights.emplace_back();

@@ -12,10 +12,10 @@ namespace {
 
 using testing::SceneBuilder;
 
-TEST(SoftSky, OnlySurfacesThatShowLightAndGetNoneNeedIt) {
+TEST(SoftSky, OnlyScenesWithReflectingSurfacesAndWithoutLightsNeedIt) {
   SceneBuilder builder;
   const int clay = builder.material(SceneBuilder::lambert(Color::Ones()));
-  EXPECT_FALSE(needs_light(builder.scene())) << "nothing is there";
+  EXPECT_FALSE(needs_light(builder.scene())) << "an empty scene";
   builder.quad(clay, Vec3::Zero(), Vec3(1, 0, 0), Vec3(0, 1, 0));
   EXPECT_TRUE(needs_light(builder.scene()));
   scene::Scene lit = builder.scene();
@@ -44,11 +44,11 @@ TEST(SoftSky, MakesWhiteSurfacesNeitherDarkNorOverexposed) {
     constexpr int kTheta = 64, kPhi = 128;
     for (int i = 0; i < kTheta; ++i) {
       for (int j = 0; j < kPhi; ++j) {
-        const float theta = scene::kPi * (static_cast<float>(i) + 0.5f) / kTheta;
-        const float phi = 2.0f * scene::kPi * (static_cast<float>(j) + 0.5f) / kPhi;
+        const float theta = kPi * (static_cast<float>(i) + 0.5f) / kTheta;
+        const float phi = 2.0f * kPi * (static_cast<float>(j) + 0.5f) / kPhi;
         const Vec3 d(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
-        const float solid_angle = std::sin(theta) * (scene::kPi / kTheta) * (2.0f * scene::kPi / kPhi);
-        reflected += sky.radiance(d) * (std::max(0.0f, n.dot(d)) * solid_angle / scene::kPi);
+        const float solid_angle = std::sin(theta) * (kPi / kTheta) * (2.0f * kPi / kPhi);
+        reflected += sky.radiance(d) * (std::max(0.0f, n.dot(d)) * solid_angle / kPi);
         ASSERT_TRUE(twice.radiance(d).isApprox(2.0f * sky.radiance(d), 1e-5f));
       }
     }

@@ -33,7 +33,7 @@ TEST(SolarPosition, ElevationAtThePoleIsTheDeclination) {
   EXPECT_NEAR(sun.elevation_degrees, -7.78507, 0.001);
 }
 
-TEST(SolarPosition, RisesAndCulminatesWhenAlmanacsSaySo) {
+TEST(SolarPosition, RisesAndCulminatesAtTheTimesOfAlmanacs) {
   // London at the solstice: sunrise 04:43 BST in the north-east (the centre is 0.83 degrees below the horizon
   // then).
   SunTime london{.year = 2026,

@@ -56,7 +56,7 @@ TEST(Compare, NonFinitePixelsAreCountedAndLeftOut) {
   EXPECT_DOUBLE_EQ(m.max_error, 0.5);
 }
 
-TEST(Compare, WithoutAFinitePixelNoErrorIsToldAsNone) {
+TEST(Compare, WithoutAFinitePixelErrorsAreNaN) {
   const float nan = std::nanf("");
   const Picture reference = rgb(1, 1, {1, 1, 1});
   const Picture test = rgb(1, 1, {nan, 1, 1});
@@ -85,7 +85,7 @@ TEST(Compare, AlphaIsIgnoredAndOneChannelIsGrey) {
 }
 
 std::string refusal(const Picture& reference, const Picture& test) {
-  return tests::refusal<CompareError>([&] { compare(reference, test); });
+  return tests::refusal<InputError>([&] { compare(reference, test); });
 }
 
 TEST(Compare, DifferentSizesNameBothPictures) {

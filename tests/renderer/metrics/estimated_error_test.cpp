@@ -32,7 +32,7 @@ TEST(EstimatedError, IsThatOfCompareInTheDark) {
   EXPECT_NEAR(c.estimate(0), std::sqrt(1.0 / 1e-2 / (7 * 5 * 3)), 1e-9);
 }
 
-TEST(EstimatedError, ABrightSampleIsRelativeToWhatIsAroundIt) {
+TEST(EstimatedError, ABrightSampleIsRelativeToItsNeighbourhood) {
   Case c;
   const std::size_t middle = 3 * (2 * 7 + 3);
   c.values.values[middle] = 90.0f;
@@ -42,7 +42,7 @@ TEST(EstimatedError, ABrightSampleIsRelativeToWhatIsAroundIt) {
   EXPECT_NEAR(c.estimate(1), std::sqrt(8100.0 / (100.0 + 1e-2) / count), 1e-5);
 }
 
-TEST(EstimatedError, ChannelsAndBordersStayApart) {
+TEST(EstimatedError, ChannelsAreSeparateAndNeighbourhoodsEndAtBorders) {
   Case c;
   c.errors.values[0] = 1.0f;     // red of the first pixel
   c.values.values[1] = 1000.0f;  // its green

@@ -134,7 +134,7 @@ inline std::vector<double> ldr_flip(const Image& reference, const Image& test, d
         const auto& image = images[i];
         seen[i] = hunt_lab(unit_rgb({spatial[0].apply(image, 0, x, y), spatial[1].apply(image, 1, x, y),
                                      spatial[2].apply(image, 2, x, y)}));
-        // Of (Y + 16) / 116: the 16 falls out, the weights sum up to 0.
+        // The features are of (Y + 16) / 116: the 16 falls out, the weights sum up to 0.
         edge[i] = std::hypot(features[0].apply(image, 0, x, y), features[1].apply(image, 0, x, y)) / 116.0;
         point[i] = std::hypot(features[2].apply(image, 0, x, y), features[3].apply(image, 0, x, y)) / 116.0;
       }

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.h"
 #include "renderer/image/srgb.h"
-#include "renderer/machine/errors.h"
 #include "renderer/metrics/flip/color_map.h"
 #include "renderer/metrics/flip/exposures.h"
 #include "renderer/metrics/flip/filters.h"
@@ -125,13 +125,13 @@ TEST(LdrFlip, EvenPicturesHaveClosedForms) {
   // The filters leave them as they are and find no features. Green and blue are the farthest colours.
   const FlipResult far = ldr(uniform(5, 4, {0, 1, 0}), uniform(5, 4, {0, 0, 1}));
   for (const float error : far.errors) EXPECT_NEAR(error, 1.0, 1e-5);
-  // Black to white is 100 in lightness alone.
+  // Black to white is 100 in lightness only.
   const double largest =
       std::pow(reference::hyab(reference::hunt_lab({0, 1, 0}), reference::hunt_lab({0, 0, 1})), 0.7);
   const double expected = 0.95 + 0.05 * (std::pow(100.0, 0.7) - 0.4 * largest) / (0.6 * largest);
   const FlipResult contrast = ldr(uniform(6, 6, {0, 0, 0}), uniform(6, 6, {1, 1, 1}));
   for (const float error : contrast.errors) EXPECT_NEAR(error, expected, 1e-5);
-  // Dark grey differs from black by the straight foot of the lightness: 903.3 t.
+  // Dark grey differs from black by the linear foot of the lightness: 903.3 t.
   const double foot = 24389.0 / 27.0 * 0.004;
   const FlipResult dark = ldr(uniform(6, 6, {0, 0, 0}), uniform(6, 6, {0.004f, 0.004f, 0.004f}));
   for (const float error : dark.errors) {
@@ -192,7 +192,7 @@ TEST(HdrFlip, IsTheLargestLdrErrorOverTheExposures) {
   EXPECT_LT(largest_difference(result.errors, expected), 1e-4);
 }
 
-/// A reference of greys; the test is something else.
+/// HDR-FLIP of a reference of greys and a red picture.
 FlipResult hdr_of_greys(const std::vector<float>& greys) {
   std::vector<float> values;
   for (const float grey : greys) values.insert(values.end(), 3, grey);
@@ -215,26 +215,26 @@ TEST(HdrFlip, ExposuresShowTheBrightestAndTheMedianJustBelowWhite) {
   EXPECT_EQ(hdr_of_greys({1.0f, 1.0f, 1.0f}).exposures, 2);
 }
 
-TEST(HdrFlip, IsToldOfAndCanBeEndedBeforeEachExposure) {
+TEST(HdrFlip, ReportsProgressAndCanBeEndedBeforeEachExposure) {
   const Picture a = rgb(5, 1, {0.25f, 0.25f, 0.25f, 20, 20, 20, 0.5f, 0.5f, 0.5f, 0.1f, 0.1f, 0.1f, 7, 7, 7});
   const Picture b = disturbed(a, 14, 20.0f);
-  std::vector<double> told;
+  std::vector<double> reported;
   const auto call = [&](std::size_t most) {
-    told.clear();
+    reported.clear();
     return hdr_flip({a, "a.exr"}, {b, "b.exr"}, {}, [&](double fraction) {
-      told.push_back(fraction);
-      return told.size() <= most;
+      reported.push_back(fraction);
+      return reported.size() <= most;
     });
   };
   EXPECT_EQ(call(100)->errors, hdr(a, b).errors);
-  EXPECT_THAT(told, ::testing::ElementsAre(0.0, 1.0 / 6, 2.0 / 6, 3.0 / 6, 4.0 / 6, 5.0 / 6));
+  EXPECT_THAT(reported, ::testing::ElementsAre(0.0, 1.0 / 6, 2.0 / 6, 3.0 / 6, 4.0 / 6, 5.0 / 6));
   EXPECT_FALSE(call(2).has_value());
-  EXPECT_EQ(told.size(), 3u);
+  EXPECT_EQ(reported.size(), 3u);
 }
 
 TEST(HdrFlip, BlackReferencesHaveExposuresToo) {
   const FlipResult mostly = hdr_of_greys({0, 0, 0, 0, 0, 8.0f, 2.0f, 1.0f});
-  EXPECT_NEAR(shown_at(2.0, mostly.stop_exposure), 0.85, 1e-5) << "the median of what is not black";
+  EXPECT_NEAR(shown_at(2.0, mostly.stop_exposure), 0.85, 1e-5) << "the median without black pixels";
   const FlipResult black = hdr_of_greys({0, 0, 0, -1.0f});
   EXPECT_EQ(black.start_exposure, 0.0);
   EXPECT_EQ(black.exposures, 1);
@@ -267,7 +267,7 @@ TEST(HdrFlip, StaysFiniteAtTheEndsOfFloat) {
   }
 }
 
-TEST(HdrFlip, SeesRadianceNearTheGreatestFloat) {
+TEST(HdrFlip, DetectsRadianceNearTheGreatestFloat) {
   const Picture black = rgb(1, 1, {0, 0, 0});
   const float expected = hdr(rgb(1, 1, {1, 1, 1}), black).errors[0];
   EXPECT_GT(expected, 0.5f);
@@ -285,7 +285,7 @@ TEST(FlipSummary, MatchesTheHandWorkedExample) {
   EXPECT_DOUBLE_EQ(s.max, 0.5);
 }
 
-TEST(FlipFilters, ConstantsPassAndDerivativesSeeNone) {
+TEST(FlipFilters, BlursKeepConstantsAndDerivativesRemoveThem) {
   for (const double ppd : {1.0, 7.3, 67.02, 1000.0}) {
     const flip::Filters f = flip::make_filters(ppd);
     const auto sum = [](const flip::Kernel& kernel) {
@@ -307,7 +307,7 @@ TEST(FlipFilters, ConstantsPassAndDerivativesSeeNone) {
 std::string refusal(const Picture& reference, const Picture& test) {
   std::string first;
   for (const auto compare : {&ldr, &hdr}) {
-    const std::string message = tests::refusal<CompareError>([&] { compare(reference, test, {}); });
+    const std::string message = tests::refusal<InputError>([&] { compare(reference, test, {}); });
     EXPECT_TRUE(first.empty() || first == message);
     first = message;
   }
@@ -351,7 +351,7 @@ TEST(FlipMap, ShowsThePublishedColours) {
     int index;
     std::array<float, 3> color;
   };
-  // Of the table of 256 colours; most lie between those in the source.
+  // Colours of the table of 256; most lie between those in the source.
   for (const Entry& entry :
        {Entry{0, {0.001462f, 0.000466f, 0.013866f}}, Entry{3, {0.004512f, 0.003490f, 0.029965f}},
         Entry{43, {0.178212f, 0.066576f, 0.379497f}}, Entry{64, {0.316654f, 0.071690f, 0.485380f}},

@@ -78,7 +78,7 @@ TEST(Merge, LayersFollowTheirMeaning) {
   const Picture m = merge(a, b);
   EXPECT_THAT(m.find("samples")->values, ElementsAre(4));
   EXPECT_THAT(m.find("instance")->values, ElementsAre(7));
-  EXPECT_THAT(m.find("variance")->values, ElementsAre(1, 9, 9)) << "of (a + 3 b) / 4";
+  EXPECT_THAT(m.find("variance")->values, ElementsAre(1, 9, 9)) << "variance of (a + 3 b) / 4";
   EXPECT_THAT(m.find("error")->values, ElementsAre(1, 3, ::testing::FloatEq(std::sqrt(10.0f))));
   EXPECT_THAT(m.find("depth")->values, ElementsAre(7));
 }
@@ -92,10 +92,10 @@ TEST(Merge, MetadataKeepsWhatAllHaveInCommon) {
 }
 
 std::string refusal(const Picture& a, const Picture& b) {
-  return tests::refusal<CompareError>([&] { merge(a, b); });
+  return tests::refusal<InputError>([&] { merge(a, b); });
 }
 
-TEST(Merge, RefusesWhatDoesNotFitByName) {
+TEST(Merge, RefusesMismatchesByName) {
   const Picture a = picture({1, 2, 3}, {{"spp", "1"}});
   Picture wide = a;
   wide.width = 2;
@@ -121,7 +121,7 @@ TEST(Merge, RefusesPartsOfOtherPicturesAndOtherIntegrators) {
   expect_message(refusal(a, part), {"1x1", "4x1"});
   const Picture other = picture({1, 2, 3}, {{"integrator", "ao"}});
   expect_message(refusal(a, other), {"a.exr", "path", "ao"});
-  EXPECT_EQ(refusal(a, picture({1, 2, 3})), "") << "not every program tells";
+  EXPECT_EQ(refusal(a, picture({1, 2, 3})), "") << "not every program writes its integrator";
 }
 
 TEST(Merge, CountsAndSumsDoNotOverflow) {

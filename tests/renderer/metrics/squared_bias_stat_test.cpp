@@ -99,7 +99,7 @@ TEST(SquaredBias, PixelsThatAreNotFiniteAreLeftOutAndSizesMustAgree) {
   EXPECT_NEAR(squared_bias({{one, "r"}, {one, "r"}}, {{two, "t"}, {broken, "t"}}), 1.0 / 1.01, 1e-12);
   Picture narrow{.width = 1, .height = 1};
   narrow.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1}}};
-  EXPECT_THROW(squared_bias({{one, "r"}, {one, "r"}}, {{two, "t"}, {narrow, "t"}}), CompareError);
+  EXPECT_THROW(squared_bias({{one, "r"}, {one, "r"}}, {{two, "t"}, {narrow, "t"}}), InputError);
 }
 
 }  // namespace

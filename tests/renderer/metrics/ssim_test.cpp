@@ -157,10 +157,10 @@ TEST(Ssim, TheSameBitsForAnyNumberOfThreads) {
 }
 
 std::string refusal(const Picture& reference, const Picture& test) {
-  return tests::refusal<CompareError>([&] { measure(reference, test); });
+  return tests::refusal<InputError>([&] { measure(reference, test); });
 }
 
-TEST(Ssim, RefusesWhatItIsNotDefinedFor) {
+TEST(Ssim, RefusesPicturesForWhichItIsNotDefined) {
   const Picture good = uniform(12, 12, {1, 1, 1});
   expect_message(refusal(good, uniform(12, 13, {1, 1, 1})), {"ref.exr", "12x12", "test.exr", "12x13"});
   for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {

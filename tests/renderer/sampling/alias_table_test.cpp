@@ -36,7 +36,7 @@ TEST(AliasTable, DrawsEachIndexByItsWeight) {
   }
 }
 
-TEST(AliasTable, TellsTheChanceOfEachIndex) {
+TEST(AliasTable, ReturnsTheProbabilityOfEachIndex) {
   for (const std::vector<double>& weights : kWeights) {
     const AliasTable table(weights);
     for (std::uint32_t i = 0; i < weights.size(); ++i) {

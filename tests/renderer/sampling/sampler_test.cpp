@@ -125,7 +125,7 @@ TEST(SamplerTest, EachSampleIsUniformOverPixels) {
   }
 }
 
-// Joint histograms of numbers that must not know of each other. Sobol points within one pixel are more
+// Joint histograms of numbers that must be independent. Sobol points within one pixel are more
 // regular than chance along each axis, which only lowers the statistic; correlation raises it.
 TEST(SamplerTest, DimensionsAndPixelsAreUncorrelated) {
   constexpr int kCells = 16;

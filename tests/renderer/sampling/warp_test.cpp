@@ -15,7 +15,7 @@ constexpr double kFamily = 1e-5;
 constexpr int kSamples = 200000;
 constexpr int kBins = 24;
 
-/// Chi-square of directions in cells of (cos theta in [z0, 1], azimuth) against a density of cos theta alone.
+/// Chi-square of directions in cells of (cos theta in [z0, 1], azimuth) against a density of cos theta only.
 template <typename Sample, typename Pdf>
 void expect_directions_follow(Sample&& sample, Pdf&& pdf, double z0, std::uint64_t seed) {
   testing::Random random(seed);
@@ -127,7 +127,7 @@ TEST(WarpTest, BasesAreOrthonormalAndRightHanded) {
 
 TEST(WarpTest, SineAndCosineAreExact) {
   for (int i = -1000; i <= 1000; ++i) {
-    const float angle = 0.25f * scene::kPi * static_cast<float>(i) / 1000.0f;
+    const float angle = 0.25f * kPi * static_cast<float>(i) / 1000.0f;
     const Vec2 cs = cos_sin_octant(angle);
     EXPECT_NEAR(cs.x(), std::cos(static_cast<double>(angle)), 1.5e-7);
     EXPECT_NEAR(cs.y(), std::sin(static_cast<double>(angle)), 1.5e-7);

@@ -1,15 +1,14 @@
-// Presets hold the values that they promise, and nothing beyond them.
+// Presets set the values that they promise, and no others.
 
 #include "renderer/settings/presets.h"
 
 #include <gtest/gtest.h>
 
 namespace gatelight::renderer {
-using scene::Color;
 
 namespace {
 
-/// What the paper says of its experiments, for both applications.
+/// Expects the settings of the paper's experiments, for both applications.
 void expect_papers(const RenderOptions& options) {
   const CacheOptions& cache = options.cache;
   EXPECT_EQ(options.width, 1920);
@@ -63,7 +62,7 @@ TEST(Presets, PaperNrcIsThePapersRadiance) {
   EXPECT_EQ(options.cache.train_steps, 1024);
 }
 
-TEST(Presets, BareAsksAtTheFirstVertexAndShowsTheAnswers) {
+TEST(Presets, BareQueriesAtTheFirstVertexAndShowsTheAnswers) {
   RenderOptions options;
   apply_preset(CachePreset::bare, options);
   EXPECT_EQ(options.integrator, Integrator::nrc);
@@ -102,7 +101,7 @@ TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
   }
 }
 
-TEST(Presets, WhatIsNoneOfTheirBusinessStays) {
+TEST(Presets, OtherOptionsStay) {
   for (const CachePreset preset : {CachePreset::bare, CachePreset::preview, CachePreset::standard,
                                    CachePreset::final, CachePreset::paper_nao, CachePreset::paper_nrc}) {
     RenderOptions options;

@@ -67,7 +67,7 @@ TEST(BsdfLanes, AlbedosAreThoseOfTheScalarCode) {
   EXPECT_LT(worst.far, 1e-4 * worst.all);
 }
 
-// A light of radiance 1 and pdf 1: `direct` is the value. With the balance heuristic the weight tells the
+// A light of radiance 1 and pdf 1: `direct` is the value. With the balance heuristic the weight gives the
 // pdf.
 TEST(BsdfLanes, ValuesAndPdfsAreThoseOfTheScalarCode) {
   Random random(2);
@@ -115,7 +115,7 @@ TEST(BsdfLanes, ValuesAndPdfsAreThoseOfTheScalarCode) {
   }
   record("value", values);
   record("pdf", pdfs);
-  // Far are narrow lobes at grazing angles, where the last digits of a normal decide.
+  // Those beyond the tolerance are narrow lobes at grazing angles, where the last digits of a normal decide.
   EXPECT_LT(values.far, 5e-4 * values.all);
   EXPECT_LT(pdfs.far, 1e-4 * pdfs.all);
 }
@@ -170,7 +170,7 @@ TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
   Worst albedos, values, weights;
   for (const float roughness : {0.0f, 0.25f, 0.6f}) {
     ShadingContext context = tables_only();
-    context.tells_wide = true;
+    context.separates_wide = true;
     context.min_roughness = roughness;
     for (int b = 0; b < kBlocks / 3; ++b) {
       ShadingBlock block;
@@ -216,11 +216,11 @@ TEST(BsdfLanes, NarrowPartsAreThoseOfTheScalarCode) {
   int lanes = 0, other = 0;
   for (const float roughness : {0.0f, 0.25f, 0.6f}) {
     ShadingContext context = tables_only();
-    context.tells_wide = true;
+    context.separates_wide = true;
     context.min_roughness = roughness;
-    ShadingContext narrow_alone = context;
-    narrow_alone.narrow_alone = true;
-    narrow_alone.roulette = {2.0f, 0.9f};
+    ShadingContext narrow_only = context;
+    narrow_only.narrow_only = true;
+    narrow_only.roulette = {2.0f, 0.9f};
     for (int b = 0; b < kBlocks / 3; ++b) {
       ShadingBlock block;
       const std::vector<LanePoint> points = fill(block, random);
@@ -233,7 +233,7 @@ TEST(BsdfLanes, NarrowPartsAreThoseOfTheScalarCode) {
       }
       const ShadingBlock whole = run_all(block, context, &ShadingKernels::scatter);
       const ShadingBlock light = run_all(block, context, &ShadingKernels::light);
-      const ShadingBlock result = run_all(block, narrow_alone, &ShadingKernels::scatter);
+      const ShadingBlock result = run_all(block, narrow_only, &ShadingKernels::scatter);
       for (int lane = 0; lane < block.count; ++lane) {
         const LanePoint& p = points[lane];
         for (int c = 0; c < 3; ++c) {
@@ -321,7 +321,7 @@ TEST(BsdfLanes, ALaneDoesNotDependOnTheOthers) {
   for (int count = 1; count <= ShadingBlock::kWidth; ++count) {
     ShadingBlock block;
     const std::vector<LanePoint> points = fill(block, random, count);
-    // What is left from other points must not matter, whatever it is.
+    // Data left from other points must not matter.
     ShadingBlock dirty;
     std::memset(static_cast<void*>(&dirty), 0xff, sizeof dirty);  // NaN everywhere
     dirty.count = 0;

@@ -6,15 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "neural/simd/isa.h"
+#include "base/simd/isa.h"
 #include "renderer/render.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
 /// Sets a variable of the environment for a while.
@@ -87,8 +84,8 @@ TEST(ShadingIsa, APictureHasTheSameBitsOnEveryInstructionSet) {
     options.aovs = {Aov::albedo};
     options.light_groups = {{"lamps", {"*"}}, {"sky", {"environment"}}};
     std::optional<Picture> first;
-    for (const neural::simd::Isa isa : neural::simd::available_isas()) {
-      const Variable chosen("GATELIGHT_ISA", std::string(neural::simd::isa_name(isa)));
+    for (const simd::Isa isa : simd::available_isas()) {
+      const Variable chosen("GATELIGHT_ISA", std::string(simd::isa_name(isa)));
       const Picture picture = Renderer(builder.scene(), options).render();
       if (!first) {
         first = picture;
@@ -96,7 +93,7 @@ TEST(ShadingIsa, APictureHasTheSameBitsOnEveryInstructionSet) {
       }
       ASSERT_EQ(picture.layers.size(), first->layers.size());
       for (std::size_t l = 0; l < picture.layers.size(); ++l) {
-        EXPECT_EQ(picture.layers[l].values, first->layers[l].values) << neural::simd::isa_name(isa);
+        EXPECT_EQ(picture.layers[l].values, first->layers[l].values) << simd::isa_name(isa);
       }
     }
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "neural/simd/isa.h"
+#include "base/simd/isa.h"
 #include "renderer/bsdf/bsdf.h"
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
@@ -67,7 +67,7 @@ inline void put_light(ShadingBlock& block, int lane, const Vec3& wi, bool delta,
     block.light_direction[c][lane] = wi[c];
     block.light_radiance[c][lane] = 1.0f;
   }
-  block.light_distance[lane] = scene::kInfinity;
+  block.light_distance[lane] = kInfinity;
   block.light_pdf[lane] = pdf;
   block.light_offset[lane] = 0.0f;
   block.light_cosine[lane] = 1.0f;
@@ -76,8 +76,8 @@ inline void put_light(ShadingBlock& block, int lane, const Vec3& wi, bool delta,
 inline const std::vector<std::pair<std::string, const ShadingKernels*>>& all_kernels() {
   static const auto kernels = [] {
     std::vector<std::pair<std::string, const ShadingKernels*>> result;
-    for (const neural::simd::Isa isa : neural::simd::available_isas()) {
-      const std::string name(neural::simd::isa_name(isa));
+    for (const simd::Isa isa : simd::available_isas()) {
+      const std::string name(simd::isa_name(isa));
       result.emplace_back(name, &choose_shading_kernels(name));
     }
     return result;
@@ -91,7 +91,7 @@ inline ShadingContext tables_only() {
   return context;
 }
 
-/// Where light adds nothing, a shadow ray is written or not.
+/// Clears the shadow rays of lanes where light adds nothing: kernels may write them or not.
 inline void clear_unused_shadow_rays(ShadingBlock& block) {
   for (int lane = 0; lane < block.count; ++lane) {
     if ((lane_color(block.direct, lane) != 0.0f).any()) continue;

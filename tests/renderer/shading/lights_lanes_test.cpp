@@ -22,7 +22,7 @@ scene::PunctualLight punctual(scene::LightType type, const Vec3& position, const
   light.intensity = Color(3.0f, 2.0f, 1.0f);
   light.cos_inner = 0.9f;
   light.cos_outer = 0.3f;
-  light.range = type == scene::LightType::spot ? 30.0f : scene::kInfinity;
+  light.range = type == scene::LightType::spot ? 30.0f : kInfinity;
   return light;
 }
 
@@ -74,7 +74,7 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
     ShadingContext context = tables_only();
     context.lights = delta ? arrays.delta_view() : *arrays.view();
     const ShadingBlock raw = run_all(block, context, &ShadingKernels::sample_lights);
-    // What the kernels leave open.
+    // The whole sampling also completes the lanes that the kernels leave open.
     ShadingBlock result = raw;
     const WideShading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
                               MisHeuristic::power);
@@ -117,13 +117,13 @@ void expect_agreement(const Agreement& a, double worst = 5e-3) {
   EXPECT_LT(a.worst, worst);
 }
 
-TEST(LightLanes, ALampIsSampledAsByTheScalarCode) {
+TEST(LightLanes, ALampIsSampledAsInTheScalarCode) {
   scene::Scene scene;
   add_light(scene, quad(Vec3(-1, 5, -1), Vec3(2, 0, 0), Vec3(0, 0, 2)), Color(1, 2, 3));
   expect_agreement(compare(LitScene(std::move(scene)), 1));
 }
 
-TEST(LightLanes, TheTreeChoosesAsTheScalarCodeDoes) {
+TEST(LightLanes, TheTreeChoosesAsInTheScalarCode) {
   Random random(2);
   for (const int count : {2, 3, 5, 16, 300, 5000}) {
     SCOPED_TRACE(count);
@@ -136,7 +136,7 @@ TEST(LightLanes, BothSamplersGiveTheSameNumbers) {
   expect_agreement(compare(LitScene(lamps(20, random)), 5, SamplerKind::independent));
 }
 
-TEST(LightLanes, PointsAndSpotsAndSunsAreSampledAsByTheScalarCode) {
+TEST(LightLanes, PointsSpotsAndSunsAreSampledAsInTheScalarCode) {
   Random random(6);
   scene::Scene scene = lamps(6, random);
   scene.lights.push_back(punctual(scene::LightType::point, Vec3(5, 5, 5), Vec3(0, -1, 0)));
@@ -170,14 +170,14 @@ TEST(LightLanes, ProfilesAreThoseOfTheScalarCode) {
                                           9.0f * random_direction(random), random_direction(random));
     if (i > 0) light.profile = lopsided_profile();
     if (i > 0) light.type = scene::LightType::point;
-    light.side = scene::any_perpendicular(light.direction);
+    light.side = any_perpendicular(light.direction);
     scene.lights.push_back(light);
   }
   expect_agreement(compare(LitScene(scene), 22));
   expect_agreement(compare(LitScene(std::move(scene)), 23, SamplerKind::sobol, true));
 }
 
-TEST(LightLanes, SkiesAreSampledAsByTheScalarCode) {
+TEST(LightLanes, SkiesAreSampledAsInTheScalarCode) {
   EnvironmentOptions constant;
   constant.constant = Color(1, 2, 3);
   expect_agreement(compare(LitScene({}, LightSelection::tree, constant), 10));
@@ -212,7 +212,7 @@ TEST(LightLanes, WithoutLightThereIsNoSample) {
   }
 }
 
-TEST(LightLanes, SelectionByPowerIsTheScalarCode) {
+TEST(LightLanes, SelectionByPowerUsesTheScalarCode) {
   Random random(16);
   scene::Scene scene = lamps(40, random);
   for (int i = 0; i < 3; ++i)

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "renderer/machine/errors.h"
+#include "base/errors.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
 #include "renderer/surface/surface.h"
@@ -19,7 +19,7 @@ struct Tracer {
   explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
       : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
 
-  Hit hit(const Vec3& origin, const Vec3& direction, float t_max = scene::kInfinity) const {
+  Hit hit(const Vec3& origin, const Vec3& direction, float t_max = kInfinity) const {
     Ray ray;
     ray.origin = origin;
     ray.direction = direction;
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Scales, AccelScale,
                                            std::pair{1.0f, 100.0f}, std::pair{1.0f, 1000.0f},
                                            std::pair{1e-3f, 1.0f}));
 
-TEST(Accel, OnlyAWatertightSceneHoldsRaysTowardsItsEdges) {
+TEST(Accel, OnlyAWatertightSceneStopsRaysTowardsItsEdges) {
   SceneBuilder builder;
   builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0.1f, 0.2f, 0.3f), 1.0f, 32,
                  true);
@@ -187,7 +187,7 @@ TEST(Accel, InstancesReportTheirIndexAndWorldGeometry) {
   scene::Scene& s = builder.scene();
   s.instances[0].baked = false;
   s.instances.push_back(s.instances[0]);
-  s.instances[1].transform = scene::Affine(Eigen::Translation3f(5, 0, 0));
+  s.instances[1].transform = Affine(Eigen::Translation3f(5, 0, 0));
   s.instances[1].transform.linear() = Vec3(-1, 1, 1).asDiagonal();
   s.instances[1].mirrors = true;
   const Tracer tracer(s);

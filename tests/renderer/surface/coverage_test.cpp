@@ -1,4 +1,4 @@
-// Panes of clear glass: what their textures and vertex colours do to the light of a shadow ray.
+// Panes of clear glass: the effect of their textures and vertex colours on the light of a shadow ray.
 
 #include "renderer/surface/coverage.h"
 
@@ -12,10 +12,8 @@ namespace gatelight::renderer {
 namespace {
 
 using gatelight::testing::SceneBuilder;
-using scene::Vec2;
-using scene::Vec4;
 
-/// Straight down through the middle of a pane's first triangle.
+/// Transmittance of a ray down through the middle of a pane's first triangle.
 Color through(const scene::Scene& scene) {
   const Textures textures(scene);
   const Media media;
@@ -41,7 +39,7 @@ scene::Scene pane_of(const scene::Material& material, const scene::Image* image 
   return scene;
 }
 
-/// One texel.
+/// An image of one texel.
 scene::Image texel(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   return {.name = "texel", .width = 1, .height = 1, .channels = 4, .pixels = {red, green, blue, 255}};
 }
@@ -102,7 +100,7 @@ TEST(Panes, TexturesOfTransmissionAndMetalDarkenAsTheirFactorsDo) {
   EXPECT_LT(metal.maxCoeff(), 0.6f);
 }
 
-TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
+TEST(Panes, HaveTheSameTransmittanceForLightSamplesAndForPaths) {
   scene::Material pane = SceneBuilder::clear_glass();
   pane.base_color = Color(0.9f, 0.8f, 0.7f);
   pane.ior = 2.0f;
@@ -121,7 +119,7 @@ TEST(Panes, LetThroughToLightSamplesWhatTheyLetThroughToPaths) {
   for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0.6f, 0, -0.8f), Vec3(0.6f, 0, 0.8f)}) {
     const Surface s = Surfaces(scene, textures).at(hit, direction, 0.0f, 0.0f);
     const Bsdf bsdf(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, -direction, s.front);
-    const Color expected = bsdf.straight_transmittance();
+    const Color expected = bsdf.unrefracted_transmittance();
     const Color seen = Coverage(scene, textures, media).pass(hit, direction).transmittance;
     EXPECT_GT(expected.minCoeff(), 0.0f);
     EXPECT_TRUE(seen.isApprox(expected, 1e-5f)) << seen.transpose() << " and " << expected.transpose();

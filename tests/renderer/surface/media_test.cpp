@@ -41,7 +41,7 @@ TEST(Interior, ForgetsTheWeakestOfTooMany) {
   EXPECT_EQ(in.strongest(), 0u);
 }
 
-TEST(Vanish, GlassLetsAllLightPassAndWhatIsOpaqueStays) {
+TEST(Vanish, GlassLetsAllLightPassAndOpaquePartsStay) {
   SurfaceMaterial label{
       .base_color = Color(0.2f, 0.5f, 0.9f), .metallic = 0.2f, .roughness = 0.4f, .transmission = 0.5f};
   label.thin_walled = false;
@@ -50,10 +50,10 @@ TEST(Vanish, GlassLetsAllLightPassAndWhatIsOpaqueStays) {
   const Vec3 up(0, 0, 1), wo = Vec3(0.6f, 0, 0.8f);
   SurfaceMaterial glass = label, rest = label;
   EXPECT_TRUE(vanish(glass, 0.39f));
-  EXPECT_TRUE((Bsdf(glass, up, up, up, wo, true).straight_transmittance() == 1.0f).all());
+  EXPECT_TRUE((Bsdf(glass, up, up, up, wo, true).unrefracted_transmittance() == 1.0f).all());
   EXPECT_FALSE(vanish(rest, 0.41f));
   EXPECT_EQ(rest.transmission, 0.0f);
-  // Of what is left, 0.2 of 0.6 was metal.
+  // 0.2 of the remaining 0.6 was metal.
   EXPECT_FLOAT_EQ(rest.metallic, 1.0f / 3.0f);
 }
 

@@ -1,4 +1,4 @@
-// Coarse round meshes: light that the round surface sees is not hidden by the flat triangles.
+// Coarse round meshes: light that reaches the round surface is not hidden by the flat triangles.
 
 #include "renderer/surface/shadow_terminator.h"
 
@@ -43,8 +43,7 @@ Vec2 random_2d(std::uint32_t i, std::uint32_t dimension) {
   return Sampler(SamplerKind::independent, 1, 0, 0, i).get_2d(dimension);
 }
 
-/// Of the light that falls on a ball from above its smooth horizon, by the cosine, the share that its points
-/// lose.
+/// The share that points of a ball lose of the cosine-weighted light from above their smooth horizon.
 double lost_light(const scene::Scene& ball) {
   const World world(ball);
   int lost = 0, all = 0;
@@ -58,7 +57,7 @@ double lost_light(const scene::Scene& ball) {
     const Vec3 wi = Basis(surface.smooth_normal).to_world(sample_cosine_hemisphere(random_2d(i, 4)));
     const bool above = wi.dot(surface.geometric_normal) > 0.0f;
     all += 1;
-    lost += above && !world.blocked({surface.spawn(wi), scene::kInfinity, wi, i}) ? 0 : 1;
+    lost += above && !world.blocked({surface.spawn(wi), kInfinity, wi, i}) ? 0 : 1;
   }
   return lost / static_cast<double>(all);
 }
@@ -81,14 +80,13 @@ TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoneEither) {
   scene::Scene placed = ball(12, true, SceneBuilder::lambert(Color::Ones()));
   for (const Vec3& scale : {Vec3(0.9f, 0.9f, 0.9f), Vec3(-0.9f, 0.9f, 0.9f)}) {
     placed.instances[0].baked = false;
-    placed.instances[0].transform =
-        scene::Affine(Eigen::AngleAxisf(0.4f, Vec3(1, 2, 3).normalized())).scale(scale);
+    placed.instances[0].transform = Affine(Eigen::AngleAxisf(0.4f, Vec3(1, 2, 3).normalized())).scale(scale);
     placed.instances[0].mirrors = scale.x() < 0.0f;
     EXPECT_LT(lost_light(placed), 1e-4);
   }
 }
 
-/// A view of a ball from the front, with this in it.
+/// The surface that a ray from `eye` to `target` hits.
 Surface seen(const scene::Scene& s, const Vec3& eye, const Vec3& target) {
   const World world(s);
   Ray ray;
@@ -102,7 +100,7 @@ Surface seen(const scene::Scene& s, const Vec3& eye, const Vec3& target) {
 TEST(ShadowTerminator, PointsRiseBetweenTheTrianglesAndTheTangentPlanes) {
   const scene::Scene s = ball(12, true, SceneBuilder::lambert(Color::Ones()));
   // The middle of an edge of the equator, and a quarter of it.
-  const float half = scene::kPi / 12.0f;
+  const float half = kPi / 12.0f;
   for (const float at : {0.5f, 0.25f}) {
     const Vec3 a(1, 0, 0), b(std::cos(2.0f * half), 0, -std::sin(2.0f * half));
     const Vec3 on_edge = a + (b - a) * at + Vec3(0, 1e-4f, 0);

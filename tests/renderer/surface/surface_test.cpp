@@ -1,5 +1,5 @@
-// What a hit sees of its material, and normal maps in mirrored instances and from behind: the surface that is
-// seen does not depend on how its mesh came to its place.
+// The material at a hit, and normal maps in mirrored instances and from behind: the visible surface does not
+// depend on how its mesh came to its place.
 
 #include "renderer/surface/surface.h"
 
@@ -13,7 +13,6 @@ namespace gatelight::renderer {
 namespace {
 
 using gatelight::testing::SceneBuilder;
-using scene::Affine;
 
 /// A square in the xy plane, moved by `transform`. Its normal map leans the normals towards the tangent x and
 /// the bitangent y; its clear coat has the same map, half as strong.
@@ -42,7 +41,7 @@ struct Normals {
   Vec3 coat;
 };
 
-/// As a ray sees them that looks against `towards`.
+/// The normals at the hit of a ray against `towards`.
 Normals seen(const scene::Scene& scene, const Vec3& towards) {
   const Textures textures(scene);
   const Surfaces surfaces(scene, textures);
@@ -133,7 +132,7 @@ Surface front_of(const scene::Scene& scene) {
   return Surfaces(scene, textures).at(hit, Vec3(0, 0, -1), 0.0f, 0.0f);
 }
 
-/// Of everything something, and not twice the same.
+/// A material in which every factor is set, most to different values.
 scene::Material rich_material() {
   scene::Material m;
   m.base_color = Color(0.9f, 0.8f, 0.7f);
@@ -153,7 +152,7 @@ scene::Material rich_material() {
   return m;
 }
 
-/// The members that a surface has of such a material, times what the textures say.
+/// The factors of the textures for the members that a surface takes from such a material.
 struct Factors {
   Color base_color = Color::Ones();
   float metallic = 1.0f;
@@ -241,10 +240,10 @@ TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
   }
 }
 
-TEST(Surfaces, BrushedOnesAreRoughAlongTheirTangentTurnedByAngleAndTexture) {
+TEST(Surfaces, AnisotropicOnesAreRoughAlongTheirTangentTurnedByAngleAndTexture) {
   scene::Material m;
   m.anisotropy = 0.5f;
-  const auto brushed = [&](float rotation, bool texture, float handedness = 1.0f) {
+  const auto anisotropic = [&](float rotation, bool texture, float handedness = 1.0f) {
     m.anisotropy_rotation = rotation;
     m.anisotropy_texture.texture = texture ? 0 : -1;
     scene::Scene scene = painted(m);
@@ -257,14 +256,15 @@ TEST(Surfaces, BrushedOnesAreRoughAlongTheirTangentTurnedByAngleAndTexture) {
     return front_of(scene).material;
   };
   const auto turned = [](float angle) { return Vec3(std::cos(angle), std::sin(angle), 0.0f); };
-  EXPECT_EQ(brushed(0.0f, false).anisotropy, 0.5f);
-  EXPECT_TRUE(brushed(0.0f, false).brushed.isApprox(turned(0.0f), 1e-5f));
-  EXPECT_TRUE(brushed(0.7f, false).brushed.isApprox(turned(0.7f), 1e-5f));
-  EXPECT_TRUE(brushed(0.7f, false, -1.0f).brushed.isApprox(turned(-0.7f), 1e-5f)) << "a mirrored frame";
-  EXPECT_TRUE(brushed(0.7f, true).brushed.isApprox(turned(0.7f + 0.25f * scene::kPi), 1e-4f));
-  EXPECT_NEAR(brushed(0.0f, true).anisotropy, 0.5f * 0.2f, 1e-4f);
+  EXPECT_EQ(anisotropic(0.0f, false).anisotropy, 0.5f);
+  EXPECT_TRUE(anisotropic(0.0f, false).anisotropy_direction.isApprox(turned(0.0f), 1e-5f));
+  EXPECT_TRUE(anisotropic(0.7f, false).anisotropy_direction.isApprox(turned(0.7f), 1e-5f));
+  EXPECT_TRUE(anisotropic(0.7f, false, -1.0f).anisotropy_direction.isApprox(turned(-0.7f), 1e-5f))
+      << "a mirrored frame";
+  EXPECT_TRUE(anisotropic(0.7f, true).anisotropy_direction.isApprox(turned(0.7f + 0.25f * kPi), 1e-4f));
+  EXPECT_NEAR(anisotropic(0.0f, true).anisotropy, 0.5f * 0.2f, 1e-4f);
   m.anisotropy = 0.0f;
-  EXPECT_EQ(brushed(0.0f, true).anisotropy, 0.0f);
+  EXPECT_EQ(anisotropic(0.0f, true).anisotropy, 0.0f);
 }
 
 TEST(Surfaces, VertexColoursMultiplyTheBaseColour) {
@@ -274,7 +274,7 @@ TEST(Surfaces, VertexColoursMultiplyTheBaseColour) {
   expect_product(front_of(scene), m, {.base_color = Color(0.5f, 0.25f, 0.25f)});
 }
 
-TEST(Surfaces, UnlitOnesShineInTheirBaseColourAlone) {
+TEST(Surfaces, UnlitOnesEmitOnlyTheirBaseColour) {
   scene::Material m = rich_material();
   m.unlit = true;
   const Surface s = front_of(painted(m));

@@ -15,9 +15,6 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
 constexpr int kSize = 16;
@@ -113,10 +110,10 @@ TEST(CryptomattePass, CoverageIsTheAreaInThePixel) {
   expect(8, 4, 0.5f, 0.25f);
   expect(13, 4, 0, 0.375f);
   expect(14, 8, 0, 0);
-  EXPECT_EQ(at(picture, "CryptoObject", pixel_at(14, 8), 0).id, 0u) << "nothing is 0";
+  EXPECT_EQ(at(picture, "CryptoObject", pixel_at(14, 8), 0).id, 0u) << "the background has the id 0";
 }
 
-TEST(CryptomattePass, CoversWhatTheAlphaOfThePictureCovers) {
+TEST(CryptomattePass, CoverageAddsUpToTheAlphaOfThePicture) {
   SceneBuilder builder = two_rectangles();
   add_rectangle(builder, "sheet", matte(builder, "sheet", 0.3f), -8, -8, 8, -2, 1);
   RenderOptions options = options_for();
@@ -201,7 +198,7 @@ TEST(CryptomattePass, SixOfManyNamesStayAndEqualOnesShareAnId) {
   }
 }
 
-/// The layers alone.
+/// Only the Cryptomatte layers.
 std::map<std::string, std::vector<float>> mattes_of(const Picture& picture) {
   std::map<std::string, std::vector<float>> mattes;
   for (const Layer& layer : picture.layers) {
@@ -211,7 +208,7 @@ std::map<std::string, std::vector<float>> mattes_of(const Picture& picture) {
   return mattes;
 }
 
-TEST(CryptomattePass, DependsOnViewAndSeedAlone) {
+TEST(CryptomattePass, DependsOnlyOnViewAndSeed) {
   SceneBuilder builder = two_rectangles();
   add_rectangle(builder, "sheet", matte(builder, "sheet", 0.3f), -8, -8, 8, -2, 1);
   RenderOptions options = options_for();

@@ -46,7 +46,7 @@ void expect_irradiance(const Lights& lights, const Vec3& p, const Vec3& n, doubl
 }
 
 Vec3 tilted(float degrees) {
-  const float angle = degrees * scene::kPi / 180.0f;
+  const float angle = degrees * kPi / 180.0f;
   return {std::sin(angle), std::cos(angle), 0.0f};
 }
 
@@ -189,7 +189,7 @@ TEST(DirectLightTest, PointAndSpotHaveTheExtensionsFalloff) {
 
   scene::Scene spots;
   light.type = scene::LightType::spot;
-  light.range = scene::kInfinity;
+  light.range = kInfinity;
   light.direction = Vec3(0, -1, 0);
   light.cos_inner = 0.9f;
   light.cos_outer = 0.7f;

@@ -10,12 +10,9 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
-constexpr float kApex = 30.0f * scene::kPi / 180.0f;
+constexpr float kApex = 30.0f * kPi / 180.0f;
 constexpr float kIor = 1.5f;
 
 /// The row of the centroid of a strip of white light, in each channel. The camera looks along +x through a
@@ -29,7 +26,7 @@ std::array<double, 3> rows_of_the_strip(float dispersion) {
   glass.dispersion = dispersion;
   constexpr float kHeight = 2.0f;
   const float half = 2.0f * kHeight * std::tan(0.5f * kApex);
-  scene::PaddedVector<Vec3> corners;
+  PaddedVector<Vec3> corners;
   for (const float z : {kHeight, -kHeight}) {
     for (const Vec3& corner : {Vec3(-half, -kHeight, z), Vec3(half, -kHeight, z), Vec3(0, kHeight, z)})
       corners.push_back(corner);
@@ -40,8 +37,8 @@ std::array<double, 3> rows_of_the_strip(float dispersion) {
   lamp.base_color.setZero();
   lamp.emission.setConstant(1.0f);
   lamp.double_sided = true;
-  // Where a ray along +x goes that is turned once: by (n - 1) of the edge's angle, nearly.
-  const float down = 20.0f * std::tan(15.6f * scene::kPi / 180.0f);
+  // The prism turns a ray along +x by nearly (n - 1) times the angle of its edge.
+  const float down = 20.0f * std::tan(15.6f * kPi / 180.0f);
   builder.quad(builder.material(lamp), Vec3(20.0f, -down - 0.15f, -4.0f), Vec3(0, 0.3f, 0), Vec3(0, 0, 8.0f));
 
   RenderOptions options;

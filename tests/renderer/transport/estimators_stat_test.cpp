@@ -13,8 +13,6 @@
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
-using scene::Color;
-using scene::Vec3;
 
 namespace {
 
@@ -25,8 +23,8 @@ constexpr int kWidth = 32;
 constexpr int kHeight = 24;
 constexpr int kBlock = 8;
 
-/// Glossy and matte things under a large dim light, a small bright one, forty coloured crumbs of light, a
-/// point light and a faint sky.
+/// Glossy and matte things under a large dim light, a small bright one, forty tiny coloured lights, a point
+/// light and a dim sky.
 SceneBuilder glossy_scene() {
   SceneBuilder builder;
   scene::Material floor;
@@ -125,7 +123,7 @@ std::vector<Estimate> render(const RenderOptions& options) {
   return block_means(Renderer(builder.scene(), options).render());
 }
 
-/// Many samples a block: as good as normal.
+/// Blocks have many samples, so that their means are nearly normal.
 constexpr double kManySamples = 1e4;
 
 class Estimators : public ::testing::Test {
@@ -142,14 +140,14 @@ class Estimators : public ::testing::Test {
 };
 std::vector<Estimate>* Estimators::reference_ = nullptr;
 
-TEST_F(Estimators, NextEventEstimationAloneAgrees) {
+TEST_F(Estimators, NextEventEstimationWithoutMisAgrees) {
   RenderOptions options = base_options();
   options.seed = 1;
   options.direct = DirectLight::nee;
   expect_agreement(render(options), *reference_, kManySamples);
 }
 
-TEST_F(Estimators, BsdfSamplingAloneAgrees) {
+TEST_F(Estimators, BsdfSamplingWithoutMisAgrees) {
   RenderOptions options = base_options();
   options.seed = 2;
   options.direct = DirectLight::bsdf;
@@ -173,7 +171,7 @@ TEST_F(Estimators, LightTreeAndPowerAgree) {
   expect_agreement(render(options), *reference_, kManySamples);
 }
 
-TEST_F(Estimators, RouletteChangesNothing) {
+TEST_F(Estimators, RouletteChangesNoMean) {
   RenderOptions options = base_options();
   options.seed = 6;
   options.min_depth = 1;
@@ -181,7 +179,7 @@ TEST_F(Estimators, RouletteChangesNothing) {
 }
 
 TEST_F(Estimators, SobolAndIndependentSamplesAgree) {
-  // The variance layer is only a bound for Sobol samples: the spread over seeds tells.
+  // The variance layer is only a bound for Sobol samples, so the variance is that over seeds.
   constexpr std::uint32_t kSeeds = 16;
   RenderOptions options = base_options();
   options.sampler = SamplerKind::sobol;
@@ -199,7 +197,7 @@ TEST_F(Estimators, SobolAndIndependentSamplesAgree) {
   expect_agreement(sobol, *reference_, kSeeds - 1);
 }
 
-TEST_F(Estimators, TwoPercentMoreLightIsNoticed) {
+TEST_F(Estimators, TwoPercentMoreLightIsDetected) {
   RenderOptions options = base_options();
   options.seed = 7;
   std::vector<Estimate> brighter = render(options);

@@ -1,4 +1,4 @@
-// What guides the denoiser: the first surface that is neither a mirror nor clear.
+// Guides of the denoiser are those of the first surface that is neither a mirror nor clear.
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,6 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
 /// The camera at the origin looks at a square, two metres before it. Far ahead is nothing but sky; five

@@ -1,4 +1,4 @@
-// A group's layer is the picture in which its lights alone are on.
+// A group's layer is the picture in which only its lights are on.
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ void add(const std::vector<float>& values, Blocks& blocks) {
   std::array<double, kBlocks> sums{};
   for (std::size_t p = 0; p < values.size() / 3; ++p) {
     const std::size_t x = p % 48, y = p / 48;
-    sums[x / 16 + 3 * (y / 16)] += static_cast<double>(
-        scene::luminance(scene::Color(values[3 * p], values[3 * p + 1], values[3 * p + 2])));
+    sums[x / 16 + 3 * (y / 16)] +=
+        static_cast<double>(luminance(Color(values[3 * p], values[3 * p + 1], values[3 * p + 2])));
   }
   for (std::size_t b = 0; b < kBlocks; ++b) blocks[b].add(sums[b] / 256.0);
 }
@@ -42,7 +42,7 @@ double welch_p_value(const Moments& a, const Moments& b) {
   return testing::student_two_sided(difference / std::sqrt(va + vb), freedom);
 }
 
-/// The scene with the lights of one group alone.
+/// The scene with only the lights of one group.
 scene::Scene only(const std::string& group) {
   scene::Scene scene = testing::lit_by_all();
   for (scene::PunctualLight& light : scene.lights) {
@@ -54,7 +54,7 @@ scene::Scene only(const std::string& group) {
   return scene;
 }
 
-TEST(LightGroupsStat, ALayerIsThePictureOfItsLightsAlone) {
+TEST(LightGroupsStat, ALayerIsThePictureOfOnlyItsLights) {
   const tests::TemporaryFolder folder;
   const scene::Scene all = testing::lit_by_all();
   RenderOptions options = testing::view_of_all();

@@ -1,6 +1,6 @@
 // White furnaces through the whole path tracer: a smooth-shaded ball that absorbs nothing, under a sky of
-// radiance 1, cannot be seen. What energy the BSDF, its shading normals or the light sampling lose or add
-// shows as a shape.
+// radiance 1, is invisible. Energy that the BSDF, its shading normals or the light sampling lose or add shows
+// as a shape.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,6 @@
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
-using scene::Color;
-using scene::Vec3;
 
 namespace {
 
@@ -97,8 +95,7 @@ Picture ball(const Material& material, int spp) {
   view.eye = Vec3(0, 30, 40);
   options.camera.look_at = view;
   options.camera.look_at->target = Vec3::Zero();
-  options.camera.fov_degrees =
-      2.0f * std::atan(0.5f * kSize / kPixelsPerRadius / 50.0f) * 180.0f / scene::kPi;
+  options.camera.fov_degrees = 2.0f * std::atan(0.5f * kSize / kPixelsPerRadius / 50.0f) * 180.0f / kPi;
   return Renderer(builder.scene(), options).render();
 }
 
@@ -158,7 +155,7 @@ TEST_P(WhiteFurnace, HidesTheBall) {
 INSTANTIATE_TEST_SUITE_P(All, WhiteFurnace, ::testing::ValuesIn(cases()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST(MaterialsStat, AbsorptionInGlassIsSeenInTheFurnace) {
+TEST(MaterialsStat, AbsorptionInGlassIsVisibleInTheFurnace) {
   Material material = white();
   material.transmission = 1.0f;
   material.thickness = 1.0f;

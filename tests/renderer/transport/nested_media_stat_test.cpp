@@ -1,4 +1,4 @@
-// Bodies of glass and water that overlap or lie inside one another: closed forms of what passes them.
+// Bodies of glass and water that overlap or lie inside one another: closed forms of their transmittance.
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,6 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::SceneBuilder;
 
 constexpr float kWater = 1.33f, kGlass = 1.5f;
@@ -67,7 +64,7 @@ TEST(NestedMedia, ABlockInWaterHasTheIndexOfBoth) {
   EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.004);
 }
 
-TEST(NestedMedia, TheSameMediumInsideIsNotSeen) {
+TEST(NestedMedia, TheSameMediumInsideIsInvisible) {
   Stack stack;
   stack.slab(kWater, 0, 3);
   stack.slab(kWater, 1, 2);
@@ -84,7 +81,7 @@ TEST(NestedMedia, OverlappingBlocksHaveOneBoundaryBetweenThem) {
   }
 }
 
-TEST(NestedMedia, TheStrongerOneAbsorbsWhereBothAre) {
+TEST(NestedMedia, OnlyTheStrongerMediumAbsorbsWhereTheyOverlap) {
   const Color red(0.5f, 0.0f, 0.0f), green(0.0f, 0.5f, 0.0f);
   for (const float priority : {0.0f, 1.0f}) {
     Stack stack;
@@ -98,7 +95,7 @@ TEST(NestedMedia, TheStrongerOneAbsorbsWhereBothAre) {
   }
 }
 
-TEST(NestedMedia, LeavingTheInnerOneIsNotLeavingTheOuterOne) {
+TEST(NestedMedia, LeavingTheInnerMediumDoesNotLeaveTheOuterOne) {
   Stack stack;
   stack.options.spp = 4;
   stack.slab(1.0f, 0, 3, Color(0.5f, 0.0f, 0.0f));
@@ -108,12 +105,12 @@ TEST(NestedMedia, LeavingTheInnerOneIsNotLeavingTheOuterOne) {
   EXPECT_NEAR(passed[1], std::exp(-0.5f), 1e-4f);
 }
 
-TEST(NestedMedia, ACameraInTheWaterKnowsIt) {
+TEST(NestedMedia, ACameraInTheWaterStartsInItsMedium) {
   Stack stack;
   stack.slab(kWater, 0, 20);
   stack.slab(kGlass, 1, 2);
-  // What comes from the lamp through three boundaries, and what the surface behind the camera sends back of
-  // the rest.
+  // The lamp's light through three boundaries, and the part of the rest that the surface behind the camera
+  // reflects.
   const double passed = 1.0 / (1.0 + 2.0 * plate(kWater, kGlass) + plate(kWater, 1));
   const double behind = 1.0 - 1.0 / (1.0 + plate(1, kWater));
   const double expected = static_cast<double>(kWater * kWater) * passed / (1.0 - (1.0 - passed) * behind);
@@ -129,7 +126,7 @@ TEST(NestedMedia, ACameraInTheWaterKnowsIt) {
   EXPECT_EQ(volumes_around(world, Vec3(0, 0, 30)).strongest(), scene::kNoVolume);
 }
 
-TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
+TEST(NestedMedia, ShadowRaysPassMediaInTheirOrder) {
   Stack stack;
   stack.slab(kWater, 0, 3, Color(0.2f, 0.0f, 0.0f));
   stack.slab(kGlass, 1, 2, Color(0.0f, 0.3f, 0.0f));
@@ -138,7 +135,7 @@ TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
   const auto passed = [&](float z, float length) { return testing::passed_down(world, z, length); };
   const auto through = [](double a, double b) { return static_cast<float>(1.0 / (1.0 + plate(a, b))); };
   const float water = through(1, kWater), glass = through(kWater, kGlass);
-  // The weakest slab is not seen at all.
+  // The weakest slab has no effect.
   const Color all(water * water * glass * glass * std::exp(-0.4f),
                   water * water * glass * glass * std::exp(-0.3f), water * water * glass * glass);
   EXPECT_TRUE(passed(10.0f, 10.5f).isApprox(all, 1e-4f)) << passed(10.0f, 10.5f);
@@ -149,7 +146,7 @@ TEST(NestedMedia, ShadowRaysPassThemInTheirOrder) {
 }
 
 TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
-  // A lamp and a sheet in tinted water, seen from there: light samples and bounces say the same.
+  // A lamp and a sheet in tinted water, seen from within it: light samples and bounces agree.
   const auto seen = [](DirectLight direct) {
     SceneBuilder builder;
     scene::Material water = SceneBuilder::clear_glass();
@@ -187,9 +184,9 @@ TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(samples[c] / bounces[c], 1.0f, 0.03f) << c;
 }
 
-TEST(NestedMedia, RoughIceKeepsTheLightThatFloatsOutOfTheWater) {
-  // Its index is so near to that of water that nothing is bent between them; in a white furnace each path
-  // brings 1.
+TEST(NestedMedia, RoughIceThatOverlapsWaterLosesNoLight) {
+  // The index of ice is so near to that of water that light between them is unrefracted; in a white furnace
+  // each path has a radiance of 1.
   Stack stack;
   stack.slab(1.333f, 0, 3);
   stack.slab(1.31f, 2, 4);
@@ -201,9 +198,9 @@ TEST(NestedMedia, RoughIceKeepsTheLightThatFloatsOutOfTheWater) {
   EXPECT_NEAR(static_cast<double>(stack.render()[1]), 1.0, 5e-3);
 }
 
-TEST(NestedMedia, AMediumThatDispersesColoursWhatIsInIt) {
-  // A block of air in dispersing glass, as a prism would: seen straight on it only loses what its boundaries
-  // reflect.
+TEST(NestedMedia, ABlockOfAirInDispersingGlassIsColourlessAtNormalIncidence) {
+  // A block of air in dispersing glass, like a prism: at normal incidence light is only reduced by the
+  // reflections of its boundaries.
   Stack stack;
   stack.slab(kGlass, 0, 3);
   stack.slab(1.0f, 1, 2);
@@ -213,8 +210,8 @@ TEST(NestedMedia, AMediumThatDispersesColoursWhatIsInIt) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(static_cast<double>(light[c]), expected, 0.015) << c;
 }
 
-/// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so nothing is seen.
-TEST(NestedMedia, AWhiteFurnaceShowsNothing) {
+/// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so all are invisible.
+TEST(NestedMedia, BallsInAWhiteFurnaceAreInvisible) {
   for (const float roughness : {0.0f, 0.3f}) {
     SceneBuilder builder;
     const auto ball = [&](float ior, const Vec3& center, float radius) {

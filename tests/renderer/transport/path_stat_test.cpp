@@ -10,8 +10,6 @@
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
-using scene::Color;
-using scene::Vec3;
 
 namespace {
 
@@ -100,7 +98,7 @@ TEST_P(DirectLightModes, QuadLightMatchesLambertsFormula) {
   const double e = 5.0 * polygon_irradiance(Vec3(0, 0, 0), Vec3(0, 1, 0),
                                             {Vec3(0.5f, 1.5f, -1), Vec3(1.5f, 1.5f, -1), Vec3(1.5f, 2, 1),
                                              Vec3(0.5f, 2, 1)});
-  // So narrow a view that every pixel sees the origin.
+  // The view is so narrow that every pixel sees the origin.
   RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
   options.direct = GetParam();
   expect_radiance(builder.scene(), options, 0.7 / M_PI * e, 2e-4);
@@ -203,8 +201,9 @@ TEST(PathStat, PanesPassTheSunToWhatIsBehindThem) {
 }
 
 TEST(PathStat, PanesAddNoLightOfTheirOwn) {
-  // A matte floor and a pane above it in a white furnace: whatever the pane reflects down, it keeps from
-  // coming through. Shadow rays through panes and BSDF samples through panes must not count the sky twice.
+  // A matte floor and a pane above it in a white furnace: the light that the pane reflects down is missing
+  // from the light that it transmits. Shadow rays and BSDF samples through panes must not count the sky
+  // twice.
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
   builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
@@ -225,18 +224,18 @@ TEST(PathStat, AmbientOcclusionOfADiscMatchesItsFormFactor) {
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
   builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
   // A disc of radius 1 at height 0.75: form factor R^2 / (R^2 + h^2) = 0.64.
-  scene::PaddedVector<Vec3> points{Vec3(0, 0.75f, 0)};
+  PaddedVector<Vec3> points{Vec3(0, 0.75f, 0)};
   std::vector<std::array<std::uint32_t, 3>> fan;
   constexpr std::uint32_t kSegments = 256;
   for (std::uint32_t i = 0; i < kSegments; ++i) {
-    const float phi = 2.0f * scene::kPi * static_cast<float>(i) / kSegments;
+    const float phi = 2.0f * kPi * static_cast<float>(i) / kSegments;
     points.emplace_back(std::cos(phi), 0.75f, std::sin(phi));
     fan.push_back({0, 1 + i, 1 + (i + 1) % kSegments});
   }
   builder.mesh(matte, points, fan);
   RenderOptions options = looking(Vec3(-3, 0.4f, 0), Vec3(0, 0, 0), 0.02f);
   options.integrator = Integrator::ao;
-  options.ao_distance = scene::kInfinity;
+  options.ao_distance = kInfinity;
   expect_radiance(builder.scene(), options, 0.36, 2e-3);
   options.ao_distance = 0.7f;
   expect_radiance(builder.scene(), options, 1.0);

@@ -1,4 +1,4 @@
-// Points of coarse balls are moved onto the round surface: that neither takes light nor lets it into closed
+// Points of coarse balls are moved onto the round surface: this neither loses light nor lets it into closed
 // rooms.
 
 #include <gtest/gtest.h>
@@ -12,9 +12,6 @@
 
 namespace gatelight::renderer {
 namespace {
-
-using scene::Color;
-using scene::Vec3;
 using testing::Moments;
 using testing::SceneBuilder;
 
@@ -44,7 +41,7 @@ void make_rough(scene::Scene& s, scene::Mesh& ball, scene::Material& material) {
   s.textures.push_back({.image = 0, .nearest = true});
   material.normal_texture.texture = 0;
   for (const Vec3& n : ball.normals) {
-    const Vec3 tangent = scene::any_perpendicular(n);
+    const Vec3 tangent = any_perpendicular(n);
     ball.tangents.emplace_back(tangent.x(), tangent.y(), tangent.z(), 1.0f);
     ball.uv0.emplace_back(7.0f * n.x(), 7.0f * n.y());
   }
@@ -63,7 +60,7 @@ double white_ball(int segments, DirectLight direct, bool two_sided, bool bumps) 
   return pixels(builder.scene(), options).mean();
 }
 
-TEST(TerminatorEnergy, AWhiteBallInAWhiteSkyIsNotSeen) {
+TEST(TerminatorEnergy, AWhiteBallInAWhiteSkyIsInvisible) {
   for (const DirectLight direct : {DirectLight::mis, DirectLight::nee, DirectLight::bsdf}) {
     for (const int segments : {12, 24, 48}) {
       EXPECT_NEAR(white_ball(segments, direct, false, false), 1.0, 0.002) << segments;
@@ -105,7 +102,7 @@ TEST(TerminatorEnergy, NoLightComesIntoAClosedRoomWithBallsNearItsWalls) {
 }
 
 /// Mean radiance of a ball that lies on a floor, in a sky, and the same without the floor.
-TEST(TerminatorEnergy, ABallThatLiesOnAFloorHardlySeesWhatIsBelow) {
+TEST(TerminatorEnergy, ABallOnAFloorHardlyGetsLightFromBelowIt) {
   const auto lit_from_below = [](int segments, bool floor) {
     SceneBuilder builder;
     builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 1, 0), 1.0f, segments,

@@ -1,0 +1,56 @@
+#pragma once
+// The thread that serves MPI while the other threads compute: it advances all-gathers, sends and receives
+// heartbeats and errors, and ends all ranks where one is lost.
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "apps/mpi/all_gather.h"
+#include "apps/mpi/callbacks.h"
+#include "apps/mpi/error_consensus.h"
+#include "apps/mpi/heartbeats.h"
+#include "apps/mpi/mailbox.h"
+#include "apps/mpi/mpi_world.h"
+
+namespace gatelight::apps {
+
+class ProgressThread {
+ public:
+  ProgressThread(const MpiWorld& world, AllGathers& all_gathers, RankCallbacks callbacks,
+                 double silence_seconds);
+  /// Call stop() before.
+  ~ProgressThread() = default;
+  ProgressThread(const ProgressThread&) = delete;
+  ProgressThread& operator=(const ProgressThread&) = delete;
+
+  /// Reports the error to rank 0. Returns where all ranks have the same error, else the program ends here.
+  void fail(const RankError& fault);
+
+  /// Returns when no rank needs this one any more. All ranks call it.
+  void stop();
+
+  /// Prints this rank's error, unless another thread is ending the program, and ends all ranks.
+  [[noreturn]] void abort(const RankError& fault);
+
+ private:
+  void run();
+  bool step();
+  void receive(const Mailbox::Message& message);
+  void reach_consensus(const ErrorConsensus::Verdict& verdict);
+  [[noreturn]] void abort(int code, const std::function<void()>& print);
+
+  const MpiWorld& world_;
+  AllGathers& gatherings_;
+  const RankCallbacks callbacks_;
+  Mailbox mailbox_;
+  Heartbeats heartbeats_;
+  ErrorConsensus errors_;
+  std::atomic<bool> may_leave_ = false;  // after an error that all ranks have
+  bool stopping_ = false;
+  std::atomic_flag aborting_;
+  std::thread thread_;
+};
+
+}  // namespace gatelight::apps

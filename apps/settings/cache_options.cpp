@@ -1,0 +1,346 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <limits>
+
+#include "apps/settings/picture_options.h"
+#include "base/errors.h"
+
+// Structured bindings name every member, as in picture_options.cpp.
+
+namespace gatelight::apps {
+namespace {
+
+using namespace renderer;
+
+using neural::FeatureEncoding;
+
+constexpr RealRange kFraction{0.0, 1.0};
+constexpr IntegerRange kSteps{0, std::numeric_limits<int>::max()};
+constexpr IntegerRange kPaths{1, 65536};
+constexpr IntegerRange kFeatures{1, 16};
+constexpr IntegerRange kResolution{1, neural::kMaxResolution};
+constexpr IntegerRange kDivisor{1, neural::kMaxAdaptiveDivisor};
+
+constexpr Choice<std::uint32_t> kHiddenWidths[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
+constexpr Choice<std::optional<bool>> kInputs[] = {{"auto", std::nullopt}, {"on", true}, {"off", false}};
+constexpr Choice<bool> kAutoOff[] = {{"auto", true}, {"off", false}};
+constexpr Choice<bool> kPrecisions[] = {{"fp32", false}, {"bf16", true}};
+
+bool is_nrc(const RenderOptions& o) {
+  return o.integrator == Integrator::nrc;
+}
+bool is_gate(const RenderOptions& o) {
+  return o.cache.encoding == FeatureEncoding::gate;
+}
+constexpr Requirement kNrc{is_nrc, "--integrator nrc"};
+constexpr Requirement kGate{is_gate, "--encoding gate"};
+constexpr Requirement kHashGrid{[](const RenderOptions& o) { return !is_gate(o); }, "--encoding hashgrid"};
+constexpr Requirement kNrcOrHashGrid{[](const RenderOptions& o) { return is_nrc(o) || !is_gate(o); },
+                                     "--integrator nrc or --encoding hashgrid"};
+constexpr Requirement kSelfTraining{
+    [](const RenderOptions& o) { return o.cache.self_training.start_step >= 0; }, "--self-training STEP"};
+constexpr Requirement kSpread{[](const RenderOptions& o) { return o.cache.query_at == QueryAt::spread; },
+                              "--query-at spread"};
+/// The view of the cache is at the first vertex, or its reference.
+constexpr Requirement kFinalView{[](const RenderOptions& o) {
+                                   return o.cache.view == CacheView::final ||
+                                          o.cache.query_at == QueryAt::primary ||
+                                          o.cache.query_at == QueryAt::none;
+                                 },
+                                 "--view final"};
+constexpr Requirement kPicturePoints{
+    [](const RenderOptions& o) { return o.cache.source == TrainingSource::picture; },
+    "--training-points picture"};
+constexpr Requirement kTriangles{[](const RenderOptions& o) { return is_gate(o) || o.cache.candidates == 1; },
+                                 "--encoding gate"};
+constexpr Requirement kPaperRule{
+    [](const RenderOptions& o) { return o.cache.gate.rule == neural::ResolutionRule::paper; },
+    "--resolution paper"};
+constexpr Requirement kUniformRule{
+    [](const RenderOptions& o) { return o.cache.gate.rule == neural::ResolutionRule::uniform; },
+    "--resolution uniform"};
+
+std::string stack_text(const std::vector<std::uint32_t>& stack) {
+  std::vector<std::string> levels;
+  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
+  return fmt::format("{}", fmt::join(levels, ","));
+}
+
+/// "adaptive,adaptive/4,1": kAdaptive, adaptive_part(4) and 1.
+std::vector<std::uint32_t> read_stack(const std::string& text) {
+  const std::string flag = "--stack", part = "adaptive/";
+  const std::vector<std::string> words = split_list(flag, text);
+  if (words.size() > neural::kMaxStack) {
+    throw BadOption(fmt::format("{}: '{}' has {} levels, expected at most {}", flag, text, words.size(),
+                                neural::kMaxStack));
+  }
+  const auto number = [&](const std::string& word, const IntegerRange& range) {
+    return static_cast<std::uint32_t>(parse_integer(flag, word, range));
+  };
+  std::vector<std::uint32_t> stack;
+  for (const std::string& word : words) {
+    if (word == "adaptive") {
+      stack.push_back(neural::kAdaptive);
+    } else if (word.starts_with(part)) {
+      stack.push_back(neural::adaptive_part(number(word.substr(part.size()), kDivisor)));
+    } else {
+      stack.push_back(number(word, kResolution));
+    }
+  }
+  return stack;
+}
+
+constexpr std::string_view kFixed = "fixed:";
+
+std::string resolution_text(const neural::GateOptions& gate) {
+  const bool fixed = gate.rule == neural::ResolutionRule::fixed;
+  return fixed ? fmt::format("{}{}", kFixed, gate.fixed_resolution) : enum_name(gate.rule);
+}
+
+void read_resolution(const std::string& text, neural::GateOptions& gate) {
+  const std::string flag = "--resolution";
+  if (text.starts_with(kFixed)) {
+    gate.fixed_resolution =
+        static_cast<std::uint32_t>(parse_integer(flag, text.substr(kFixed.size()), kResolution));
+    gate.rule = neural::ResolutionRule::fixed;
+  } else if (text == "uniform" || text == "paper") {
+    gate.rule = parse_choice(flag, text, kEnumNames<neural::ResolutionRule>);
+  } else {
+    refuse_choice(flag, text, "uniform|paper|fixed:R");
+  }
+}
+
+std::string read_device(const std::string& text) {
+  constexpr std::string_view kChosen = "vulkan:";
+  const bool chosen = text.starts_with(kChosen) && text.size() > kChosen.size();
+  if (text != "cpu" && text != "vulkan" && !chosen)
+    refuse_choice("--device", text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
+  return text;
+}
+
+void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options) {
+  auto& [start_step, vertices, full_fraction, attenuation] = options;
+  group.add(
+      {.name = "self-training",
+       .unit = "STEP|off",
+       .help = "First step whose training paths end in the cache's own answer; off: all run to their end",
+       .value = [&options]() -> OptionValue {
+         if (options.start_step < 0) return "off";
+         return value_of(options.start_step);
+       },
+       .read =
+           [&options](const std::string& text) {
+             options.start_step =
+                 text == "off" ? -1 : static_cast<int>(parse_integer("--self-training", text, kSteps));
+           }},
+      {kNrc});
+  group.add(number("self-training-vertices", vertices, kPaths, "N",
+                   "Vertices that become records before the cache answers for the rest of the path"),
+            {kNrc, kSelfTraining});
+  group.add(number("self-training-full", full_fraction, kFraction, "FRACTION",
+                   "Part of the training paths that still run to their end, 0 to 1"),
+            {kNrc, kSelfTraining});
+  group.add(number("self-training-attenuation", attenuation, kFraction, "FACTOR",
+                   "Multiplies the cache's answer at the end of a training path, 0 to 1"),
+            {kNrc, kSelfTraining});
+}
+
+/// Two of its flags are in another group.
+void add_training_options(OptionGroup& group, neural::TrainingOptions& options) {
+  auto& [loss, adam, update, feature_step, precision, average, start_at_mean, max_target, count_triangles,
+         seed] = options;
+  auto& [learning_rate, beta1, beta2, epsilon, l2_network, decay_steps] = adam;
+  auto& [average_network, average_features, average_decay, average_ramp] = average;
+  group.add(number("learning-rate", learning_rate, kNotNegative, "X", "Size of a training step (of Adam)"));
+  group.add(number("learning-decay", decay_steps, kNotNegative, "STEPS",
+                   "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays"));
+  group.add(
+      choice("loss", loss, "Squared error, as it is or relative to the squared luminance of the answer"));
+  group.add(
+      choice("update", update, "Which feature vectors a step changes: those that its records touch, or all"));
+  group.add(choice("feature-step", feature_step,
+                   "Step count of a feature vector (for Adam): its own, or that of its triangles as in the "
+                   "paper"),
+            {kGate});
+  Option& averaged =
+      group.add(choice("average", average_network, kOnOff,
+                       "Answer with a running average of features and weights instead of the last ones"));
+  averaged.read = [&options = average, read = averaged.read](const std::string& text) {
+    read(text);
+    options.features = options.network;
+  };
+}
+
+void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
+  OptionGroup group{table, "Cache, learning"};
+  group.add(common(number_or("auto", "train-steps", options.train_steps, kSteps, "N",
+                             "Training steps before the picture; auto: by its pixels and samples; 0: none")));
+  group.add(not_in_sweep(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
+                                "No further step after this time of training; 0: no limit")));
+  group.add(number("batch", options.batch, {1, 1 << 24}, "N",
+                   "Records (points with their light) in a training step"));
+  group.add(
+      number("train-path-length", options.path_length, {0, 65536}, "N",
+             "0: only Russian roulette ends a training path, and each vertex becomes a record; N: paths "
+             "of N segments, and only the first vertex does, as in the paper"),
+      {kNrc});
+  group.add(number("samples-per-point", options.samples_per_point, kPaths, "N",
+                   "Paths whose mean becomes the record of a training point"));
+  group.add(choice("training-points", options.source,
+                   "Where training paths start: as samples that stay in the picture, at hits of camera "
+                   "rays, or anywhere on the surfaces"));
+  group.add(number("samples-from-step", options.samples_from_step, kSteps, "N",
+                   "First step whose paths are samples that stay in the picture; they end in the cache as "
+                   "it is then"),
+            {kPicturePoints});
+  group.add(number("candidates", options.candidates, {1, 1024}, "M",
+                   "Candidates for each training point; with more, triangles are trained more evenly"),
+            {kTriangles});
+  add_self_training_options(group, options.self_training);
+  add_training_options(group, options.training);
+}
+
+void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::optional<float>& spacing) {
+  auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution, storage,
+         cluster, memory_budget, budget_is_cap, bytes_per_feature] = options;
+  const auto add = [&](Option option, std::vector<Requirement> needs = {kGate}) {
+    group.add(std::move(option), std::move(needs));
+  };
+  add(number("features", features, kFeatures, "L", "gate: numbers in a feature vector"));
+  add({.name = "stack",
+       .unit = "LIST",
+       .help = "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the "
+               "result of --resolution, 'adaptive/4' a fourth of it",
+       .value = [&options] { return stack_text(options.stack); },
+       .read = [&options](const std::string& text) { options.stack = read_stack(text); }});
+  add({.name = "resolution",
+       .unit = "uniform|paper|fixed:R",
+       .help = "gate: feature vectors along a triangle's edge, for each instance: by --node-spacing, by the "
+               "paper's rule, or R everywhere",
+       .value = [&options] { return resolution_text(options); },
+       .read = [&options](const std::string& text) { read_resolution(text, options); }});
+  add(number("resolution-scale", resolution_scale, kPositive, "X", "gate: factor of the paper's rule"),
+      {kGate, kPaperRule});
+  group.add(number_or("auto", "node-spacing", spacing, kPositive, "METRES",
+                      "gate: distance between feature vectors; auto: by the width of pixels on the surfaces"),
+            {kGate, kUniformRule});
+  add(number("max-resolution", max_resolution, kResolution, "R", "gate: largest adaptive resolution"));
+  add(choice("cluster", cluster, kAutoOff,
+             "gate: share feature vectors where triangles are smaller than the node spacing"));
+  add(choice("storage", storage,
+             "gate: feature vectors on common edges and corners are shared by the triangles, or not"));
+}
+
+void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options) {
+  auto& [levels, features, base_resolution, growth, log2_table_size, memory_target, bytes_per_feature,
+         bounds_min, bounds_max] = options;
+  const auto add = [&](Option option) { group.add(std::move(option), {kHashGrid}); };
+  add(number("hash-levels", levels, {1, neural::kMaxHashLevels}, "N", "hashgrid: levels"));
+  add(number("hash-features", features, kFeatures, "N", "hashgrid: numbers in an entry"));
+  add(number("hash-log2-size", log2_table_size, {3, 31}, "N",
+             "hashgrid: a level has at most 2^N entries; --cache-memory overrides it"));
+  add(number("hash-base", base_resolution, {1, 1 << 20}, "N", "hashgrid: resolution of the first level"));
+  add(number("hash-growth", growth, {1.0, 1024.0}, "X",
+             "hashgrid: factor of the resolution from level to level"));
+}
+
+void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
+  auto& [width, hidden_layers, outputs, leaky_slope, biases] = options.mlp;
+  OptionGroup group{table, "Cache, what it is"};
+  group.add(choice("encoding", options.encoding,
+                   // The first encodes nothing.
+                   Choices<FeatureEncoding>(kEnumNames<FeatureEncoding>).subspan(1),
+                   "Where features lie: on the triangles, or in a hash grid in space"));
+  add_gate_options(group, options.gate, options.node_spacing);
+  add_hash_grid_options(group, options.hash_grid);
+  const auto read_memory = [&options](const std::string& text) {
+    const double bytes = parse_real("--cache-memory", text, {0.0, 1099511627776.0}) * 1048576.0;
+    options.memory_bytes = static_cast<std::uint64_t>(std::ceil(bytes));
+  };
+  group.add({.name = "cache-memory",
+             .unit = "MIB",
+             .help = "Largest memory of the features, in MiB; they are as fine as fits; 0: no limit",
+             .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
+             .read = read_memory});
+  group.add(choice("feature-precision", options.training.precision,
+                   "fp16: features are read as 16 bits but trained as 32; fp16-only: half the memory in "
+                   "training too"));
+  group.add(choice("hidden", width, kHiddenWidths, "Width of the network's hidden layers"));
+  group.add(
+      number("layers", hidden_layers, {1, neural::kMaxLayers - 1}, "N", "Hidden layers of the network"));
+  group.add(choice("bias", biases, kOnOff, "Whether the network's layers have biases"));
+  group.add(
+      choice("direction-input", options.direction_input, kInputs,
+             "The network reads the direction of view; auto: where a material of the scene depends on it "
+             "and --cache-roughness is below 0.5"),
+      {kNrc});
+  group.add(choice("normal-input", options.normal_input, kInputs,
+                   "The network reads the normal; auto: yes, but as in the paper where gate has --resolution "
+                   "paper"));
+  group.add(choice("albedo-input", options.albedo_input, kInputs,
+                   "The network reads the albedo; auto: with the hash grid"),
+            {kNrcOrHashGrid});
+  group.add(choice("scout", options.scout, kOnOff,
+                   "Trace some paths first and keep features only for the sides of instances that they hit"));
+}
+
+void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
+  OptionGroup group{table, "Cache, answers"};
+  group.add(choice("cache-holds", options.holds,
+                   "Reflected light that the cache stores: all, all but direct light of point, spot and "
+                   "directional lights, or indirect light only"),
+            {kNrc});
+  group.add(
+      choice(
+          "query-at", options.query_at,
+          "Where a path ends in the cache's answer: first hit (fast), next hit after a wide scattering event "
+          "(accurate), where the path has spread out, or nowhere"),
+      {kNrc, kFinalView});
+  group.add(
+      choice("view", options.view,
+             "final: the picture; cache: the bare answer at the first hit, without emission and reflectance"),
+      {kNrc});
+  group.add(number("cache-roughness", options.min_roughness, kFraction, "X",
+                   "Reflections at least this rough come from the cache, sharper ones are traced, 0 to 1"),
+            {kNrc});
+  group.add(number("spread-threshold", options.spread_threshold, kNotNegative, "X",
+                   "For --query-at spread: spread of the path over that of its first segment; more is later"),
+            {kNrc, kSpread});
+  group.add(choice("query-precision", options.bf16_queries, kPrecisions,
+                   "Arithmetic of answers in the picture; bf16 is faster where the processor has it"));
+  group.add({.name = "device",
+             .unit = "cpu|vulkan[:INDEX|NAME]",
+             .help = "Device that trains and evaluates the cache",
+             .value = [&options] { return options.device; },
+             .read = [&options](const std::string& text) { options.device = read_device(text); }});
+}
+
+}  // namespace
+
+void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
+  [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
+                                samples_from_step, candidates, self_training, node_spacing, encoding, gate,
+                                hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
+                                albedo_input, scout, holds, query_at, view, min_roughness, spread_threshold,
+                                bf16_queries, device, cache_in, cache_out] = options;
+  const std::size_t others = table.size();
+  add_learning_options(table, options);
+  add_shape_options(table, options);
+  add_answer_options(table, options);
+  for (std::size_t i = others; i < table.size(); ++i) table[i].of_cache = true;
+}
+
+void add_cache_file_options(std::vector<Option>& table, CacheOptions& options) {
+  OptionGroup files{table, "Files"};
+  files.add(common(not_in_sweep(
+      any_word("cache-in", options.cache_in, "FILE",
+               "Start from a cache that --cache-out wrote, of the same scene and cache flags"))));
+  files.add(in_recipe(common(not_in_sweep(any_word("cache-out", options.cache_out, "FILE",
+                                                   "Write the trained cache (safetensors)"))),
+                      InRecipe::unless_reproducible));
+  for (const std::size_t back : {1, 2}) table[table.size() - back].of_cache = true;
+}
+
+}  // namespace gatelight::apps

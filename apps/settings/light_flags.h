@@ -1,0 +1,26 @@
+#pragma once
+// The values of --lights, --ies and --light-groups.
+
+#include <string>
+#include <vector>
+
+#include "renderer/settings/light_group_options.h"
+#include "scene/light_adjustments.h"
+#include "scene/light_profiles.h"
+
+namespace gatelight::apps {
+
+/// Reads "NAME=off;NAME=X;NAME=r,g,b". Throws BadOption that names the flag, the part and what was
+/// expected.
+std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text);
+/// Returns the text that read_lights() reads.
+std::string text_of(const std::vector<scene::LightAdjustment>& lights);
+
+/// Reads "NAME=FILE;NAME=FILE", with the same exceptions.
+std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text);
+std::string text_of(const std::vector<scene::LightProfile>& profiles);
+
+/// Reads "NAME=LIGHT,LIGHT;NAME=LIGHT", or "none", with the same exceptions.
+std::vector<renderer::LightGroup> read_light_groups(const std::string& text);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,196 @@
+#pragma once
+// The description of an option for the command line and recipes, bound to the member that it
+// sets.
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "apps/settings/parsing.h"
+#include "renderer/settings/options.h"
+
+namespace gatelight::apps {
+
+using renderer::Choice;
+using renderer::Choices;
+using renderer::enum_name;
+using renderer::kEnumNames;
+using renderer::name_of;
+using renderer::RenderOptions;
+
+/// The value of an option. std::monostate: none.
+using OptionValue = std::variant<std::monostate, bool, std::int64_t, float, double, std::string,
+                                 std::vector<int>, std::vector<float>, std::vector<std::string>>;
+
+/// "on", "3", "0.1", "sobol", "1,2,3"; "" for nothing.
+std::string text_of(const OptionValue& value);
+
+enum class InRecipe : std::uint8_t { always, unless_reproducible, never };
+
+/// A condition without which an option has no effect. The option is then refused, and left out of recipes.
+struct Requirement {
+  bool (*met)(const RenderOptions&);
+  const char* expected;  ///< "--encoding gate"
+};
+
+/// The values that the cells of a sweep can have for an option.
+enum class SweepUse : std::uint8_t {
+  axis,   ///< a value each
+  scene,  ///< one value for all: it decides which scene is loaded
+  none,   ///< none: files, the progress of one picture, limits that end it early
+};
+
+struct Option {
+  std::string name;  ///< of the flag, without its dashes
+  std::string unit;  ///< placeholder of the value in the help; empty: the flag takes no value
+  std::string help;
+  std::function<OptionValue()> value;            ///< in recipes
+  std::function<void(const std::string&)> read;  ///< throws BadOption
+  std::function<std::string()> write;            ///< the text for read(), where it is not the value's
+  bool* toggle = nullptr;                        ///< instead of read(): a flag without a value
+  std::vector<std::string>* list = nullptr;      ///< instead of read(): the flag may be given several times
+
+  // On the command line.
+  std::string group = "Options";  ///< heading in the help; empty: it is not in the help
+  std::string letter;             ///< "-o"
+  std::string default_text;       ///< in the help, where it is not text()
+  bool required = false;
+  bool positional = false;
+  int words = 1;          ///< values that a list takes each time
+  bool of_cache = false;  ///< has no effect without a cache
+  bool common = false;    ///< the short help has it
+  bool of_view = false;   ///< a member of --view-file
+  SweepUse in_sweep = SweepUse::axis;
+  std::vector<Requirement> needs;
+
+  // In files.
+  InRecipe in_recipe = InRecipe::always;
+
+  std::string flag() const { return "--" + name; }
+  std::string text() const { return write ? write() : text_of(value()); }
+};
+
+/// Options with a common heading in the help.
+struct OptionGroup {
+  std::vector<Option>& options;
+  std::string name;
+
+  Option& add(Option option, std::vector<Requirement> needs = {}) {
+    option.group = name;
+    option.needs = std::move(needs);
+    return options.emplace_back(std::move(option));
+  }
+};
+
+/// The names of the options that the short help has.
+std::set<std::string> common_names(const std::vector<Option>& options);
+
+// Each returns the option with one mark.
+inline Option in_recipe(Option option, InRecipe in_recipe) {
+  option.in_recipe = in_recipe;
+  return option;
+}
+inline Option common(Option option) {
+  option.common = true;
+  return option;
+}
+inline Option of_view(Option option) {
+  option.of_view = true;
+  return option;
+}
+inline Option not_in_sweep(Option option) {
+  option.in_sweep = SweepUse::none;
+  return option;
+}
+inline Option of_scene(Option option) {
+  option.in_sweep = SweepUse::scene;
+  return option;
+}
+
+template <class Value>
+OptionValue value_of(const Value& value) {
+  if constexpr (std::is_enum_v<Value>) {
+    return enum_name(value);
+  } else if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
+    return static_cast<std::int64_t>(value);
+  } else {
+    return value;
+  }
+}
+
+template <class Number>
+using RangeOf = std::conditional_t<std::is_floating_point_v<Number>, RealRange, IntegerRange>;
+
+template <class Number>
+Number parse_number(const std::string& flag, const std::string& text, const RangeOf<Number>& range) {
+  if constexpr (std::is_same_v<Number, float>) {
+    return parse_float(flag, text, range);
+  } else if constexpr (std::is_floating_point_v<Number>) {
+    return parse_real(flag, text, range);
+  } else {
+    return static_cast<Number>(parse_integer(flag, text, range));
+  }
+}
+
+template <class Number>
+Option number(const std::string& name, Number& member, const RangeOf<Number>& range, const char* unit,
+              const char* help) {
+  const auto read = [&member, range, flag = "--" + name](const std::string& text) {
+    member = parse_number<Number>(flag, text, range);
+  };
+  return {.name = name, .unit = unit, .help = help, .value = [&] { return value_of(member); }, .read = read};
+}
+
+/// A number, or the word `none` for no number. With an empty `none` there is no such word, and no number has
+/// no text.
+template <class Number>
+Option number_or(const std::string& none, const std::string& name, std::optional<Number>& member,
+                 const RangeOf<Number>& range, const std::string& unit, const char* help) {
+  const auto value = [&member, none]() -> OptionValue {
+    if (member) return value_of(*member);
+    return none.empty() ? OptionValue() : none;
+  };
+  const auto read = [&member, range, none, flag = "--" + name](const std::string& text) {
+    member.reset();
+    if (none.empty() || text != none) member = parse_number<Number>(flag, text, range);
+  };
+  return {.name = name,
+          .unit = none.empty() ? unit : unit + "|" + none,
+          .help = help,
+          .value = value,
+          .read = read};
+}
+
+/// One of the names of a table.
+template <class Member, class Table>
+Option choice(const std::string& name, Member& member, const Table& table, const char* help) {
+  const auto value = [&member, table]() -> OptionValue {
+    if constexpr (std::is_integral_v<Member> && !std::is_same_v<Member, bool>) return value_of(member);
+    return name_of(table, member);
+  };
+  const auto read = [&member, table, flag = "--" + name](const std::string& text) {
+    member = parse_choice(flag, text, table);
+  };
+  return {.name = name, .unit = choice_names(table), .help = help, .value = value, .read = read};
+}
+template <class Enumeration>
+Option choice(const std::string& name, Enumeration& member, const char* help) {
+  return choice(name, member, Choices<Enumeration>(kEnumNames<Enumeration>), help);
+}
+
+/// Any word; an empty one counts as no value.
+Option any_word(const char* name, std::string& member, const char* unit, const char* help);
+/// A flag without a value.
+Option toggle(const char* name, bool& member, const char* help);
+/// Any word; the flag may be given several times.
+Option any_words(const char* name, std::vector<std::string>& member, const char* unit, const char* help);
+
+inline constexpr RealRange kNotNegative{0.0, 3.4e38};
+inline constexpr Choice<bool> kOnOff[] = {{"on", true}, {"off", false}};
+
+}  // namespace gatelight::apps

@@ -1,0 +1,283 @@
+#include "apps/settings/picture_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "apps/settings/light_flags.h"
+#include "base/errors.h"
+
+// Structured bindings name every member of the structs: a new member does not compile until it is described
+// here.
+
+namespace gatelight::apps {
+namespace {
+
+using namespace renderer;
+
+constexpr IntegerRange kDepth{0, 65536};
+constexpr IntegerRange kMebibytes{0, std::int64_t{1} << 40};
+constexpr Choice<std::string_view> kIsa[] = {
+    {"auto", "auto"}, {"scalar", "scalar"}, {"avx2", "avx2"}, {"avx512", "avx512"}};
+
+constexpr Choice<int> kSupersampling[] = {{"1", 1}, {"2", 2}};
+
+/// Values by a list of names, each once, in the order of the enumeration. `all`: a name for all of them.
+template <class Enumeration>
+std::vector<Enumeration> read_words(const std::string& flag, const std::string& text,
+                                    std::string_view all = "") {
+  std::vector<Enumeration> values;
+  for (const std::string& word : split_list(flag, text)) {
+    if (word == all) {
+      for (const Choice<Enumeration>& choice : kEnumNames<Enumeration>) values.push_back(choice.value);
+    } else {
+      values.push_back(parse_choice(flag, word, kEnumNames<Enumeration>));
+    }
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+template <class Enumeration>
+OptionValue words_of(const std::vector<Enumeration>& values) {
+  std::vector<std::string> words;
+  for (const Enumeration value : values) words.push_back(enum_name(value));
+  return words;
+}
+
+void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& checkpoint) {
+  auto& [file, every_seconds, resume] = checkpoint;
+  OptionGroup files{table, "Files"};
+  const auto add = [&](Option option) {
+    option.default_text = option.text();
+    option.value = [&checkpoint, value = option.value] {
+      return checkpoint.file.empty() ? OptionValue() : value();
+    };
+    files.add(in_recipe(option, InRecipe::unless_reproducible));
+  };
+  add(common(
+      not_in_sweep(any_word("checkpoint", file, "FILE",
+                            "Write a file from which --resume continues after the program has ended"))));
+  add(not_in_sweep(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
+                          "Time between two writes of the checkpoint")));
+  add(common(not_in_sweep(toggle(
+      "resume", resume,
+      "Continue from the checkpoint if it exists; the picture is the same as without the interruption"))));
+}
+
+Option size_option(int& width, int& height) {
+  const auto value = [&]() -> OptionValue { return std::vector<int>{width, height}; };
+  const auto read = [&](const std::string& text) {
+    const std::array<int, 2> size = parse_size("--size", text);
+    width = size[0];
+    height = size[1];
+  };
+  return {.name = "size",
+          .unit = "WxH",
+          .help = "Size of the picture in pixels",
+          .value = value,
+          .read = read,
+          .write = [&] { return fmt::format("{}x{}", width, height); },
+          .common = true};
+}
+
+Option region_option(std::optional<std::array<int, 4>>& region) {
+  const auto value = [&] {
+    return region ? std::vector<int>(region->begin(), region->end()) : OptionValue();
+  };
+  return {.name = "region",
+          .unit = "x0,y0,x1,y1",
+          .help = "Render this part only, in pixels; x1 and y1 are excluded",
+          .value = value,
+          .read = [&](const std::string& text) { region = parse_region("--region", text); }};
+}
+
+Option aov_option(std::vector<Aov>& aovs) {
+  const char* help =
+      "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
+      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
+      "error of the picture), denoising (the input of `gatelight denoise`); of a cache cache-radiance, "
+      "cache-answer, cache-error, "
+      "training-count, resolution, nearest-node; or all";
+  return {.name = "aov",
+          .unit = "LIST",
+          .help = help,
+          .value = [&] { return words_of(aovs); },
+          .read = [&](const std::string& text) { aovs = read_words<Aov>("--aov", text, "all"); },
+          .common = true,
+          .in_sweep = SweepUse::none};
+}
+
+Option cryptomatte_option(std::vector<MatteKind>& kinds) {
+  return {.name = "cryptomatte",
+          .unit = "object,material",
+          .help =
+              "Masks for compositing in EXR files, by the names of objects, of materials or of both: the "
+              "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
+              "themselves",
+          .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
+          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("--cryptomatte", text); },
+          .in_sweep = SweepUse::none};
+}
+
+Option light_groups_option(std::vector<LightGroup>& groups) {
+  return {.name = "light-groups",
+          .unit = "none|A=LIGHT,LIGHT;B=...",
+          .help =
+              "Layers of EXR files, light-A and so on, with the part of these lights and emissive "
+              "materials of the file, by name ('*' ends a name that only begins so), or of the "
+              "environment; 'rest' is that of all others; with --integrator path: "
+              "\"key=Sun,Lamp*;sky=environment\"",
+          .value = [&]() -> OptionValue { return groups.empty() ? OptionValue() : text_of(groups); },
+          .read = [&](const std::string& text) { groups = read_light_groups(text); }};
+}
+
+Option integrator_option(Integrator& integrator, bool& choose) {
+  constexpr const char* kAuto = "auto";
+  const auto value = [&]() -> OptionValue { return choose ? kAuto : enum_name(integrator); };
+  const auto read = [&](const std::string& text) {
+    choose = text == kAuto;
+    integrator = choose ? Integrator::nrc : parse_choice("--integrator", text, kEnumNames<Integrator>);
+  };
+  return {.name = "integrator",
+          .unit = fmt::format("{}|{}", choice_names(kEnumNames<Integrator>), kAuto),
+          .help =
+              "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache that is "
+              "trained first (nrc, nao); auto, that of the presets: nrc, or path where light paths are too "
+              "short for a cache to pay off",
+          .value = value,
+          .read = read,
+          .common = true};
+}
+
+constexpr Requirement kDenoiser{
+    [](const RenderOptions& o) { return o.denoise.denoiser != DenoiserKind::none; },
+    "--denoiser oidn or auto",
+};
+
+constexpr Requirement kDenoiserOrLayers{
+    [](const RenderOptions& o) {
+      return o.denoise.denoiser != DenoiserKind::none || has(o.aovs, Aov::denoising);
+    },
+    "--denoiser oidn or auto, or --aov denoising",
+};
+
+void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
+  auto& [denoiser, prefilter, supersampling, library] = options;
+  picture.add(common(choice("denoiser", denoiser,
+                            "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
+                            "is found (auto, that of the presets), or nothing")));
+  picture.add(
+      choice("prefilter", prefilter,
+             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
+             "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
+             "smaller network that expects noise in them, for a third of the time (fast)"),
+      {kDenoiserOrLayers});
+  picture.add(choice("supersampling", supersampling, kSupersampling,
+                     "Render and denoise at this many times the width and height, with the same number of "
+                     "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
+                     "textures, four times the denoiser's time"),
+              {kDenoiser});
+  picture.add(in_recipe(any_word("oidn", library, "FILE|FOLDER",
+                                 "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
+                                 "of the environment, else where scripts/setup or the system have it)"),
+                        InRecipe::unless_reproducible),
+              {kDenoiser});
+}
+
+/// Checkpoints store the chosen instruction sets separately.
+void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
+                         std::string& isa) {
+  OptionGroup machine{table, "Machine"};
+  machine.add(in_recipe(common(number("threads", threads, {0, 1024}, "N",
+                                      "0: as many as the machine and the control group allow")),
+                        InRecipe::unless_reproducible));
+  const auto read_limit = [&](const std::string& text) {
+    memory_limit_bytes = static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
+  };
+  machine.add(in_recipe({.name = "memory-limit",
+                         .unit = "MIB",
+                         .help = "Largest memory, in MiB; more is refused; 0: no limit",
+                         .value = [&] { return value_of(memory_limit_bytes >> 20); },
+                         .read = read_limit,
+                         .common = true},
+                        InRecipe::unless_reproducible));
+  machine.add(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache"));
+}
+
+}  // namespace
+
+std::vector<Option> picture_options(RenderOptions& options) {
+  auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
+         max_error, max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
+         light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
+         light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
+         checkpoint] = options;
+  std::vector<Option> table;
+  add_checkpoint_options(table, checkpoint);
+  add_cache_file_options(table, cache);
+
+  OptionGroup picture{table, "Picture"};
+  picture.add(size_option(width, height));
+  picture.add(region_option(region));
+  picture.add(common(
+      number("spp", spp, {1, kOpenSpp}, "N", "Samples per pixel; a limit with --time-limit or --max-error")));
+  picture.add(common(not_in_sweep(
+      number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+             "Time of scouting, training, rendering and denoising together; it decides --spp and the "
+             "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
+             "limit"))));
+  picture.add(common(not_in_sweep(number(
+      "max-error", max_error, kNotNegative, "E",
+      "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
+      "square root of compare's rel_mse, without the bias of a cache; without --spp at 65536 samples at "
+      "the latest; 0: off"))));
+  picture.add(common(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
+                            "Seed of all random numbers")));
+  picture.add(choice("sampler", sampler, "Kind of random numbers"));
+  picture.add(choice("filter", filter, "Pixel filter"));
+  picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
+                     "Full width of the pixel filter; 0: the filter's own"));
+  add_denoise_options(picture, denoise);
+  picture.add(aov_option(aovs));
+  picture.add(cryptomatte_option(cryptomattes));  // film and checkpoint do not store it
+  picture.add(light_groups_option(light_groups));
+
+  add_view_options(table, camera, environment, background);
+
+  OptionGroup light{table, "Light transport"};
+  light.add(integrator_option(integrator, choose_integrator));
+  light.add(common(number("max-depth", max_depth, kDepth, "N",
+                          "Largest number of scattering events; 1: emission and direct light")));
+  light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
+  light.add(choice("direct", direct,
+                   "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
+  light.add(choice("mis", mis, "Heuristic of multiple importance sampling"));
+  light.add(choice("light-selection", light_selection, "How one of many lights is chosen"));
+  light.add(choice(
+      "glass-shadows", glass_shadows,
+      "Light behind glass with an inside: found only by bounces, so that suns and small lamps give none "
+      "(refract), or unrefracted, as through panes (straight: an approximation, that of the presets)"));
+  light.add(
+      choice("watertight", watertight, kOnOff,
+             "Whether no ray slips between triangles that share an edge; off is faster where triangles are "
+             "long and thin"));
+  Option& reach = light.add(number("ao-distance", ao_distance,
+                                   {.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true},
+                                   "METRES", "Reach of ambient occlusion; inf allowed"));
+  reach.value = [&options] { return options.ao_distance < 0.0f ? OptionValue() : options.ao_distance; };
+  reach.default_text = "a tenth of the scene's diagonal";
+  light.add(
+      common(number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off")));
+  light.add(choice("nan", nan_policy, "Treatment of a sample that is not finite"));
+
+  add_cache_options(table, cache);
+
+  add_machine_options(table, threads, memory_limit_bytes, isa);
+  return table;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,170 @@
+#include "apps/settings/sky_flag.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "apps/settings/parsing.h"
+#include "base/errors.h"
+
+namespace gatelight::apps {
+namespace {
+
+using renderer::SkyOptions;
+using renderer::SunTime;
+
+struct Part {
+  std::string name;
+  std::vector<std::string> values;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+/// "a=1,2, b=3" are two parts: a word without '=' belongs to the part before it.
+std::vector<Part> parts_of(const std::string& flag, const std::string& text) {
+  std::vector<Part> parts;
+  for (const std::string& piece : split_list(flag, text)) {
+    const std::string word = trimmed(piece);
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos) {
+      parts.push_back({trimmed(word.substr(0, equals)), {trimmed(word.substr(equals + 1))}});
+    } else if (!parts.empty()) {
+      parts.back().values.push_back(word);
+    } else {
+      throw BadOption(
+          fmt::format("{}: '{}' is not none, clear, or parts such as sun=AZIMUTH,ELEVATION", flag, text));
+    }
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& text, const char* expected) {
+  throw BadOption(fmt::format("{}: '{}' is not {}", name, text, expected));
+}
+
+/// Whole numbers with a separator between them: "2026-06-21", "14:30".
+std::vector<int> whole_numbers(const std::string& name, const std::string& text, char separator,
+                               const char* expected) {
+  std::vector<int> numbers;
+  for (const std::string& digits : split(text, separator)) {
+    const bool good =
+        !digits.empty() && digits.size() <= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
+    if (!good) refuse(name, text, expected);
+    numbers.push_back(std::stoi(digits));
+  }
+  return numbers;
+}
+
+void read_date(const std::string& name, const std::string& text, SunTime& time) {
+  constexpr const char* kExpected = "a date YEAR-MONTH-DAY from 1900 to 2100, such as 2026-06-21";
+  const std::vector<int> n = whole_numbers(name, text, '-', kExpected);
+  // The types of dates keep eight bits.
+  if (n.size() != 3 || n[0] < 1900 || n[0] > 2100 || n[1] > 12 || n[2] > 31) refuse(name, text, kExpected);
+  const std::chrono::year_month_day date{std::chrono::year(n[0]),
+                                         std::chrono::month(static_cast<unsigned>(n[1])),
+                                         std::chrono::day(static_cast<unsigned>(n[2]))};
+  if (!date.ok()) refuse(name, text, kExpected);
+  time.year = n[0];
+  time.month = n[1];
+  time.day = n[2];
+}
+
+void read_time(const std::string& name, const std::string& text, SunTime& time) {
+  constexpr const char* kExpected = "a time HOUR:MINUTE or HOUR:MINUTE:SECOND of the day, such as 14:30";
+  std::vector<int> n = whole_numbers(name, text, ':', kExpected);
+  if (n.size() == 2) n.push_back(0);
+  if (n.size() != 3 || n[0] > 23 || n[1] > 59 || n[2] > 59) refuse(name, text, kExpected);
+  time.second_of_day = (n[0] * 60 + n[1]) * 60 + n[2];
+}
+
+/// Number of values of a part, and the function that reads them.
+struct Reader {
+  std::size_t values = 1;
+  std::function<void(const std::string& name, const std::vector<std::string>& values)> read;
+};
+
+Reader real(float& member, const RealRange& range) {
+  return {1, [&member, range](const std::string& name, const std::vector<std::string>& values) {
+            member = parse_float(name, values[0], range);
+          }};
+}
+
+std::string joined(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
+  return text;
+}
+
+}  // namespace
+
+renderer::SkyOptions read_sky(const std::string& flag, const std::string& text) {
+  SkyOptions sky;
+  if (trimmed(text) == "clear") return sky;
+  SunTime time;
+  constexpr RealRange kLatitude{-90.0, 90.0}, kLongitude{-180.0, 180.0}, kZone{-14.0, 14.0};
+  const std::map<std::string, Reader> readers = {
+      {"turbidity", real(sky.turbidity, {1.0, 10.0})},
+      {"ground", real(sky.ground, {0.0, 1.0})},
+      {"size", real(sky.sun_size_degrees, {0.0, 20.0})},
+      {"intensity", real(sky.intensity, {0.0, 1e6})},
+      {"sun",
+       {2,
+        [&](const std::string& name, const std::vector<std::string>& values) {
+          sky.sun_azimuth_degrees = parse_float(name, values[0], {-360.0, 360.0});
+          sky.sun_elevation_degrees = parse_float(name, values[1], {-90.0, 90.0});
+        }}},
+      {"date",
+       {1, [&](const std::string& name,
+               const std::vector<std::string>& values) { read_date(name, values[0], time); }}},
+      {"time",
+       {1, [&](const std::string& name,
+               const std::vector<std::string>& values) { read_time(name, values[0], time); }}},
+      {"place",
+       {2,
+        [&](const std::string& name, const std::vector<std::string>& values) {
+          time.latitude_degrees = parse_real(name, values[0], kLatitude);
+          time.longitude_degrees = parse_real(name, values[1], kLongitude);
+        }}},
+      {"zone", {1, [&](const std::string& name, const std::vector<std::string>& values) {
+                  const bool plus = values[0].starts_with('+');
+                  time.zone_hours = parse_real(name, plus ? values[0].substr(1) : values[0], kZone);
+                }}}};
+  std::set<std::string> given;
+  for (const Part& part : parts_of(flag, text)) {
+    const auto found = readers.find(part.name);
+    if (found == readers.end())
+      refuse_choice(flag, part.name, "turbidity|sun|date|time|place|zone|ground|size|intensity");
+    const std::string name = fmt::format("{}: {}", flag, part.name);
+    if (!given.insert(part.name).second)
+      throw BadOption(fmt::format("{} is there twice, expected it once", name));
+    if (part.values.size() != found->second.values)
+      refuse(name, joined(part.values), found->second.values == 2 ? "two numbers a,b" : "one value");
+    found->second.read(name, part.values);
+  }
+  if (sky.sun_size_degrees > 0.0f && sky.sun_size_degrees < 0.05f)
+    refuse(flag + ": size", fmt::format("{}", sky.sun_size_degrees), "0 or at least 0.05 degrees");
+  const bool dated = given.contains("date");
+  for (const char* other : {"time", "place"}) {
+    if (dated && !given.contains(other))
+      throw BadOption(fmt::format("{}: {}= is missing, expected it with date=", flag, other));
+  }
+  for (const char* other : {"time", "place", "zone"}) {
+    if (!dated && given.contains(other))
+      throw BadOption(fmt::format("{}: date= is missing, expected it with {}=", flag, other));
+  }
+  if (dated && given.contains("sun"))
+    throw BadOption(fmt::format("{}: sun= and date= exclude each other, expected one of them", flag));
+  if (dated) sky.time = time;
+  return sky;
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "apps/settings/picture_options.h"
+#include "apps/settings/sky_flag.h"
+#include "base/errors.h"
+
+namespace gatelight::apps {
+namespace {
+
+using namespace renderer;
+
+void read_environment(EnvironmentOptions& environment, const std::string& text) {
+  environment.automatic = text == "auto";
+  environment.file.clear();
+  environment.constant = Color::Zero();
+  if (text == "none" || text == "auto") return;
+  if (looks_like_triple(text)) {
+    const std::array<float, 3> rgb = parse_triple("--environment", text, kNotNegative);
+    environment.constant = {rgb[0], rgb[1], rgb[2]};
+  } else {
+    environment.file = text;
+  }
+}
+
+OptionValue environment_value(const EnvironmentOptions& environment) {
+  if (environment.automatic) return "auto";
+  if (environment.none()) return "none";
+  if (!environment.file.empty()) return environment.file;
+  const Color& rgb = environment.constant;
+  return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
+}
+
+void read_background(BackgroundOptions& background, const std::string& text) {
+  using Kind = BackgroundOptions::Kind;
+  background = {.shadow_catcher = background.shadow_catcher};
+  if (text == "scene") return;
+  if (text == "transparent") {
+    background.kind = Kind::transparent;
+  } else if (looks_like_triple(text)) {
+    const std::array<float, 3> rgb = parse_triple("--background", text, kNotNegative);
+    background.kind = Kind::color;
+    background.color = {rgb[0], rgb[1], rgb[2]};
+  } else {
+    background.kind = Kind::file;
+    background.file = text;
+  }
+}
+
+OptionValue background_value(const BackgroundOptions& background) {
+  using Kind = BackgroundOptions::Kind;
+  if (background.kind == Kind::scene) return "scene";
+  if (background.kind == Kind::transparent) return "transparent";
+  if (background.kind == Kind::file) return background.file;
+  return std::vector<float>{background.color.x(), background.color.y(), background.color.z()};
+}
+
+void read_aperture(LensOptions& lens, const std::string& text) {
+  const RealRange range{.min = 0.0, .max = 1e6};
+  const bool stops = text.starts_with("f/");
+  const auto value = static_cast<float>(parse_real("--aperture", stops ? text.substr(2) : text, range));
+  if (stops && !(value > 0.0f))
+    throw BadOption(fmt::format("--aperture: '{}' is no f-stop, expected more than 0", text));
+  lens.f_stop = stops ? value : 0.0f;
+  lens.aperture = stops ? 0.0f : value;
+}
+
+void add_lens_options(OptionGroup& view, LensOptions& lens) {
+  [[maybe_unused]] auto& [aperture, f_stop, focus, blades] = lens;  // one flag sets the first two
+  const auto add = [&](Option option) -> Option& { return view.add(std::move(option)); };
+  const auto aperture_value = [&lens]() -> OptionValue {
+    return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
+  };
+  add({.name = "aperture",
+       .unit = "f/N|METRES",
+       .help =
+           "Aperture of the lens, as an f-stop or its diameter: objects out of focus are blurred; 0: all is "
+           "sharp",
+       .value = aperture_value,
+       .read = [&lens](const std::string& text) { read_aperture(lens, text); },
+       .of_view = true});
+  add(of_view(any_word("focus", focus, "METRES|NODE",
+                       "With --aperture: distance along the view, or an object (default: the distance in the "
+                       "middle of the picture, which is reported)")))
+      .value = [&lens] { return lens.focus.empty() ? OptionValue() : lens.focus; };
+  add(of_view(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round")));
+}
+
+}  // namespace
+
+/// Checkpoints store the chosen camera and the scene's fingerprint instead.
+void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camera,
+                      renderer::EnvironmentOptions& environment, renderer::BackgroundOptions& background) {
+  OptionGroup view{table, "Scene and view"};
+  const auto add = [&](Option option) -> Option& { return view.add(std::move(option)); };
+  // Flags of the application set look_at.
+  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens] =
+      camera;
+  add(common(of_view(
+          any_word("camera", name, "NAME|INDEX",
+                   "Camera of the file, by its name, its node's or its index (default: the first); all of "
+                   "them with 'all' and {camera} in the outputs' names"))))
+      .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
+  // Beyond these bounds tangents leave the range of single precision.
+  add(common(of_view(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
+                               "Vertical field of view; overrides the camera's"))));
+  add(of_view(number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
+                        "The same by a focal length, with 36 mm across the wider side of the picture")));
+  add(of_view(
+      choice("projection", projection,
+             "As the camera of the file, or one of these; a panorama shows all directions around the camera "
+             "(latitude-longitude, expected twice as wide as high)")));
+  add(of_view(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true},
+                        "METRES", "Height of the view of an orthographic picture")));
+  add_lens_options(view, lens);
+  [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale] =
+      environment;  // one flag sets the first three
+  add({.name = "environment",
+       .unit = "auto|none|r,g,b|FILE",
+       .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
+               "latitude-longitude EXR or HDR",
+       .value = [&environment] { return environment_value(environment); },
+       .read = [&environment](const std::string& text) { read_environment(environment, text); },
+       .common = true});
+  add({.name = "sky",
+       .unit = "none|clear|PART=VALUE,...",
+       .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
+               "(degrees; north "
+               "is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in degrees; 0: a directional "
+               "light), "
+               "intensity=1; or date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2 instead of "
+               "the sun; "
+               "a white surface in full daylight has a radiance of 1",
+       .value = [&environment]() -> OptionValue {
+         return environment.sky ? text_of(*environment.sky) : "none";
+       },
+       .read =
+           [&environment](const std::string& text) {
+             environment.sky.reset();
+             if (text != "none") environment.sky = read_sky("--sky", text);
+           }});
+  // One flag sets the first three.
+  [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
+  view.add({.name = "background",
+            .unit = "scene|transparent|r,g,b|FILE",
+            .help =
+                "Background behind the scene, also through holes and panes: the environment, nothing (the "
+                "picture has an alpha), one radiance or a picture; mirrors and solid glass show the "
+                "environment",
+            .value = [&background] { return background_value(background); },
+            .read = [&background](const std::string& text) { read_background(background, text); },
+            .common = true});
+  view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
+                    "With --background: an object of the file that is invisible but for the shadows on it"))
+      .value = [&background] {
+    return background.shadow_catcher.empty() ? OptionValue() : background.shadow_catcher;
+  };
+  add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
+             "Turns the environment about +y, counter-clockwise from above"));
+  add(common(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment")));
+}
+
+}  // namespace gatelight::apps

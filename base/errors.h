@@ -1,0 +1,64 @@
+#pragma once
+// The exceptions of the libraries. Each has a kind, so that a program can handle all of them with one table.
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace gatelight {
+
+enum class ErrorKind : std::uint8_t {
+  option,             ///< an option cannot be satisfied
+  model,              ///< a configuration of a model, or a batch, is invalid
+  format,             ///< no codec for the extension of a file name
+  input,              ///< an input file cannot be used
+  cache_file,         ///< a cache file is damaged or belongs to another model
+  output,             ///< a file cannot be written
+  memory,             ///< the machine or a limit has too little memory
+  device_memory,      ///< the device has too little memory
+  unavailable,        ///< the instruction set or the device is missing
+  denoiser,           ///< the denoiser is missing
+  library,            ///< a library that is loaded on demand is missing
+  device_lost,        ///< the device stopped working
+  numerical,          ///< a sample is not finite
+  training_diverged,  ///< the training loss is not finite or grows without bound
+  mpi                 ///< a function of MPI failed
+};
+
+/// The message is one line and names the file or option, the value and what was expected.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+
+ private:
+  ErrorKind kind_;
+};
+
+/// An error of one kind, below a more general class.
+template <ErrorKind kKind, class Base = Error>
+class ErrorOf : public Base {
+ public:
+  explicit ErrorOf(const std::string& message) : Base(kKind, message) {}
+
+ protected:
+  ErrorOf(ErrorKind kind, const std::string& message) : Base(kind, message) {}
+};
+
+using BadOption = ErrorOf<ErrorKind::option>;
+using BadConfiguration = ErrorOf<ErrorKind::model>;
+using UnknownFormat = ErrorOf<ErrorKind::format>;
+using InputError = ErrorOf<ErrorKind::input>;
+using CacheFileError = ErrorOf<ErrorKind::cache_file>;
+using OutputError = ErrorOf<ErrorKind::output>;
+using OutOfMemory = ErrorOf<ErrorKind::memory>;
+using OutOfDeviceMemory = ErrorOf<ErrorKind::device_memory>;
+using Unavailable = ErrorOf<ErrorKind::unavailable>;
+using MissingDenoiser = ErrorOf<ErrorKind::denoiser, Unavailable>;
+using MissingLibrary = ErrorOf<ErrorKind::library>;
+using DeviceLost = ErrorOf<ErrorKind::device_lost, Unavailable>;
+using NumericalError = ErrorOf<ErrorKind::numerical>;
+using TrainingDiverged = ErrorOf<ErrorKind::training_diverged, NumericalError>;
+using MpiError = ErrorOf<ErrorKind::mpi>;
+
+}  // namespace gatelight

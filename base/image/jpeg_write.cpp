@@ -1,0 +1,74 @@
+#include "base/image/jpeg_write.h"
+
+#include <cstddef>
+#include <cstdio>  // before jpeglib.h, which needs FILE
+
+#include <jpeglib.h>
+
+#include <csetjmp>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace gatelight {
+namespace {
+
+// libjpeg leaves a failed call by longjmp, so encode() holds no objects with a destructor.
+struct Encoder {
+  jpeg_compress_struct info{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf failed{};
+  char message[JMSG_LENGTH_MAX] = "";
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+
+  Encoder() {
+    info.err = jpeg_std_error(&errors);
+    info.client_data = this;
+    errors.error_exit = [](j_common_ptr common) {
+      auto& self = *static_cast<Encoder*>(common->client_data);
+      common->err->format_message(common, self.message);
+      std::longjmp(self.failed, 1);
+    };
+    errors.output_message = [](j_common_ptr) {};
+  }
+  ~Encoder() {
+    jpeg_destroy_compress(&info);
+    std::free(bytes);
+  }
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+
+  bool encode(const std::uint8_t* rgb, int width, int height, int quality, bool halve_color) {
+    if (setjmp(failed) != 0) return false;
+    jpeg_create_compress(&info);
+    jpeg_mem_dest(&info, &bytes, &size);
+    info.image_width = static_cast<JDIMENSION>(width);
+    info.image_height = static_cast<JDIMENSION>(height);
+    info.input_components = 3;
+    info.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&info);
+    jpeg_set_quality(&info, quality, TRUE);
+    info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = halve_color ? 2 : 1;
+    jpeg_start_compress(&info, TRUE);
+    while (info.next_scanline < info.image_height) {
+      // libjpeg only reads the row.
+      JSAMPROW row = const_cast<JSAMPROW>(rgb) + std::size_t{3} * info.next_scanline * info.image_width;
+      jpeg_write_scanlines(&info, &row, 1);
+    }
+    jpeg_finish_compress(&info);
+    return true;
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height,
+                                      int quality, bool halve_color) {
+  Encoder encoder;
+  if (!encoder.encode(rgb.data(), width, height, quality, halve_color))
+    throw std::runtime_error(std::string("cannot make a JPEG: ") + encoder.message);
+  return {encoder.bytes, encoder.bytes + encoder.size};
+}
+
+}  // namespace gatelight

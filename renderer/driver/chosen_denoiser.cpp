@@ -1,0 +1,51 @@
+#include "renderer/driver/chosen_denoiser.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/errors.h"
+#include "renderer/distributed/packing.h"
+
+namespace gatelight::renderer {
+namespace {
+
+ChosenDenoiser load_denoiser(const DenoiseOptions& options) {
+  try {
+    return {true, &load_oidn(options.library), ""};
+  } catch (const MissingDenoiser& error) {
+    if (options.denoiser == DenoiserKind::oidn) throw;
+    return {false, nullptr, error.what()};
+  }
+}
+
+}  // namespace
+
+ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
+  if (options.denoiser == DenoiserKind::none) return {};
+  ChosenDenoiser chosen;
+  if (ranks.first()) chosen = load_denoiser(options);
+  chosen.found = agreed(ranks, static_cast<int>(chosen.found)) != 0;
+  return chosen;
+}
+
+RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen) {
+  options.denoise.denoiser = chosen.found ? DenoiserKind::oidn : DenoiserKind::none;
+  if (!chosen.found || options.spp < options.denoise.parts()) options.denoise.supersampling = 1;
+  return options;
+}
+
+RenderOptions options_of_film(RenderOptions options) {
+  const int factor = options.denoise.supersampling;
+  if (factor == 1) return options;
+  options.width *= factor;
+  options.height *= factor;
+  if (options.region) {
+    for (int& edge : *options.region) edge *= factor;
+  }
+  if (options.spp < kOpenSpp) options.spp = std::max(1, options.spp / options.denoise.parts());
+  options.filter = PixelFilter::box;
+  options.filter_width = 0.0f;
+  return options;
+}
+
+}  // namespace gatelight::renderer

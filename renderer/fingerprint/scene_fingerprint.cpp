@@ -1,0 +1,220 @@
+#include "renderer/fingerprint/scene_fingerprint.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "base/errors.h"
+#include "base/file/digest.h"
+#include "scene/texture_slots.h"
+
+namespace gatelight::renderer {
+namespace {
+
+template <class Values>
+Digest digest_of_array(const Values& values) {
+  return digest_of(std::as_bytes(std::span(values)));
+}
+
+template <class Dense>
+void add_numbers(DigestRecord& record, const Eigen::DenseBase<Dense>& values) {
+  for (Eigen::Index column = 0; column < values.cols(); ++column) {
+    for (Eigen::Index row = 0; row < values.rows(); ++row) record.add(float{values(row, column)});
+  }
+}
+
+/// An array with its length: two arrays of a mesh are never mistaken for one.
+template <class Values>
+void add_array(DigestRecord& record, const Values& values) {
+  record.add(std::uint64_t{values.size()});
+  record.add(digest_of_array(values));
+}
+
+struct MeshDigests {
+  Digest geometry;
+  Digest attributes;
+};
+
+MeshDigests digest_mesh(const scene::Mesh& mesh) {
+  static_assert(sizeof(Vec3) == 12 && sizeof(Vec4) == 16 && sizeof(Vec2) == 8);
+  DigestRecord geometry;
+  add_array(geometry, mesh.positions);
+  add_array(geometry, mesh.triangles);
+  DigestRecord attributes;
+  add_array(attributes, mesh.normals);
+  add_array(attributes, mesh.tangents);
+  add_array(attributes, mesh.uv0);
+  add_array(attributes, mesh.uv1);
+  add_array(attributes, mesh.colors);
+  return {geometry.digest(), attributes.digest()};
+}
+
+void add_instance(DigestRecord& record, const scene::Instance& instance) {
+  record.add(instance.mesh);
+  add_numbers(record, instance.transform.matrix());
+  record.add(instance.baked);
+  record.add(instance.mirrors);
+  record.add(instance.placement);
+  record.add(instance.dielectric_priority);
+}
+
+void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
+  record.add(slot.texture);
+  if (!slot) return;
+  record.add(slot.texcoord);
+  add_numbers(record, slot.transform);
+}
+
+void add_material(DigestRecord& record, const scene::Material& material) {
+  // Names every member: a new one in the struct stops this from compiling.
+  const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
+               metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
+               alpha_mode, alpha_cutoff, double_sided, culled, unlit, ior, specular, specular_texture,
+               specular_color, specular_color_texture, glossiness_texture, transmission, transmission_texture,
+               thickness, attenuation_distance, attenuation_color, dispersion, anisotropy,
+               anisotropy_rotation, anisotropy_texture, iridescence, iridescence_texture, film_ior,
+               film_thickness_minimum, film_thickness_maximum, film_thickness_texture, clearcoat,
+               clearcoat_texture, clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
+               clearcoat_normal_scale, diffuse_transmission, diffuse_transmission_texture,
+               diffuse_transmission_color, diffuse_transmission_color_texture, sheen_color,
+               sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
+  for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color,
+                            &diffuse_transmission_color})
+    add_numbers(record, *color);
+  for (const float value : {base_alpha,
+                            metallic,
+                            roughness,
+                            normal_scale,
+                            alpha_cutoff,
+                            ior,
+                            specular,
+                            transmission,
+                            thickness,
+                            attenuation_distance,
+                            clearcoat,
+                            clearcoat_roughness,
+                            clearcoat_normal_scale,
+                            sheen_roughness,
+                            diffuse_transmission,
+                            anisotropy,
+                            anisotropy_rotation,
+                            dispersion,
+                            iridescence,
+                            film_ior,
+                            film_thickness_minimum,
+                            film_thickness_maximum})
+    record.add(value);
+  scene::for_each_slot(material, [&](const scene::TextureSlot& slot, bool) { add_slot(record, slot); });
+  record.add(alpha_mode);
+  record.add(double_sided);
+  record.add(culled);
+  record.add(unlit);
+}
+
+void add_light(DigestRecord& record, const scene::PunctualLight& light) {
+  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer, profile, side] =
+      light;
+  record.add(type);
+  add_numbers(record, intensity);
+  add_numbers(record, position);
+  add_numbers(record, direction);
+  for (const float value : {range, cos_inner, cos_outer}) record.add(value);
+  if (!profile) return;
+  record.add(digest_of(std::as_bytes(std::span(profile->values()))));
+  add_numbers(record, side);
+}
+
+Digest digest_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  DigestRecord record;
+  std::vector<char> block(1 << 20);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    record.add(digest_of(std::as_bytes(std::span(block).first(static_cast<std::size_t>(file.gcount())))));
+  }
+  if (!file.eof()) throw InputError(fmt::format("cannot read '{}'", path));
+  return record.digest();
+}
+
+Digest digest_environment(const EnvironmentOptions& environment) {
+  const auto& [automatic, file, constant, sky, rotation_degrees, scale] = environment;
+  DigestRecord record;
+  record.add(automatic);
+  record.add(!file.empty());
+  if (!file.empty()) record.add(digest_file(file));
+  if (sky) record.add_text(text_of(*sky));
+  if (automatic || !file.empty() || sky) {
+    record.add(rotation_degrees);
+  } else {
+    add_numbers(record, constant);
+  }
+  record.add(scale);
+  return record.digest();
+}
+
+}  // namespace
+
+std::string file_digest(const std::string& path) {
+  return hexadecimal(digest_file(path));
+}
+
+SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment) {
+  std::vector<MeshDigests> meshes(scene.meshes.size());
+  std::vector<Digest> pixels(scene.images.size());
+  tbb::parallel_for(std::size_t{0}, meshes.size() + pixels.size(), [&](std::size_t i) {
+    if (i < meshes.size()) {
+      meshes[i] = digest_mesh(scene.meshes[i]);
+    } else {
+      pixels[i - meshes.size()] = digest_of_array(scene.images[i - meshes.size()].pixels);
+    }
+  });
+
+  DigestRecord geometry;
+  DigestRecord attributes;
+  DigestRecord materials;
+  DigestRecord lights;
+  geometry.add(std::uint64_t{meshes.size()});
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    geometry.add(meshes[i].geometry);
+    attributes.add(meshes[i].attributes);
+    materials.add(scene.meshes[i].material);
+  }
+  for (const scene::Instance& instance : scene.instances) add_instance(geometry, instance);
+  materials.add(std::uint64_t{scene.materials.size()});
+  for (const scene::Material& material : scene.materials) add_material(materials, material);
+  materials.add(std::uint64_t{scene.textures.size()});
+  for (const scene::Texture& texture : scene.textures) {
+    materials.add(texture.image);
+    materials.add(texture.wrap_s);
+    materials.add(texture.wrap_t);
+    materials.add(texture.nearest);
+  }
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    for (const int value : {scene.images[i].width, scene.images[i].height, scene.images[i].channels})
+      materials.add(value);
+    materials.add(pixels[i]);
+  }
+  for (const scene::PunctualLight& light : scene.lights) add_light(lights, light);
+  if (scene.image_light) {
+    const auto& [name, faces, intensity, rotation] = *scene.image_light;
+    for (const scene::Image& face : faces) {
+      for (const int value : {face.width, face.height, face.channels}) lights.add(value);
+      lights.add(digest_of_array(face.pixels));
+    }
+    lights.add(intensity);
+    add_numbers(lights, rotation);
+  }
+
+  return {{"geometry", hexadecimal(geometry.digest())},
+          {"attributes", hexadecimal(attributes.digest())},
+          {"materials", hexadecimal(materials.digest())},
+          {"lights", hexadecimal(lights.digest())},
+          {"environment", hexadecimal(digest_environment(environment))}};
+}
+
+}  // namespace gatelight::renderer

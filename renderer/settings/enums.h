@@ -1,0 +1,88 @@
+#pragma once
+// The enumerations of the options. enum_names.h has their names.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace gatelight::renderer {
+
+enum class Integrator : std::uint8_t {
+  path,  ///< unbiased reference
+  ao,    ///< ambient occlusion, reference
+  nao,   ///< ambient occlusion answered by the cache
+  nrc,   ///< radiance answered by the cache
+};
+/// Whether the integrator has a cache.
+constexpr bool uses_cache(Integrator integrator) {
+  return integrator == Integrator::nao || integrator == Integrator::nrc;
+}
+enum class MisHeuristic : std::uint8_t { balance, power };
+enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< without MIS, nee and bsdf are for tests
+/// How light reaches rough surfaces through glass that has an inside.
+enum class GlassShadows : std::uint8_t {
+  refract,   ///< shadow rays end at the glass, and only bounces find the light that it refracts
+  straight,  ///< tinted, unrefracted (an approximation): shadow rays and bounces pass as through panes
+};
+/// How a picture shows the scene.
+enum class Projection : std::uint8_t {
+  camera,  ///< as the camera of the file
+  perspective,
+  orthographic,
+  panorama,  ///< all directions around the camera: latitude-longitude
+};
+enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
+enum class NanPolicy : std::uint8_t { drop, error };
+/// The denoiser of a picture.
+enum class DenoiserKind : std::uint8_t {
+  automatic,  ///< Open Image Denoise where it is found, else nothing
+  oidn,       ///< Open Image Denoise
+  none,
+};
+
+/// Filter of albedo and normal before they guide the denoiser, with Blender's names.
+enum class Prefilter : std::uint8_t {
+  accurate,  ///< each is denoised first, then read by the larger network
+  fast,      ///< read as they are by the smaller network, which expects noise in them
+  none,      ///< read as they are by the larger network, which expects none
+};
+
+enum class Aov : std::uint8_t {
+  albedo,
+  normal,
+  depth,
+  position,
+  primitive_id,
+  instance_id,
+  alpha,  ///< 1 less the visible share of the background
+  sample_count,
+  variance,
+  raw,        ///< the samples' mean
+  error,      ///< estimated standard error of the picture
+  denoising,  ///< the layers from which the picture can be denoised later (denoise/README.md)
+  // Outputs of the cache, at the vertex of its first query; black without one.
+  cache_radiance,  ///< the picture that it gives without any further path
+  cache_answer,    ///< its answer, before reflectance
+  cache_error,     ///< squared relative error of the answer against one record traced there
+  training_count,  ///< steps that trained the triangle
+  resolution,      ///< R of the instance's first level
+  nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
+};
+inline bool has(std::span<const Aov> aovs, Aov aov) {
+  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+}
+
+/// Kinds of names that a Cryptomatte separates.
+enum class MatteKind : std::uint8_t { object, material };
+
+enum class SamplerKind : std::uint8_t {
+  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a (0,2)-sequence of its own
+  independent,  ///< a hash of the key
+};
+
+enum class LightSelection : std::uint8_t {
+  tree,   ///< light tree: distance, orientation and power (Conty Estevez and Kulla 2018)
+  power,  ///< alias table over power only
+};
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,387 @@
+#pragma once
+// The walk of a path through the scene, which all path-tracing integrators share: a ray arrives (intersect,
+// or sky), a light is sampled (sample_light), a direction is sampled (sample_bsdf, survives), and the next
+// ray leaves (advance). Next-event estimation and BSDF sampling are joined by multiple importance sampling
+// (Veach 1997).
+
+#include <cstdint>
+#include <optional>
+
+#include "renderer/film/camera_sample.h"
+#include "renderer/sampling/wavelength.h"
+#include "renderer/transport/scattering.h"
+
+namespace gatelight::renderer {
+
+/// The scene of a walk and its MIS rule.
+struct Walk {
+  const World& world;
+  MisRule mis;
+  WideShading shading;
+
+  Walk(const World& where, const MisRule& rule)
+      : world(where),
+        mis(rule),
+        shading(world.lights, world.light_arrays, world.kernels, world.requirements.sheen, mis.direct,
+                mis.heuristic) {}
+};
+
+/// Paths that wait at surfaces until a block is full.
+struct PathBlock {
+  ShadingBlock points;
+  std::uint32_t path[ShadingBlock::kWidth];  ///< the caller's number
+  float cone_width[ShadingBlock::kWidth];    ///< metres
+  bool front[ShadingBlock::kWidth];          ///< Surface::front
+
+  bool full() const { return points.count == ShadingBlock::kWidth; }
+};
+
+/// Emission that a ray finds.
+struct Emission {
+  Color radiance{0.0f, 0.0f, 0.0f};
+  float weight = 0.0f;  ///< MIS weight
+
+  bool any() const { return (radiance > 0.0f).any(); }
+};
+
+/// A path at a surface.
+struct SurfaceInteraction {
+  Ray& ray;  ///< the arriving ray; advance() replaces it by the next one
+  const Hit& hit;
+  Surface surface;
+  Vec3 wo;           ///< unit, back along the ray
+  float cone_width;  ///< metres
+  /// Transmittance of the medium before the surface, times the colour of a wavelength that is chosen here.
+  Color passed{1.0f, 1.0f, 1.0f};
+  bool unrefracted = false;                 ///< glass with an inside that does not refract this ray
+  std::uint32_t volume = scene::kNoVolume;  ///< of World::media, where light can enter or leave one
+  bool same_medium = false;                 ///< a stronger volume is on both sides: a clear pane
+  Emission emission;
+  bool ends = false;                 ///< the path ends here
+  std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
+  std::optional<Bsdf> bsdf;          ///< set by set_up_bsdf()
+  Vec3 light_normal = Vec3::Zero();  ///< for light sampling; set by set_up_bsdf()
+
+  /// `u_level` in [0, 1) chooses between mip levels.
+  SurfaceInteraction(const World& world, Ray& arriving, const Hit& where, float width, float u_level)
+      : ray(arriving),
+        hit(where),
+        surface(world.surfaces.at(hit, ray.direction, width, u_level)),
+        wo(-ray.direction),
+        cone_width(width) {}
+
+  const Bsdf& set_up_bsdf() {
+    bsdf.emplace(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
+                 surface.front);
+    if (!bsdf->transmits()) light_normal = surface.shading_normal;
+    return *bsdf;
+  }
+};
+
+/// A light sample at a surface, from next-event estimation.
+struct NeeSample {
+  LightSample light;
+  BsdfValue value;      ///< towards it
+  float weight = 0.0f;  ///< MIS weight over the pdf; 0: no light
+};
+
+enum class LightKinds : std::uint8_t {
+  all,
+  delta,   ///< lights that BSDF sampling cannot find
+  shapes,  ///< a sample of all lights, dropped where it is a delta light
+};
+
+/// A sampled direction. Its weight leaves out radiance_scale.
+struct DirectionSample : BsdfSample {
+  bool through_pane = false;  ///< unrefracted through a thin sheet: no scattering event
+  float survival = 1.0f;      ///< probability in Russian roulette; the weight is divided by it
+
+  /// The weight of a part of the surface's lobes for this direction. Delta lobes have none.
+  Color weight_of(const Bsdf& part) const {
+    return part.evaluate(wi).value / (pdf * survival * radiance_scale);
+  }
+};
+
+struct PathState {
+  RayCone cone;
+  Color throughput{1.0f, 1.0f, 1.0f};  ///< without radiance_scale
+  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
+  Interior interior;                   ///< the volumes of World::media that it travels in
+  Departure departure;
+  /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
+  /// media it leaves the range of single precision before it returns to 1.
+  double radiance_scale = 1.0;
+  Sampler sampler;
+  std::uint32_t index = 0;  ///< into the starts
+  float wavelength = 0.0f;  ///< nanometres; 0: all, until a surface disperses them
+  /// The colour of the wavelength. Roulette and guides leave it out: it is one on average.
+  Color spectrum{1.0f, 1.0f, 1.0f};
+  float contribution_threshold = 0.0f;  ///< CameraSample::contribution_threshold
+  std::uint32_t seed = 0;
+  std::int32_t depth = 0;      ///< scattering events so far
+  std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
+  bool sees_through = true;    ///< all surfaces so far were mirrors or clear
+  bool emission_only = false;  ///< from here on the path only passes panes and counts emission
+
+  PathState() = default;
+  /// `around`: the volumes that the start is in.
+  PathState(const World& world, const CameraSample& start, std::size_t which, const Interior& around)
+      : cone(start.camera_ray.cone),
+        absorption(world.media.of(around.strongest()).absorption),
+        interior(around),
+        sampler(start.sampler),
+        index(static_cast<std::uint32_t>(which)),
+        contribution_threshold(start.contribution_threshold),
+        seed(start.seed) {
+    departure.position = start.camera_ray.ray.origin;
+  }
+
+  /// Factor from radiance at the path's position to radiance at its start, without losses of power.
+  float scale() const { return static_cast<float>(radiance_scale); }
+  /// The same factor with the losses.
+  Color carried() const { return throughput * spectrum * scale(); }
+
+  /// Whether the hit is ignored: the camera looks through a shadow catcher.
+  bool looks_through(const Walk& walk, const Hit& hit) const {
+    return surfaces == 0 && walk.world.catches(hit.instance);
+  }
+
+  /// The share of the background in the sample, for a ray that leaves the scene: above zero only without a
+  /// scattering event.
+  float background() const { return depth == 0 ? luminance(carried()) : 0.0f; }
+
+  /// The emission of the sky for a ray that leaves the scene.
+  Emission sky(const Walk& walk, const Vec3& direction) const {
+    if (walk.world.separate_background && depth == 0) return {};
+    Emission sky{walk.world.environment.radiance(direction)};
+    if (sky.any()) sky.weight = sky_weight(walk.world, walk.mis, departure, direction);
+    return sky;
+  }
+
+  /// Handles the ray's arrival at a surface. After max_depth scattering events the path still passes panes
+  /// and counts emission behind them: the light samples of the vertex before include it, and one part of the
+  /// MIS sum by itself would be too dark.
+  SurfaceInteraction intersect(const Walk& walk, Ray& ray, const Hit& hit, int max_depth) {
+    SurfaceInteraction m(walk.world, ray, hit, cone.width + cone.spread * hit.t, texture_level_number(seed));
+    if ((absorption > 0.0f).any()) {
+      m.passed = (-absorption * hit.t).exp();
+      throughput *= m.passed;
+    }
+    Surface& surface = m.surface;
+    // Rays that light samples compete with take the same way as shadow rays.
+    if (!departure.delta && walk.world.coverage.is_unrefracted_glass(hit.instance)) {
+      m.unrefracted = true;
+      surface.shading_normal = surface.geometric_normal;
+    }
+    if (!walk.world.media.empty()) intersect_volume(walk.world.media, m);
+    if (m.unrefracted) remove_refraction(surface.material);
+    if (surface.material.dispersion > 0.0f && !m.unrefracted) disperse(m);
+    m.emission.radiance = surface.emission;
+    if (m.emission.any())
+      m.emission.weight = emission_weight(walk.world, walk.mis, departure, hit, surface, ray.direction);
+    if (depth >= max_depth) emission_only = true;
+    const bool pane = surface.material.thin_walled && surface.material.transmission > 0.0f;
+    m.ends = surface.unlit || (emission_only && !pane);
+    m.dimensions = dimension::kFirstVertex + dimension::kPerVertex * static_cast<std::uint32_t>(surfaces);
+    return m;
+  }
+
+  /// Whether the kernels can do the next steps: sample_light, sample_bsdf, survives and advance in one.
+  bool shades_wide(const SurfaceInteraction& m) const {
+    return !emission_only && !m.unrefracted && !m.same_medium && renderer::shades_wide(m.surface);
+  }
+
+  /// Adds the path to a block that is not full. `which` is the caller's number of the path.
+  void wait(const SurfaceInteraction& m, std::uint32_t which, int min_depth, PathBlock& block) const {
+    const int lane = block.points.count++;
+    block.path[lane] = which;
+    block.cone_width[lane] = m.cone_width;
+    block.front[lane] = m.surface.front;
+    ShadingBlock& points = block.points;
+    put_surface(points, lane, m.surface, m.wo);
+    points.sampler = sampler.kind();
+    points.sampler_key[lane] = sampler.key();
+    points.sampler_index[lane] = sampler.index();
+    points.dimensions[lane] = m.dimensions;
+    points.seed[lane] = seed;
+    points.events_before_roulette[lane] = static_cast<std::uint32_t>(min_depth - depth);
+    for (int c = 0; c < 3; ++c) points.throughput[c][lane] = throughput[c];
+  }
+
+  /// Next-event estimation for `bsdf`, the surface's or a part of it. shadow_ray() makes the shadow ray.
+  NeeSample sample_light(const Walk& walk, const SurfaceInteraction& m, const Bsdf& bsdf,
+                         LightKinds kinds = LightKinds::all) const {
+    NeeSample at;
+    const Lights& lights = walk.world.lights;
+    if (emission_only || bsdf.is_delta() || lights.empty()) return at;
+    const float choice = sampler.get_1d(m.dimensions + dimension::kLightChoice);
+    const Vec2 point = sampler.get_2d(m.dimensions + dimension::kLightPoint);
+    at.light = kinds == LightKinds::delta
+                   ? lights.sample_delta(m.surface.position, m.light_normal, choice, point)
+                   : lights.sample(m.surface.position, m.light_normal, choice, point);
+    if (!(at.light.pdf > 0.0f) || (kinds == LightKinds::shapes && at.light.delta)) return at;
+    if (refracts_without_mis(walk, m.surface) && at.light.wi.dot(m.surface.geometric_normal) < 0.0f)
+      return at;
+    at.light.radiance *= transmittance(walk, at.light.distance);
+    at.value = bsdf.evaluate(at.light.wi);
+    at.weight = (at.light.delta ? 1.0f : walk.mis.light_weight(at.light.pdf, at.value.pdf)) / at.light.pdf;
+    return at;
+  }
+
+  /// Transmittance of the medium around the path for a light sample at this distance. One where shadow rays
+  /// pass glass with an inside: these apply it where they leave the medium.
+  Color transmittance(const Walk& walk, float distance) const {
+    if (!(absorption > 0.0f).any() || !(distance < kInfinity) || walk.world.coverage.unrefracted_glass())
+      return Color::Ones();
+    return (-absorption * distance).exp();
+  }
+
+  /// Russian roulette of a light sample whose contribution has this largest channel: the factor to its
+  /// contribution, 0 where its shadow ray is not traced. `least`: contributions that are not smaller are
+  /// always traced.
+  float shadow_weight(float contribution, float least) const {
+    if (!(contribution > 0.0f)) return 0.0f;
+    if (!(contribution < least)) return 1.0f;
+    return shadow_roulette_number(seed) * least < contribution ? least / contribution : 0.0f;
+  }
+
+  /// Samples a direction of `bsdf`, the surface's or a part of it. Returns nothing where the path ends.
+  std::optional<DirectionSample> sample_bsdf(const SurfaceInteraction& m, const Bsdf& bsdf) {
+    BsdfSample sample = bsdf.sample(sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
+                                    sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
+    if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return {};
+    const bool through_pane = sample.delta && sample.transmitted && m.surface.material.thin_walled;
+    if (emission_only && !through_pane) return {};
+    sample.weight /= sample.radiance_scale;
+    throughput *= sample.weight;
+    radiance_scale *= static_cast<double>(sample.radiance_scale);
+    return DirectionSample{sample, through_pane};
+  }
+
+  /// Russian roulette: false where the path ends.
+  bool survives_by(float survival, DirectionSample& sampled) {
+    if (roulette_number(next_seed(seed)) >= survival) return false;
+    sampled.survival = survival;
+    sampled.weight /= survival;
+    throughput /= survival;
+    return true;
+  }
+
+  /// Russian roulette by the throughput, from min_depth scattering events on.
+  bool survives(int min_depth, DirectionSample& sampled) {
+    if (depth + (sampled.through_pane ? 0 : 1) < min_depth) return true;
+    return survives_by(survival_probability(throughput), sampled);
+  }
+
+  /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
+  bool advance(const Walk& walk, const SurfaceInteraction& m, const DirectionSample& sampled) {
+    if (sampled.transmitted && (m.unrefracted || m.same_medium || !m.surface.material.thin_walled))
+      cross(walk.world, m);
+    const bool without_mis =
+        (m.same_medium && !m.unrefracted) || (sampled.transmitted && refracts_without_mis(walk, m.surface));
+    return advance(sampled, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
+                   m.surface.spawn(sampled.wi), m.ray, without_mis);
+  }
+
+  /// The same for a lane of a block, after Walk::shading. `t` is the distance of its hit.
+  bool advance(const PathBlock& block, int lane, const DirectionSample& sampled, float t, Ray& ray) {
+    const ShadingBlock& p = block.points;
+    throughput *= sampled.weight;
+    return advance(sampled, lane_vector(p.position, lane), light_normal(p, lane), t, block.cone_width[lane],
+                   lane_vector(p.next_origin, lane), ray);
+  }
+
+ private:
+  /// Whether only bounces find light that the surface refracts. Where shadow rays pass glass unrefracted,
+  /// they would leave its inside unrefracted too.
+  static bool refracts_without_mis(const Walk& walk, const Surface& surface) {
+    return walk.world.coverage.unrefracted_glass() && !surface.material.thin_walled &&
+           surface.material.transmission > 0.0f;
+  }
+
+  /// Handles a surface in a scene of nested volumes. The boundary of a volume exists if the volume is the
+  /// strongest of those around, and refracts light by its index over that of the strongest of the others.
+  [[gnu::noinline, gnu::cold]] void intersect_volume(const Media& media, SurfaceInteraction& m) {
+    SurfaceMaterial& material = m.surface.material;
+    if (material.thin_walled || !(material.transmission > 0.0f || material.diffuse_transmission > 0.0f))
+      return;
+    m.volume = media.volume_of(m.hit.instance);
+    if (!media.is_there(m.volume, interior)) {
+      m.same_medium = vanish(material, boundary_number(seed));
+      return;
+    }
+    const Medium& outside = media.beyond(m.volume, interior);
+    if (m.unrefracted || outside.dispersion == 0.0f) {
+      if (!m.unrefracted && material.dispersion > 0.0f) disperse(m);
+      material.ior /= outside.ior;
+    } else {
+      choose_wavelength(m);
+      if (material.dispersion > 0.0f) disperse(m);
+      material.ior /= dispersed_ior(outside.ior, outside.dispersion, wavelength);
+    }
+    material.dispersion = 0.0f;
+  }
+
+  /// Updates the medium of a path that goes through a surface with an inside.
+  void cross(const World& world, const SurfaceInteraction& m) {
+    absorption = renderer::cross(world.media, interior, m.volume, m.surface.front,
+                                 [&] { return absorption_of(world.surfaces.material(m.hit.instance)); });
+  }
+
+  /// Chooses the path's wavelength, unless it has one.
+  void choose_wavelength(SurfaceInteraction& m) {
+    if (wavelength != 0.0f) return;
+    const Wavelength chosen = sample_wavelength(sampler.get_1d(dimension::kWavelength));
+    wavelength = chosen.nm;
+    m.passed *= chosen.color;
+    spectrum = chosen.color;
+  }
+
+  [[gnu::noinline, gnu::cold]] void disperse(SurfaceInteraction& m) {
+    choose_wavelength(m);
+    SurfaceMaterial& material = m.surface.material;
+    material.ior = dispersed_ior(material.ior, material.dispersion, wavelength);
+  }
+
+  /// `without_mis`: no light sample competes with the emission that the next ray finds.
+  bool advance(const DirectionSample& sampled, const Vec3& position, const Vec3& light_normal, float t,
+               float cone_width, const Vec3& origin, Ray& ray, bool without_mis = false) {
+    if (sampled.through_pane) {
+      departure.travelled += t;
+      departure.panes += 1;
+      departure.without_mis |= without_mis;
+    } else {
+      depth += 1;
+      departure = {position, light_normal, 0.0f, sampled.pdf, sampled.delta || without_mis};
+    }
+    surfaces += 1;
+    if (surfaces > depth + kMaxPassed) return false;
+    seed = next_seed(seed);
+    ray = {origin, kInfinity, sampled.wi, seed};
+    cone.width = cone_width;
+    if (!sampled.through_pane) cone.spread += sampled.spread * kDiffuseSpread;
+    return true;
+  }
+};
+
+/// The sampled direction of a lane whose path goes on.
+inline DirectionSample direction_sample_at(const ShadingBlock& p, int lane) {
+  DirectionSample sampled;
+  sampled.wi = lane_vector(p.wi, lane);
+  sampled.weight = lane_color(p.weight, lane);
+  sampled.pdf = p.pdf[lane];
+  sampled.delta = p.is_delta[lane] != 0;
+  sampled.transmitted = p.transmitted[lane] != 0;
+  sampled.spread = p.spread[lane];
+  sampled.through_pane = sampled.delta && sampled.transmitted;
+  sampled.survival = p.survival[lane];
+  return sampled;
+}
+
+/// The shadow ray of a lane's light sample.
+inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
+  return {lane_vector(p.shadow_origin, lane), p.shadow_length[lane], lane_vector(p.light_direction, lane),
+          p.shadow_seed[lane]};
+}
+
+}  // namespace gatelight::renderer

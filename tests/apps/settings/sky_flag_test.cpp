@@ -1,0 +1,86 @@
+#include "apps/settings/sky_flag.h"
+
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "tests/support/messages.h"
+
+namespace gatelight::apps {
+namespace {
+
+using renderer::SkyOptions;
+using renderer::SunTime;
+
+SkyOptions read(const std::string& text) {
+  return read_sky("--sky", text);
+}
+
+TEST(SkyOptionsText, EveryPartIsOptionalAndSpacesDoNotCount) {
+  EXPECT_EQ(read("clear"), SkyOptions());
+  const SkyOptions sky = read("turbidity=2.5, sun=90,-3.5 ,ground=0, size=1,intensity = 4");
+  EXPECT_EQ(sky.turbidity, 2.5f);
+  EXPECT_EQ(sky.sun_azimuth_degrees, 90.0f);
+  EXPECT_EQ(sky.sun_elevation_degrees, -3.5f);
+  EXPECT_EQ(sky.ground, 0.0f);
+  EXPECT_EQ(sky.sun_size_degrees, 1.0f);
+  EXPECT_EQ(sky.intensity, 4.0f);
+  EXPECT_FALSE(sky.time);
+  EXPECT_EQ(read("size=0").turbidity, SkyOptions().turbidity);
+}
+
+TEST(SkyOptionsText, ADateATimeAndAPlaceGiveTheSun) {
+  const SkyOptions sky = read("date=2024-02-29, time=14:30, place=51.5,-0.12, zone=+5.5");
+  ASSERT_TRUE(sky.time);
+  EXPECT_EQ(*sky.time, (SunTime{2024, 2, 29, (14 * 60 + 30) * 60, 5.5, 51.5, -0.12}));
+  EXPECT_EQ(read("date=2024-02-29,time=14:30:07,place=1,2").time->second_of_day, 52207);
+  EXPECT_EQ(read("date=2024-02-29,time=14:30,place=1,2,zone=-3").time->zone_hours, -3.0);
+}
+
+TEST(SkyOptionsText, IsReadBack) {
+  for (const char* text : {"clear", "sun=12.1,0.3,turbidity=1.7,intensity=1e-3",
+                           "date=1999-12-31,time=23:59:58,place=-33.87,151.21,zone=11,size=0"}) {
+    EXPECT_EQ(read(text_of(read(text))), read(text)) << text;
+  }
+}
+
+TEST(SkyOptionsText, BadPartsAreNamed) {
+  struct Case {
+    const char* text;
+    tests::NameList names;
+  };
+  for (const Case& c : {Case{"turbidity=0.5", {"turbidity", "0.5", "1", "10"}},
+                        {"turbidity=11", {"turbidity", "11", "10"}},
+                        {"turbidity", {"turbidity", "clear"}},
+                        {"", {"--sky"}},
+                        {"sun=90", {"sun", "90", "two numbers"}},
+                        {"sun=1,2,3", {"sun", "1,2,3"}},
+                        {"sun=90,91", {"sun", "91", "90"}},
+                        {"sun=x,1", {"sun", "x"}},
+                        {"ground=1.5", {"ground", "1.5", "1"}},
+                        {"size=0.01", {"size", "0.01", "0.05"}},
+                        {"size=nan", {"size", "nan"}},
+                        {"intensity=-1", {"intensity", "-1", "0"}},
+                        {"moon=1", {"moon", "turbidity|sun"}},
+                        {"ground=0.1,ground=0.2", {"ground", "twice"}},
+                        {"date=2026-02-29,time=1:00,place=1,2", {"date", "2026-02-29"}},
+                        {"date=26-02-01,time=1:00,place=1,2", {"date", "26-02-01", "1900"}},
+                        {"date=2026-257-21,time=1:00,place=1,2", {"date", "2026-257-21"}},
+                        {"date=2026-06,time=1:00,place=1,2", {"date", "2026-06"}},
+                        {"date=2026-06-21,time=24:00,place=1,2", {"time", "24:00"}},
+                        {"date=2026-06-21,time=12,place=1,2", {"time", "12"}},
+                        {"date=2026-06-21,time=12:0x,place=1,2", {"time", "12:0x"}},
+                        {"date=2026-06-21,time=12:00,place=91,0", {"place", "91", "90"}},
+                        {"date=2026-06-21,time=12:00,place=1,2,zone=15", {"zone", "15", "14"}},
+                        {"date=2026-06-21,time=12:00", {"place", "date"}},
+                        {"date=2026-06-21,place=1,2", {"time", "date"}},
+                        {"time=12:00", {"date", "time"}},
+                        {"zone=2", {"date", "zone"}},
+                        {"sun=1,2,date=2026-06-21,time=12:00,place=1,2", {"sun", "date"}}}) {
+    tests::NameList names = c.names;
+    names.emplace_back("--sky");
+    tests::expect_refusal<BadOption>([&] { read(c.text); }, names);
+  }
+}
+
+}  // namespace
+}  // namespace gatelight::apps

@@ -1,0 +1,296 @@
+#include "renderer/driver/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "base/errors.h"
+#include "base/file/atomic_file.h"
+#include "tests/support/cached_state.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::any_cache_state;
+using testing::same_bits;
+using testing::small_model;
+using tests::expect_message;
+using tests::read_file;
+using tests::refusal;
+using tests::TemporaryFolder;
+
+CheckpointIdentity identity() {
+  return {{{"seed", "1"}, {"size", "3x2"}},
+          {{"geometry", "a1"},
+           {"attributes", "b2"},
+           {"materials", "c3"},
+           {"lights", "d4"},
+           {"environment", "e5"}},
+          5};
+}
+
+Film blank_film(bool with_first_hits) {
+  if (!with_first_hits) return {{1, 1, 4, 3}, 8, 8, {}};
+  return {{1, 1, 4, 3},
+          8,
+          8,
+          {.aovs = {Aov::depth, Aov::cache_error, Aov::cache_radiance},
+           .half = true,
+           .guides = true,
+           .alpha = true,
+           .light_groups = {"a", "rest"}}};
+}
+
+/// Adds another sample to each pixel, with some of everything.
+void add_sample(Film& film, std::uint64_t seed) {
+  std::uint64_t i = seed << 32;
+  const auto next = [&] { return 1e-3f + static_cast<float>(mix_bits(++i) >> 40) * 1e-7f; };
+  for (int y = 1; y < 3; ++y) {
+    for (int x = 1; x < 4; ++x) {
+      film.add(film.take({x, y}), Color(next(), next(), next()));
+      if (!film.needs_first_hits()) continue;
+      film.add_parts({x, y}, std::vector{Color(next(), next(), next()), Color(next(), next(), next())}, 1.0f);
+      FirstHit hit;
+      hit.hit = x != 2;
+      hit.asked = hit.guided = y != 2;
+      hit.guide = {hit.hit, 0, Color::Ones(), Color(next(), next(), next()), Vec3(next(), next(), next())};
+      hit.alpha = next();
+      for (Color* color : {&hit.albedo, &hit.answer, &hit.node, &hit.cache_radiance})
+        *color = Color(next(), next(), next());
+      for (Vec3* vector : {&hit.normal, &hit.position}) *vector = Vec3(next(), next(), next());
+      for (float* value : {&hit.depth, &hit.error}) *value = next();
+      hit.instance = static_cast<decltype(hit.instance)>(x);
+      hit.primitive = static_cast<decltype(hit.primitive)>(y);
+      hit.training_count = static_cast<decltype(hit.training_count)>(x);
+      hit.resolution = static_cast<decltype(hit.resolution)>(y);
+      film.add(film.take({x, y}), hit);
+    }
+  }
+}
+
+Bytes bytes_of(const Film& film) {
+  Packer packer;
+  FilmSums::each_plane(film.sums(),
+                       [&](const char*, const auto& plane) { packer.add_all(std::span(plane)); });
+  return packer.take();
+}
+
+TEST(FilmSums, AFilmResumesToTheBit) {
+  for (const bool first_hits : {false, true}) {
+    Film whole = blank_film(first_hits);
+    Film resumed = blank_film(first_hits);
+    for (std::uint64_t sample = 0; sample < 6; ++sample) {
+      add_sample(whole, sample);
+      if (sample == 2) resumed.set_sums(whole.sums());
+      if (sample > 2) add_sample(resumed, sample);
+    }
+    EXPECT_EQ(bytes_of(whole), bytes_of(resumed));
+    const Picture a = whole.resolve();
+    const Picture b = resumed.resolve();
+    for (std::size_t i = 0; i < a.layers.size(); ++i) EXPECT_EQ(a.layers[i].values, b.layers[i].values);
+  }
+}
+
+TEST(Checkpoint, FilmAndStatisticsComeBack) {
+  const TemporaryFolder folder;
+  RenderStatistics statistics;
+  statistics.render_seconds = 0.1;
+  statistics.rays = {1, 2, ~std::uint64_t{0}, 1e-300};
+  statistics.nonfinite = 2;
+  statistics.nonfinite_samples = {{3, 4, 5, 6}, {7, 8, 9, 10}};
+  statistics.clamped = 11;
+  statistics.cache.steps = 12;
+  statistics.cache.loss = std::numeric_limits<double>::infinity();
+  statistics.cache.train_step_seconds = 13.5;
+  statistics.cache.unstored_hits = 14;
+  for (const bool first_hits : {false, true}) {
+    Film film = blank_film(first_hits);
+    add_sample(film, 1);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 17}, statistics, film, {});
+    Checkpoint checkpoint(folder / "a");
+    EXPECT_EQ(checkpoint.progress().phase, Phase::render);
+    EXPECT_EQ(checkpoint.progress().samples, 17);
+    EXPECT_FALSE(checkpoint.has_cache());
+    expect_message(refusal<CacheFileError>([&] { checkpoint.cache_setup(); }), {"cache"});
+    checkpoint.expect(identity(), 17);
+    Film restored = blank_film(first_hits);
+    RenderStatistics back;
+    back.threads = 5;
+    checkpoint.restore(restored, back);
+    EXPECT_EQ(bytes_of(restored), bytes_of(film));
+    EXPECT_EQ(back.render_seconds, 0.1);
+    EXPECT_EQ(back.rays.camera, 1u);
+    EXPECT_EQ(back.rays.bounce, 2u);
+    EXPECT_EQ(back.rays.shadow, ~std::uint64_t{0});
+    EXPECT_EQ(back.rays.seconds, 1e-300);
+    EXPECT_EQ(back.nonfinite, 2u);
+    ASSERT_EQ(back.nonfinite_samples.size(), 2u);
+    EXPECT_EQ(back.nonfinite_samples[1].y, 8);
+    EXPECT_EQ(back.nonfinite_samples[1].seed, 10u);
+    EXPECT_EQ(back.clamped, 11u);
+    EXPECT_EQ(back.cache.steps, 12);
+    EXPECT_EQ(back.cache.loss, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(back.cache.train_step_seconds, 13.5);
+    EXPECT_EQ(back.cache.unstored_hits, 14u);
+    EXPECT_EQ(back.spp, 17);
+    EXPECT_EQ(back.threads, 5);
+  }
+}
+
+const TrainingGuard kGuard = {0.1, std::numeric_limits<double>::infinity(), 1000, 0.3, 4, 2.5, 900};
+
+TEST(Checkpoint, TheCacheComesBackToTheBitInBothPhases) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  for (const auto& [name, options] : neural::testing::all_training_options(*model)) {
+    SCOPED_TRACE(name);
+    CacheState state = any_cache_state(*model, options, 1);
+    state.guard = kGuard;
+    const CheckpointCache cache{state, *model, options};
+    Film film = blank_film(true);
+    for (const CheckpointProgress progress :
+         {CheckpointProgress{Phase::train, 0}, CheckpointProgress{Phase::render, 3}}) {
+      if (progress.samples > 0) add_sample(film, 1);
+      write_checkpoint(folder / "a", identity(), progress, {}, film, cache);
+      Checkpoint checkpoint(folder / "a");
+      EXPECT_EQ(checkpoint.progress().phase, progress.phase);
+      EXPECT_TRUE(same_bits(checkpoint.cache_setup(), state.setup));
+      EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
+      Film restored = blank_film(true);
+      RenderStatistics statistics;
+      checkpoint.restore(restored, statistics);
+      EXPECT_EQ(bytes_of(restored), bytes_of(film));
+    }
+  }
+}
+
+TEST(Checkpoint, DifferencesAreRefusedByName) {
+  const TemporaryFolder folder;
+  Film film = blank_film(false);
+  add_sample(film, 1);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 17}, {}, film, {});
+  Checkpoint checkpoint(folder / "a");
+  CheckpointIdentity other = identity();
+  other.options[0].text = "other";
+  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }),
+                 {"/a", "seed", "1", "other"});
+  other = identity();
+  other.scene[2].text = "other";
+  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials"});
+  other.scene[3].text = "other";
+  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials", "lights"});
+  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 16); }), {"spp", "17", "16"});
+  EXPECT_EQ(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 17); }), "");
+  EXPECT_EQ(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 1000); }), "")
+      << "more samples continue the picture";
+  Film other_film({0, 0, 1, 1}, 8, 8, {});
+  RenderStatistics statistics;
+  expect_message(refusal<CacheFileError>([&] { checkpoint.restore(other_film, statistics); }),
+                 {"film.radiance", "U32 [84]", "U32 [14]"});
+  write_safetensors(folder / "b", {}, {{"format", "gatelight-cache"}});
+  expect_message(refusal<CacheFileError>([&] { Checkpoint(folder / "b"); }),
+                 {"format", "gatelight-cache", "gatelight-checkpoint"});
+}
+
+// The digest of the file is right.
+TEST(Checkpoint, NonFiniteSumsAreRefused) {
+  const TemporaryFolder folder;
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Film film = blank_film(false);
+    add_sample(film, 1);
+    FilmSums sums = film.sums();
+    sums.radiance[2].square[1] = value;
+    film.set_sums(sums);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, film, {});
+    Checkpoint checkpoint(folder / "a");
+    RenderStatistics statistics;
+    expect_message(refusal<CacheFileError>([&] { checkpoint.restore(film, statistics); }),
+                   {"film.radiance", "2"});
+    Film with_groups = blank_film(true);
+    sums = with_groups.sums();
+    sums.light_groups[5][2] = value;
+    with_groups.set_sums(sums);
+    write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, with_groups, {});
+    Checkpoint of_groups(folder / "a");
+    expect_message(refusal<CacheFileError>([&] { of_groups.restore(with_groups, statistics); }),
+                   {"film.light_groups", "5"});
+  }
+}
+
+// A picture resumed from damaged sums would be wrong without a message.
+TEST(Checkpoint, EveryChangedByteAndEveryTruncationIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  const CacheState state = any_cache_state(*model, options, 1);
+  Film film = blank_film(true);
+  add_sample(film, 1);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 3}, {}, film,
+                   CheckpointCache{state, *model, options});
+  std::string bytes = read_file(folder / "a");
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes.data(), 8);
+  const auto reading = [&](const std::string& content) {
+    std::filesystem::remove(folder / "b");
+    folder.write("b", content);
+    return refusal<CacheFileError>([&] {
+      Checkpoint checkpoint(folder / "b");
+      checkpoint.expect(identity(), 3);
+      EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
+    });
+  };
+  ASSERT_EQ(reading(bytes), "");
+  // A changed byte of the header may be white space, which is harmless; no changed byte of the data is.
+  for (std::size_t place = 0; place < bytes.size(); place += place < 8 + length ? 3 : 41) {
+    const char old = bytes[place];
+    bytes[place] = static_cast<char>(old ^ 0x04);
+    const bool padding = place < 8 + length && old == ' ';
+    if (!padding) {
+      EXPECT_NE(reading(bytes), "") << "byte " << place << " '" << old << "' of " << bytes.size();
+    }
+    bytes[place] = old;
+  }
+  for (std::size_t size = 0; size < bytes.size(); size += 211)
+    EXPECT_NE(reading(bytes.substr(0, size)), "") << size;
+}
+
+TEST(Checkpoint, AnImpossibleTrainingGuardIsRefused) {
+  const TemporaryFolder folder;
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  const auto reading = [&](TrainingGuard guard) {
+    CacheState state = any_cache_state(*model, options, 1);
+    state.steps = 1000;
+    state.guard = guard;
+    write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, blank_film(false),
+                     CheckpointCache{state, *model, options});
+    return refusal<CacheFileError>([&] { Checkpoint(folder / "a").read_cache(*model, options); });
+  };
+  EXPECT_EQ(reading(kGuard), "");
+  expect_message(reading({.loss_average = NAN}), {"training_guard", "0", "nan"});
+  expect_message(reading({.good_steps = 1001}), {"training_guard", "6", "1001", "1000"});
+}
+
+TEST(Checkpoint, AnOldFileStaysWhereTheNewOneCannotBeWritten) {
+  const TemporaryFolder folder;
+  const Film film = blank_film(false);
+  EXPECT_THROW(write_checkpoint(folder / "none" / "a", identity(), {Phase::render, 0}, {}, film, {}),
+               OutputError);
+  write_checkpoint(folder / "a", identity(), {Phase::render, 0}, {}, film, {});
+  const std::string before = read_file(folder / "a");
+  const auto model = small_model();
+  const neural::TrainingOptions options;
+  CacheState broken = any_cache_state(*model, options, 1);
+  broken.model.parameters.pop_back();
+  EXPECT_THROW(write_checkpoint(folder / "a", identity(), {Phase::train, 0}, {}, film,
+                                CheckpointCache{broken, *model, options}),
+               BadConfiguration);
+  EXPECT_EQ(read_file(folder / "a"), before);
+  EXPECT_EQ(folder.count_files(), 1u);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
