@@ -26,7 +26,7 @@ renderer::RenderOptions options_of(const SceneCase& which) {
 WorldFixture::WorldFixture(const SceneCase& which)
     : scene(scene::load_gltf(file_of(which))),
       options(options_of(which)),
-      world(scene, options.environment, options.light_selection) {}
+      world(scene, {.environment = options.environment, .light_selection = options.light_selection}) {}
 
 std::vector<std::vector<renderer::CameraSample>> WorldFixture::tiles(std::uint32_t sample) const {
   const renderer::Camera camera(

@@ -166,9 +166,9 @@ class Planner {
     keep_plain();
   }
 
-  PlannedSeries make_series(const SweepBlock& block, const FlagValues& asked) const {
+  PlannedSeries make_series(const SweepBlock& block, const FlagValues& requested) const {
     PlannedSeries series;
-    series.flags = asked;
+    series.flags = requested;
     const std::optional<double> divisor = take_same_as_gate(series.flags);
     FlagValues gate = series.flags;
     series.settings = settle(series.flags);
@@ -180,7 +180,7 @@ class Planner {
       set_flag(gate, "--encoding", "gate");
       series.memory = GateMemory{settle(gate), *divisor};
       for (const auto& [flag, value] : gate) set_flag(named, flag, value);
-      set_flag(named, "--cache-memory", *find_flag(asked, "--cache-memory"));
+      set_flag(named, "--cache-memory", *find_flag(requested, "--cache-memory"));
     }
     if (!block.row.empty()) series.axes.emplace_back("row", block.row);
     for (const std::string& axis : axes_) {

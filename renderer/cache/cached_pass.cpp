@@ -98,23 +98,23 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
         CachedWorker& worker = workers_.local();
         occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
       });
-      std::size_t asked = 0;
+      std::size_t query_count = 0;
       for (std::size_t t = 0; t < count; ++t) {
-        tiles_[t].first_query = asked;
-        asked += tiles_[t].paths.queries.size();
+        tiles_[t].first_query = query_count;
+        query_count += tiles_[t].paths.queries.size();
       }
-      queries_.resize(asked);
+      queries_.resize(query_count);
       for_each_tile(count, [&](std::size_t t) {
         const SurfacePoints& points = tiles_[t].paths.queries;
         queries_.copy(points, 0, points.size(), tiles_[t].first_query);
       });
-      answers_.resize(outputs * asked);
+      answers_.resize(outputs * query_count);
       statistics_.render_trace_seconds += seconds_since(start);
 
       start = Clock::now();
-      if (asked > 0) statistics_.negative_answers += session_.answer(queries_, answers_);
+      if (query_count > 0) statistics_.negative_answers += session_.answer(queries_, answers_);
       statistics_.render_query_seconds += seconds_since(start);
-      statistics_.queries += asked;
+      statistics_.queries += query_count;
 
       start = Clock::now();
       for_each_tile(count, [&](std::size_t t) {
@@ -215,7 +215,7 @@ void CachedPass::describe_answers(Tile& tile, CachedWorker& worker) const {
     if (tile.paths.first_queries[i] == kNone) continue;
     const auto query = static_cast<std::size_t>(tile.paths.first_queries[i]);
     FirstHit& first = tile.first_hits[i];
-    first.asked = true;
+    first.queried = true;
     const float* const answer = &answers_[outputs * (tile.first_query + query)];
     for (int c = 0; c < 3; ++c) first.answer[c] = answer[outputs == 3 ? c : 0];
     if (records[i] != kNone) {

@@ -155,9 +155,9 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
   const bool wide = bsdf.has_wide(options_.min_roughness);
   const bool ends = wide && ends_here(path, plan);
   if (ends && !has_storage) ++batch.unstored_hits;
-  const bool teaches = wide && has_storage && may_record(path, plan);
+  const bool records = wide && has_storage && may_record(path, plan);
   if (ends && has_storage ? answer(path, m, side, plan, batch, scratch)
-                          : continue_from(path, m, side, teaches, plan, batch, scratch))
+                          : continue_from(path, m, side, records, plan, batch, scratch))
     scratch.go_on(number, ray);
   return nullptr;
 }
@@ -224,9 +224,9 @@ void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool st
   guide.vertex = vertex;
   if (!stored || !worth_caching(point.albedo)) return;
   guide.reflectance = cache_reflectance(point.albedo) * path.scale();
-  const std::int32_t asked = batch.vertices[static_cast<std::size_t>(vertex)].query;
-  guide.query = asked != kNone ? asked : static_cast<std::int32_t>(batch.queries.size());
-  if (asked == kNone) batch.queries.push_back(point);
+  const std::int32_t query = batch.vertices[static_cast<std::size_t>(vertex)].query;
+  guide.query = query != kNone ? query : static_cast<std::int32_t>(batch.queries.size());
+  if (query == kNone) batch.queries.push_back(point);
 }
 
 std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const {

@@ -172,7 +172,7 @@ struct CachedPaths::Path : PathState {
 
   Path() = default;
   Path(const World& world, const PathStart& start, std::size_t which)
-      : PathState(world, start.sample, which, start.on_surface ? Interior() : world.around_camera),
+      : PathState(world, start.sample, which),
         to_its_end(start.to_its_end) {}
 };
 

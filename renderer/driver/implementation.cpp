@@ -96,36 +96,6 @@ std::string sky_warning(const scene::Scene& scene, const RenderOptions& options)
   return "";
 }
 
-/// Names of the objects, each once, in order; at most kMostNames.
-std::vector<std::string> names_of(const scene::Scene& scene) {
-  constexpr std::size_t kMostNames = 20;
-  std::vector<std::string> names;
-  for (const scene::Instance& instance : scene.instances) {
-    if (std::find(names.begin(), names.end(), instance.name) != names.end()) continue;
-    names.push_back(names.size() < kMostNames ? instance.name : "...");
-    if (names.size() > kMostNames) break;
-  }
-  return names;
-}
-
-/// The value of World::catchers.
-std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const BackgroundOptions& background) {
-  const std::string& node = background.shadow_catcher;
-  if (node.empty()) return {};
-  if (!background.is_separate())
-    throw BadOption(
-        fmt::format("`shadow-catcher` {}: the picture has no alpha, expected `background` transparent, "
-                    "r,g,b or FILE",
-                    node));
-  std::vector<std::uint8_t> catchers;
-  for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
-  if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
-    throw BadOption(fmt::format("`shadow-catcher` {}: no object of {} has this name; expected one of '{}'",
-                                node, scene.path, fmt::join(names_of(scene), "', '")));
-  }
-  return catchers;
-}
-
 /// The warning with the flags of the chosen view, where the file has no camera; else empty.
 std::string made_view(const scene::Scene& scene, const CameraOptions& options, const scene::Camera& view) {
   if (!scene.cameras.empty() || options.look_at) return "";
@@ -144,8 +114,8 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
                                          Ranks& ranks_in)
     : scene(scene_in),
       chosen_denoiser(choose_denoiser(options_in.denoise, ranks_in)),
-      asked(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
-      options(options_of_film(asked)),
+      picture_options(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
+      options(options_of_film(picture_options)),
       ranks(ranks_in),
       threads(options.threads > 0 ? options.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
@@ -157,20 +127,18 @@ Renderer::Implementation::Implementation(const scene::Scene& scene_in, const Ren
       own(tiles.part(shares.begin(ranks.rank()), shares.end(ranks.rank()))),
       view(chosen_view(options.camera)),
       filter(options.filter, options.filter_width),
-      scale(asked.denoise.supersampling, asked.filter, asked.filter_width),
-      budget(checked_budget(scene, asked)) {
+      scale(picture_options.denoise.supersampling, picture_options.filter, picture_options.filter_width),
+      budget(checked_budget(scene, picture_options)) {
   const FlushDenormals flush;  // also on the arena's threads, as the arena is made here
   require_threads(threads);
   if (chosen_denoiser.library)
-    denoiser =
-        std::make_unique<Denoiser>(*chosen_denoiser.library, threads, memory_of_denoiser(scene, asked));
+    denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
+                                          memory_of_denoiser(scene, picture_options));
   const Clock::time_point start = Clock::now();
   arena.execute([&] {
-    world.emplace(scene, options.environment, options.light_selection,
-                  AccelOptions{threads, options.isa, budget, options.watertight}, options.glass_shadows);
-    world->separate_background = options.background.is_separate();
-    world->catchers = find_catchers(scene, options.background);
-    world->light_groups = LightGroups(options.light_groups, scene, world->lights);
+    world.emplace(scene, WorldOptions{options.environment, options.light_selection,
+                                      AccelOptions{threads, options.isa, budget, options.watertight},
+                                      options.glass_shadows, options.light_groups, options.background});
   });
   look_through(options.camera);
   choose_integrator();
@@ -195,8 +163,8 @@ void Renderer::Implementation::choose_integrator() {
   if (!options.choose_integrator) return;
   const double bounces = arena.execute([&] { return bounces_of_paths(*world, camera, region, options); });
   statistics.bounces_of_paths = bounces;
-  asked = with_integrator(asked, bounces);
-  options = options_of_film(asked);
+  picture_options = with_integrator(picture_options, bounces);
+  options = options_of_film(picture_options);
 }
 
 View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
@@ -206,18 +174,17 @@ View Renderer::Implementation::chosen_view(const CameraOptions& chosen) const {
 void Renderer::Implementation::look_through(const CameraOptions& chosen) {
   view = chosen_view(chosen);
   options.camera = chosen;
-  camera = Camera(view, options.width, options.height);
-  // Rays of an orthographic camera begin at many places.
-  world->around_camera =
-      view.orthographic ? Interior() : volumes_around(*world, view.transform.translation());
   std::string focus;
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
-    view.focus_distance = distance_in_the_middle(*world, camera, options.width, options.height);
-    camera = Camera(view, options.width, options.height);
+    view.focus_distance = distance_in_the_middle(*world, Camera(view, options.width, options.height),
+                                                 options.width, options.height);
     focus =
         fmt::format("the lens is focused at {:.4g} m, on the middle of the picture; `focus` {:.4g} keeps it",
                     view.focus_distance, view.focus_distance);
   }
+  camera = Camera(view, options.width, options.height);
+  // Rays of an orthographic camera begin at many places.
+  if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
   statistics.warnings.clear();
   for (std::string warning :
        {denoiser_warning(chosen_denoiser), sky_warning(scene, options),
@@ -250,13 +217,13 @@ std::unique_ptr<Pass> Renderer::Implementation::make_pass(Training& training) {
 }
 
 int Renderer::Implementation::samples_of_film(int spp) const {
-  RenderOptions of_picture = asked;
+  RenderOptions of_picture = picture_options;
   of_picture.spp = spp;
   return options_of_film(of_picture).spp;
 }
 
 PixelRect Renderer::Implementation::region_of_picture() const {
-  return region_of(asked);
+  return region_of(picture_options);
 }
 
 void Renderer::Implementation::add_statistics(const FinishedPicture& finished) {
@@ -309,7 +276,8 @@ double Renderer::Implementation::expect_denoise_seconds() {
   double seconds = 0.0;
   arena.execute([&] {
     failure_to_denoise([&] {  // finish() reports it
-      seconds = renderer::expect_denoise_seconds(*denoiser, asked.denoise, region.width(), region.height());
+      seconds = renderer::expect_denoise_seconds(*denoiser, picture_options.denoise, region.width(),
+                                                 region.height());
     });
   });
   return alpha * seconds;

@@ -112,7 +112,7 @@ struct Renderer::Implementation {
 
   const scene::Scene& scene;
   ChosenDenoiser chosen_denoiser;
-  RenderOptions asked;    ///< of the picture, with automatic values chosen
+  RenderOptions picture_options;    ///< of the picture, with automatic values chosen
   RenderOptions options;  ///< of the film, which may be larger
   Ranks& ranks;
   int threads;

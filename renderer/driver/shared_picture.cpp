@@ -105,10 +105,10 @@ Cryptomattes Renderer::Implementation::cryptomattes() {
   PixelRect rows = whole;
   rows.y0 = row_of(ranks.rank());
   rows.y1 = row_of(ranks.rank() + 1);
-  const Camera eye(view, asked.width, asked.height);
-  const FilterSampler of_picture(asked.filter, asked.filter_width);
+  const Camera eye(view, picture_options.width, picture_options.height);
+  const FilterSampler of_picture(picture_options.filter, picture_options.filter_width);
   Cryptomattes mattes =
-      arena.execute([&] { return trace_cryptomattes(*world, eye, of_picture, asked, rows); });
+      arena.execute([&] { return trace_cryptomattes(*world, eye, of_picture, picture_options, rows); });
   for (Layer& layer : mattes.layers) layer.values = joined_at_first(ranks, std::move(layer.values));
   statistics.cryptomatte_seconds = seconds_since(start);
   return mattes;

@@ -3,6 +3,7 @@
 
 #include "renderer/image/picture.h"
 #include "renderer/settings/view.h"
+#include "renderer/surface/media.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
 
@@ -19,6 +20,10 @@ class Camera {
   /// camera; the vertical field of view stays.
   Camera(const View& view, int width, int height);
 
+  /// The volumes that all rays start in; none unless set.
+  const Interior& around() const { return around_; }
+  void set_around(const Interior& around) { around_ = around; }
+
   bool has_lens() const { return lens_radius_ > 0.0f && focus_distance_ > 0.0f; }
   /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
   /// lens; that of a pinhole is ignored.
@@ -32,6 +37,7 @@ class Camera {
  private:
   CameraRay panorama_ray(float x, float y) const;
 
+  Interior around_;
   Vec3 origin_;
   Vec3 right_;  ///< one pixel, at a distance of one metre (perspective) or in the world (orthographic)
   Vec3 down_;

@@ -16,6 +16,7 @@ struct CameraSample {
   std::uint32_t seed = 0;  ///< a hash of (seed, pixel, sample), for decisions that need no low discrepancy
   /// A light sample that adds less radiance than this is traced by Russian roulette. 0: all are traced.
   float contribution_threshold = 0.0f;
+  Interior around;  ///< the volumes that the ray starts in
 
   /// The camera's ray.
   Ray ray() const {
@@ -49,7 +50,7 @@ struct FirstHit {
   bool guided = false;                     ///< cache_radiance is set
   Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, computed only from the cache
   // These come from the first cache query of the path.
-  bool asked = false;
+  bool queried = false;
   Color answer{0.0f, 0.0f, 0.0f};
   Color node{0.0f, 0.0f, 0.0f};
   float error = 0.0f;

@@ -99,7 +99,7 @@ void Film::add_first_hit(FirstHitSum& p, const FirstHit& first) {
   accumulate(p.position, first.position);
   p.depth += static_cast<double>(first.depth);
   ++p.hits;
-  if (!first.asked) return;
+  if (!first.queried) return;
   accumulate(p.answer, first.answer.matrix());
   accumulate(p.node, first.node.matrix());
   p.error += static_cast<double>(first.error);

@@ -16,6 +16,7 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   const auto x = static_cast<std::uint32_t>(pixel.x);
   const auto y = static_cast<std::uint32_t>(pixel.y);
   CameraSample s;
+  s.around = camera.around();
   s.sampler = Sampler(options.sampler, options.seed, x, y, number);
   s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
   const Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));

@@ -78,7 +78,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   const LightGroups& groups = walk_.world.light_groups;
   scratch.parts.assign(groups.size() * samples.size(), Color::Zero());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    scratch.paths[i] = PathState(walk_.world, samples[i], i, walk_.world.around_camera);
+    scratch.paths[i] = PathState(walk_.world, samples[i], i);
     scratch.rays[i] = samples[i].ray();
     results[i] = {};
     if (!first_hits.empty()) first_hits[i] = {};

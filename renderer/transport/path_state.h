@@ -124,11 +124,10 @@ struct PathState {
   bool emission_only = false;  ///< from here on the path only passes panes and counts emission
 
   PathState() = default;
-  /// `around`: the volumes that the start is in.
-  PathState(const World& world, const CameraSample& start, std::size_t which, const Interior& around)
+  PathState(const World& world, const CameraSample& start, std::size_t which)
       : cone(start.camera_ray.cone),
-        absorption(world.media.of(around.strongest()).absorption),
-        interior(around),
+        absorption(world.media.of(start.around.strongest()).absorption),
+        interior(start.around),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
         contribution_threshold(start.contribution_threshold),

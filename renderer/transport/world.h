@@ -1,5 +1,5 @@
 #pragma once
-// A scene prepared for rendering. It does not change while a picture is made.
+// A scene prepared for rendering. It does not change.
 
 #include <cstdint>
 #include <vector>
@@ -19,23 +19,20 @@
 
 namespace gatelight::renderer {
 
+struct WorldOptions {
+  EnvironmentOptions environment;
+  LightSelection light_selection = LightSelection::tree;
+  AccelOptions acceleration;
+  GlassShadows glass_shadows = GlassShadows::refract;
+  std::vector<LightGroup> light_groups;
+  BackgroundOptions background;
+};
+
 /// Later members refer to earlier ones, so a world cannot be moved.
 struct World {
-  /// Works in the caller's arena. The scene must outlive the world. Throws the exceptions of the members.
-  explicit World(const scene::Scene& scene_in, const EnvironmentOptions& sky = {},
-                 LightSelection selection = LightSelection::tree, const AccelOptions& acceleration = {},
-                 GlassShadows glass = GlassShadows::refract)
-      : scene(scene_in),
-        requirements(scene::compute_requirements(scene)),
-        textures(scene),
-        media(scene, requirements.nested_volumes),
-        environment(sky, scene.image_light ? &*scene.image_light : nullptr),
-        coverage(scene, textures, media, glass == GlassShadows::straight),
-        surfaces(scene, textures),
-        accel(scene, coverage, acceleration),
-        lights(scene, textures, environment, selection),
-        light_arrays(lights),
-        kernels(choose_shading_kernels(acceleration.isa)) {}
+  /// Works in the caller's arena. The scene must outlive the world. Throws the exceptions of the members, and
+  /// BadOption for a shadow catcher that the scene does not have or without a separate background.
+  explicit World(const scene::Scene& scene_in, const WorldOptions& options = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -50,9 +47,8 @@ struct World {
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
-  Interior around_camera;            ///< the volumes that the camera is in
-  LightGroups light_groups;          ///< empty unless the parts of a picture are requested
-  bool separate_background = false;  ///< the environment lights the scene, but is invisible to the camera
+  LightGroups light_groups;  ///< empty unless the parts of a picture are requested
+  bool separate_background;  ///< the environment lights the scene, but is invisible to the camera
   /// 1 for shadow catchers, which are not visible themselves; empty without any.
   std::vector<std::uint8_t> catchers;
   bool catches(std::uint32_t instance) const { return !catchers.empty() && catchers[instance] != 0; }

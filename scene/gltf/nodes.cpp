@@ -60,7 +60,7 @@ std::vector<int> find_parents(const Document& document) {
       parent = static_cast<int>(i);
     }
   }
-  // Every walk towards a root marks its nodes. Meeting a mark of the same walk means a cycle.
+  // Every walk towards a root marks its nodes. A mark of the same walk means a cycle.
   std::vector<std::size_t> seen(nodes.size(), 0);
   for (std::size_t start = 0; start < nodes.size(); ++start) {
     for (int i = static_cast<int>(start); i >= 0; i = parents[static_cast<std::size_t>(i)]) {

@@ -74,19 +74,19 @@ TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
 
 TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
   const Words size = {"--integrator", "nrc", "--size", "48x32", "--spp", "2", "--batch", "256"};
-  for (const auto& [learner, asked] : {std::pair{"vulkan", "cpu"}, {"cpu", "vulkan"}}) {
+  for (const auto& [learner, queried] : {std::pair{"vulkan", "cpu"}, {"cpu", "vulkan"}}) {
     Words learn = size, ask = size, own = size;
     learn.insert(learn.end(), {"--train-steps", "16", "--device", learner, "--cache-out",
                                path("c.safetensors"), "-o", path("learned.exr")});
     own.insert(own.end(), {"--train-steps", "0", "--device", learner, "--cache-in", path("c.safetensors"),
                            "-o", path("own.exr")});
-    ask.insert(ask.end(), {"--train-steps", "0", "--device", asked, "--cache-in", path("c.safetensors"), "-o",
-                           path("asked.exr")});
+    ask.insert(ask.end(), {"--train-steps", "0", "--device", queried, "--cache-in", path("c.safetensors"), "-o",
+                           path("queried.exr")});
     for (const Words& words : {learn, own, ask}) {
       const Output output = render(words);
       ASSERT_EQ(output.exit_code, 0) << output.err;
     }
-    EXPECT_LT(flip("own.exr", "asked.exr"), 1e-4);
+    EXPECT_LT(flip("own.exr", "queried.exr"), 1e-4);
   }
 }
 

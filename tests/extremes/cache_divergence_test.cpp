@@ -183,7 +183,7 @@ TEST(CacheDivergence, ResumingFromABadCheckpointEqualsAnUninterruptedRun) {
   RenderOptions options = late();
   options.checkpoint.file = (folder / "checkpoint").string();
   Callbacks callbacks;
-  callbacks.stop = [asked = 0]() mutable { return ++asked > 20; };  // between groups of 64 steps
+  callbacks.stop = [calls = 0]() mutable { return ++calls > 20; };  // between groups of 64 steps
   const int stopped = run(s, options, callbacks).statistics.cache.steps;
   EXPECT_GT(stopped, kept);
   options.checkpoint.resume = true;

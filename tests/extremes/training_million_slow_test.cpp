@@ -67,8 +67,8 @@ TEST(ExtremeLength, AMillionStepsStayFiniteAndDoNotDrift) {
   const auto model = make_model(config, surfaces);
   const auto backend = cpu::make_cpu_backend(model, {});
   Random random{1};
-  Points seen = make_points(kRecords), asked = make_points(500);
-  fill(mesh, random, 0.0f, asked);
+  Points seen = make_points(kRecords), queried = make_points(500);
+  fill(mesh, random, 0.0f, queried);
 
   double first = 0, last = 0, worst = 0;
   for (std::uint64_t step = 1; step <= kSteps; ++step) {
@@ -77,14 +77,14 @@ TEST(ExtremeLength, AMillionStepsStayFiniteAndDoNotDrift) {
     ASSERT_TRUE(std::isfinite(s.loss)) << step;
     ASSERT_EQ(s.skipped_updates, 0u) << step;
     if (step % kPart != 0) continue;
-    const std::vector<float> out = raw_answers(*backend, *model, asked.batch);
+    const std::vector<float> out = raw_answers(*backend, *model, queried.batch);
     double squares = 0;
-    for (std::size_t i = 0; i < out.size(); ++i) squares += std::pow(out[i] - asked.values[i], 2) / 500.0;
+    for (std::size_t i = 0; i < out.size(); ++i) squares += std::pow(out[i] - queried.values[i], 2) / 500.0;
     last = std::sqrt(squares);
     if (first == 0) first = last;
     worst = std::max(worst, last);
   }
-  expect_sound(*backend, *model, asked.batch);
+  expect_sound(*backend, *model, queried.batch);
   const ModelState state = backend->export_state();
   EXPECT_EQ(state.steps, kSteps);
   double greatest = 0;

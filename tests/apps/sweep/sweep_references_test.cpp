@@ -242,16 +242,16 @@ TEST_F(SweepReferences, HdrFlipOfACellCanBeStopped) {
   bright.layers = {{.channels = {"R", "G", "B"}, .values = {9, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}}};
   Picture other = bright;
   other.layers[0].values[0] = 1.0f;
-  int asked = 0;
+  int calls = 0;
   const auto measure = [&](bool hdr, int most) {
-    asked = 0;
+    calls = 0;
     return measure_errors({bright, "a"}, std::nullopt, {other, "b"}, {}, hdr,
-                          [&](double) { return ++asked <= most; });
+                          [&](double) { return ++calls <= most; });
   };
   EXPECT_TRUE(measure(true, 100)->hdr_flip.has_value());
-  EXPECT_GT(asked, 2);
+  EXPECT_GT(calls, 2);
   EXPECT_FALSE(measure(true, 1).has_value());
-  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(calls, 2);
   EXPECT_FALSE(measure(false, 0)->hdr_flip.has_value());
 }
 

@@ -96,7 +96,7 @@ class Pictures {
  public:
   Pictures()
       : builder_(mixed_scene()),
-        world_(builder_.scene(), {.constant = Color(0.1f, 0.2f, 0.4f)}),
+        world_(builder_.scene(), {.environment = {.constant = Color(0.1f, 0.2f, 0.4f)}}),
         camera_(view(), kSide, kSide) {
     options_.max_depth = 16;
   }
@@ -184,11 +184,11 @@ class Pictures {
   }
 
   /// A record for each point, traced only for it.
-  std::vector<float> fresh_records(const SurfacePoints& asked, const Setting& learned,
+  std::vector<float> fresh_records(const SurfacePoints& queried, const Setting& learned,
                                    std::uint32_t seed) const {
     PathPlan to_the_end;
     to_the_end.records = true;
-    const neural::QueryBatch queries = asked.batch();
+    const neural::QueryBatch queries = queried.batch();
     std::vector<PathStart> points(queries.size);
     std::vector<Hit> hits(queries.size);
     for (std::uint32_t i = 0; i < queries.size; ++i) {

@@ -21,7 +21,7 @@ const double kSignificance = testing::sidak(1e-4, 4);
 
 /// Traces `paths` paths from (0, 5, 0) down, below a sky of kSky.
 PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t paths) {
-  const World world(scene, {.constant = Color::Constant(static_cast<float>(kSky))});
+  const World world(scene, {.environment = {.constant = Color::Constant(static_cast<float>(kSky))}});
   RenderOptions options;
   options.cache.holds = CacheHolds::all;
   std::vector<PathStart> starts(paths);

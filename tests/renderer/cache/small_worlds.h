@@ -40,7 +40,7 @@ inline SceneBuilder closed_furnace(float albedo, float emission) {
 struct ViewedWorld {
   explicit ViewedWorld(const SceneBuilder& made, const renderer::EnvironmentOptions& sky = {})
       : builder(made),
-        world(builder.scene(), sky),
+        world(builder.scene(), {.environment = sky}),
         camera(builder.scene().cameras.at(0), region.width(), region.height()) {}
 
   SceneBuilder builder;

@@ -54,7 +54,7 @@ void add_sample(Film& film, std::uint64_t seed) {
       film.add_parts({x, y}, std::vector{Color(next(), next(), next()), Color(next(), next(), next())}, 1.0f);
       FirstHit hit;
       hit.hit = x != 2;
-      hit.asked = hit.guided = y != 2;
+      hit.queried = hit.guided = y != 2;
       hit.guide = {hit.hit, 0, Color::Ones(), Color(next(), next(), next()), Vec3(next(), next(), next())};
       hit.alpha = next();
       for (Color* color : {&hit.albedo, &hit.answer, &hit.node, &hit.cache_radiance})

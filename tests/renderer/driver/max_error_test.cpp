@@ -48,9 +48,9 @@ class MaxError : public ::testing::TestWithParam<Kind> {
 
   Result render(const RenderOptions& options, int stop_at = 0) const {
     Renderer renderer(scene, options);
-    std::atomic<int> asked{0};
+    std::atomic<int> calls{0};
     Callbacks callbacks;
-    callbacks.stop = [&] { return ++asked == stop_at; };
+    callbacks.stop = [&] { return ++calls == stop_at; };
     callbacks.progress = [&](const Progress& p) {
       if (p.phase == Phase::render && p.error) reported = *p.error;
     };

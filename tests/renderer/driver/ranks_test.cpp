@@ -27,13 +27,13 @@ using tests::TemporaryFolder;
 /// counted over all ranks.
 Result render_by(int count, const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
   Result result;
-  std::atomic<int> asked{0};
+  std::atomic<int> calls{0};
   run_ranks(count, [&](Ranks& ranks) {
     RenderOptions own = options;
     own.threads = 1 + ranks.rank() % 2;
     Renderer renderer(scene, own, ranks);
     Callbacks callbacks;
-    callbacks.stop = [&] { return ++asked == stop_at; };
+    callbacks.stop = [&] { return ++calls == stop_at; };
     Picture picture = renderer.render(callbacks);
     if (!ranks.first()) {
       EXPECT_TRUE(picture.layers.empty());

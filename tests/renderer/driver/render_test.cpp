@@ -96,8 +96,8 @@ TEST(Render, StopsAfterThePassOnRequest) {
   options.aovs.push_back(Aov::sample_count);
   Renderer renderer(s, options);
   Callbacks callbacks;
-  std::atomic<int> asked{0};
-  callbacks.stop = [&] { return ++asked > 40; };
+  std::atomic<int> calls{0};
+  callbacks.stop = [&] { return ++calls > 40; };
   const Picture picture = renderer.render(callbacks);
   EXPECT_TRUE(renderer.statistics().interrupted);
   EXPECT_LT(renderer.statistics().spp, 1000);

@@ -35,10 +35,10 @@ using tests::TemporaryFolder;
 /// Stops at the n-th call of the stop callback; 0: never.
 Result render(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
   Renderer renderer(scene, options);
-  std::atomic<int> asked{0};
+  std::atomic<int> calls{0};
   Callbacks callbacks;
   // The callback stops once, like a caller that presses a key.
-  callbacks.stop = [&] { return ++asked == stop_at; };
+  callbacks.stop = [&] { return ++calls == stop_at; };
   Result result;
   result.picture = renderer.render(callbacks);
   result.statistics = renderer.statistics();

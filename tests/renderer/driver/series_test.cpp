@@ -107,9 +107,9 @@ TEST_P(SeriesOf, StoppedAnywhereItGivesWholePicturesOnly) {
   for (int stop_at = 1; pictures < 3; stop_at += 1 + stop_at / 20) {
     SCOPED_TRACE(stop_at);
     ASSERT_LT(stop_at, 1000);
-    std::atomic<int> asked = 0;
+    std::atomic<int> calls = 0;
     Callbacks callbacks;
-    callbacks.stop = [&] { return ++asked == stop_at; };  // once
+    callbacks.stop = [&] { return ++calls == stop_at; };  // once
     std::vector<Result> stopped;
     const bool whole = renderer.render_series(
         series,

@@ -52,7 +52,7 @@ const std::vector<Aov> kCacheAovs = {Aov::cache_radiance, Aov::cache_answer, Aov
 FirstHit asked_hit(float answer, float error, float count, float resolution) {
   FirstHit hit;
   hit.hit = true;
-  hit.asked = true;
+  hit.queried = true;
   hit.guided = true;
   hit.cache_radiance = Color(7.0f, 8.0f, 9.0f);
   hit.answer = Color(answer, 2.0f * answer, 4.0f * answer);
@@ -69,7 +69,7 @@ TEST(Film, CacheColoursAreMeansOverSamplesAndCacheNumbersOverQueries) {
   film.add(film.take({0, 0}), asked_hit(3.0f, 0.5f, 10.0f, 2.0f));
   film.add(film.take({0, 0}), asked_hit(5.0f, 1.5f, 100001.0f, 4.0f));
   FirstHit silent = asked_hit(1e3f, 1e3f, 1e3f, 1e3f);
-  silent.asked = false;  // a hit without a query: black, and no number
+  silent.queried = false;  // a hit without a query: black, and no number
   film.add(film.take({0, 0}), silent);
   FirstHit sky;
   sky.guided = true;

@@ -213,10 +213,10 @@ TEST(LightsTest, LightsBetweenTheStepsOfTheNumberAreStillChosen) {
   const LitScene lit(std::move(scene), LightSelection::power);
   // The table's second half belongs to the dim lamp for its first billionth, then to the bright one.
   const LightSample bright = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.5f, 0.5f));
-  const LightSample faint = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.0f, 0.5f));
+  const LightSample dim = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.5f, Vec2(0.0f, 0.5f));
   EXPECT_EQ(bright.radiance.x(), 1.0f);
-  EXPECT_EQ(faint.radiance.x(), 1e-9f);
-  EXPECT_GT(faint.pdf, 0.0f);
+  EXPECT_EQ(dim.radiance.x(), 1e-9f);
+  EXPECT_GT(dim.pdf, 0.0f);
 }
 
 TEST(LightsTest, AProfileTurnsWithItsLight) {

@@ -131,7 +131,7 @@ TEST(NestedMedia, ShadowRaysPassMediaInTheirOrder) {
   stack.slab(kWater, 0, 3, Color(0.2f, 0.0f, 0.0f));
   stack.slab(kGlass, 1, 2, Color(0.0f, 0.3f, 0.0f));
   stack.slab(kWater, 1.2f, 1.6f, Color(0.0f, 0.0f, 5.0f)).dielectric_priority = -1.0f;
-  const World world(stack.scene(), {}, LightSelection::tree, {}, GlassShadows::straight);
+  const World world(stack.scene(), {.glass_shadows = GlassShadows::straight});
   const auto passed = [&](float z, float length) { return testing::passed_down(world, z, length); };
   const auto through = [](double a, double b) { return static_cast<float>(1.0 / (1.0 + plate(a, b))); };
   const float water = through(1, kWater), glass = through(kWater, kGlass);

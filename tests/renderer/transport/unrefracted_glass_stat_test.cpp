@@ -46,7 +46,7 @@ Color absorbed(float distance) {
 /// Transmittance of a shadow ray of this length along -z, from height z.
 Color passed(float z, float length, GlassShadows glass = GlassShadows::straight) {
   SceneBuilder builder = block_of_glass();
-  const World world(builder.scene(), {}, LightSelection::tree, {}, glass);
+  const World world(builder.scene(), {.glass_shadows = glass});
   return testing::passed_down(world, z, length);
 }
 

@@ -1,0 +1,63 @@
+#include "renderer/transport/world.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "base/errors.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Names of the objects, each once, in order; at most kMostNames.
+std::vector<std::string> names_of(const scene::Scene& scene) {
+  constexpr std::size_t kMostNames = 20;
+  std::vector<std::string> names;
+  for (const scene::Instance& instance : scene.instances) {
+    if (std::find(names.begin(), names.end(), instance.name) != names.end()) continue;
+    names.push_back(names.size() < kMostNames ? instance.name : "...");
+    if (names.size() > kMostNames) break;
+  }
+  return names;
+}
+
+/// The value of World::catchers.
+std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const BackgroundOptions& background) {
+  const std::string& node = background.shadow_catcher;
+  if (node.empty()) return {};
+  if (!background.is_separate())
+    throw BadOption(
+        fmt::format("`shadow-catcher` {}: the picture has no alpha, expected `background` transparent, "
+                    "r,g,b or FILE",
+                    node));
+  std::vector<std::uint8_t> catchers;
+  for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
+  if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
+    throw BadOption(fmt::format("`shadow-catcher` {}: no object of {} has this name; expected one of '{}'",
+                                node, scene.path, fmt::join(names_of(scene), "', '")));
+  }
+  return catchers;
+}
+
+}  // namespace
+
+World::World(const scene::Scene& scene_in, const WorldOptions& options)
+    : scene(scene_in),
+      requirements(scene::compute_requirements(scene)),
+      textures(scene),
+      media(scene, requirements.nested_volumes),
+      environment(options.environment, scene.image_light ? &*scene.image_light : nullptr),
+      coverage(scene, textures, media, options.glass_shadows == GlassShadows::straight),
+      surfaces(scene, textures),
+      accel(scene, coverage, options.acceleration),
+      lights(scene, textures, environment, options.light_selection),
+      light_arrays(lights),
+      kernels(choose_shading_kernels(options.acceleration.isa)),
+      light_groups(options.light_groups, scene, lights),
+      separate_background(options.background.is_separate()),
+      catchers(find_catchers(scene, options.background)) {}
+
+}  // namespace gatelight::renderer
