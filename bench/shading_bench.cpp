@@ -10,7 +10,7 @@
 #include "renderer/bsdf/tables.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/shading/wide_shading.h"
+#include "renderer/shading/shading.h"
 
 namespace gatelight::bench {
 namespace {

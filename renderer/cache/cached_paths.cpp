@@ -24,6 +24,9 @@ const Roulette& narrow_roulette(const PathPlan& plan) {
 /// two, single precision cannot represent both, and the vertex makes no record.
 constexpr float kLeastScale = 1e-20f;
 
+/// More scattering events than any path has.
+constexpr int kNoRoulette = 1 << 30;
+
 }  // namespace
 
 StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural::Sides> sides)
@@ -88,24 +91,7 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatc
     batch.target(from.record) += path.links.cached * emission;
 }
 
-void CachedPaths::add_light(const Path& path, const SurfaceInteraction& m, const Bsdf& bsdf, LightKinds kinds,
-                            const Bsdf* wide, std::int32_t vertex, Scratch& scratch) const {
-  const NeeSample at = path.sample_light(walk_, m, bsdf, kinds);
-  const float weight = at.weight * path.scale();
-  const Color direct = at.value.value * at.light.radiance * weight;
-  if (!(direct > 0.0f).any()) return;
-  Color cached = Color::Zero();
-  Color separate = Color::Zero();
-  const bool holds = options_.cached.light_sample(at.light.delta);
-  if (wide && (holds || at.light.delta)) {
-    (holds ? cached : separate) =
-        wide == &bsdf ? direct : wide->evaluate(at.light.wi).value * at.light.radiance * weight;
-  }
-  scratch.shadow_rays.push_back(shadow_ray(m.surface, at.light, path.seed));
-  scratch.pending.push_back({vertex, direct, cached, separate});
-}
-
-PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit,
+PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit,
                                 const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
@@ -132,72 +118,67 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, cons
       path.spread += distance / std::sqrt(path.departure.pdf * cosine);
     }
   }
-  const std::uint32_t side = side_at(hit, m.surface.front);
-  const bool has_storage = stored_(neural::surface_index(hit.instance, side));
-  if (path.shades_wide(m)) {
-    const BlockKind kind = has_storage && ends_here(path, plan) ? kind_of_end(m.surface.material) : kScatters;
-    if (kind == kScatters || options_.cached.emission()) {
-      PathBlock& block = scratch.blocks[kind];
-      // Where a path splits, Russian roulette applies at every depth (narrow_roulette).
-      path.wait(m, number, kind == kScatters ? plan.min_depth : path.depth, block);
-      return &block;
-    }
-  }
-  const Bsdf& bsdf = m.set_up_bsdf();
-  if (first) set_albedo(path, bsdf.albedo(), *first);
-  if (path.emission_only) {
-    std::optional<DirectionSample> sampled = path.sample_bsdf(m, bsdf);
-    if (sampled && path.survives(plan.min_depth, *sampled) &&
-        advance(path, m, *sampled, {sampled->weight, sampled->weight}, kNone))
-      scratch.go_on(number, ray);
-    return nullptr;
-  }
-  const bool wide = bsdf.has_wide(options_.min_roughness);
-  const bool ends = wide && ends_here(path, plan);
-  if (ends && !has_storage) ++batch.unstored_hits;
-  const bool records = wide && has_storage && may_record(path, plan);
-  if (ends && has_storage ? answer(path, m, side, plan, batch, scratch)
-                          : continue_from(path, m, side, records, plan, batch, scratch))
-    scratch.go_on(number, ray);
-  return nullptr;
+  const bool kernels = path.kernels_shade(m);
+  const BlockKind kind = kind_of(path, m, kernels, plan);
+  int min_depth = plan.min_depth;
+  // Where a path ends in the cache, Russian roulette applies at every depth (narrow_roulette), or never.
+  if (kind != kScatters) min_depth = options_.cached.emission() ? path.depth : kNoRoulette;
+  PathBlock& block = scratch.block_of(kind, kernels);
+  path.wait(walk_, m, number, min_depth, block);
+  return &block;
+}
+
+CachedPaths::BlockKind CachedPaths::kind_of(const Path& path, const SurfaceInteraction& m, bool kernels,
+                                            const PathPlan& plan) const {
+  if (path.emission_only || !ends_here(path, plan)) return kScatters;
+  if (!stored_(neural::surface_index(m.hit.instance, side_at(m.hit, m.surface.front)))) return kScatters;
+  if (kernels) return kind_of_end(m.surface.material);
+  const Bsdf bsdf = m.bsdf();
+  if (!bsdf.has_wide(options_.min_roughness)) return kScatters;
+  return bsdf.has_narrow(options_.min_roughness) ? kSplits : kAnswers;
 }
 
 void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
                         std::span<FirstHit> first_hits, Scratch& scratch) const {
-  ShadingBlock& points = block.points;
-  const bool goes_on = &block == &scratch.blocks[kScatters], splits = &block == &scratch.blocks[kSplits];
-  if (goes_on) {
-    walk_.shading.scatter(points);
+  const auto kind = static_cast<BlockKind>(scratch.kind_of(block));
+  const bool all_lobes = kind == kScatters || !options_.cached.emission();
+  if (all_lobes) {
+    walk_.shading.scatter(block);
   } else if (separate_delta_) {
-    walk_.shading.delta_light(points);
-  } else if (splits) {
-    walk_.shading.scatter_narrow(points, narrow_roulette(plan));
+    walk_.shading.delta_light(block);
+  } else if (kind == kSplits) {
+    walk_.shading.scatter_narrow(block, narrow_roulette(plan));
   } else {
-    walk_.shading.albedo(points);
+    walk_.shading.albedo(block);
   }
+  const ShadingBlock& points = block.points;
   std::int32_t vertices[ShadingBlock::kWidth];
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
-    if (goes_on) {
+    if (kind == kScatters) {
       continue_from(path, block, lane, plan, batch, scratch);
       continue;
     }
-    const SurfacePoint point = point_at(block, lane, scratch.hits[block.path[lane]],
-                                        lane_color(splits ? points.wide_albedo : points.albedo, lane));
+    const SurfacePoint point =
+        point_at(block, lane, scratch.hits[block.path[lane]],
+                 lane_color(kind == kSplits ? points.wide_albedo : points.albedo, lane));
     vertices[lane] = ask(path, point, batch);
     const bool guides = seeks_guide(path, batch);
     if (guides) set_guide(path, point, true, vertices[lane], batch);
-    if (separate_delta_) add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
+    if (all_lobes || separate_delta_)
+      add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
+    if (all_lobes && points.alive[lane])
+      follow_direct(path, block, lane, kind == kSplits, vertices[lane], scratch);
   }
-  if (!splits) return;
-  if (separate_delta_) walk_.shading.scatter_narrow(points, narrow_roulette(plan));
+  if (all_lobes || kind != kSplits) return;
+  if (separate_delta_) walk_.shading.scatter_narrow(block, narrow_roulette(plan));
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!separate_delta_ || !points.light_is_delta[lane])
       add_light(path, points, lane, false, false, vertices[lane], plan, scratch);
     if (!points.alive[lane]) continue;
-    const DirectionSample sampled = direction_sample_at(points, lane);
+    const DirectionSample sampled = direction_sample_at(block, lane);
     follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], scratch);
   }
 }
@@ -260,70 +241,15 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
   return index;
 }
 
-bool CachedPaths::answer(Path& path, const SurfaceInteraction& m, std::uint32_t side, const PathPlan& plan,
-                         PathBatch& batch, Scratch& scratch) const {
-  const float roughness = options_.min_roughness;
-  const bool has_narrow = m.bsdf->has_narrow(roughness);
-  std::optional<Bsdf> part;  // a copy of a surface is not cheap
-  if (has_narrow) part = m.bsdf->wide_part(roughness);
-  const Color& wide_albedo = part ? part->albedo() : m.bsdf->albedo();
-  const SurfacePoint point = surface_point(m.hit, side, m.wo, m.surface, wide_albedo);
-  const std::int32_t index = ask(path, point, batch);
-  const bool guides = seeks_guide(path, batch);
-  if (guides) set_guide(path, point, true, index, batch);
-  const Bsdf* const wide = guides ? (part ? &*part : &*m.bsdf) : nullptr;
-
-  if (!options_.cached.emission()) {
-    // All direct light of all lobes is sampled here. Indirect light of the sampled direction counts only for
-    // the narrow lobes.
-    add_light(path, m, *m.bsdf, LightKinds::all, wide, index, scratch);
-    const std::optional<DirectionSample> sampled = path.sample_bsdf(m, *m.bsdf);
-    if (!sampled) return false;
-    Color scattered = Color::Zero();
-    if (sampled->delta) {
-      scattered = sampled->weight;
-    } else if (has_narrow) {
-      scattered = sampled->weight_of(m.bsdf->narrow_part(roughness));
-    }
-    path.emission_only = !(scattered > 0.0f).any();
-    return advance(path, m, *sampled, {sampled->weight, scattered}, index);
-  }
-
-  if (separate_delta_) add_light(path, m, *m.bsdf, LightKinds::delta, wide, index, scratch);
-  if (!has_narrow) return false;
-  const Bsdf narrow = m.bsdf->narrow_part(roughness);
-  add_light(path, m, narrow, separate_delta_ ? LightKinds::shapes : LightKinds::all, nullptr, index, scratch);
-  std::optional<DirectionSample> sampled = path.sample_bsdf(m, narrow);
-  if (!sampled) return false;
-  const Roulette& roulette = narrow_roulette(plan);
-  const float survival = std::min(roulette.most, roulette.factor * std::sqrt(path.throughput.maxCoeff()));
-  return path.survives_by(survival, *sampled) &&
-         advance(path, m, *sampled, {sampled->weight, sampled->weight}, index);
-}
-
-bool CachedPaths::continue_from(Path& path, const SurfaceInteraction& m, std::uint32_t side, bool record,
-                                const PathPlan& plan, PathBatch& batch, Scratch& scratch) const {
-  const float roughness = options_.min_roughness;
-  std::optional<Bsdf> part;  // a copy of a surface is not cheap
-  const bool guides = seeks_guide(path, batch) && m.bsdf->has_wide(roughness);
-  if ((record || guides) && m.bsdf->has_narrow(roughness)) part = m.bsdf->wide_part(roughness);
-  const Bsdf& wide = part ? *part : *m.bsdf;
-  const SurfacePoint point = surface_point(m.hit, side, m.wo, m.surface, wide.albedo());
-  const std::int32_t index = add_vertex(path, point, record, plan, batch);
-  if (guides) set_guide(path, point, stored_(neural::surface_index(m.hit.instance, side)), index, batch);
-  add_light(path, m, *m.bsdf, LightKinds::all, record || guides ? &wide : nullptr, index, scratch);
-  std::optional<DirectionSample> sampled = path.sample_bsdf(m, *m.bsdf);
-  if (!sampled) return false;
-  if (!sampled->delta && !(sampled->spread < roughness * roughness)) path.wide_events += 1;
-  if (!path.survives(plan.min_depth, *sampled)) return false;
-  Color cached = Color::Zero();
-  if (record && !sampled->delta) cached = part ? sampled->weight_of(wide) : sampled->weight;
-  return advance(path, m, *sampled, {sampled->weight, sampled->weight, cached}, index);
-}
-
 void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan,
                                 PathBatch& batch, Scratch& scratch) const {
   const ShadingBlock& p = block.points;
+  if (path.emission_only) {
+    if (!p.alive[lane]) return;
+    const DirectionSample sampled = direction_sample_at(block, lane);
+    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, kNone, scratch);
+    return;
+  }
   const Hit& hit = scratch.hits[block.path[lane]];
   const Color wide_albedo = lane_color(p.wide_albedo, lane);
   const SurfacePoint point = point_at(block, lane, hit, wide_albedo);
@@ -336,7 +262,7 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (guides) set_guide(path, point, stored, index, batch);
   add_light(path, p, lane, record, guides, index, plan, scratch);
   if (!p.alive[lane]) return;
-  const DirectionSample sampled = direction_sample_at(p, lane);
+  const DirectionSample sampled = direction_sample_at(block, lane);
   if (!sampled.delta && !(sampled.spread < options_.min_roughness * options_.min_roughness))
     path.wide_events += 1;
   const Color cached = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
@@ -363,17 +289,21 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
       {vertex, direct * weight, record && holds ? wide : none, guides && delta && !holds ? wide : none});
 }
 
-void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-                         const Links& links, std::int32_t vertex, Scratch& scratch) const {
-  const std::uint32_t number = block.path[lane];
-  link(path, sampled, links, vertex);
-  Ray next;
-  if (path.PathState::advance(block, lane, sampled, scratch.hits[number].t, next))
-    scratch.go_on(number, next);
+void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bool narrow,
+                                std::int32_t vertex, Scratch& scratch) const {
+  const DirectionSample sampled = direction_sample_at(block, lane);
+  Color scattered = Color::Zero();
+  if (sampled.delta) {
+    scattered = sampled.weight;
+  } else if (narrow) {
+    scattered = (sampled.weight - lane_color(block.points.wide_weight, lane)).max(0.0f);
+  }
+  path.emission_only = !(scattered > 0.0f).any();
+  follow(path, block, lane, sampled, {sampled.weight, scattered}, vertex, scratch);
 }
 
-void CachedPaths::link(Path& path, const DirectionSample& sampled, const Links& links,
-                       std::int32_t vertex) const {
+void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
+                         const Links& links, std::int32_t vertex, Scratch& scratch) const {
   if (sampled.through_pane) {
     // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
     path.links *= links.emission;
@@ -381,12 +311,9 @@ void CachedPaths::link(Path& path, const DirectionSample& sampled, const Links& 
     path.vertex = vertex;
     path.links = links;
   }
-}
-
-bool CachedPaths::advance(Path& path, const SurfaceInteraction& m, const DirectionSample& sampled,
-                          const Links& links, std::int32_t vertex) const {
-  link(path, sampled, links, vertex);
-  return path.PathState::advance(walk_, m, sampled);
+  const std::uint32_t number = block.path[lane];
+  Ray next;
+  if (path.advance(walk_, block, lane, sampled, scratch.hits[number], next)) scratch.go_on(number, next);
 }
 
 void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,

@@ -91,13 +91,14 @@ class CachedPaths {
   struct Links;
   struct Path;
   struct Pending;
-  /// The kinds of blocks: paths that end in the cache, paths that continue with the narrow lobes only, and
-  /// paths that continue with all lobes.
+  /// The kinds of blocks: paths that end in the cache with all lobes, paths that end there with the wide
+  /// lobes only, and paths that continue.
   enum BlockKind : std::uint8_t { kAnswers, kSplits, kScatters };
 
-  PathBlock* scatter(std::uint32_t number, Path& path, Ray& ray, const Hit& hit, const PathPlan& plan,
+  PathBlock* scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit, const PathPlan& plan,
                      PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
-  /// The kind of block for a vertex where the path can end in the cache.
+  BlockKind kind_of(const Path& path, const SurfaceInteraction& m, bool kernels, const PathPlan& plan) const;
+  /// The kind of block for a vertex that the kernels shade, where the path can end in the cache.
   BlockKind kind_of_end(const SurfaceMaterial& material) const;
   void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
              Scratch& scratch) const;
@@ -118,29 +119,21 @@ class CachedPaths {
   bool may_record(const Path& path, const PathPlan& plan) const;
   bool ends_here(const Path& path, const PathPlan& plan) const;
   bool ends_at(const Path& path, QueryAt place) const;
-  bool answer(Path& path, const SurfaceInteraction& m, std::uint32_t side, const PathPlan& plan,
-              PathBatch& batch, Scratch& scratch) const;
   /// Continues the path of a shaded lane.
   void continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan, PathBatch& batch,
                      Scratch& scratch) const;
   /// Adds the light sample of a lane to `vertex`, unless roulette ends it.
   void add_light(const Path& path, const ShadingBlock& points, int lane, bool record, bool guides,
                  std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const;
-  /// Makes the next ray of a lane, if it has one.
+  /// Makes the next ray of a lane whose vertex has all its direct light from samples: emission that the ray
+  /// finds counts for all lobes, reflected light only for the narrow ones.
+  void follow_direct(Path& path, const PathBlock& block, int lane, bool narrow, std::int32_t vertex,
+                     Scratch& scratch) const;
+  /// Makes the next ray of a lane, if it has one. `links` apply from `vertex` on, unless the path only passes
+  /// a pane.
   void follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
               const Links& links, std::int32_t vertex, Scratch& scratch) const;
-  bool continue_from(Path& path, const SurfaceInteraction& m, std::uint32_t side, bool record,
-                     const PathPlan& plan, PathBatch& batch, Scratch& scratch) const;
-  /// `links` apply from `vertex` on, unless the path only passes a pane.
-  void link(Path& path, const DirectionSample& sampled, const Links& links, std::int32_t vertex) const;
-  bool advance(Path& path, const SurfaceInteraction& m, const DirectionSample& sampled, const Links& links,
-               std::int32_t vertex) const;
   void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
-  /// Adds a light sample of `bsdf` to `vertex`. wide: the lobes whose share is cached; null where the vertex
-  /// is neither a record nor a guide.
-  void add_light(const Path& path, const SurfaceInteraction& m, const Bsdf& bsdf, LightKinds kinds,
-                 const Bsdf* wide, std::int32_t vertex, Scratch& scratch) const;
-
   Walk walk_;
   CachedPathsOptions options_;
   const StoredSurfaces& stored_;
@@ -172,8 +165,7 @@ struct CachedPaths::Path : PathState {
 
   Path() = default;
   Path(const World& world, const PathStart& start, std::size_t which)
-      : PathState(world, start.sample, which),
-        to_its_end(start.to_its_end) {}
+      : PathState(world, start.sample, which), to_its_end(start.to_its_end) {}
 };
 
 /// A light sample of a vertex whose shadow ray has not been traced yet.

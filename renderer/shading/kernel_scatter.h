@@ -28,7 +28,7 @@ GATELIGHT_INLINE Float3 spawn(const ShadingBlock& block, int at, Float3 ng, Floa
   return load(block.position, at) + ng * select(dot(ng, direction) < 0.0f, -offset, offset);
 }
 
-/// Evaluates the light sample: PathState::sample_light and shadow_ray(). Stores the albedos as well.
+/// Evaluates the BSDF towards the light sample and sets up the shadow ray. Stores the albedos as well.
 GATELIGHT_INLINE void evaluate_light(ShadingBlock& block, const ShadingContext& context, const LaneBsdf& bsdf,
                                      int at) {
   store(block.albedo, at, bsdf.albedo);

@@ -4,17 +4,7 @@
 
 namespace gatelight::renderer {
 
-/// Adds a light sample unless it is black or roulette ends it.
-template <class MakeRay>
-void PathIntegrator::add_light(const PathState& path, const Color& contribution, std::uint32_t light,
-                               MakeRay make_ray, Scratch& scratch) {
-  const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
-  if (!(weight > 0.0f)) return;
-  scratch.shadow_rays.push_back(make_ray());
-  scratch.pending.push_back({contribution * weight, path.index, light});
-}
-
-PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& ray, const Hit& hit,
+PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit,
                                    Color& radiance, FirstHit* first, Scratch& scratch) const {
   const LightGroups& groups = walk_.world.light_groups;
   // `group` returns the light group of the emission.
@@ -35,38 +25,28 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
   if (first) record_guide(path, m, *first);
   add(m.emission, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
-  if (path.shades_wide(m)) {
-    path.wait(m, number, options_.min_depth, scratch.blocks[0]);
-    return &scratch.blocks[0];
-  }
-  const Bsdf& bsdf = m.set_up_bsdf();
-  if (first) set_albedo(path, bsdf.albedo(), *first);
-
-  const NeeSample at = path.sample_light(walk_, m, bsdf);
-  const Color contribution = path.carried() * at.value.value * at.light.radiance * at.weight;
-  add_light(
-      path, contribution, at.light.light, [&] { return shadow_ray(m.surface, at.light, path.seed); },
-      scratch);
-  std::optional<DirectionSample> sampled = path.sample_bsdf(m, bsdf);
-  if (sampled && path.survives(options_.min_depth, *sampled) && path.advance(walk_, m, *sampled))
-    scratch.go_on(number, ray);
-  return nullptr;
+  PathBlock& block = scratch.block_of(0, path.kernels_shade(m));
+  path.wait(walk_, m, number, options_.min_depth, block);
+  return &block;
 }
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
   const ShadingBlock& points = block.points;
-  walk_.shading.scatter(block.points);
+  walk_.shading.scatter(block);
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
     PathState& path = scratch.paths[scratch.path_of[number]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     const Color contribution = path.carried() * lane_color(points.direct, lane) *
                                path.transmittance(walk_, points.shadow_length[lane]);
-    add_light(
-        path, contribution, points.light[lane], [&] { return shadow_ray_at(points, lane); }, scratch);
+    const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
+    if (weight > 0.0f) {
+      scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
+      scratch.pending.push_back({contribution * weight, path.index, points.light[lane]});
+    }
     if (!points.alive[lane]) continue;
     Ray next;
-    if (path.advance(block, lane, direction_sample_at(points, lane), scratch.hits[number].t, next))
+    if (path.advance(walk_, block, lane, direction_sample_at(block, lane), scratch.hits[number], next))
       scratch.go_on(number, next);
   }
 }

@@ -38,11 +38,8 @@ class PathIntegrator {
 
  private:
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
-  PathBlock* scatter(std::uint32_t number, PathState& path, Ray& ray, const Hit& hit, Color& radiance,
+  PathBlock* scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit, Color& radiance,
                      FirstHit* first, Scratch& scratch) const;
-  template <class MakeRay>
-  static void add_light(const PathState& path, const Color& contribution, std::uint32_t light,
-                        MakeRay make_ray, Scratch& scratch);
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   Walk walk_;

@@ -17,7 +17,7 @@ namespace gatelight::renderer {
 struct Walk {
   const World& world;
   MisRule mis;
-  WideShading shading;
+  Shading shading;
 
   Walk(const World& where, const MisRule& rule)
       : world(where),
@@ -27,13 +27,23 @@ struct Walk {
 };
 
 /// Paths that wait at surfaces until a block is full.
-struct PathBlock {
-  ShadingBlock points;
+struct PathBlock : SurfaceBlock {
   std::uint32_t path[ShadingBlock::kWidth];  ///< the caller's number
   float cone_width[ShadingBlock::kWidth];    ///< metres
   bool front[ShadingBlock::kWidth];          ///< Surface::front
+  /// Where a path can enter or leave a medium; only in blocks for the scalar code.
+  struct Crossing {
+    std::uint32_t volume = scene::kNoVolume;  ///< SurfaceInteraction::volume, and so on
+    bool unrefracted = false;
+    bool same_medium = false;
+  };
+  std::vector<Crossing> crossing;
 
-  bool full() const { return points.count == ShadingBlock::kWidth; }
+  /// For surfaces that the kernels do not support.
+  void make_scalar() {
+    scalar.resize(ShadingBlock::kWidth);
+    crossing.resize(ShadingBlock::kWidth);
+  }
 };
 
 /// Emission that a ray finds.
@@ -46,7 +56,6 @@ struct Emission {
 
 /// A path at a surface.
 struct SurfaceInteraction {
-  Ray& ray;  ///< the arriving ray; advance() replaces it by the next one
   const Hit& hit;
   Surface surface;
   Vec3 wo;           ///< unit, back along the ray
@@ -57,49 +66,26 @@ struct SurfaceInteraction {
   std::uint32_t volume = scene::kNoVolume;  ///< of World::media, where light can enter or leave one
   bool same_medium = false;                 ///< a stronger volume is on both sides: a clear pane
   Emission emission;
-  bool ends = false;                 ///< the path ends here
-  std::uint32_t dimensions = 0;      ///< first sampler dimension of this vertex
-  std::optional<Bsdf> bsdf;          ///< set by set_up_bsdf()
-  Vec3 light_normal = Vec3::Zero();  ///< for light sampling; set by set_up_bsdf()
+  bool ends = false;             ///< the path ends here
+  std::uint32_t dimensions = 0;  ///< first sampler dimension of this vertex
 
   /// `u_level` in [0, 1) chooses between mip levels.
-  SurfaceInteraction(const World& world, Ray& arriving, const Hit& where, float width, float u_level)
-      : ray(arriving),
-        hit(where),
+  SurfaceInteraction(const World& world, const Ray& ray, const Hit& where, float width, float u_level)
+      : hit(where),
         surface(world.surfaces.at(hit, ray.direction, width, u_level)),
         wo(-ray.direction),
         cone_width(width) {}
 
-  const Bsdf& set_up_bsdf() {
-    bsdf.emplace(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
-                 surface.front);
-    if (!bsdf->transmits()) light_normal = surface.shading_normal;
-    return *bsdf;
+  Bsdf bsdf() const {
+    return {surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
+            surface.front};
   }
-};
-
-/// A light sample at a surface, from next-event estimation.
-struct NeeSample {
-  LightSample light;
-  BsdfValue value;      ///< towards it
-  float weight = 0.0f;  ///< MIS weight over the pdf; 0: no light
-};
-
-enum class LightKinds : std::uint8_t {
-  all,
-  delta,   ///< lights that BSDF sampling cannot find
-  shapes,  ///< a sample of all lights, dropped where it is a delta light
 };
 
 /// A sampled direction. Its weight leaves out radiance_scale.
 struct DirectionSample : BsdfSample {
   bool through_pane = false;  ///< unrefracted through a thin sheet: no scattering event
   float survival = 1.0f;      ///< probability in Russian roulette; the weight is divided by it
-
-  /// The weight of a part of the surface's lobes for this direction. Delta lobes have none.
-  Color weight_of(const Bsdf& part) const {
-    return part.evaluate(wi).value / (pdf * survival * radiance_scale);
-  }
 };
 
 struct PathState {
@@ -160,7 +146,7 @@ struct PathState {
   /// Handles the ray's arrival at a surface. After max_depth scattering events the path still passes panes
   /// and counts emission behind them: the light samples of the vertex before include it, and one part of the
   /// MIS sum by itself would be too dark.
-  SurfaceInteraction intersect(const Walk& walk, Ray& ray, const Hit& hit, int max_depth) {
+  SurfaceInteraction intersect(const Walk& walk, const Ray& ray, const Hit& hit, int max_depth) {
     SurfaceInteraction m(walk.world, ray, hit, cone.width + cone.spread * hit.t, texture_level_number(seed));
     if ((absorption > 0.0f).any()) {
       m.passed = (-absorption * hit.t).exp();
@@ -185,13 +171,14 @@ struct PathState {
     return m;
   }
 
-  /// Whether the kernels can do the next steps: sample_light, sample_bsdf, survives and advance in one.
-  bool shades_wide(const SurfaceInteraction& m) const {
-    return !emission_only && !m.unrefracted && !m.same_medium && renderer::shades_wide(m.surface);
+  /// Whether the kernels can shade the surface: SurfaceBlock::scalar is empty then.
+  bool kernels_shade(const SurfaceInteraction& m) const {
+    return !emission_only && !m.unrefracted && !m.same_medium && renderer::kernels_shade(m.surface);
   }
 
   /// Adds the path to a block that is not full. `which` is the caller's number of the path.
-  void wait(const SurfaceInteraction& m, std::uint32_t which, int min_depth, PathBlock& block) const {
+  void wait(const Walk& walk, const SurfaceInteraction& m, std::uint32_t which, int min_depth,
+            PathBlock& block) const {
     const int lane = block.points.count++;
     block.path[lane] = which;
     block.cone_width[lane] = m.cone_width;
@@ -205,26 +192,13 @@ struct PathState {
     points.seed[lane] = seed;
     points.events_before_roulette[lane] = static_cast<std::uint32_t>(min_depth - depth);
     for (int c = 0; c < 3; ++c) points.throughput[c][lane] = throughput[c];
-  }
-
-  /// Next-event estimation for `bsdf`, the surface's or a part of it. shadow_ray() makes the shadow ray.
-  NeeSample sample_light(const Walk& walk, const SurfaceInteraction& m, const Bsdf& bsdf,
-                         LightKinds kinds = LightKinds::all) const {
-    NeeSample at;
-    const Lights& lights = walk.world.lights;
-    if (emission_only || bsdf.is_delta() || lights.empty()) return at;
-    const float choice = sampler.get_1d(m.dimensions + dimension::kLightChoice);
-    const Vec2 point = sampler.get_2d(m.dimensions + dimension::kLightPoint);
-    at.light = kinds == LightKinds::delta
-                   ? lights.sample_delta(m.surface.position, m.light_normal, choice, point)
-                   : lights.sample(m.surface.position, m.light_normal, choice, point);
-    if (!(at.light.pdf > 0.0f) || (kinds == LightKinds::shapes && at.light.delta)) return at;
-    if (refracts_without_mis(walk, m.surface) && at.light.wi.dot(m.surface.geometric_normal) < 0.0f)
-      return at;
-    at.light.radiance *= transmittance(walk, at.light.distance);
-    at.value = bsdf.evaluate(at.light.wi);
-    at.weight = (at.light.delta ? 1.0f : walk.mis.light_weight(at.light.pdf, at.value.pdf)) / at.light.pdf;
-    return at;
+    if (block.scalar.empty()) return;
+    ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
+    scalar.bsdf.emplace(m.bsdf());
+    scalar.thin_walled = m.surface.material.thin_walled;
+    scalar.only_panes = emission_only;
+    scalar.front_lights = refracts_without_mis(walk, m.surface);
+    block.crossing[static_cast<std::size_t>(lane)] = {m.volume, m.unrefracted, m.same_medium};
   }
 
   /// Transmittance of the medium around the path for a light sample at this distance. One where shadow rays
@@ -244,50 +218,29 @@ struct PathState {
     return shadow_roulette_number(seed) * least < contribution ? least / contribution : 0.0f;
   }
 
-  /// Samples a direction of `bsdf`, the surface's or a part of it. Returns nothing where the path ends.
-  std::optional<DirectionSample> sample_bsdf(const SurfaceInteraction& m, const Bsdf& bsdf) {
-    BsdfSample sample = bsdf.sample(sampler.get_1d(m.dimensions + dimension::kBsdfLobe),
-                                    sampler.get_2d(m.dimensions + dimension::kBsdfDirection));
-    if (!(sample.pdf > 0.0f) || !(sample.weight > 0.0f).any()) return {};
-    const bool through_pane = sample.delta && sample.transmitted && m.surface.material.thin_walled;
-    if (emission_only && !through_pane) return {};
-    sample.weight /= sample.radiance_scale;
-    throughput *= sample.weight;
-    radiance_scale *= static_cast<double>(sample.radiance_scale);
-    return DirectionSample{sample, through_pane};
-  }
-
-  /// Russian roulette: false where the path ends.
-  bool survives_by(float survival, DirectionSample& sampled) {
-    if (roulette_number(next_seed(seed)) >= survival) return false;
-    sampled.survival = survival;
-    sampled.weight /= survival;
-    throughput /= survival;
-    return true;
-  }
-
-  /// Russian roulette by the throughput, from min_depth scattering events on.
-  bool survives(int min_depth, DirectionSample& sampled) {
-    if (depth + (sampled.through_pane ? 0 : 1) < min_depth) return true;
-    return survives_by(survival_probability(throughput), sampled);
-  }
-
-  /// Makes the next ray. False: the path ends, because it passed too many surfaces without scattering.
-  bool advance(const Walk& walk, const SurfaceInteraction& m, const DirectionSample& sampled) {
-    if (sampled.transmitted && (m.unrefracted || m.same_medium || !m.surface.material.thin_walled))
-      cross(walk.world, m);
-    const bool without_mis =
-        (m.same_medium && !m.unrefracted) || (sampled.transmitted && refracts_without_mis(walk, m.surface));
-    return advance(sampled, m.surface.position, m.light_normal, m.hit.t, m.cone_width,
-                   m.surface.spawn(sampled.wi), m.ray, without_mis);
-  }
-
-  /// The same for a lane of a block, after Walk::shading. `t` is the distance of its hit.
-  bool advance(const PathBlock& block, int lane, const DirectionSample& sampled, float t, Ray& ray) {
+  /// Makes the next ray of a lane that is shaded, from its hit. False: the path ends, because it passed too
+  /// many surfaces without scattering.
+  bool advance(const Walk& walk, const PathBlock& block, int lane, const DirectionSample& sampled,
+               const Hit& hit, Ray& ray) {
     const ShadingBlock& p = block.points;
     throughput *= sampled.weight;
-    return advance(sampled, lane_vector(p.position, lane), light_normal(p, lane), t, block.cone_width[lane],
-                   lane_vector(p.next_origin, lane), ray);
+    const bool without_mis = !block.scalar.empty() && leave(walk, block, lane, sampled, hit.instance);
+    if (sampled.through_pane) {
+      departure.travelled += hit.t;
+      departure.panes += 1;
+      departure.without_mis |= without_mis;
+    } else {
+      depth += 1;
+      departure = {lane_vector(p.position, lane), light_normal(p, lane), 0.0f, sampled.pdf,
+                   sampled.delta || without_mis};
+    }
+    surfaces += 1;
+    if (surfaces > depth + kMaxPassed) return false;
+    seed = next_seed(seed);
+    ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed};
+    cone.width = block.cone_width[lane];
+    if (!sampled.through_pane) cone.spread += sampled.spread * kDiffuseSpread;
+    return true;
   }
 
  private:
@@ -321,10 +274,18 @@ struct PathState {
     material.dispersion = 0.0f;
   }
 
-  /// Updates the medium of a path that goes through a surface with an inside.
-  void cross(const World& world, const SurfaceInteraction& m) {
-    absorption = renderer::cross(world.media, interior, m.volume, m.surface.front,
-                                 [&] { return absorption_of(world.surfaces.material(m.hit.instance)); });
+  /// The path leaves a surface of the scalar code, perhaps into another medium. True: light samples do not
+  /// compete with the light that the next ray finds.
+  bool leave(const Walk& walk, const PathBlock& block, int lane, const DirectionSample& sampled,
+             std::uint32_t instance) {
+    const ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
+    const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
+    radiance_scale *= static_cast<double>(scalar.radiance_scale);
+    if (sampled.transmitted && (m.unrefracted || m.same_medium || !scalar.thin_walled)) {
+      absorption = cross(walk.world.media, interior, m.volume, block.front[lane],
+                         [&] { return absorption_of(walk.world.surfaces.material(instance)); });
+    }
+    return (m.same_medium && !m.unrefracted) || (sampled.transmitted && scalar.front_lights);
   }
 
   /// Chooses the path's wavelength, unless it has one.
@@ -341,30 +302,11 @@ struct PathState {
     SurfaceMaterial& material = m.surface.material;
     material.ior = dispersed_ior(material.ior, material.dispersion, wavelength);
   }
-
-  /// `without_mis`: no light sample competes with the emission that the next ray finds.
-  bool advance(const DirectionSample& sampled, const Vec3& position, const Vec3& light_normal, float t,
-               float cone_width, const Vec3& origin, Ray& ray, bool without_mis = false) {
-    if (sampled.through_pane) {
-      departure.travelled += t;
-      departure.panes += 1;
-      departure.without_mis |= without_mis;
-    } else {
-      depth += 1;
-      departure = {position, light_normal, 0.0f, sampled.pdf, sampled.delta || without_mis};
-    }
-    surfaces += 1;
-    if (surfaces > depth + kMaxPassed) return false;
-    seed = next_seed(seed);
-    ray = {origin, kInfinity, sampled.wi, seed};
-    cone.width = cone_width;
-    if (!sampled.through_pane) cone.spread += sampled.spread * kDiffuseSpread;
-    return true;
-  }
 };
 
 /// The sampled direction of a lane whose path goes on.
-inline DirectionSample direction_sample_at(const ShadingBlock& p, int lane) {
+inline DirectionSample direction_sample_at(const SurfaceBlock& block, int lane) {
+  const ShadingBlock& p = block.points;
   DirectionSample sampled;
   sampled.wi = lane_vector(p.wi, lane);
   sampled.weight = lane_color(p.weight, lane);
@@ -372,7 +314,8 @@ inline DirectionSample direction_sample_at(const ShadingBlock& p, int lane) {
   sampled.delta = p.is_delta[lane] != 0;
   sampled.transmitted = p.transmitted[lane] != 0;
   sampled.spread = p.spread[lane];
-  sampled.through_pane = sampled.delta && sampled.transmitted;
+  const bool thin = block.scalar.empty() || block.scalar[static_cast<std::size_t>(lane)].thin_walled;
+  sampled.through_pane = sampled.delta && sampled.transmitted && thin;
   sampled.survival = p.survival[lane];
   return sampled;
 }

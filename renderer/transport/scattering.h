@@ -8,6 +8,8 @@
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/settings/options.h"
+#include "renderer/shading/mis_rule.h"
+#include "renderer/shading/path_seeds.h"
 #include "renderer/surface/shadow_transmittance.h"
 #include "renderer/transport/world.h"
 
@@ -19,28 +21,6 @@ inline constexpr float kDiffuseSpread = 0.25f;
 
 /// Panes do not count as scattering events. A path ends after this many more surfaces than scattering events.
 inline constexpr int kMaxPassed = 1024;
-
-/// MIS weights of light sampling and BSDF sampling.
-struct MisRule {
-  DirectLight direct = DirectLight::mis;
-  MisHeuristic heuristic = MisHeuristic::power;
-
-  float light_weight(float light_pdf, float bsdf_pdf) const {
-    return weight(DirectLight::nee, DirectLight::bsdf, light_pdf, bsdf_pdf);
-  }
-  float bsdf_weight(float bsdf_pdf, float light_pdf) const {
-    if (light_pdf <= 0.0f) return 1.0f;
-    return weight(DirectLight::bsdf, DirectLight::nee, bsdf_pdf, light_pdf);
-  }
-
- private:
-  float weight(DirectLight mine, DirectLight other, float pdf, float other_pdf) const {
-    if (direct == mine) return 1.0f;
-    if (direct == other) return 0.0f;
-    const float ratio = other_pdf / pdf;
-    return heuristic == MisHeuristic::balance ? 1.0f / (1.0f + ratio) : 1.0f / (1.0f + ratio * ratio);
-  }
-};
 
 /// The vertex that sampled a ray's direction; panes do not count. The MIS weight of emission that the ray
 /// finds depends on it.
@@ -84,34 +64,9 @@ inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uin
   ray.origin = surface.spawn(light.wi);
   ray.direction = light.wi;
   ray.t_max = light.distance - (light.offset + 2.0f * surface.offset) / light.cosine;
-  ray.seed = hash(seed ^ 0x5bd1e995u);
+  ray.seed = shadow_seed(seed);
   if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
   return ray;
-}
-
-/// Survival probability of Russian roulette: the square root of the throughput. In bright rooms, where long
-/// paths carry much light, the throughput itself costs more noise than it saves time (Country Kitchen: a
-/// tenth more noise in the same time). The throughput leaves out BsdfSample::radiance_scale, which is no
-/// loss.
-inline float survival_probability(const Color& throughput) {
-  return std::min(0.95f, std::sqrt(throughput.maxCoeff()));
-}
-
-/// Random numbers for a path's decisions at a vertex, from its current seed.
-inline float roulette_number(std::uint32_t seed) {
-  return sampling::to_unit_float(hash(seed ^ 0x68bc21ebu));
-}
-inline float texture_level_number(std::uint32_t seed) {
-  return sampling::to_unit_float(hash(seed ^ 0x2545f491u));
-}
-inline float shadow_roulette_number(std::uint32_t seed) {
-  return sampling::to_unit_float(hash(seed ^ 0x1b873593u));
-}
-inline float boundary_number(std::uint32_t seed) {
-  return sampling::to_unit_float(hash(seed ^ 0x7f4a7c15u));
-}
-inline std::uint32_t next_seed(std::uint32_t seed) {
-  return hash(seed + 0x9e3779b9u);
 }
 
 }  // namespace gatelight::renderer

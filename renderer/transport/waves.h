@@ -41,7 +41,16 @@ struct Waves {
   std::vector<Pending> pending;  ///< one for each shadow ray
   std::vector<Color> transmittance;
   /// Blocks of paths that wait to be shaded. Lanes without a path contain zeros or an earlier path.
-  PathBlock blocks[kBlockKinds] = {};
+  /// Of each kind one block for the kernels and one for the scalar code.
+  PathBlock blocks[kBlockKinds][2] = {};
+
+  Waves() {
+    for (auto& kind : blocks) kind[1].make_scalar();
+  }
+
+  /// The block of a kind where a path waits.
+  PathBlock& block_of(int kind, bool kernels) { return blocks[kind][kernels ? 0 : 1]; }
+  int kind_of(const PathBlock& block) const { return static_cast<int>((&block - &blocks[0][0]) / 2); }
 
   /// Adds the next ray of the path of ray `number`.
   void go_on(std::uint32_t number, const Ray& next) {
@@ -99,8 +108,10 @@ void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path
       PathBlock* const block = scatter(i, waves.paths[waves.path_of[i]], waves.rays[i], hits[i]);
       if (block && block->full()) empty(*block);
     }
-    for (PathBlock& block : waves.blocks) {
-      if (block.points.count > 0) empty(block);
+    for (auto& kind : waves.blocks) {
+      for (PathBlock& block : kind) {
+        if (block.points.count > 0) empty(block);
+      }
     }
     waves.rays.swap(waves.next_rays);
     waves.path_of.swap(waves.next_path_of);

@@ -8,7 +8,7 @@
 #include "renderer/light/light_groups.h"
 #include "renderer/light/lights.h"
 #include "renderer/shading/light_arrays.h"
-#include "renderer/shading/wide_shading.h"
+#include "renderer/shading/shading.h"
 #include "renderer/surface/accel.h"
 #include "renderer/surface/coverage.h"
 #include "renderer/surface/media.h"

@@ -14,7 +14,7 @@
 #include "renderer/bsdf/sheen.h"
 #include "renderer/bsdf/tables.h"
 #include "renderer/sampling/sampler.h"
-#include "renderer/shading/wide_shading.h"
+#include "renderer/shading/shading.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer::testing {

@@ -73,13 +73,13 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
     }
     ShadingContext context = tables_only();
     context.lights = delta ? arrays.delta_view() : *arrays.view();
-    const ShadingBlock raw = run_all(block, context, &ShadingKernels::sample_lights);
+    run_all(block, context, &ShadingKernels::sample_lights);
     // The whole sampling also completes the lanes that the kernels leave open.
-    ShadingBlock result = raw;
-    const WideShading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                              MisHeuristic::power);
-    result = block;
-    delta ? shading.delta_light(result) : shading.scatter(result);
+    const Shading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
+                          MisHeuristic::power);
+    SurfaceBlock surfaces{block, {}};
+    delta ? shading.delta_light(surfaces) : shading.scatter(surfaces);
+    const ShadingBlock& result = surfaces.points;
     for (int lane = 0; lane < block.count; ++lane) {
       const LightSample expected = sample(lit, points[lane], delta);
       const bool has = result.light_state[lane] == static_cast<std::uint32_t>(LaneLight::done) &&
@@ -202,11 +202,12 @@ TEST(LightLanes, WithoutLightThereIsNoSample) {
   const LitScene dark{scene::Scene()};
   const LightArrays arrays(dark.lights);
   Random random(15);
-  ShadingBlock block = {};
+  SurfaceBlock surfaces = {};
+  ShadingBlock& block = surfaces.points;
   for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) put(block, random_point(random));
-  const WideShading shading(dark.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                            MisHeuristic::power);
-  shading.scatter(block);
+  const Shading shading(dark.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
+                        MisHeuristic::power);
+  shading.scatter(surfaces);
   for (int lane = 0; lane < block.count; ++lane) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(block.direct[c][lane], 0.0f);
   }
@@ -221,17 +222,18 @@ TEST(LightLanes, SelectionByPowerUsesTheScalarCode) {
   const LitScene lit(std::move(scene), LightSelection::power);
   const LightArrays arrays(lit.lights);
   EXPECT_EQ(arrays.view(), nullptr);
-  const WideShading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                            MisHeuristic::power);
+  const Shading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
+                        MisHeuristic::power);
   for (int b = 0; b < 200; ++b) {
     const bool delta = b % 2 == 1;
-    ShadingBlock block = {};
+    SurfaceBlock surfaces = {};
+    ShadingBlock& block = surfaces.points;
     std::vector<LanePoint> points;
     for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) {
       points.push_back(random_point(random));
       put(block, points.back());
     }
-    delta ? shading.delta_light(block) : shading.scatter(block);
+    delta ? shading.delta_light(surfaces) : shading.scatter(surfaces);
     for (int lane = 0; lane < block.count; ++lane) {
       const LightSample expected = sample(lit, points[lane], delta);
       ASSERT_EQ(block.light_pdf[lane], expected.pdf);

@@ -55,7 +55,7 @@ std::vector<BsdfCase> wide_cases(std::vector<BsdfCase> cases) {
   std::erase_if(cases, [](const BsdfCase& c) {
     Surface surface;
     surface.material = c.material;
-    return !shades_wide(surface);
+    return !kernels_shade(surface);
   });
   return cases;
 }
