@@ -271,6 +271,7 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
 
 void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
                             std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const {
+  if (!(lane_color(p.direct, lane) > 0.0f).any()) return;
   const Color passed = path.transmittance(walk_, p.shadow_length[lane]) * path.scale();
   const Color direct = lane_color(p.direct, lane) * passed;
   const float weight =

@@ -43,15 +43,16 @@ void put_shadow_ray(ShadingBlock& block, int lane, const Vec3& wi) {
   block.shadow_seed[lane] = shadow_seed(block.seed[lane]);
 }
 
-/// Evaluates the lobes of `bsdf` towards the light sample.
-void evaluate_light(SurfaceBlock& surfaces, int lane, const Bsdf& bsdf, const Bsdf* wide,
-                    const ShadingContext& context) {
+/// Samples a light for a lane, and evaluates the lobes of `bsdf` towards it.
+void sample_direct(SurfaceBlock& surfaces, int lane, const Bsdf& bsdf, const Bsdf* wide, const Lights& lights,
+                   LightKinds kinds, const ShadingContext& context) {
   ShadingBlock& block = surfaces.points;
   const ScalarLane& scalar = surfaces.scalar[static_cast<std::size_t>(lane)];
   put_lane(block.direct, lane, Color(Color::Zero()));
   put_lane(block.wide_direct, lane, Color(Color::Zero()));
-  const bool sampled = block.light_state[lane] == static_cast<std::uint32_t>(LaneLight::done);
-  if (!sampled || scalar.only_panes || bsdf.is_delta()) return;
+  if (scalar.only_panes || bsdf.is_delta()) return;
+  sample_light(lights, kinds, block, lane);
+  if (block.light_state[lane] == static_cast<std::uint32_t>(LaneLight::none)) return;
   const Vec3 wi = lane_vector(block.light_direction, lane);
   if (scalar.front_lights && wi.dot(lane_vector(block.geometric_normal, lane)) < 0.0f) return;
   const BsdfValue value = bsdf.evaluate(wi);
@@ -114,15 +115,15 @@ void sample_direction(SurfaceBlock& surfaces, int lane, const Bsdf& bsdf, const 
 
 }  // namespace
 
-void sample_light(const Lights& lights, ShadingBlock& block, int lane, bool delta) {
+void sample_light(const Lights& lights, LightKinds kinds, ShadingBlock& block, int lane) {
   const Sampler sampler =
       Sampler::from_parts(block.sampler, block.sampler_key[lane], block.sampler_index[lane]);
   const std::uint32_t dimensions = block.dimensions[lane];
   const Vec3 position = lane_vector(block.position, lane), normal = light_normal(block, lane);
   const float choice = sampler.get_1d(dimensions + 2);
   const Vec2 point = sampler.get_2d(dimensions + 3);
-  const LightSample s = delta ? lights.sample_delta(position, normal, choice, point)
-                              : lights.sample(position, normal, choice, point);
+  const LightSample s = kinds == LightKinds::delta ? lights.sample_delta(position, normal, choice, point)
+                                                   : lights.sample(position, normal, choice, point);
   block.light_state[lane] = static_cast<std::uint32_t>(s.pdf > 0.0f ? LaneLight::done : LaneLight::none);
   block.light_is_delta[lane] = s.delta ? ~0u : 0u;
   put_lane(block.light_direction, lane, s.wi);
@@ -141,26 +142,26 @@ void scalar_albedo(SurfaceBlock& block, const ShadingContext& context) {
   }
 }
 
-void scalar_light(SurfaceBlock& block, const ShadingContext& context) {
+void scalar_delta_light(SurfaceBlock& block, const Lights& lights, const ShadingContext& context) {
   for (int lane = 0; lane < block.points.count; ++lane) {
     const Bsdf& bsdf = *block.scalar[static_cast<std::size_t>(lane)].bsdf;
     const WideLobes wide(bsdf, context);
     put_albedos(block.points, lane, bsdf, wide);
-    evaluate_light(block, lane, bsdf, wide.lobes, context);
+    sample_direct(block, lane, bsdf, wide.lobes, lights, LightKinds::delta, context);
   }
 }
 
-void scalar_scatter(SurfaceBlock& block, const ShadingContext& context) {
+void scalar_scatter(SurfaceBlock& block, const Lights& lights, const ShadingContext& context) {
   for (int lane = 0; lane < block.points.count; ++lane) {
     const Bsdf& bsdf = *block.scalar[static_cast<std::size_t>(lane)].bsdf;
     const WideLobes wide(bsdf, context);
     put_albedos(block.points, lane, bsdf, wide);
     if (context.narrow_only) {
       const Bsdf narrow = bsdf.narrow_part(context.min_roughness);
-      evaluate_light(block, lane, narrow, nullptr, context);
+      sample_direct(block, lane, narrow, nullptr, lights, LightKinds::all, context);
       sample_direction(block, lane, narrow, nullptr, context);
     } else {
-      evaluate_light(block, lane, bsdf, wide.lobes, context);
+      sample_direct(block, lane, bsdf, wide.lobes, lights, LightKinds::all, context);
       sample_direction(block, lane, bsdf, wide.lobes, context);
     }
   }

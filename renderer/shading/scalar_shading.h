@@ -8,12 +8,17 @@
 
 namespace gatelight::renderer {
 
-/// Samples a light for a lane: Lights::sample, or sample_delta.
-void sample_light(const Lights& lights, ShadingBlock& block, int lane, bool delta);
+enum class LightKinds : std::uint8_t {
+  all,
+  delta,  ///< lights that BSDF sampling cannot find
+};
 
-/// ShadingKernels::albedo, light and scatter.
+/// Samples a light for a lane: Lights::sample or sample_delta.
+void sample_light(const Lights& lights, LightKinds kinds, ShadingBlock& block, int lane);
+
+/// Shading::albedo, delta_light and scatter.
 void scalar_albedo(SurfaceBlock& block, const ShadingContext& context);
-void scalar_light(SurfaceBlock& block, const ShadingContext& context);
-void scalar_scatter(SurfaceBlock& block, const ShadingContext& context);
+void scalar_delta_light(SurfaceBlock& block, const Lights& lights, const ShadingContext& context);
+void scalar_scatter(SurfaceBlock& block, const Lights& lights, const ShadingContext& context);
 
 }  // namespace gatelight::renderer

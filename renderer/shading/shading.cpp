@@ -18,7 +18,7 @@ const ShadingKernels& choose_shading_kernels(const std::string& isa) {
   return kScalarShading;
 }
 
-void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo) {
+void put_geometry(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo) {
   put_lane(block.position, lane, surface.position);
   put_lane(block.geometric_normal, lane, surface.geometric_normal);
   put_lane(block.shading_normal, lane, surface.shading_normal);
@@ -26,14 +26,19 @@ void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Ve
   put_lane(block.wo, lane, wo);
   block.offset[lane] = surface.offset;
   const SurfaceMaterial& m = surface.material;
-  put_lane(block.base_color, lane, m.base_color);
   block.metallic[lane] = m.metallic;
   block.roughness[lane] = m.roughness;
+  block.transmission[lane] = m.transmission;
+  block.diffuse_transmission[lane] = m.diffuse_transmission;
+}
+
+void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo) {
+  put_geometry(block, lane, surface, wo);
+  const SurfaceMaterial& m = surface.material;
+  put_lane(block.base_color, lane, m.base_color);
   block.ior[lane] = m.ior;
   block.specular[lane] = m.specular;
   put_lane(block.specular_color, lane, m.specular_color);
-  block.transmission[lane] = m.transmission;
-  block.diffuse_transmission[lane] = m.diffuse_transmission;
   if (m.diffuse_transmission > 0.0f)
     put_lane(block.diffuse_transmission_color, lane, m.diffuse_transmission_color);
   block.clearcoat[lane] = m.clearcoat;
@@ -58,24 +63,22 @@ Shading::Shading(const Lights& lights, const LightArrays& arrays, const ShadingK
   context_.heuristic = heuristic;
 }
 
-void Shading::sample_lights(ShadingBlock& block) const {
-  if (wide_lights_) {
-    kernels_.sample_lights(block, context_);
-    if (!lights_are_complete_) complete_lights(block, lights_.triangles().size());
-  } else {
-    for (int lane = 0; lane < block.count; ++lane) sample_light(lights_, block, lane, false);
+void Shading::sample_lights(ShadingBlock& points, LightKinds kinds) const {
+  if (!wide_lights_) {
+    for (int lane = 0; lane < points.count; ++lane) sample_light(lights_, kinds, points, lane);
+    return;
   }
+  ShadingContext context = context_;
+  if (kinds == LightKinds::delta) context.lights = delta_lights_;
+  kernels_.sample_lights(points, context);
+  if (!lights_are_complete_)
+    complete_lights(points, kinds == LightKinds::all ? lights_.triangles().size() : 0);
 }
 
 void Shading::scatter(SurfaceBlock& block, const ShadingContext& context) const {
-  ShadingBlock& points = block.points;
-  if (block.scalar.empty()) {
-    sample_lights(points);
-    kernels_.scatter(points, context);
-    return;
-  }
-  for (int lane = 0; lane < points.count; ++lane) sample_light(lights_, points, lane, false);
-  scalar_scatter(block, context);
+  if (!block.scalar.empty()) return scalar_scatter(block, lights_, context);
+  sample_lights(block.points, LightKinds::all);
+  kernels_.scatter(block.points, context);
 }
 
 void Shading::scatter(SurfaceBlock& block) const {
@@ -90,16 +93,9 @@ void Shading::scatter_narrow(SurfaceBlock& block, const Roulette& roulette) cons
 }
 
 void Shading::delta_light(SurfaceBlock& block) const {
-  ShadingBlock& points = block.points;
-  ShadingContext context = context_;
-  context.lights = delta_lights_;
-  if (wide_lights_ && block.scalar.empty()) {
-    kernels_.sample_lights(points, context);
-    if (!lights_are_complete_) complete_lights(points, 0);
-  } else {
-    for (int lane = 0; lane < points.count; ++lane) sample_light(lights_, points, lane, true);
-  }
-  block.scalar.empty() ? kernels_.light(points, context) : scalar_light(block, context);
+  if (!block.scalar.empty()) return scalar_delta_light(block, lights_, context_);
+  sample_lights(block.points, LightKinds::delta);
+  kernels_.light(block.points, context_);
 }
 
 void Shading::albedo(SurfaceBlock& block) const {

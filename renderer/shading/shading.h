@@ -41,12 +41,11 @@ class Shading {
   void albedo(SurfaceBlock& block) const;
 
  private:
-  void sample_lights(ShadingBlock& block) const;
+  void sample_lights(ShadingBlock& points, LightKinds kinds) const;
   void scatter(SurfaceBlock& block, const ShadingContext& context) const;
   /// `first_placed`: the number of the first placed light.
   void complete_lights(ShadingBlock& block, std::size_t first_placed) const;
   void complete_light(ShadingBlock& block, int lane, std::size_t first_placed) const;
-  void put_light(ShadingBlock& block, int lane, bool delta) const;
 
   const Lights& lights_;
   const ShadingKernels& kernels_;

@@ -19,7 +19,10 @@ inline bool kernels_shade(const Surface& surface) {
          (m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f));
 }
 
-/// Fills a lane's surface. `wo` is unit, away from the surface.
+/// Fills what the scalar code reads of a lane's surface besides ScalarLane. `wo` is unit, away from the
+/// surface.
+void put_geometry(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo);
+/// Fills a lane's surface for the kernels.
 void put_surface(ShadingBlock& block, int lane, const Surface& surface, const Vec3& wo);
 
 /// What the scalar code needs of a point besides the block.

@@ -30,6 +30,17 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const 
   return &block;
 }
 
+void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points, int lane,
+                               Scratch& scratch) const {
+  const Color direct = lane_color(points.direct, lane);
+  if (!(direct > 0.0f).any()) return;
+  const Color contribution = path.carried() * direct * path.transmittance(walk_, points.shadow_length[lane]);
+  const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
+  if (!(weight > 0.0f)) return;
+  scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
+  scratch.pending.push_back({contribution * weight, path.index, points.light[lane]});
+}
+
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
   const ShadingBlock& points = block.points;
   walk_.shading.scatter(block);
@@ -37,13 +48,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     const std::uint32_t number = block.path[lane];
     PathState& path = scratch.paths[scratch.path_of[number]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
-    const Color contribution = path.carried() * lane_color(points.direct, lane) *
-                               path.transmittance(walk_, points.shadow_length[lane]);
-    const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
-    if (weight > 0.0f) {
-      scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
-      scratch.pending.push_back({contribution * weight, path.index, points.light[lane]});
-    }
+    add_light(path, points, lane, scratch);
     if (!points.alive[lane]) continue;
     Ray next;
     if (path.advance(walk_, block, lane, direction_sample_at(block, lane), scratch.hits[number], next))

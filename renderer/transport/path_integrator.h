@@ -40,6 +40,8 @@ class PathIntegrator {
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
   PathBlock* scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit, Color& radiance,
                      FirstHit* first, Scratch& scratch) const;
+  /// Adds the light sample of a lane, unless it is black or roulette ends it.
+  void add_light(const PathState& path, const ShadingBlock& points, int lane, Scratch& scratch) const;
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   Walk walk_;

@@ -184,7 +184,6 @@ struct PathState {
     block.cone_width[lane] = m.cone_width;
     block.front[lane] = m.surface.front;
     ShadingBlock& points = block.points;
-    put_surface(points, lane, m.surface, m.wo);
     points.sampler = sampler.kind();
     points.sampler_key[lane] = sampler.key();
     points.sampler_index[lane] = sampler.index();
@@ -192,9 +191,11 @@ struct PathState {
     points.seed[lane] = seed;
     points.events_before_roulette[lane] = static_cast<std::uint32_t>(min_depth - depth);
     for (int c = 0; c < 3; ++c) points.throughput[c][lane] = throughput[c];
-    if (block.scalar.empty()) return;
+    if (block.scalar.empty()) return put_surface(points, lane, m.surface, m.wo);
+    put_geometry(points, lane, m.surface, m.wo);
     ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
-    scalar.bsdf.emplace(m.bsdf());
+    const Surface& s = m.surface;
+    scalar.bsdf.emplace(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, m.wo, s.front);
     scalar.thin_walled = m.surface.material.thin_walled;
     scalar.only_panes = emission_only;
     scalar.front_lights = refracts_without_mis(walk, m.surface);
