@@ -15,6 +15,7 @@
 #include "base/platform/memory.h"
 #include "base/platform/threads.h"
 #include "base/simd/isa.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/distributed/packing.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/fingerprint/scene_fingerprint.h"

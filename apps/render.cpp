@@ -24,7 +24,7 @@
 #include "base/clock.h"
 #include "base/errors.h"
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/distributed/packing.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/render.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "renderer/distributed/ranks.h"
 #include "renderer/image/picture.h"
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
@@ -60,6 +59,7 @@ using SeriesPicture =
     std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
 
 struct CacheReport;  // cache/cache_report.h
+class Ranks;         // distributed/ranks.h
 
 /// Owns the data that is built once for a scene (acceleration structure, lights, textures) and renders
 /// pictures from it.

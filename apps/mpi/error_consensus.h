@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "renderer/distributed/ranks.h"
+#include "renderer/distributed/packing.h"
 
 namespace gatelight::apps {
 

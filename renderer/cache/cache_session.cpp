@@ -20,7 +20,7 @@
 #include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/scouting.h"
-#include "renderer/distributed/packing.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/settings/resolved_options.h"
 

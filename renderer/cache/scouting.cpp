@@ -9,7 +9,7 @@
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
-#include "renderer/distributed/packing.h"
+#include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
 namespace {

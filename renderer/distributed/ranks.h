@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-namespace gatelight::renderer {
+#include "renderer/distributed/packing.h"
 
-using Bytes = std::vector<std::byte>;
+namespace gatelight::renderer {
 
 /// All ranks call the same functions in the same order. They run the same program on machines of the same
 /// kind, so values are sent as they are in memory. The functions are called by one thread at a time. They

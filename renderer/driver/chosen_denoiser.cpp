@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "renderer/distributed/packing.h"
+#include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -1,16 +1,18 @@
+#include "renderer/driver/render_series.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <tuple>
 #include <utility>
 
-#include "base/platform/flush_denormals.h"
-#include "renderer/driver/finished_picture.h"
-#include "renderer/driver/implementation.h"
+#include "base/clock.h"
+#include "renderer/driver/picture_stages.h"
+#include "renderer/driver/picture_statistics.h"
 #include "renderer/driver/sample_loop.h"
+#include "renderer/driver/training.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -50,91 +52,94 @@ void check_series(const Series& series, const RenderOptions& options) {
   }
 }
 
-}  // namespace
+/// The pictures of one training, or of one rendering without a cache. The functions return false where the
+/// caller stops them.
+class SeriesRun {
+ public:
+  SeriesRun(const RenderContext& context, const SeriesPicture& picture, RenderStatistics& statistics)
+      : context_(context), options_(context.picture.options), picture_(picture), statistics_(statistics) {}
 
-bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
-  const FlushDenormals flush;
-  Implementation& self = *implementation_;
-  check_series(series, self.options);
-  if (!self.ranks.is_single()) throw BadOption("a series with several ranks: expected one");
-  return uses_cache(self.options.integrator) ? self.render_step_series(series.train_steps, picture, callbacks)
-                                             : self.render_sample_series(series.spp, picture, callbacks);
-}
-
-bool Renderer::Implementation::render_step_series(const std::vector<int>& train_steps,
-                                                  const SeriesPicture& picture, const Callbacks& callbacks) {
-  Training training = begin_training(
-      nullptr, options.cache.cache_in.empty() ? SceneFingerprint{} : scene_fingerprint(), callbacks);
-  training.chosen = false;
-  const Cryptomattes mattes = cryptomattes();
-  training.all_steps = train_steps.back();
-  CacheSession& session = *training.session;
-  Film taught = make_film();
-  for (std::size_t point = 0; point < train_steps.size(); ++point) {
-    // A point within a group of steps ends that group early, for its own picture only.
-    const auto steps = static_cast<std::uint64_t>(train_steps[point]);
-    const std::uint64_t between_groups =
-        session.last_group_end(training.first_step + steps) - training.first_step;
-    std::optional<CacheSession::Snapshot> snapshot;
-    std::optional<std::pair<Film, SampleCounts>> taught_before;
-    for (const std::uint64_t end : {between_groups, steps}) {
-      if (end > between_groups && point + 1 < train_steps.size()) {
-        snapshot = session.snapshot();
-        taught_before.emplace(taught, training.counts);
+  bool render_steps(const std::vector<int>& points) {
+    Training training(context_, nullptr);
+    mattes_ = make_cryptomattes(context_, sums_.cryptomatte_seconds);
+    training.expect_steps(points.back());
+    Film taught = context_.picture.make_film();
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      // A point within a group of steps ends that group early, for its own picture only.
+      const auto steps = static_cast<std::uint64_t>(points[point]);
+      const std::uint64_t between_groups =
+          training.session().last_group_end(training.first_step() + steps) - training.first_step();
+      std::optional<std::pair<Training::Snapshot, Film>> before;
+      for (const std::uint64_t end : {between_groups, steps}) {
+        if (end > between_groups && point + 1 < points.size()) before.emplace(training.snapshot(), taught);
+        training.train(static_cast<int>(end), taught);
+        if (training.stopped()) return false;
       }
-      training.steps = static_cast<int>(end);
-      train(training, taught, callbacks, {});
-      if (training.stopped) return false;
+      Film film = taught;
+      SampleLoop loop(context_, film, &training, options_.spp);
+      if (!run_passes(loop, options_.spp)) return false;
+      loop.report_end();
+      if (!give(point, film, &training, loop)) return false;
+      if (loop.over()) return point + 1 == points.size();
+      if (before) {
+        training.return_to(std::move(before->first));
+        taught = std::move(before->second);
+      }
     }
-    Film film = taught;
-    const std::unique_ptr<Pass> pass = make_pass(training);
-    SampleLoop loop(arena, options, callbacks, *pass, film, options.spp, ranks);
-    while (loop.done() < options.spp) {
-      if (loop.over()) return false;
-      loop.run_pass(options.spp);
-    }
-    statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), training, {});
-    statistics.interrupted = false;
-    loop.report_end();
-    FinishedPicture finished = finish(film, callbacks, loop.stopped());
-    if (finished.stopped) return false;
-    add_statistics(finished);
-    add_cryptomattes(finished.picture, mattes);
-    picture(static_cast<int>(point), finished.picture, statistics);
-    if (loop.over()) return point + 1 == train_steps.size();
-    if (snapshot) {
-      session.return_to(*snapshot);
-      std::tie(taught, training.counts) = std::move(*taught_before);
-    }
+    return true;
   }
-  return true;
-}
 
-bool Renderer::Implementation::render_sample_series(const std::vector<int>& spp, const SeriesPicture& picture,
-                                                    const Callbacks& callbacks) {
-  const Cryptomattes mattes = cryptomattes();
-  Film film = make_film();
-  Training untrained;
-  const std::unique_ptr<Pass> pass = make_pass(untrained);
-  SampleLoop loop(arena, options, callbacks, *pass, film, samples_of_film(spp.back()), ranks);
-  for (std::size_t point = 0; point < spp.size(); ++point) {
-    const int goal = samples_of_film(spp[point]);
+  bool render_samples(const std::vector<int>& points) {
+    mattes_ = make_cryptomattes(context_, sums_.cryptomatte_seconds);
+    Film film = context_.picture.make_film();
+    SampleLoop loop(context_, film, nullptr, context_.picture.samples_of_film(points.back()));
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      if (!run_passes(loop, context_.picture.samples_of_film(points[point]))) return false;
+      if (point + 1 == points.size()) loop.report_end();
+      const Clock::time_point start = Clock::now();
+      if (!give(point, film, nullptr, loop)) return false;
+      loop.leave_out(seconds_since(start));
+    }
+    return true;
+  }
+
+ private:
+  static bool run_passes(SampleLoop& loop, int goal) {
     while (loop.done() < goal) {
       if (loop.over()) return false;
       loop.run_pass(goal);
     }
-    statistics = sum_up(loop.done(), loop.seconds(), film, pass.get(), untrained, {});
-    statistics.interrupted = false;
-    if (point + 1 == spp.size()) loop.report_end();
-    const Clock::time_point start = Clock::now();
-    FinishedPicture finished = finish(film, callbacks, loop.stopped());
-    if (finished.stopped) return false;
-    add_statistics(finished);
-    add_cryptomattes(finished.picture, mattes);
-    picture(static_cast<int>(point), finished.picture, statistics);
-    loop.leave_out(seconds_since(start));
+    return true;
   }
-  return true;
+
+  /// Gives the caller the picture of a point.
+  bool give(std::size_t point, Film& film, const Training* training, const SampleLoop& loop) {
+    statistics_ = sums_.sum_up(film, training, &loop);
+    FinishedPicture finished = finish(context_, film, loop.stopped(), statistics_);
+    if (finished.stopped) return false;
+    add_cryptomattes(finished.picture, mattes_);
+    picture_(static_cast<int>(point), finished.picture, statistics_);
+    return true;
+  }
+
+  RenderContext context_;
+  const RenderOptions& options_;
+  const SeriesPicture& picture_;
+  RenderStatistics& statistics_;  ///< of the last picture
+  PictureStatistics sums_{context_};
+  Cryptomattes mattes_;
+};
+
+}  // namespace
+
+bool render_series(const RenderContext& context, const Series& series, const SeriesPicture& picture,
+                   RenderStatistics& statistics) {
+  const RenderOptions& options = context.picture.options;
+  check_series(series, options);
+  if (!context.tiles.ranks().is_single()) throw BadOption("a series with several ranks: expected one");
+  SeriesRun run(context, picture, statistics);
+  return uses_cache(options.integrator) ? run.render_steps(series.train_steps)
+                                        : run.render_samples(series.spp);
 }
 
 }  // namespace gatelight::renderer

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "renderer/distributed/packing.h"
+#include "renderer/cache/cached_pass.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/driver/time_budget.h"
+#include "renderer/transport/reference_pass.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -17,16 +19,21 @@ constexpr double kPassSeconds = 0.7;
 /// Ranks wait for each other after each pass, and their speeds jump.
 constexpr double kPassSecondsOfRanks = 3.0;
 
+std::unique_ptr<Pass> make_pass(const RenderContext& context, Training* training) {
+  const PreparedPicture& picture = context.picture;
+  const PassContext inputs{context.tiles.own(), picture.options, picture.camera, picture.filter};
+  if (training) return std::make_unique<CachedPass>(*picture.world, inputs, training->session());
+  return std::make_unique<ReferencePass>(*picture.world, inputs);
+}
+
 }  // namespace
 
-SampleLoop::SampleLoop(tbb::task_arena& arena, const RenderOptions& options, const Callbacks& callbacks,
-                       Pass& pass, Film& film, int spp, Ranks& ranks)
-    : arena_(arena),
-      options_(options),
-      callbacks_(callbacks),
-      pass_(pass),
+SampleLoop::SampleLoop(const RenderContext& context, Film& film, Training* training, int spp)
+    : picture_(context.picture),
+      callbacks_(context.callbacks),
+      ranks_(context.tiles.ranks()),
       film_(film),
-      ranks_(ranks),
+      pass_(make_pass(context, training)),
       spp_(spp) {}
 
 void SampleLoop::end_at(Clock::time_point end, bool in_part) {
@@ -43,12 +50,12 @@ void SampleLoop::run_pass(int goal) {
   const int batch = std::min(batch_, goal - done_);
   // Each pixel needs a sample, and a pass of several is not cut because it was chosen to fit.
   const bool in_part = in_part_ && batch == 1 && done_ > 0;
-  pass_.end_at(in_part
-                   ? start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(end_))
-                   : Clock::time_point::max());
+  pass_->end_at(in_part ? start_ +
+                              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(end_))
+                        : Clock::time_point::max());
   const double begin = now();
-  arena_.execute([&] {
-    pass_.run(batch, film_, [&](double fraction) {
+  picture_.arena.execute([&] {
+    pass_->run(batch, film_, [&](double fraction) {
       if (callbacks_.stop && callbacks_.stop()) stop_ = true;
       report(fraction, batch);
     });
@@ -59,12 +66,12 @@ void SampleLoop::run_pass(int goal) {
 void SampleLoop::note_pass(int batch, double seconds) {
   // A rank without tiles did not poll the callback during the pass.
   if (!ranks_.is_single() && callbacks_.stop && callbacks_.stop()) stop_ = true;
-  const RayCounts counts = pass_.rays();
+  const RayCounts counts = pass_->rays();
   const std::uint64_t rays = counts.camera + counts.bounce + counts.shadow;
-  PassReport mine{{seconds, rays - rays_}, stop_, pass_.cut_short(), {}, false};
+  PassReport mine{{seconds, rays - rays_}, stop_, pass_->cut_short(), {}, false};
   rays_ = rays;
-  if (options_.nan_policy == NanPolicy::error) {
-    const std::vector<NonFiniteSample> found = pass_.counts().located;
+  if (picture_.options.nan_policy == NanPolicy::error) {
+    const std::vector<NonFiniteSample> found = pass_->counts().located;
     mine.found_nonfinite = !found.empty();
     if (mine.found_nonfinite) mine.nonfinite = found[0];
   }
@@ -99,7 +106,7 @@ Progress SampleLoop::progress(double samples) const {
   double fraction = samples / spp_;
   if (expected_samples_ > 0.0) fraction = std::max(fraction, samples / expected_samples_);
   if (std::isfinite(end_)) fraction = std::max(fraction, now() / std::max(end_, 1e-9));
-  const int of_pixel = options_.denoise.parts();
+  const int of_pixel = picture_.options.denoise.parts();
   return {.spp_done = done_ * of_pixel,
           .spp = spp_ == kOpenSpp ? spp_ : spp_ * of_pixel,
           .samples = samples * of_pixel,

@@ -2,27 +2,25 @@
 // Runs pass after pass over one film: chooses the samples of each pass, reports progress, and checks for the
 // end. Where several ranks share the film, each has its own tiles, and all run the same passes.
 
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "base/clock.h"
-#include "renderer/distributed/ranks.h"
-#include "renderer/distributed/shares.h"
-#include "renderer/render.h"
+#include "renderer/driver/render_context.h"
+#include "renderer/driver/training.h"
 #include "renderer/transport/pass.h"
 
 namespace gatelight::renderer {
 
 class SampleLoop {
  public:
-  /// `spp` is the goal that progress reports. The references must outlive the loop. Its clock starts now.
-  SampleLoop(tbb::task_arena& arena, const RenderOptions& options, const Callbacks& callbacks, Pass& pass,
-             Film& film, int spp, Ranks& ranks);
+  /// Its clock starts now. `training`: null without a cache. `spp` is the goal that progress reports. Film
+  /// and training must outlive the loop.
+  SampleLoop(const RenderContext& context, Film& film, Training* training, int spp);
 
   /// The film already has `done` samples per pixel, of an earlier run.
   void begin_at(int done) { done_ = done; }
@@ -34,6 +32,7 @@ class SampleLoop {
   /// The last estimate of the error, and the samples at which the picture is expected to end by it.
   void report_error(double error, double samples);
 
+  const Pass& pass() const { return *pass_; }
   /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
   /// The work of each rank in the last pass.
@@ -64,12 +63,11 @@ class SampleLoop {
   Progress progress(double samples) const;
   double now() const { return seconds_since(start_); }
 
-  tbb::task_arena& arena_;
-  const RenderOptions& options_;
+  const PreparedPicture& picture_;
   const Callbacks& callbacks_;
-  Pass& pass_;
-  Film& film_;
   Ranks& ranks_;
+  Film& film_;
+  std::unique_ptr<Pass> pass_;
   int spp_;
   int done_ = 0;
   int batch_ = 1;  ///< samples of the next pass

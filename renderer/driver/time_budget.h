@@ -8,14 +8,13 @@ namespace gatelight::renderer {
 
 /// Seconds since the picture was begun: scouting, setup, training, passes, and denoising last.
 struct TimeBudget {
-  double limit = 0.0;    ///< 0: none
-  double denoise = 0.0;  ///< expected, and reserved
-  double shadows = 0.0;  ///< the same, for the shadow catchers
+  double limit = 0.0;   ///< 0: none
+  double finish = 0.0;  ///< expected time of shadow catchers and denoising, which is reserved
 
   /// When the passes should end; infinity without a limit.
   double passes_end() const {
     if (limit <= 0.0) return std::numeric_limits<double>::infinity();
-    return std::max(limit - denoise - shadows, 0.0);
+    return std::max(limit - finish, 0.0);
   }
   /// The time at which training that begins at `now` should end; the passes have the rest.
   /// training_paths_are_samples: the paths of training are samples of the picture, so that its time is not

@@ -1,12 +1,13 @@
-// A renderer's cache: loaded or new, trained, and returned to its last good state.
+#include "renderer/driver/training.h"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
+#include <utility>
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/distributed/packing.h"
-#include "renderer/driver/implementation.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/driver/time_budget.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -16,117 +17,149 @@ namespace {
 /// A cache of less steps is worse than none, so a time limit leaves at least these.
 constexpr std::uint64_t kLeastSteps = 16;
 
+CacheMeaning meaning_of(const PreparedPicture& picture) {
+  return {picture.options, resolve_ao_distance(picture.options.ao_distance, picture.scene.bounds)};
+}
+
 }  // namespace
 
-Training Renderer::Implementation::begin_training(Checkpoint* found, const SceneFingerprint& fingerprint,
-                                                  const Callbacks& callbacks) {
-  Training training;
-  const std::string& file = options.cache.cache_in;
+Training::Training(const RenderContext& context, Checkpoint* found)
+    : context_(context),
+      options_(context.picture.options),
+      found_(found),
+      steps_(options_.cache.train_steps.value_or(0)),
+      all_steps_(steps_),
+      steps_chosen_(context.picture.steps_chosen) {
+  const PreparedPicture& picture = context.picture;
+  const CacheOptions& cache = options_.cache;
+  const neural::TrainingOptions learning = training_options(options_);
   const auto make_session = [&](const CacheSetup* setup, const auto& expect_model) {
-    if (!setup && callbacks.progress) callbacks.progress({.phase = Phase::scout, .spp = options.spp});
-    arena.execute([&] {
-      training.session =
-          std::make_unique<CacheSession>(*world, camera, region, options, setup, expect_model, &rank_tiles);
+    if (!setup && context.callbacks.progress)
+      context.callbacks.progress({.phase = Phase::scout, .spp = options_.spp});
+    picture.arena.execute([&] {
+      session_ = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options_,
+                                                setup, expect_model, &context.tiles.owners());
     });
   };
+  if (!cache.cache_in.empty() || !cache.cache_out.empty()) fingerprint_ = picture.fingerprint();
   if (found) {
     make_session(&found->cache_setup(),
-                 [&](const neural::Model& model) { found->expect_model(model, training_options(options)); });
-    training.session->import_state(found->read_cache(training.session->model(), training_options(options)));
-    training.first_step = found->progress().first_step;
-  } else if (!file.empty()) {
-    CacheFile cache(file);
-    cache.expect({options, resolve_ao_distance(options.ao_distance, scene.bounds)}, fingerprint,
-                 scene.instances.size());
-    make_session(&cache.setup(),
-                 [&](const neural::Model& model) { cache.expect_model(model, training_options(options)); });
-    training.session->import_state(cache.read_state(training.session->model(), training_options(options)));
-    training.first_step = training.session->steps();
+                 [&](const neural::Model& model) { found->expect_model(model, learning); });
+    session_->import_state(found->read_cache(session_->model(), learning));
+    first_step_ = found->progress().first_step;
+    complete_ = found->progress().phase == Phase::render;
+  } else if (!cache.cache_in.empty()) {
+    CacheFile file(cache.cache_in);
+    file.expect(meaning_of(picture), fingerprint_, picture.scene.instances.size());
+    make_session(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
+    session_->import_state(file.read_state(session_->model(), learning));
+    first_step_ = session_->steps();
   } else {
     make_session(nullptr, nullptr);
   }
-  training.chosen = steps_chosen;
-  training.steps = training.all_steps = options.cache.train_steps.value_or(0);
-  training.complete = found && found->progress().phase == Phase::render;
-  return training;
 }
 
-void Renderer::Implementation::train(Training& training, Film& film, const Callbacks& callbacks,
-                                     const std::function<void()>& after_group) {
-  const CacheSession& session = *training.session;
-  const auto first = static_cast<int>(training.first_step);
-  double reported = -1.0;
-  CacheSession::Watch watch;
+void Training::expect_steps(int steps) {
+  all_steps_ = steps;
+  steps_chosen_ = false;
+}
+
+void Training::train(int steps, Film& film, const std::function<void()>& after_group) {
+  DistributedTiles& tiles = context_.tiles;
+  Ranks& ranks = tiles.ranks();
   const Clock::time_point start = Clock::now();
-  const double end_seconds = std::chrono::duration<double>(training.end - start).count();
-  const bool limited = training.end != Clock::time_point::max();
-  double last_seconds = 0.0;
-  std::uint64_t last_step = session.steps();
+  const bool limited = end_ != Clock::time_point::max();
+  const double end = std::chrono::duration<double>(end_ - start).count();
+  double last_seconds = 0.0, reported = -1.0;
+  std::uint64_t last_step = session_->steps();
+  CacheSession::Watch watch;
   watch.stop = [&] {
-    training.stopped = any(ranks, callbacks.stop && callbacks.stop());
-    if (training.stopped || !limited) return training.stopped;
+    stopped_ = any(ranks, context_.callbacks.stop && context_.callbacks.stop());
+    if (stopped_ || !limited) return stopped_;
     const double now = seconds_since(start);
-    const std::uint64_t step = session.steps(), next = session.group_end(step) - step;
+    const std::uint64_t step = session_->steps(), next = session_->group_end(step) - step;
     const double seconds =
         (now - last_seconds) / static_cast<double>(std::max(step - last_step, std::uint64_t{1}));
     last_seconds = now;
     last_step = step;
-    const bool late = !group_fits(now, seconds * static_cast<double>(next), end_seconds);
-    return step >= training.first_step + kLeastSteps && agreed(ranks, late);
+    const bool late = !group_fits(now, seconds * static_cast<double>(next), end);
+    return step >= first_step_ + kLeastSteps && agreed(ranks, late);
   };
-  watch.rebalance = [&](const std::vector<RankWork>& work) { rebalance(film, work); };
+  watch.rebalance = [&](const std::vector<RankWork>& work) { tiles.rebalance(film, work); };
   watch.after_group = after_group;
-  if (training.first_step == 0)
+  if (first_step_ == 0)
     watch.samples = [&](const RecordBatch& group) {
-      group.add_to(film, options, ranks.is_single() ? nullptr : &rank_tiles, training.counts);
+      group.add_to(film, options_, ranks.is_single() ? nullptr : &tiles.owners(), counts_);
     };
   watch.progress = [&](int step, int, double loss) {
-    const int done = step - first;
-    const double now = session.statistics().train_seconds;
-    const double of_time = limited ? seconds_since(start) / std::max(end_seconds, 1e-9) : 0.0;
-    if (!callbacks.progress || (done < training.all_steps && now - reported < 0.1)) return;
+    const double now = session_->statistics().train_seconds;
+    const int done = step - static_cast<int>(first_step_);
+    if (done < all_steps_ && now - reported < 0.1) return;
     reported = now;
-    callbacks.progress({.phase = Phase::train,
-                        .steps_done = done,
-                        .steps = training.all_steps,
-                        .loss = loss,
-                        .spp = options.spp,
-                        .fraction = std::clamp(of_time, static_cast<double>(done) / training.all_steps, 1.0),
-                        .seconds = now});
+    report(done, loss, limited ? seconds_since(start) / std::max(end, 1e-9) : 0.0);
   };
-  const std::uint64_t wanted = training.first_step + static_cast<std::uint64_t>(training.steps);
-  arena.execute([&] { training.session->train(wanted, watch); });
-  training.complete = !training.stopped || training.session->steps() >= wanted;
-  if (limited && !training.stopped) training.steps = static_cast<int>(session.steps() - training.first_step);
+  const std::uint64_t wanted = first_step_ + static_cast<std::uint64_t>(steps);
+  context_.picture.arena.execute([&] { session_->train(wanted, watch); });
+  complete_ = !stopped_ || session_->steps() >= wanted;
+  const bool ended_by_time = limited && !stopped_;
+  steps_ = ended_by_time ? static_cast<int>(session_->steps() - first_step_) : steps;
 }
 
-bool Renderer::Implementation::return_to_good(Training& training, Film& film, Checkpoint* found,
-                                              RenderStatistics& earlier, const Callbacks& callbacks) {
-  CacheSession& session = *training.session;
-  const std::uint64_t good = session.good_steps();
-  const bool loaded = !options.cache.cache_in.empty();
+void Training::report(int done, double loss, double of_time) const {
+  if (!context_.callbacks.progress) return;
+  context_.callbacks.progress({.phase = Phase::train,
+                               .steps_done = done,
+                               .steps = all_steps_,
+                               .loss = loss,
+                               .spp = options_.spp,
+                               .fraction = std::clamp(of_time, static_cast<double>(done) / all_steps_, 1.0),
+                               .seconds = session_->statistics().train_seconds});
+}
+
+bool Training::return_to_good(const std::string& reason, Film& film, RenderStatistics& earlier) {
+  const std::uint64_t good = session_->good_steps();
+  const bool loaded = !options_.cache.cache_in.empty();
   if (good == 0 && !loaded) return false;
-  arena.execute([&] { session.start_anew(); });
-  const neural::TrainingOptions learning = training_options(options);
+  context_.picture.arena.execute([&] { session_->start_anew(); });
+  const neural::TrainingOptions learning = training_options(options_);
   std::optional<CacheState> state;
-  if (found) state = found->read_cache(session.model(), learning);
+  if (found_) state = found_->read_cache(session_->model(), learning);
   if (!state || state->steps > good) {
     // A checkpoint may be later than the last good step: training then starts again.
     earlier = {};
     state.reset();
-    if (loaded) state = CacheFile(options.cache.cache_in).read_state(session.model(), learning);
+    if (loaded) state = CacheFile(options_.cache.cache_in).read_state(session_->model(), learning);
   }
-  film = make_film();
-  training.counts = {};
+  film = context_.picture.make_film();
+  counts_ = {};
   if (state) {
-    session.import_state(*state);
-    if (found && state->steps > 0) found->restore(film, earlier);
+    session_->import_state(*state);
+    if (found_ && state->steps > 0) found_->restore(film, earlier);
   }
-  training.all_steps = training.steps = static_cast<int>(good - std::min(good, training.first_step));
-  training.end = Clock::time_point::max();
-  if (good > session.steps()) train(training, film, callbacks, {});
-  training.complete = !training.stopped;
+  all_steps_ = steps_ = static_cast<int>(good - std::min(good, first_step_));
+  end_ = Clock::time_point::max();
+  if (good > session_->steps()) train(steps_, film);
+  complete_ = !stopped_;
+  diverged_ = reason;
   return true;
+}
+
+void Training::return_to(Snapshot snapshot) {
+  session_->return_to(snapshot.session);
+  counts_ = std::move(snapshot.counts);
+}
+
+void Training::add_to(RenderStatistics& statistics) const {
+  statistics.rays.add(session_->rays());
+  statistics.cache = session_->statistics();
+  statistics.cache.steps_chosen = steps_chosen_;
+  statistics.cache.steps_wanted = steps_;
+  statistics.cache.diverged = diverged_;
+}
+
+void Training::write_cache() const {
+  write_cache_file(options_.cache.cache_out, session_->export_state(), session_->model(),
+                   training_options(options_), meaning_of(context_.picture), fingerprint_);
 }
 
 }  // namespace gatelight::renderer

@@ -1,0 +1,85 @@
+#include "renderer/driver/picture_checkpoint.h"
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "base/errors.h"
+#include "base/file/atomic_file.h"
+#include "base/file/digest.h"
+#include "renderer/cache/cache_backend.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/distributed/collectives.h"
+#include "renderer/fingerprint/deciding_options.h"
+
+namespace gatelight::renderer {
+namespace {
+
+CheckpointIdentity identity_of(const PreparedPicture& picture) {
+  NamedTexts machine = {{"isa", picture.world->accel.isa()}};
+  if (uses_cache(picture.options.integrator)) machine.push_back({"kernels", cache_machine(picture.options)});
+  NamedTexts decisive = deciding_options(picture.options, picture.view, machine);
+  // The fingerprint does not include names, which decide here.
+  const std::vector<std::uint8_t> members = picture.world->light_groups.members();
+  if (!members.empty())
+    decisive.push_back({"lights-of-groups", hexadecimal(digest_of(std::as_bytes(std::span(members))))});
+  return {decisive, picture.fingerprint(), picture.scene.instances.size()};
+}
+
+}  // namespace
+
+void write_output(const Callbacks& callbacks, bool again, const std::function<void()>& write) {
+  if (!callbacks.output_failed) return write();
+  try {
+    write();
+  } catch (const OutputError&) {
+    callbacks.output_failed(std::current_exception(), again);
+  } catch (const std::bad_alloc&) {
+    callbacks.output_failed(std::current_exception(), again);
+  }
+}
+
+PictureCheckpoint::PictureCheckpoint(const RenderContext& context, Film& film, RenderStatistics& earlier)
+    : context_(context), options_(context.picture.options.checkpoint) {
+  if (options_.file.empty()) return;
+  Ranks& ranks = context.tiles.ranks();
+  identity_ = identity_of(context.picture);
+  if (ranks.first()) check_writable(options_.file);
+  if (!options_.resume || !agreed(ranks, ranks.first() && std::filesystem::exists(options_.file))) return;
+  shared_ = share_file(ranks, options_.file);
+  found_.emplace(shared_.path());
+  found_->expect(*identity_, context.picture.options.spp);
+  found_->restore(film, earlier);
+}
+
+bool PictureCheckpoint::is_due() const {
+  return is_kept() && agreed(context_.tiles.ranks(), seconds_since(last_) >= options_.every_seconds);
+}
+
+void PictureCheckpoint::write(Phase phase, int samples, Film& film, const Training* training,
+                              const RenderStatistics& sum, bool again) {
+  if (!is_kept()) return;
+  context_.tiles.gather(film);
+  last_ = Clock::now();
+  if (!context_.tiles.ranks().first()) return;
+  CheckpointProgress progress{.phase = phase, .samples = samples};
+  if (training) {
+    progress.first_step = training->first_step();
+    progress.taught = training->taught_film();
+  }
+  write_output(context_.callbacks, again, [&] {
+    const neural::TrainingOptions learning = training_options(context_.picture.options);
+    std::optional<CacheState> state;
+    std::optional<CheckpointCache> cache;
+    if (training) {
+      state = training->session().export_state();
+      cache.emplace(CheckpointCache{*state, training->session().model(), learning});
+    }
+    write_checkpoint(options_.file, *identity_, progress, sum, film, cache);
+  });
+  last_ = Clock::now();  // after a failure too, so that the next try is not immediate
+}
+
+}  // namespace gatelight::renderer

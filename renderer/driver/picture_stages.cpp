@@ -1,0 +1,114 @@
+#include "renderer/driver/picture_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/clock.h"
+#include "renderer/denoise/denoise_time.h"
+#include "renderer/distributed/collectives.h"
+#include "renderer/transport/cryptomatte_pass.h"
+#include "renderer/transport/shadow_catcher.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Points of a pixel for the shadow catcher under a time limit, whose plan needs their number in advance.
+constexpr int kTimedShadowPoints = 64;
+
+CaughtShadows caught_shadows(const PreparedPicture& picture, double samples_per_pixel) {
+  constexpr int kFewest = 32, kMost = 512;
+  if (picture.world->catchers.empty()) return {};
+  const int wanted = std::clamp(static_cast<int>(samples_per_pixel), kFewest, kMost);
+  const int points = picture.options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
+  return [&picture, points](const PixelRect& rect) {
+    return catch_shadows(*picture.world, picture.camera, picture.filter, picture.options, rect, points);
+  };
+}
+
+Finishing finishing(const PreparedPicture& picture, double samples_per_pixel, DenoiseProgress progress) {
+  return {picture.options, picture.denoiser.get(), picture.scale, caught_shadows(picture, samples_per_pixel),
+          std::move(progress)};
+}
+
+/// For the caller's arena.
+double time_denoiser(const PreparedPicture& picture) {
+  if (!picture.denoiser) return 0.0;
+  double seconds = 0.0;
+  failure_to_denoise([&] {  // finish() reports it
+    seconds = expect_denoise_seconds(*picture.denoiser, picture.options_of_picture.denoise,
+                                     picture.region.width(), picture.region.height());
+  });
+  return picture.options.background.is_separate() ? 1.5 * seconds : seconds;
+}
+
+/// For the caller's arena.
+double time_shadows(const PreparedPicture& picture) {
+  constexpr int kPoints = 4, kWidth = 128;
+  if (picture.world->catchers.empty()) return 0.0;
+  const int whole = picture.region.width(), width = std::min(whole, kWidth);
+  PixelRect strip = picture.region;
+  strip.x0 += (whole - width) / 2;
+  strip.x1 = strip.x0 + width;
+  const Clock::time_point start = Clock::now();
+  catch_shadows(*picture.world, picture.camera, picture.filter, picture.options, strip, kPoints);
+  return seconds_since(start) * kTimedShadowPoints / kPoints * whole / width;
+}
+
+}  // namespace
+
+Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
+  const PreparedPicture& picture = context.picture;
+  const RenderOptions& options = picture.options_of_picture;
+  if (options.cryptomattes.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  const PixelRect rows = context.tiles.own_rows(picture.region_of_picture());
+  const Camera camera(picture.view, options.width, options.height);
+  const FilterSampler filter(options.filter, options.filter_width);
+  Cryptomattes mattes = picture.arena.execute(
+      [&] { return trace_cryptomattes(*picture.world, camera, filter, options, rows); });
+  for (Layer& layer : mattes.layers)
+    layer.values = joined_at_first(context.tiles.ranks(), std::move(layer.values));
+  seconds += seconds_since(start);
+  return mattes;
+}
+
+FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics) {
+  const PreparedPicture& picture = context.picture;
+  const double spp = context.tiles.samples_per_pixel(film);
+  context.tiles.gather(film);
+  FinishedPicture finished;
+  if (context.tiles.ranks().first()) {
+    const auto progress = [&callbacks = context.callbacks, stopped, start = Clock::now()](double done) {
+      if (callbacks.progress)
+        callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
+      return stopped || !callbacks.stop || !callbacks.stop();
+    };
+    finished = finished_picture(film, finishing(picture, spp, progress), picture.arena);
+    finished.picture.view = picture.camera.matrices(picture.scene.origin);
+  }
+  statistics.denoise_seconds = finished.denoise_seconds;
+  statistics.denoiser =
+      finished.denoised ? fmt::format("Open Image Denoise {}", picture.chosen_denoiser.library->version) : "";
+  statistics.denoise_failure = finished.failure;
+  statistics.estimated_error = finished.estimated_error;
+  return finished;
+}
+
+double expect_finish_seconds(const RenderContext& context) {
+  const PreparedPicture& picture = context.picture;
+  const double seconds =
+      picture.arena.execute([&] { return time_shadows(picture) + time_denoiser(picture); });
+  return agreed(context.tiles.ranks(), seconds);
+}
+
+std::optional<double> estimate_error(const RenderContext& context, Film& film) {
+  context.tiles.gather(film);
+  std::optional<double> error;
+  if (context.tiles.ranks().first())
+    error = error_of_picture(film, finishing(context.picture, 1.0, {}), context.picture.arena);
+  return agreed(context.tiles.ranks(), error);
+}
+
+}  // namespace gatelight::renderer

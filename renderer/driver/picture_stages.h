@@ -1,0 +1,25 @@
+#pragma once
+// The stages around the passes of a picture, of all ranks, which all call these functions.
+
+#include <optional>
+
+#include "renderer/driver/finished_picture.h"
+#include "renderer/driver/render_context.h"
+#include "renderer/image/cryptomatte.h"
+
+namespace gatelight::renderer {
+
+/// The layers of RenderOptions::cryptomattes, for rank 0. Adds to `seconds`.
+Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds);
+
+/// The finished picture of a film, with its view, for rank 0. Sets the denoiser's statistics. `stopped`: the
+/// caller has stopped the samples, and not yet the denoiser.
+FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics);
+
+/// The expected time of finish() under a time limit.
+double expect_finish_seconds(const RenderContext& context);
+
+/// The estimated error of the picture; empty where it is unknown.
+std::optional<double> estimate_error(const RenderContext& context, Film& film);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,198 @@
+#include "renderer/driver/prepared_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/errors.h"
+#include "base/platform/flush_denormals.h"
+#include "base/platform/threads.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/driver/chosen_integrator.h"
+#include "renderer/film/camera_choice.h"
+#include "renderer/film/memory_estimate.h"
+#include "renderer/light/soft_sky.h"
+#include "renderer/settings/resolved_options.h"
+#include "renderer/transport/view_check.h"
+
+namespace gatelight::renderer {
+namespace {
+
+RenderOptions checked(const RenderOptions& options) {
+  check_light_groups(options);
+  if (!options.region) return options;
+  const auto& [x0, y0, x1, y1] = *options.region;
+  if (x0 < 0 || y0 < 0 || x1 > options.width || y1 > options.height || x0 >= x1 || y0 >= y1) {
+    throw BadOption(
+        fmt::format("`region` {},{},{},{}: expected x0,y0,x1,y1 within the picture of {}x{}, not empty", x0,
+                    y0, x1, y1, options.width, options.height));
+  }
+  return options;
+}
+
+PixelRect region_of(const RenderOptions& options) {
+  if (!options.region) return {0, 0, options.width, options.height};
+  const auto& [x0, y0, x1, y1] = *options.region;
+  return {x0, y0, x1, y1};
+}
+
+std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& options) {
+  const MemoryEstimate need = estimate_memory(scene, options);
+  require_memory(fmt::format("{}: rendering", scene.path), options, need.total(),
+                 need.total() - need.geometry);
+  if (options.memory_limit_bytes == 0) return 0;
+  return options.memory_limit_bytes - (need.total() - need.bvh);
+}
+
+/// The memory that a limit leaves to the denoiser; 0: no limit.
+std::size_t memory_of_denoiser(const scene::Scene& scene, const RenderOptions& options) {
+  if (options.memory_limit_bytes == 0) return 0;
+  const std::size_t need = estimate_memory(scene, options).total();
+  return std::max(options.memory_limit_bytes - std::min(need, options.memory_limit_bytes), kDenoiserBytes);
+}
+
+/// The warning that a denoiser is missing; else empty.
+std::string denoiser_warning(const ChosenDenoiser& chosen) {
+  if (chosen.missing.empty()) return "";
+  return fmt::format("the picture keeps its noise: {}; `denoiser` none silences this", chosen.missing);
+}
+
+/// Whether the integrator shows light, and not the openness of surfaces.
+bool shows_light(Integrator integrator) {
+  return integrator == Integrator::path || integrator == Integrator::nrc;
+}
+
+/// The options with an automatic environment resolved for this scene.
+RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
+  options.environment.automatic &= !options.environment.sky && shows_light(options.integrator) &&
+                                   (scene.image_light || needs_light(scene));
+  return options;
+}
+
+/// The warning for a scene without light; else empty. `options` are those of with_sky().
+std::string sky_warning(const scene::Scene& scene, const RenderOptions& options) {
+  if (options.environment.automatic && !scene.image_light) {
+    return fmt::format("{} has no light: a soft sky lights it; `environment` none, r,g,b or FILE replaces it",
+                       scene.path);
+  }
+  if (shows_light(options.integrator) && options.environment.none() && needs_light(scene)) {
+    return fmt::format("{} has no light, and the environment is 'none': the picture is black", scene.path);
+  }
+  return "";
+}
+
+/// The warning with the flags of the chosen view, where the file has no camera; else empty.
+std::string made_view(const scene::Scene& scene, const CameraOptions& options, const scene::Camera& view) {
+  if (!scene.cameras.empty() || options.look_at) return "";
+  const Vec3 eye = view.transform.translation() + scene.origin;
+  const Vec3 target =
+      eye - view.transform.linear().col(2) * (view.transform.translation() - scene.bounds.center()).norm();
+  return fmt::format(
+      "{} has no camera: the view shows all of it, as `eye` {:.6g},{:.6g},{:.6g} `target` "
+      "{:.6g},{:.6g},{:.6g}",
+      scene.path, eye.x(), eye.y(), eye.z(), target.x(), target.y(), target.z());
+}
+
+}  // namespace
+
+PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks)
+    : scene(scene_in),
+      chosen_denoiser(choose_denoiser(options_in.denoise, ranks)),
+      options_of_picture(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
+      options(options_of_film(options_of_picture)),
+      threads(options.threads > 0 ? options.threads : available_threads()),
+      control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+      arena(threads),
+      region(region_of(options)),
+      view(chosen_view(options.camera)),
+      filter(options.filter, options.filter_width),
+      scale(options_of_picture.denoise.supersampling, options_of_picture.filter,
+            options_of_picture.filter_width) {
+  const FlushDenormals flush;  // also on the arena's threads, as the arena is made here
+  const std::size_t budget = checked_budget(scene, options_of_picture);
+  require_threads(threads);
+  if (chosen_denoiser.library)
+    denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
+                                          memory_of_denoiser(scene, options_of_picture));
+  const Clock::time_point start = Clock::now();
+  arena.execute([&] {
+    world.emplace(scene, WorldOptions{options.environment, options.light_selection,
+                                      AccelOptions{threads, options.isa, budget, options.watertight},
+                                      options.glass_shadows, options.light_groups, options.background});
+  });
+  set_camera(options.camera);
+  choose_integrator();
+  // A loaded cache needs no more steps, unless the caller sets a number.
+  if (!options.cache.train_steps && options.cache.cache_in.empty()) {
+    steps_chosen = true;
+    options.cache.train_steps = choose_training_steps(
+        options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
+  }
+  statistics.build_seconds = seconds_since(start);
+  statistics.width = region_of_picture().width();
+  statistics.height = region_of_picture().height();
+  statistics.threads = threads;
+  statistics.isa = world->accel.isa();
+  statistics.geometry_bytes = scene::geometry_bytes(scene);
+  statistics.bvh_bytes = world->accel.bytes();
+  statistics.texture_bytes = world->textures.bytes() + world->environment.bytes();
+  statistics.light_bytes = world->lights.bytes() + world->light_arrays.bytes();
+}
+
+void PreparedPicture::choose_integrator() {
+  if (!options.choose_integrator) return;
+  const double bounces = arena.execute([&] { return bounces_of_paths(*world, camera, region, options); });
+  statistics.bounces_of_paths = bounces;
+  options_of_picture = with_integrator(options_of_picture, bounces);
+  options = options_of_film(options_of_picture);
+}
+
+View PreparedPicture::chosen_view(const CameraOptions& chosen) const {
+  return choose_camera(scene, chosen, static_cast<float>(options.width) / static_cast<float>(options.height));
+}
+
+void PreparedPicture::set_camera(const CameraOptions& chosen) {
+  view = chosen_view(chosen);
+  options.camera = chosen;
+  std::string focus;
+  if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
+    view.focus_distance = distance_in_the_middle(*world, Camera(view, options.width, options.height),
+                                                 options.width, options.height);
+    focus =
+        fmt::format("the lens is focused at {:.4g} m, on the middle of the picture; `focus` {:.4g} keeps it",
+                    view.focus_distance, view.focus_distance);
+  }
+  camera = Camera(view, options.width, options.height);
+  // Rays of an orthographic camera begin at many places.
+  if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
+  statistics.warnings.clear();
+  for (std::string warning :
+       {denoiser_warning(chosen_denoiser), sky_warning(scene, options),
+        made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
+        view_warning(*world, camera, options.width, options.height)}) {
+    if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
+  }
+}
+
+SceneFingerprint PreparedPicture::fingerprint() const {
+  return arena.execute([&] { return compute_scene_fingerprint(scene, options.environment); });
+}
+
+Film PreparedPicture::make_film() const {
+  return {region, options.width, options.height, film_contents(options, world->light_groups.names())};
+}
+
+int PreparedPicture::samples_of_film(int spp) const {
+  RenderOptions of_picture = options_of_picture;
+  of_picture.spp = spp;
+  return options_of_film(of_picture).spp;
+}
+
+PixelRect PreparedPicture::region_of_picture() const {
+  return region_of(options_of_picture);
+}
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,64 @@
+#pragma once
+// All that is chosen and built before the work on a picture begins.
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+#include <optional>
+
+#include "renderer/denoise/denoiser.h"
+#include "renderer/driver/chosen_denoiser.h"
+#include "renderer/film/camera.h"
+#include "renderer/film/film.h"
+#include "renderer/film/pixel_filter.h"
+#include "renderer/film/scale_down.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
+#include "renderer/image/pixel_rect.h"
+#include "renderer/settings/options.h"
+#include "renderer/settings/statistics.h"
+#include "renderer/settings/view.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+/// Constant while a picture is made: only set_camera() changes it, between pictures.
+struct PreparedPicture {
+  /// Throws the exceptions of Renderer's constructor.
+  PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks);
+
+  /// Changes the view, and the warnings about it.
+  void set_camera(const CameraOptions& chosen);
+
+  /// An empty film.
+  Film make_film() const;
+  /// Samples per pixel of the film for those of the picture.
+  int samples_of_film(int spp) const;
+  /// In the picture's own pixels.
+  PixelRect region_of_picture() const;
+  SceneFingerprint fingerprint() const;  ///< of the scene with its environment
+
+  const scene::Scene& scene;
+  ChosenDenoiser chosen_denoiser;
+  RenderOptions options_of_picture;  ///< with automatic values chosen
+  RenderOptions options;             ///< of the film, which may be larger
+  int threads;
+  tbb::global_control control;
+  mutable tbb::task_arena arena;  ///< runs all work, which doesn't change the picture
+  PixelRect region;               ///< of the film
+  View view;
+  Camera camera{view, 1, 1};
+  FilterSampler filter;
+  ScaleDown scale;                     ///< from the film to the picture
+  std::unique_ptr<Denoiser> denoiser;  ///< null: the picture is as traced
+  std::optional<World> world;          ///< empty only during construction
+  bool steps_chosen = false;           ///< training steps: from the picture's pixels and samples
+  RenderStatistics statistics;         ///< of building, with its warnings
+
+ private:
+  View chosen_view(const CameraOptions& chosen) const;
+  /// Applies RenderOptions::choose_integrator, for the first view.
+  void choose_integrator();
+};
+
+}  // namespace gatelight::renderer

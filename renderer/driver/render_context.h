@@ -1,0 +1,16 @@
+#pragma once
+
+#include "renderer/driver/distributed_tiles.h"
+#include "renderer/driver/prepared_picture.h"
+#include "renderer/render.h"
+
+namespace gatelight::renderer {
+
+/// The inputs that all steps of a picture share. They outlive the steps.
+struct RenderContext {
+  const PreparedPicture& picture;
+  DistributedTiles& tiles;
+  const Callbacks& callbacks;
+};
+
+}  // namespace gatelight::renderer

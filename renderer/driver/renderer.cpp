@@ -1,0 +1,66 @@
+#include "base/platform/flush_denormals.h"
+#include "renderer/cache/cache_report.h"
+#include "renderer/cache/cache_session.h"
+#include "renderer/driver/picture_run.h"
+#include "renderer/driver/render_series.h"
+#include "renderer/render.h"
+
+namespace gatelight::renderer {
+
+struct Renderer::Implementation {
+  Implementation(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
+      : picture(scene, options, ranks),
+        tiles(picture.region, ranks, picture.threads),
+        statistics(picture.statistics) {}
+
+  PreparedPicture picture;
+  DistributedTiles tiles;
+  RenderStatistics statistics;
+};
+
+Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
+    : Renderer(scene, options, one_rank()) {}
+Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
+    : implementation_(std::make_unique<Implementation>(scene, options, ranks)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+void Renderer::set_camera(const CameraOptions& camera) {
+  Implementation& self = *implementation_;
+  self.picture.set_camera(camera);
+  self.statistics.warnings = self.picture.statistics.warnings;
+}
+
+Picture Renderer::render(const Callbacks& callbacks) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  return render_picture({self.picture, self.tiles, callbacks}, self.statistics);
+}
+
+bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  return renderer::render_series({self.picture, self.tiles, callbacks}, series, picture, self.statistics);
+}
+
+CacheReport Renderer::report_cache() {
+  const FlushDenormals flush;
+  const PreparedPicture& p = implementation_->picture;
+  return p.arena.execute([&] { return renderer::report_cache(*p.world, p.camera, p.region, p.options); });
+}
+
+CacheStatistics Renderer::set_up_cache() {
+  const FlushDenormals flush;
+  const PreparedPicture& p = implementation_->picture;
+  return p.arena.execute([&] { return CacheSession(*p.world, p.camera, p.region, p.options).statistics(); });
+}
+
+Integrator Renderer::integrator() const {
+  return implementation_->picture.options.integrator;
+}
+
+const RenderStatistics& Renderer::statistics() const {
+  return implementation_->statistics;
+}
+
+}  // namespace gatelight::renderer
