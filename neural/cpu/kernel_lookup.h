@@ -67,6 +67,17 @@ GATELIGHT_INLINE VirtualTriangle virtual_triangle(const Float (&b)[3], Int resol
   return t;
 }
 
+// The surfaces of the lanes. Where they are the same, tables are read once.
+struct LaneSurfaces {
+  Int number;
+  uint32_t leader;  // the first lane's
+  bool same;        // all lanes have the leader's
+};
+
+struct LaneTopology {
+  Int offset, stride, triangle_count;
+};
+
 struct LaneLevel {
   Int resolution, vertex_base, corners;
 };
@@ -76,23 +87,82 @@ struct LaneBases {
   Int edge, interior;
 };
 
-constexpr uint32_t kLevelWords = sizeof(GateSurfaceLevel) / sizeof(uint32_t);
-
-GATELIGHT_INLINE LaneLevel lane_level(const GateSurfaceLevel& level) {
-  return {level.resolution, level.vertex_base, level.corners};
+GATELIGHT_INLINE LaneTopology lane_topology(const KernelEncoder& e, const LaneSurfaces& surfaces) {
+  if (surfaces.same) {
+    const GateSurface& one = e.surfaces[surfaces.leader];
+    return {one.topology_offset, one.topology_stride, one.triangle_count};
+  }
+  const uint32_t* words = &e.surfaces->topology_offset;
+  const Int at = surfaces.number * 4u;
+  return {gather(words, at), gather(words, at + 1u), gather(words, at + 2u)};
 }
 
-GATELIGHT_INLINE LaneBases lane_bases(const GateSurfaceLevel& level) {
-  return {level.edge_base, level.interior_base};
+// The offset of the first word of level l.
+GATELIGHT_INLINE Int level_offset(const KernelEncoder& e, const LaneSurfaces& surfaces, uint32_t l) {
+  constexpr uint32_t kLevelWords = sizeof(GateSurfaceLevel) / sizeof(uint32_t);
+  return (surfaces.number * e.levels + l) * kLevelWords;
 }
 
-// `at` is the offset of the level's first word.
-GATELIGHT_INLINE LaneLevel gather_level(const GateSurfaceLevel* levels, Int at) {
+GATELIGHT_INLINE LaneLevel lane_level(const KernelEncoder& e, const LaneSurfaces& surfaces, uint32_t l) {
+  const GateSurfaceLevel* levels = e.surface_levels;
+  if (surfaces.same) {
+    const GateSurfaceLevel& one = levels[surfaces.leader * e.levels + l];
+    return {one.resolution, one.vertex_base, one.corners};
+  }
+  const Int at = level_offset(e, surfaces, l);
   return {gather(&levels->resolution, at), gather(&levels->vertex_base, at), gather(&levels->corners, at)};
 }
 
-GATELIGHT_INLINE LaneBases gather_bases(const GateSurfaceLevel* levels, Int at) {
+GATELIGHT_INLINE LaneBases lane_bases(const KernelEncoder& e, const LaneSurfaces& surfaces, uint32_t l) {
+  const GateSurfaceLevel* levels = e.surface_levels;
+  if (surfaces.same) {
+    const GateSurfaceLevel& one = levels[surfaces.leader * e.levels + l];
+    return {one.edge_base, one.interior_base};
+  }
+  const Int at = level_offset(e, surfaces, l);
   return {gather(&levels->edge_base, at), gather(&levels->interior_base, at)};
+}
+
+// The words of the triangles' rows in the topology, read when they are first needed.
+struct TopologyRows {
+  const uint32_t* topology;
+  Int offset = 0u;  // of the rows
+  Int corners[3], edges[3];
+  Int corners_word = ~0u;  // from which `corners` were read; no word has this number
+  bool has_edges = false;
+
+  GATELIGHT_INLINE void read(Int word, Int (&three)[3]) const {
+    const Float4 read = Records(offset + word).four(topology, 0);
+    for (uint32_t c = 0; c < 3; ++c) three[c] = bits_of(read.c[c]);
+  }
+  GATELIGHT_INLINE void need_corners(Int word) {
+    if (all(word == corners_word)) return;
+    read(word, corners);
+    corners_word = word;
+  }
+  GATELIGHT_INLINE void need_edges() {
+    if (!has_edges) read(uint32_t{kTopologyEdges}, edges);
+    has_edges = true;
+  }
+};
+
+// Loads barycentrics, and makes them nonnegative with the sum 1.
+GATELIGHT_INLINE void load_barycentrics(const float* pairs, Float (&b)[3]) {
+  load_pairs(pairs, b[1], b[2]);
+  b[0] = 1.0f - b[1] - b[2];
+  // Points far outside the triangle stay finite, so that every resulting node exists.
+  for (Float& x : b) x = clamp(x, 0.0f, 1e30f);
+  const Float inverse = 1.0f / (b[0] + (b[1] + b[2]));
+  for (Float& x : b) x *= inverse;
+}
+
+// Gives lanes with R = 1 the corners and the barycentrics themselves, as where all lanes have it. So a
+// point's bits do not depend on its neighbours.
+GATELIGHT_INLINE void use_corners(Mask plain, const Float (&b)[3], VirtualTriangle& t) {
+  for (uint32_t n = 0; n < 3; ++n) {
+    t.weight[n] = select(plain, b[n], t.weight[n]);
+    for (uint32_t c = 0; c < 3; ++c) t.node[n][c] = select(plain, n == c ? 1u : 0u, t.node[n][c]);
+  }
 }
 
 // Index of the node with integer barycentrics a (gate_tables.h). Only nodes on edges use `edges`.
@@ -140,90 +210,48 @@ GATELIGHT_INLINE Int triangle_node(const Int (&a)[3], const LaneLevel& level, In
 // Returns the number of valid points without storage.
 GATELIGHT_NOINLINE uint32_t lookup_gate(const KernelEncoder& e, TilePoints& points, uint32_t* nodes,
                                         float* weights) {
+  const bool shared = e.per_triangle == 0;
   uint32_t unstored = 0;
-  const uint32_t* words = &e.surfaces->topology_offset;
   for (uint32_t s = 0; s < kTile; s += kLanes) {
     const Float valid = load(points.valid + s);
-    Int surface = load(points.surfaces + s);
-    Mask stored = surface < e.surface_count;
-    surface = select_or_zero(stored, surface);
+    const Int given = load(points.surfaces + s);
+    Mask stored = given < e.surface_count;
+    const Int surface = select_or_zero(stored, given);
     const uint32_t leader = surface.v[0];
-    const bool same = all(surface == leader);
-
-    Int offset, stride, count;
-    if (same) {
-      const GateSurface& one = e.surfaces[leader];
-      offset = one.topology_offset;
-      stride = one.topology_stride;
-      count = one.triangle_count;
-    } else {
-      const Int at = surface * 4u;
-      offset = gather(words, at);
-      stride = gather(words, at + 1u);
-      count = gather(words, at + 2u);
-    }
+    const LaneSurfaces surfaces{surface, leader, all(surface == leader)};
+    const LaneTopology topology = lane_topology(e, surfaces);
     Int triangle = load(points.triangles + s);
-    stored &= triangle < count;
-
+    stored &= triangle < topology.triangle_count;
     Float b[3];
-    load_pairs(points.barycentrics + 2 * s, b[1], b[2]);
-    b[0] = 1.0f - b[1] - b[2];
-    // Points far outside the triangle stay finite, so that every resulting node exists.
-    for (Float& x : b) x = clamp(x, 0.0f, 1e30f);
-    const Float inverse = 1.0f / (b[0] + (b[1] + b[2]));
-    for (Float& x : b) x *= inverse;
+    load_barycentrics(points.barycentrics + 2 * s, b);
 
-    Int corners[3], edges[3];
-    Int corners_read = 0u;  // the row's word that `corners` was read from
-    Int row = 0u;
-    bool edges_read = false;
-    const auto read_row = [&](Int first, Int(&three)[3]) __attribute__((always_inline)) {
-      const Float4 read = Records(row + first).four(e.topology, 0);
-      for (uint32_t c = 0; c < 3; ++c) three[c] = bits_of(read.c[c]);
-    };
+    TopologyRows rows{e.topology};
     for (uint32_t l = 0; l < e.levels; ++l) {
-      const GateSurfaceLevel& one = e.surface_levels[leader * e.levels + l];
-      const Int at = (surface * e.levels + l) * kLevelWords;
-      const LaneLevel level = same ? lane_level(one) : gather_level(e.surface_levels, at);
+      const auto put = [&](uint32_t n, Int node, Float weight) __attribute__((always_inline)) {
+        store(nodes + (3 * l + n) * kTile + s, select_or_zero(stored, node));
+        store(weights + (3 * l + n) * kTile + s, select_or_zero(stored, valid * weight));
+      };
+      const LaneLevel level = lane_level(e, surfaces, l);
       if (l == 0) {
         stored &= Int(0u) < level.resolution;
         triangle = select_or_zero(stored, triangle);
-        row = select_or_zero(stored, offset + triangle * stride);
+        rows.offset = select_or_zero(stored, topology.offset + triangle * topology.stride);
       }
-      if (e.per_triangle == 0 && (l == 0 || !all(level.corners == corners_read))) {
-        read_row(level.corners, corners);
-        corners_read = level.corners;
-      }
-      // If all lanes have R = 1, the nodes are the corners.
-      if (e.per_triangle == 0 && all(level.resolution == 1u)) {
-        for (uint32_t n = 0; n < 3; ++n) {
-          const Int node = level.vertex_base + corners[n];
-          store(nodes + (3 * l + n) * kTile + s, select_or_zero(stored, node));
-          store(weights + (3 * l + n) * kTile + s, select_or_zero(stored, valid * b[n]));
+      if (shared) {
+        rows.need_corners(level.corners);
+        if (all(level.resolution == 1u)) {
+          for (uint32_t n = 0; n < 3; ++n) put(n, level.vertex_base + rows.corners[n], b[n]);
+          continue;
         }
-        continue;
+        rows.need_edges();
       }
-      if (e.per_triangle == 0 && !edges_read) {
-        read_row(uint32_t{kTopologyEdges}, edges);
-        edges_read = true;
-      }
-      const LaneBases bases = same ? lane_bases(one) : gather_bases(e.surface_levels, at);
+      const LaneBases bases = lane_bases(e, surfaces, l);
       VirtualTriangle t = virtual_triangle(b, level.resolution);
-      if (e.per_triangle == 0) {
-        // Lanes with R = 1 get the same values as above, so that a point's bits do not depend on its
-        // neighbours.
-        const Mask plain = level.resolution == 1u;
-        for (uint32_t n = 0; n < 3; ++n) {
-          t.weight[n] = select(plain, b[n], t.weight[n]);
-          for (uint32_t c = 0; c < 3; ++c) t.node[n][c] = select(plain, n == c ? 1u : 0u, t.node[n][c]);
-        }
-      }
+      if (shared) use_corners(level.resolution == 1u, b, t);
       for (uint32_t n = 0; n < 3; ++n) {
-        const Int node = e.per_triangle != 0 ? triangle_node(t.node[n], level, triangle)
-                                             : shared_node(t.node[n], level, bases, corners, edges, triangle);
-        const Float weight = valid * t.weight[n];
-        store(nodes + (3 * l + n) * kTile + s, select_or_zero(stored, node));
-        store(weights + (3 * l + n) * kTile + s, select_or_zero(stored, weight));
+        const Int node = shared ? shared_node(t.node[n], level, bases, rows.corners, rows.edges, triangle)
+                                : triangle_node(t.node[n], level, triangle);
+        put(n, node, t.weight[n]);
       }
     }
     if (!all(stored)) {
