@@ -24,13 +24,18 @@ given and applies to all cells (--size, --camera, --batch ...; see its --help). 
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-Without --preset, an axis, --vary, --denoiser, --view, --query-at and --cache-holds, a sweep compares these by error and
+With --run and --plan the pictures have names and flags of their own, with as many training steps as --train-steps says
+there, and no axes; flags for all cells apply where a run does not set them. Beside them the integrator without a cache
+is measured at the samples of --spp, as traced and, for denoised runs, denoised.
+
+Without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds, a sweep compares these by error and
 time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset bare after 8 to 1024
 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512 and 2048 steps with 2, 7 and 28
 samples. Wherever a cell with a cache is denoised, the integrator without one is measured both as traced and denoised.
 Time counts all phases: scouting, training, rendering, denoising.
 
-DIR has results.csv and results.json (all cells of this call), report.html (charts, pictures and tables of them: one
+DIR has results.csv and results.json (all cells of this call), results.md (their means over the seeds; how many times
+less time than the plain integrator they take for the same error, between and beyond its samples), report.html (charts, pictures and tables of them: one
 file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
 same-as-gate), and cells/, a file for each cell that is done or has failed. The same command continues where it was
 stopped: it makes missing and failed cells, but none that is done. Cells are identified by the scene's content, all
@@ -38,6 +43,12 @@ options, the processor and its instruction set, so that a DIR can serve several 
 is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end the sweep after writing
 the results so far (130, 143 or 129).
 
+With --keep-exr, two seeds and two halves of a reference, errors_bias_rel_mse of the second seed is the squared bias of
+the pair: the part of rel_mse that more samples would not remove ('gatelight compare --halves'). A reference in
+--reference-dir is KEY_a.exr and KEY_b.exr, its halves, and KEY.exr and KEY.json, made of them; what is there is used.
+
+Preset of finished pictures (2 seeds; paths with 4, 8, 32 and 128 samples unless --spp is given):
+  finished        --preset preview, standard and final of 'gatelight render', as named runs
 Presets of the paper (3 seeds, 1920x1080 unless --size is given; flags override them, except those that a row is named
 after):
   paper-table1    GATE and the hash grid at the same memory, 128 steps
@@ -55,6 +66,8 @@ Examples:
   gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
   gatelight sweep kitchen.glb sponza.glb -o both --for sponza:camera=hall --for sponza:environment=0.65,0.8,1
   gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run
+  gatelight sweep kitchen.glb -o kitchen --preset finished --max-depth 64
+  gatelight sweep kitchen.glb -o kitchen --run 'bare: --preset bare' --run 'gather: --integrator nrc --query-at gather'
   gatelight sweep kitchen.glb -o kitchen --advise --max-error 0.05
   gatelight sweep -o kitchen --advise --max-time 10
   gatelight sweep kitchen.glb -o table1 --preset paper-table1 --size 960x540)";
@@ -86,6 +99,10 @@ void add_axes(std::vector<Option>& table, SweepWords& words) {
   }
   axes.add(any_words("vary", words.vary, "NAME=LIST",
                      "Any other flag of render as an axis; may be given several times"));
+  axes.add(
+      any_words("run", words.runs, "'NAME: FLAGS'",
+                "A picture with flags of render of its own, instead of axes; may be given several times"));
+  axes.add(any_words("plan", words.plans, "FILE", "Such runs, one a line; # begins a comment"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
                      "A flag for one scene only; may be given several times"));
   kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds);
@@ -98,8 +115,10 @@ void add_axes(std::vector<Option>& table, SweepWords& words) {
 
 void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup references{table, "References"};
-  references.add(any_word("reference", s.reference_file, "FILE",
-                          "Compare with this picture; for one scene and one kind of picture"));
+  references.add(
+      any_words("reference", s.reference_files, "FILE",
+                "Compare with this picture; for one scene and one kind of picture. Given twice, the "
+                "files are two halves with different seeds, and give its noise"));
   references.add(
       {.name = "reference-spp",
        .unit = "N",
@@ -132,6 +151,8 @@ void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
       any_word("output", s.folder, "DIR", "Folder of the results; it is made if it does not exist"));
   folder.letter = "-o";
   folder.required = true;
+  output.add(toggle("keep-exr", s.keep_exr,
+                    "Keep every picture as EXR too, and measure the squared bias of each pair of seeds"));
   output.add(toggle("dry-run", s.dry_run, "Print the plan and stop"));
   output.add(progress_option(s.progress));
   output.add(toggle("quiet", s.quiet, "Print errors only"));
@@ -188,6 +209,10 @@ void check(const SweepCall& call, const CLI::App& app) {
     throw UsageError("SCENE: it is missing, expected one or more scenes (without one only --advise works)");
   }
   if (call.words.scenes.empty()) refuse_flags_of_scenes(app);
+  if (s.reference_files.size() > 2) {
+    throw UsageError(fmt::format("--reference: '{}' is a third file, expected one picture or two halves",
+                                 s.reference_files[2]));
+  }
   if (s.quiet && s.verbose) throw UsageError("--quiet and --verbose exclude each other, expected one");
 }
 

@@ -56,6 +56,7 @@ void add_errors(ordered_json& json, const CellErrors& e) {
   json["errors"] = {{"mse", json_number(e.metrics.mse)},
                     {"rel_mse", json_number(e.metrics.rel_mse)},
                     {"rel_mse_clean", json_number(e.rel_mse_clean)},
+                    {"bias_rel_mse", json_number(e.bias_rel_mse)},
                     {"psnr", json_number(e.metrics.psnr)},
                     {"ssim", json_number(e.ssim)},
                     {"flip", e.flip ? json_number(e.flip->summary.mean) : nullptr},
@@ -77,6 +78,9 @@ constexpr const char* kMeasured[] = {
 /// Options whose value the run may choose.
 constexpr const char* kFoundOptions[] = {"isa",          "filter-width", "ao-distance", "direction-input",
                                          "normal-input", "albedo-input", "node-spacing"};
+
+/// What a named run decides itself, with its integrator and its steps.
+constexpr const char* kOfNamedRun[] = {"integrator", "encoding", "train_steps", "spp", "options"};
 
 ordered_json found_number(float value) {
   if (std::isinf(value)) return "inf";
@@ -167,12 +171,13 @@ ordered_json planned_record(const CellPlace& place) {
   return {{"id", place.id},
           {"scene", place.scene.name},
           {"series", series.label},
+          {"run", run_name(series, place.point)},
           {"integrator", renderer::enum_name(o.integrator)},
           {"encoding", has_cache ? ordered_json(renderer::enum_name(o.cache.encoding)) : nullptr},
           {"axes", axes},
           {"seed", place.seed},
-          {"train_steps", has_cache ? ordered_json(place.point) : nullptr},
-          {"spp", has_cache ? o.spp : place.point},
+          {"train_steps", has_cache && !series.named ? ordered_json(place.point) : nullptr},
+          {"spp", has_cache || series.named ? o.spp : place.point},
           {"options", resolved_options(settings)},
           {"reference", renderer::name_of(kReferenceKinds, series.reference)},
           {"reference_id", place.reference_key},
@@ -198,6 +203,10 @@ ordered_json done_record(const CellPlace& place, const renderer::RenderStatistic
   add_origin(json);
   json["isa"] = statistics.isa;
   if (has_cache) json["backend"] = statistics.cache.backend;
+  if (has_cache && place.series.named) {
+    json["train_steps"] = statistics.cache.steps;
+    json["options"]["train-steps"] = statistics.cache.steps;
+  }
   add_found(json["options"], place, statistics, ao_distance);
   json["seconds"] = seconds_json(statistics, has_cache);
   add_speed(json, statistics.cache, has_cache);
@@ -220,6 +229,9 @@ std::string picture_file(const std::string& id) {
 std::string error_map_file(const std::string& id) {
   return "pictures/" + id + "-flip.png";
 }
+std::string exr_file(const std::string& id) {
+  return "pictures/" + id + ".exr";
+}
 std::string cell_file(const std::string& id) {
   return "cells/" + id + ".json";
 }
@@ -240,9 +252,13 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
     record[key] = nullptr;
   }
   ordered_json planned = planned_record(place);
+  for (const char* key : kOfNamedRun) {
+    if (place.series.named && record.contains(key)) planned.erase(key);
+  }
   const ordered_json& found = record["options"];
   for (const char* key : kFoundOptions) {
-    if (found.is_object() && found.contains(key)) planned["options"][key] = found[key];
+    if (planned.contains("options") && found.is_object() && found.contains(key))
+      planned["options"][key] = found[key];
   }
   record.update(planned);
   return record;

@@ -38,6 +38,7 @@ bool is_done(const nlohmann::ordered_json& record);
 /// File names relative to the sweep's folder.
 std::string picture_file(const std::string& id);
 std::string error_map_file(const std::string& id);
+std::string exr_file(const std::string& id);
 std::string cell_file(const std::string& id);
 
 /// Reads the record of a cell and updates it with the plan. Returns nothing where the cell is not done, or

@@ -73,11 +73,13 @@ std::optional<double> SweepClock::left(double elapsed, double fraction) const {
 SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points) {
   const RenderOptions& o = series.settings.render;
   const std::string integrator = renderer::enum_name(o.integrator);
-  if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * points.back()};
+  int point = points.back();
+  if (series.named) point = series.has_cache() ? o.cache.train_steps.value_or(0) : o.spp;
+  if (!series.has_cache()) return {kinds_of(scene, {integrator}), pixels_of(o) * point};
   const std::string encoding = renderer::enum_name(o.cache.encoding);
   // Camera paths and training paths.
   const double work = pixels_of(o) * o.spp * static_cast<double>(points.size()) +
-                      static_cast<double>(o.cache.batch) * o.cache.samples_per_point * points.back();
+                      static_cast<double>(o.cache.batch) * o.cache.samples_per_point * point;
   return {kinds_of(scene, {fmt::format("{} {}", integrator, encoding), integrator}), work};
 }
 

@@ -14,6 +14,7 @@ namespace gatelight::apps {
 struct CellErrors {
   renderer::ErrorMetrics metrics;
   std::optional<double> rel_mse_clean;       ///< without the reference's noise, where that is known
+  std::optional<double> bias_rel_mse;        ///< of the pair that the picture completes
   std::optional<renderer::FlipResult> flip;  ///< empty: some pixels are not finite
   std::optional<double> hdr_flip;
   std::optional<double> ssim;  ///< empty: as for FLIP, or the picture is smaller than the window

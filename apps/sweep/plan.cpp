@@ -11,6 +11,7 @@
 #include "apps/settings/flags.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
+#include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
 #include "renderer/settings/enum_names.h"
 
@@ -31,15 +32,16 @@ ReferenceKind reference_kind(const renderer::RenderOptions& o) {
   return bare ? ReferenceKind::cache : ReferenceKind::path;
 }
 
-/// Drops flags that would be refused because they have no effect with the others.
-RenderSettings settle(FlagValues& flags) {
+/// Drops flags that would be refused because they have no effect with the others. A named run chooses its
+/// integrator itself.
+RenderSettings settle(FlagValues& flags, bool named = false) {
   RenderSettings settings;
   for (bool dropped = true; dropped;) {
     dropped = false;
     settings = read_render_words(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
-    // A sweep does not choose: it compares integrators with and without a cache.
-    if (o.choose_integrator) {
+    // Axes do not choose: they compare integrators with and without a cache.
+    if (o.choose_integrator && !named) {
       set_flag(flags, "--integrator", renderer::enum_name(o.integrator));
       dropped = true;
       continue;
@@ -49,7 +51,7 @@ RenderSettings settle(FlagValues& flags) {
       if (!drop_flag(flags, flag)) continue;
       dropped = true;
     }
-    if (!has_cache) dropped |= drop_flag(flags, "--spp");
+    if (!has_cache && !named) dropped |= drop_flag(flags, "--spp");
   }
   if (!settings.exposure) {
     throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
@@ -84,9 +86,24 @@ std::optional<double> take_same_as_gate(FlagValues& flags) {
   return divisor;
 }
 
+/// The common flags with those of a run's own flags that decide its reference, so that both are compared
+/// with the same one.
+FlagValues flags_of_reference(FlagValues common, const FlagValues& own, ReferenceKind kind) {
+  const auto reference = [kind](FlagValues flags) {
+    take_same_as_gate(flags);
+    return deciding_text(reference_settings(settle(flags, true), kind, 1));
+  };
+  for (const auto& [flag, value] : own) {
+    FlagValues more = common;
+    set_flag(more, flag, value);
+    if (reference(more) != reference(common)) common = std::move(more);
+  }
+  return common;
+}
+
 std::string series_key(const PlannedSeries& series) {
   const RenderSettings settings = cell_settings(series, kNoScene, 0, 1);
-  std::string key = deciding_text(settings);
+  std::string key = deciding_text(settings) + named_text(series);
   if (series.memory) {
     key += fmt::format("memory of gate / {}\n{}", series.memory->divisor,
                        deciding_text(series.memory->settings));
@@ -146,19 +163,34 @@ class Planner {
     }
   }
 
-  void add(const SweepBlock& block, const FlagValues& flags) {
+  void add(const SweepBlock& block, const FlagValues& common) {
+    FlagValues flags = common;
+    if (block.run) {
+      for (const auto& [flag, value] : *block.run) set_flag(flags, flag, value);
+    }
     const PlannedSeries series = make_series(block, flags);
-    keep(series);
-    // No integrator without a cache renders the view of the cache.
-    if (!request_.plain || !series.has_cache() || series.reference == ReferenceKind::cache) return;
-    FlagValues plain = flags;
+    if (series.named) {
+      // Below the integrator with which it is compared.
+      add_plain(block, common, series);
+      keep(series);
+    } else {
+      keep(series);
+      if (series.has_cache()) add_plain(block, flags, series);
+    }
+  }
+
+  /// Adds the integrator without a cache beside a series.
+  void add_plain(const SweepBlock& block, const FlagValues& flags, const PlannedSeries& series) {
+    // None renders the view of the cache.
+    if (!request_.plain || series.reference == ReferenceKind::cache) return;
+    FlagValues plain = block.run ? flags_of_reference(flags, *block.run, series.reference) : flags;
     drop_flag(plain, kDenoiser);
     // The size of the preset stays, because pictures are compared with each other.
     const renderer::RenderOptions& o = series.settings.render;
     if (drop_flag(plain, "--preset")) set_flag(plain, "--size", fmt::format("{}x{}", o.width, o.height));
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
     const auto keep_plain = [&] {
-      keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}}, plain));
+      keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}, .run = {}}, plain));
     };
     keep_plain();
     if (!is_denoised(series)) return;
@@ -168,17 +200,18 @@ class Planner {
 
   PlannedSeries make_series(const SweepBlock& block, const FlagValues& requested) const {
     PlannedSeries series;
+    series.named = block.run.has_value();
     series.flags = requested;
     const std::optional<double> divisor = take_same_as_gate(series.flags);
     FlagValues gate = series.flags;
-    series.settings = settle(series.flags);
+    series.settings = settle(series.flags, series.named);
     series.settings.load.allow_external = request_.allow_external;
     FlagValues named = series.flags;
     const bool hash = series.settings.render.cache.encoding == neural::FeatureEncoding::hash_grid;
     if (divisor && series.has_cache() && hash) {
       // Flags that decide the memory of GATE also decide the memory and the name of this series.
       set_flag(gate, "--encoding", "gate");
-      series.memory = GateMemory{settle(gate), *divisor};
+      series.memory = GateMemory{settle(gate, series.named), *divisor};
       for (const auto& [flag, value] : gate) set_flag(named, flag, value);
       set_flag(named, "--cache-memory", *find_flag(requested, "--cache-memory"));
     }
@@ -189,6 +222,7 @@ class Planner {
     }
     series.reference = reference_kind(series.settings.render);
     series.points = series.has_cache() ? block.train_steps : request_.plain_spp;
+    if (series.named) series.points = {0};
     return series;
   }
 
@@ -230,14 +264,15 @@ class Planner {
   void make_labels() {
     std::map<std::string, int> seen;
     for (PlannedSeries& s : series_) {
-      s.label = integrator_of(s);
+      const std::string* row = find_flag(s.axes, "row");
+      s.label = s.named ? *row : integrator_of(s);
       // A row has a name of its own.
-      const bool row = find_flag(s.axes, "row");
       if (s.has_cache() && !row) s.label += fmt::format(" {}", encoding_of(s));
       if (!row && find_flag(s.axes, "denoiser") && is_denoised(s)) s.label += " denoised";
       for (const auto& [name, value] : s.axes) {
         if (name == "integrator" || name == "encoding" || name == "denoiser") continue;
-        s.label += name == "row" ? fmt::format(" {}", value) : fmt::format(" {} {}", name, value);
+        if (name != "row") s.label += fmt::format(" {} {}", name, value);
+        if (name == "row" && !s.named) s.label += fmt::format(" {}", value);
       }
       const int count = ++seen[s.label];
       if (count > 1) s.label += fmt::format(" #{}", count);
@@ -251,7 +286,8 @@ class Planner {
     return renderer::enum_name(s.settings.render.denoise.denoiser);
   }
   static std::string integrator_of(const PlannedSeries& s) {
-    return renderer::enum_name(s.settings.render.integrator);
+    const renderer::RenderOptions& o = s.settings.render;
+    return o.choose_integrator ? "auto" : renderer::enum_name(o.integrator);
   }
   static std::string encoding_of(const PlannedSeries& s) {
     return renderer::enum_name(s.settings.render.cache.encoding);
@@ -303,9 +339,9 @@ std::string plan_text(const SweepPlan& plan) {
     for (const PlannedSeries& s : scene.series) width = std::max(width, s.label.size());
     for (const PlannedSeries& s : scene.series) {
       const renderer::RenderOptions& o = s.settings.render;
-      text += fmt::format("  {:<{}}  {}x{}, {} {}", s.label, width, o.width, o.height,
-                          s.has_cache() ? "steps" : "spp", fmt::join(s.points, ","));
-      if (s.has_cache()) text += fmt::format(", {} spp", o.spp);
+      text += fmt::format("  {:<{}}  {}x{}", s.label, width, o.width, o.height);
+      if (!s.named) text += fmt::format(", {} {}", s.has_cache() ? "steps" : "spp", fmt::join(s.points, ","));
+      if (s.has_cache() || s.named) text += fmt::format(", {} spp", o.spp);
       text += fmt::format(", against {}\n", renderer::name_of(kReferenceKinds, s.reference));
     }
   }

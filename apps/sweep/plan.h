@@ -2,6 +2,7 @@
 // The plan of a sweep: every combination of its axes, each picture once.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SweepBlock {
                     ///< without a cache
   std::vector<SweepAxis> axes;  ///< --spp here is for integrators with a cache
   std::vector<int> train_steps;
+  std::optional<FlagValues> run;  ///< a named run, `row` is its name: its own flags, over those of `base`
 };
 
 struct SweepScene {

@@ -38,6 +38,7 @@ struct PlannedSeries {
   ReferenceKind reference = ReferenceKind::path;
   std::vector<int> points;           ///< training steps, or samples of a plain integrator; ascending
   std::optional<GateMemory> memory;  ///< decides settings.render.cache.memory_bytes once the scene is loaded
+  bool named = false;  ///< a named run: one cell, as `gatelight render` makes it of `flags`; points is {0}
 
   bool has_cache() const { return renderer::uses_cache(settings.render.integrator); }
 };
@@ -56,6 +57,13 @@ struct SweepPlan {
   std::size_t run_count() const;
   std::size_t cell_count() const;
 };
+
+/// The name of a cell's row in results.md, the same for all seeds: "path, 16 spp", "nrc gate, 128 steps", or
+/// that of a named run.
+std::string run_name(const PlannedSeries& series, int point);
+
+/// Decides a named run beside its settings: the choice of the integrator. Empty for other series.
+std::string named_text(const PlannedSeries& series);
 
 /// The settings of a cell: those of the series with scene, seed and point.
 RenderSettings cell_settings(const PlannedSeries& series, const std::string& scene, std::uint32_t seed,

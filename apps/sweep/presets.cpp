@@ -41,7 +41,8 @@ void add_rows(std::vector<SweepBlock>& blocks, const char* preset, const std::ve
     blocks.push_back({.row = row.name,
                       .base = joined({{"--preset", preset}}, row.flags),
                       .axes = {},
-                      .train_steps = steps});
+                      .train_steps = steps,
+                      .run = {}});
   }
 }
 
@@ -108,12 +109,24 @@ std::vector<SweepBlock> extra() {
   return blocks;
 }
 
+/// The presets of finished pictures as `render` makes them.
+std::vector<SweepBlock> finished() {
+  std::vector<SweepBlock> blocks;
+  for (const char* preset : {"preview", "standard", "final"})
+    blocks.push_back(
+        {.row = preset, .base = {}, .axes = {}, .train_steps = {}, .run = {{{"--preset", preset}}}});
+  return blocks;
+}
+
 struct Preset {
   std::string_view name;
   std::vector<SweepBlock> (*make)();
+  int seeds = 3;
+  std::vector<int> plain_spp = {};
 };
 
 const Preset kPresets[] = {
+    {"finished", finished, 2, {4, 8, 32, 128}},
     {"paper-table1", [] { return both(equal_memory(), kTableSteps); }},
     {"paper-table2", [] { return both(hash_sizes(), kTableSteps); }},
     {"paper-steps", [] { return both(equal_memory(), kFigureSteps); }},
@@ -131,11 +144,13 @@ const Preset kPresets[] = {
 }  // namespace
 
 std::vector<SweepBlock> default_rows() {
-  return {{.row = "bare", .base = {{"--preset", "bare"}}, .axes = {}, .train_steps = kDefaultSteps},
-          {.row = "standard",
-           .base = {{"--preset", "standard"}},
-           .axes = {{"--spp", kStandardSpp}},
-           .train_steps = kStandardSteps}};
+  return {
+      {.row = "bare", .base = {{"--preset", "bare"}}, .axes = {}, .train_steps = kDefaultSteps, .run = {}},
+      {.row = "standard",
+       .base = {{"--preset", "standard"}},
+       .axes = {{"--spp", kStandardSpp}},
+       .train_steps = kStandardSteps,
+       .run = {}}};
 }
 
 std::vector<std::string_view> sweep_preset_names() {
@@ -145,9 +160,9 @@ std::vector<std::string_view> sweep_preset_names() {
   return names;
 }
 
-std::vector<SweepBlock> sweep_preset(std::string_view name) {
+SweepPreset sweep_preset(std::string_view name) {
   for (const Preset& preset : kPresets) {
-    if (preset.name == name) return preset.make();
+    if (preset.name == name) return {preset.make(), preset.seeds, preset.plain_spp};
   }
   return {};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Named blocks of a sweep: those of a sweep without flags, and the experiments of the GATE paper (Boksansky,
-// Meister, Benthin, HPG 2025).
+// Named blocks of a sweep: those of a sweep without flags, the finished pictures of the presets of `render`,
+// and the experiments of the GATE paper (Boksansky, Meister, Benthin, HPG 2025).
 
 #include <string>
 #include <string_view>
@@ -10,8 +10,6 @@
 
 namespace gatelight::apps {
 
-inline constexpr int kPresetSeeds = 3;
-
 /// Default training steps of integrators with a cache.
 inline const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 1024};
 
@@ -19,10 +17,16 @@ inline const std::vector<int> kDefaultSteps = {8, 16, 32, 64, 128, 256, 512, 102
 /// steps and samples. Rows are named after their presets of `render`.
 std::vector<SweepBlock> default_rows();
 
-/// paper-table1, paper-table2 ..., then those of `render`.
+/// finished, paper-table1, paper-table2 ..., then those of `render`.
 std::vector<std::string_view> sweep_preset_names();
 
-/// The blocks of a preset; empty for other names.
-std::vector<SweepBlock> sweep_preset(std::string_view name);
+struct SweepPreset {
+  std::vector<SweepBlock> blocks;
+  int seeds = 3;
+  std::vector<int> plain_spp;  ///< samples of integrators without a cache; empty: they are not measured
+};
+
+/// The preset of this name. It has no blocks for other names.
+SweepPreset sweep_preset(std::string_view name);
 
 }  // namespace gatelight::apps

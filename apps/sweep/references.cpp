@@ -97,6 +97,27 @@ void check_given(const renderer::NamedPicture& given, const RenderOptions& cell)
                                given.name, metrics.nonfinite_reference));
 }
 
+/// A reference with the rel_mse of its own noise, where that is known.
+struct MeanPicture {
+  Picture picture;
+  std::optional<double> rel_mse_noise;
+};
+
+MeanPicture mean_of_halves(const renderer::NamedPicture& first, const renderer::NamedPicture& second) {
+  Picture mean = renderer::merge_pictures({first, second});
+  // (a - m)^2 = ((a - b)/2)^2, which is on average the variance of the mean m.
+  const double noise = renderer::compare_pictures({mean, "the mean of the halves"}, first).rel_mse;
+  return {std::move(mean), noise};
+}
+
+/// The picture of one file, or the mean of two halves.
+MeanPicture read_given(const std::vector<std::string>& files) {
+  Picture first = renderer::read_image(files.front());
+  if (files.size() == 1) return {std::move(first), std::nullopt};
+  const Picture second = renderer::read_image(files.back());
+  return mean_of_halves({first, files.front()}, {second, files.back()});
+}
+
 double seconds_of(const Picture& picture) {
   const auto at = picture.metadata.find("render_seconds");
   return at == picture.metadata.end() ? 0.0 : read_number(at->second);
@@ -158,8 +179,7 @@ ordered_json reference_json(const Reference& reference, const std::string& folde
   return json;
 }
 
-Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
-                         const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder) {
+RenderSettings reference_settings(const RenderSettings& cell, ReferenceKind kind, int spp) {
   RenderSettings settings = cell;
   settings.render = reference_options(cell.render, kind);
   settings.render.seed = 0;
@@ -168,26 +188,51 @@ Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const s
   settings.render.memory_limit_bytes = 0;
   settings.render.isa = RenderOptions().isa;  // changes only the last digits
   settings.image = {};
-  const std::string key =
-      identity_name(fingerprint, {"reference", deciding_text(settings, view_of(scene, settings.render))});
-  return {.kind = kind, .key = key, .file = (fs::path(folder) / (key + ".exr")).string(), .spp = spp};
+  return settings;
 }
 
-Reference given_reference(ReferenceKind kind, const std::string& file, const RenderOptions& cell) {
-  const Picture picture = renderer::read_image(file);
-  check_given({picture, file}, cell);
+Reference plan_reference(const RenderSettings& cell, ReferenceKind kind, const scene::Scene& scene,
+                         const renderer::SceneFingerprint& fingerprint, int spp, const std::string& folder) {
+  const RenderSettings settings = reference_settings(cell, kind, spp);
+  const std::string key =
+      identity_name(fingerprint, {"reference", deciding_text(settings, view_of(scene, settings.render))});
+  const std::string file = (fs::path(folder) / (key + ".exr")).string();
+  return {.kind = kind,
+          .key = key,
+          .file = file,
+          .halves = {beside(file, "_a.exr"), beside(file, "_b.exr")},
+          .spp = spp};
+}
+
+Reference given_reference(ReferenceKind kind, const std::vector<std::string>& files,
+                          const RenderOptions& cell) {
+  const auto [picture, noise] = read_given(files);
+  check_given({picture, files.front()}, cell);
   DigestRecord record;
   for (const renderer::Layer& layer : picture.layers) {
     record.add(digest_of(std::as_bytes(std::span(layer.values))));
   }
-  Reference reference{
-      .kind = kind, .key = hexadecimal(record.digest()).substr(0, 16), .file = file, .given = true};
+  Reference reference{.kind = kind,
+                      .key = hexadecimal(record.digest()).substr(0, 16),
+                      .file = files.front(),
+                      .halves = files,
+                      .given = true,
+                      .rel_mse_noise = noise};
   const auto spp = picture.metadata.find("spp");
   if (spp != picture.metadata.end()) {
     reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
                                                    spp->second, {1, std::int64_t{1} << 30}));
   }
   return reference;
+}
+
+double measure_bias(const Reference& reference, const std::string& file,
+                    const renderer::NamedPicture& second) {
+  const std::array<Picture, 3> read = {renderer::read_image(reference.halves.at(0)),
+                                       renderer::read_image(reference.halves.at(1)),
+                                       renderer::read_image(file)};
+  return renderer::squared_bias({{read[0], reference.halves[0]}, {read[1], reference.halves[1]}},
+                                {{read[2], file}, second});
 }
 
 void read_reference_numbers(Reference& reference) {
@@ -204,7 +249,7 @@ void read_reference_numbers(Reference& reference) {
 
 std::optional<Picture> make_reference(Reference& reference, const scene::Scene& scene,
                                       const RenderSettings& cell, const renderer::Callbacks& callbacks) {
-  if (reference.given) return renderer::read_image(reference.file);
+  if (reference.given) return read_given(reference.halves).picture;
   read_reference_numbers(reference);
   if (reference.rel_mse_noise) {
     if (std::optional<Picture> made = read_made(reference.file)) return made;
@@ -212,7 +257,7 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
 
   RenderOptions options = reference_options(cell.render, reference.kind);
   options.spp = std::max(1, *reference.spp / 2);
-  std::array<std::string, 2> files = {beside(reference.file, "_a.exr"), beside(reference.file, "_b.exr")};
+  const std::vector<std::string>& files = reference.halves;
   std::array<Picture, 2> halves;
   for (std::size_t i = 0; i < 2; ++i) {
     renderer::Callbacks half = callbacks;
@@ -226,10 +271,8 @@ std::optional<Picture> make_reference(Reference& reference, const scene::Scene& 
     if (!picture) return std::nullopt;
     halves[i] = std::move(*picture);
   }
-  const renderer::NamedPicture first{halves[0], files[0]};
-  Picture mean = renderer::merge_pictures({first, {halves[1], files[1]}});
-  // (a - m)^2 = ((a - b)/2)^2, which is on average the variance of the mean m.
-  reference.rel_mse_noise = renderer::compare_pictures({mean, reference.file}, first).rel_mse;
+  auto [mean, noise] = mean_of_halves({halves[0], files[0]}, {halves[1], files[1]});
+  reference.rel_mse_noise = noise;
   reference.seconds = seconds_of(halves[0]) + seconds_of(halves[1]);
   renderer::write_image(mean, reference.file, {.exr_float = true});
   const ordered_json json = {{"kind", renderer::name_of(kReferenceKinds, reference.kind)},

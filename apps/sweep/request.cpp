@@ -9,6 +9,7 @@
 #include <set>
 
 #include "apps/settings/option_table.h"
+#include "apps/sweep/named_runs.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
@@ -143,6 +144,7 @@ void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>
   std::set<std::string> flags = {"--integrator"};
   for (const SweepBlock& row : rows) {
     for (const auto& [flag, value] : row.base) flags.insert(flag);
+    for (const auto& [flag, value] : row.run.value_or(FlagValues())) flags.insert(flag);
     for (const SweepAxis& axis : row.axes) flags.insert(axis.flag);
   }
   const auto check = [&](const std::string& flag, const std::string& given_as) {
@@ -186,8 +188,8 @@ void add_defaults(SweepBlock& block) {
   if (!names_flag(block, "--spp")) block.base.emplace_back("--spp", kDefaultCacheSpp);
 }
 
-void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
-  request.seeds = preset ? kPresetSeeds : 1;
+void read_seeds(const SweepWords& words, int seeds, SweepRequest& request) {
+  request.seeds = seeds;
   if (!words.seeds.empty()) request.seeds = static_cast<int>(parse_integer("--seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
     request.first_seed = static_cast<std::uint32_t>(parse_integer("--seed", *seed, kSeed));
@@ -207,9 +209,44 @@ void read_seeds(const SweepWords& words, bool preset, SweepRequest& request) {
 
 /// Whether no flag selects the pictures.
 bool wants_default_rows(const SweepWords& words) {
-  return words.preset.empty() && words.axes.empty() && words.vary.empty() &&
+  return words.preset.empty() && words.axes.empty() && words.vary.empty() && words.runs.empty() &&
+         words.plans.empty() &&
          std::none_of(std::begin(kNoRowFlags), std::end(kNoRowFlags),
                       [&](const char* flag) { return find_flag(words.base, flag); });
+}
+
+/// A block for each named run, those of files first.
+std::vector<SweepBlock> read_named_runs(const SweepWords& words) {
+  std::vector<NamedRun> runs;
+  for (const std::string& file : words.plans) {
+    for (NamedRun& run : read_runs(file)) runs.push_back(std::move(run));
+  }
+  for (const std::string& text : words.runs) runs.push_back(parse_run(text));
+  std::vector<SweepBlock> blocks;
+  for (NamedRun& run : runs) {
+    for (const auto& [flag, value] : run.flags) {
+      if (contains(kOwnFlags, flag) || (flag != "--seed" && is_base_flag(flag))) continue;
+      throw UsageError(
+          fmt::format("--run: '{}' of '{}' is no flag of render that decides a picture", flag, run.name));
+    }
+    const auto same = [&](const SweepBlock& block) { return block.row == run.name; };
+    if (std::any_of(blocks.begin(), blocks.end(), same))
+      throw UsageError(fmt::format("--run: '{}' is named twice, expected different names", run.name));
+    blocks.push_back(
+        {.row = run.name, .base = {}, .axes = {}, .train_steps = {}, .run = std::move(run.flags)});
+  }
+  return blocks;
+}
+
+/// Refuses flags that would make other pictures of named runs.
+void refuse_beside_runs(const SweepWords& words) {
+  const std::string other = !words.vary.empty()          ? "--vary"
+                            : !words.axes.empty()        ? words.axes.front().first.name
+                            : !words.train_steps.empty() ? "--train-steps"
+                                                         : "";
+  if (other.empty()) return;
+  throw UsageError(
+      fmt::format("{}: named runs are not combined with axes, expected it in the flags of a --run", other));
 }
 
 std::vector<std::string> find_base_flags() {
@@ -260,7 +297,8 @@ const std::vector<std::string>& base_flag_names() {
 SweepRequest make_request(const SweepWords& words) {
   SweepRequest request;
   request.scenes = name_scenes(words.scenes);
-  request.blocks = sweep_preset(words.preset);
+  const SweepPreset preset_rows = sweep_preset(words.preset);
+  request.blocks = preset_rows.blocks;
   const bool preset = !request.blocks.empty();
   FlagValues base = words.base;
   drop_flag(base, "--seed");
@@ -271,11 +309,17 @@ SweepRequest make_request(const SweepWords& words) {
     }
     base.emplace_back("--preset", words.preset);
   }
-  if (wants_default_rows(words)) {
+  if (std::vector<SweepBlock> runs = read_named_runs(words); !runs.empty()) {
+    if (preset)
+      throw UsageError(fmt::format("--preset: '{}' has rows of its own, expected it without --run and --plan",
+                                   words.preset));
+    request.blocks = std::move(runs);
+  } else if (wants_default_rows(words)) {
     request.blocks = default_rows();
   } else if (!preset) {
-    request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps});
+    request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps, .run = {}});
   }
+  if (request.blocks.front().run) refuse_beside_runs(words);
   SweepWords with_preset = words;
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);
@@ -283,15 +327,17 @@ SweepRequest make_request(const SweepWords& words) {
   if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
+    if (block.run) continue;
     if (!words.train_steps.empty())
       block.train_steps = split_integers("--train-steps", words.train_steps, kSteps);
     add_defaults(block);
   }
   request.allow_external = words.allow_external;
-  request.plain_spp = words.spp.empty() ? kDefaultPlainSpp : split_integers("--spp", words.spp, kSpp);
+  request.plain_spp = preset_rows.plain_spp.empty() ? kDefaultPlainSpp : preset_rows.plain_spp;
+  if (!words.spp.empty()) request.plain_spp = split_integers("--spp", words.spp, kSpp);
   // The paper has no rows without a cache.
-  request.plain = !words.no_plain && (!preset || !words.spp.empty());
-  read_seeds(words, preset, request);
+  request.plain = !words.no_plain && (!preset || !words.spp.empty() || !preset_rows.plain_spp.empty());
+  read_seeds(words, preset ? preset_rows.seeds : 1, request);
   return request;
 }
 

@@ -43,6 +43,8 @@ struct SweepWords {
   FlagValues base;
   std::vector<std::pair<AxisFlag, std::string>> axes;
   std::vector<std::string> vary;
+  std::vector<std::string> runs;         ///< "NAME: FLAGS"
+  std::vector<std::string> plans;        ///< files of such lines
   std::vector<std::string> scene_flags;  ///< "sponza:camera=hall"
   std::string train_steps;               ///< empty: not given; the same for the next two
   std::string spp;
@@ -58,10 +60,11 @@ SweepRequest make_request(const SweepWords& words);
 struct SweepSettings {
   SweepRequest request;
   std::string folder;
-  std::string reference_file;    ///< empty: references are rendered
-  int reference_spp = 1024;      ///< of both halves together
-  std::string reference_folder;  ///< empty: references/ in `folder`
+  std::vector<std::string> reference_files;  ///< one picture or two halves; empty: they are rendered
+  int reference_spp = 1024;                  ///< of both halves together
+  std::string reference_folder;              ///< empty: references/ in `folder`
   bool hdr_flip = true;
+  bool keep_exr = false;  ///< also measures the bias, by pairs of seeds
   bool dry_run = false;
   bool advise = false;
   AdviceLimits limits;

@@ -12,6 +12,7 @@
 #include "apps/settings/parsing.h"
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/identity.h"
+#include "apps/sweep/measured_runs.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "base/platform/threads.h"
@@ -24,13 +25,19 @@ using nlohmann::ordered_json;
 
 /// Columns of all sweeps, so that programs can rely on them; axes follow.
 constexpr const char* kColumns =
-    "id,scene,series,integrator,encoding,seed,train_steps,spp,reference,reference_id,command,status,error,"
+    "id,scene,series,run,integrator,encoding,seed,train_steps,spp,reference,reference_id,command,status,"
+    "error,"
     "version,cpu,isa,backend,seconds_scout,seconds_setup,seconds_train,seconds_train_trace,"
     "seconds_train_query,seconds_train_step,seconds_render,seconds_denoise,seconds_total,"
     "train_ms_per_step,train_step_ms,query_ms_per_2m,memory_bytes_parameters,memory_bytes_optimizer,"
-    "memory_bytes_layout,loss,errors_mse,errors_rel_mse,errors_rel_mse_clean,errors_psnr,errors_ssim,"
+    "memory_bytes_layout,loss,errors_mse,errors_rel_mse,errors_rel_mse_clean,errors_bias_rel_mse,errors_psnr,"
+    "errors_ssim,"
     "errors_flip,errors_hdr_flip,flip_percentiles_q25,flip_percentiles_median,flip_percentiles_q75,"
-    "estimated_error,picture,error_map";
+    "estimated_error,picture,error_map,equal_seconds_rel_mse_clean,equal_seconds_flip,"
+    "equal_seconds_denoised_rel_mse_clean,equal_seconds_denoised_flip,times_faster_rel_mse_clean,"
+    "times_faster_flip,times_faster_denoised_rel_mse_clean,times_faster_denoised_flip,"
+    "extrapolated_rel_mse_clean,extrapolated_flip,extrapolated_denoised_rel_mse_clean,"
+    "extrapolated_denoised_flip";
 
 std::string csv_field(const ordered_json& value) {
   if (value.is_null()) return "";
@@ -90,6 +97,7 @@ ordered_json make_results(const std::vector<std::string>& command, const std::ve
     results["scenes"].push_back(scene.scene);
     for (const ordered_json& cell : scene.cells) results["cells"].push_back(cell);
   }
+  add_equal_error(results["cells"]);
   results["machine"] = machine_json(results["cells"]);
   results["versions"]["of_cells"] = words_of_cells(results["cells"], "version");
   return results;

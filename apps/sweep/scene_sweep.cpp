@@ -95,17 +95,17 @@ Reference SceneSweep::planned_reference(const PlannedSeries& series) {
 
 /// One picture can only be the reference of one view and light.
 std::optional<Reference> SceneSweep::find_given() {
-  if (settings_.reference_file.empty()) return std::nullopt;
+  if (settings_.reference_files.empty()) return std::nullopt;
   std::set<std::string> wanted;
   for (const PlannedSeries& series : series_) wanted.insert(planned_reference(series).key);
   if (wanted.size() > 1) {
     throw UsageError(
         fmt::format("--reference: '{}' is one picture, but the cells need {} different ones, expected "
                     "--reference-spp",
-                    settings_.reference_file, wanted.size()));
+                    settings_.reference_files.front(), wanted.size()));
   }
   const PlannedSeries& any = series_.front();
-  return given_reference(any.reference, settings_.reference_file, any.settings.render);
+  return given_reference(any.reference, settings_.reference_files, any.settings.render);
 }
 
 void SceneSweep::name_cells() {
@@ -118,24 +118,36 @@ void SceneSweep::name_cells() {
     Reference reference = given ? *given : planned_reference(series);
     read_reference_numbers(reference);
     reference_keys_.push_back(reference.key);
+    references_.emplace(reference.key, reference);
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         const RenderSettings settings = cell_settings(series, planned_.file, seed, point);
         // The memory of a series that failed is unknown, so its label makes the names unique.
-        const std::string deciding =
-            deciding_text(settings, view) + (series_errors_[i].empty() ? "" : series.label);
+        const std::string deciding = deciding_text(settings, view) + named_text(series) +
+                                     (series_errors_[i].empty() ? "" : series.label);
         Cell cell{.place = {planned_, series, seed, point,
                             cell_name(fingerprint, deciding, reference.key, machine, settings_.hdr_flip),
                             reference.key},
                   .record = nullptr};
-        if (auto record = read_done_record(settings_.folder, cell.place, wants_pictures(cell.place))) {
-          cell.record = std::move(*record);
-        }
+        if (auto record = read_done(cell.place)) cell.record = std::move(*record);
         cells_.push_back(std::move(cell));
       }
     }
-    references_.emplace(reference.key, std::move(reference));
   }
+}
+
+bool SceneSweep::completes_pair(const CellPlace& place) const {
+  const bool second = (place.seed - plan_.seeds.front()) % 2 == 1;
+  return settings_.keep_exr && second && references_.at(place.reference_key).halves.size() == 2;
+}
+
+std::optional<nlohmann::ordered_json> SceneSweep::read_done(const CellPlace& place) const {
+  auto record = read_done_record(settings_.folder, place, wants_pictures(place));
+  if (!record || !settings_.keep_exr) return record;
+  const bool whole = fs::exists(in_folder(exr_file(place.id))) &&
+                     (!completes_pair(place) ||
+                      (*record)["errors"].value("bias_rel_mse", nlohmann::ordered_json()).is_number());
+  return whole ? record : std::nullopt;
 }
 
 std::vector<SceneSweep::Run> SceneSweep::missing_runs() const {
@@ -210,7 +222,7 @@ const Picture* SceneSweep::reference_picture(std::size_t series) {
 void SceneSweep::take_done(Run& run) {
   std::erase_if(run.missing, [&](std::size_t index) {
     Cell& cell = cells_[index];
-    auto record = read_done_record(settings_.folder, cell.place, wants_pictures(cell.place));
+    auto record = read_done(cell.place);
     if (record) cell.record = std::move(*record);
     return record.has_value();
   });
@@ -231,29 +243,8 @@ bool SceneSweep::make(Run run) {
     fail(run.missing,
          series_error.empty() ? reference_errors_.at(reference_keys_[run.series]) : series_error);
   } else if (!run.missing.empty()) {
-    std::vector<int> points;
-    for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
-    const RenderSettings settings =
-        cell_settings(series, planned_.file, plan_.seeds[run.seed], points.back());
-    if (settings_.verbose) {
-      progress_.clear();
-      log_detail(fmt::format("options: {}", dump_options(settings)));
-    }
     try {
-      progress_.phase("build");
-      renderer::Renderer renderer(scene_, settings.render);
-      const renderer::Series wanted =
-          series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points};
-      renderer.render_series(
-          wanted,
-          [&](int point, const Picture& picture, const RenderStatistics& statistics) {
-            const auto index = static_cast<std::size_t>(point);
-            Cell& cell = cells_[run.missing[index]];
-            if (finish_cell(cell, picture, statistics, *reference, reference_of(run.series)))
-              next = index + 1;
-          },
-          callbacks());
-      finished = next == run.missing.size();
+      finished = render(run, *reference, next);
     } catch (const OutputError&) {
       throw;
     } catch (...) {
@@ -263,6 +254,37 @@ bool SceneSweep::make(Run run) {
   }
   if (finished) progress_.end();
   return finished;
+}
+
+bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& next) {
+  PlannedSeries& series = series_[run.series];
+  std::vector<int> points;
+  for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
+  const RenderSettings settings = cell_settings(series, planned_.file, plan_.seeds[run.seed], points.back());
+  if (settings_.verbose) {
+    progress_.clear();
+    log_detail(fmt::format("options: {}", dump_options(settings)));
+  }
+  progress_.phase("build");
+  renderer::Renderer renderer(scene_, settings.render);
+  const auto finish = [&](int point, const Picture& picture, const RenderStatistics& statistics) {
+    const auto index = static_cast<std::size_t>(point);
+    Cell& cell = cells_[run.missing[index]];
+    if (finish_cell(cell, picture, statistics, reference, reference_of(run.series))) next = index + 1;
+  };
+  if (series.named) {
+    // The choice depends on the view only, so all seeds have the same one.
+    if (settings.render.choose_integrator)
+      renderer::use_integrator(series.settings.render, renderer.integrator());
+    const Picture picture = renderer.render(callbacks());
+    const RenderStatistics& statistics = renderer.statistics();
+    if (!statistics.cache.diverged.empty()) throw TrainingDiverged(statistics.cache.diverged);
+    if (!statistics.interrupted) finish(0, picture, statistics);
+  } else {
+    renderer.render_series(series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points},
+                           finish, callbacks());
+  }
+  return next == run.missing.size();
 }
 
 bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderStatistics& statistics,
@@ -278,11 +300,17 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
     progress_.phase("measure", fraction);
     return stop_signal() == 0;
   };
-  const std::optional<CellErrors> measured =
+  std::optional<CellErrors> measured =
       measure_errors({reference, named.file}, named.rel_mse_noise, {picture, cell_file(place.id)},
                      settings.image, hdr, go_on);
   if (!measured) return false;
-  const CellErrors& errors = *measured;
+  CellErrors& errors = *measured;
+  if (settings_.keep_exr) renderer::write_image(picture, in_folder(exr_file(place.id)), {.exr_float = true});
+  const Cell* first = completes_pair(place) ? &cell - place.series.points.size() : nullptr;
+  if (first && is_done(first->record)) {
+    errors.bias_rel_mse =
+        measure_bias(named, in_folder(exr_file(first->place.id)), {picture, cell_file(place.id)});
+  }
   const bool pictures = wants_pictures(place);
   if (pictures) {
     renderer::write_image(picture, in_folder(picture_file(place.id)), settings.image);

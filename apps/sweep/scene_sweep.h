@@ -57,11 +57,19 @@ class SceneSweep {
   Reference& reference_of(std::size_t series) { return references_.at(reference_keys_[series]); }
   const Reference& reference_of(std::size_t series) const { return references_.at(reference_keys_[series]); }
 
+  /// Whether the cell is the second one of a pair of seeds, and its bias is measured.
+  bool completes_pair(const CellPlace& place) const;
+  /// The record of a cell that has all files and errors that this sweep wants.
+  std::optional<nlohmann::ordered_json> read_done(const CellPlace& place) const;
+
   /// Null where a signal ended it or it failed.
   const renderer::Picture* reference_picture(std::size_t series);
   /// Removes cells that another run has made meanwhile.
   void take_done(Run& run);
   bool make(Run run);
+  /// Renders the cells of a run; `next` counts those that are finished. Returns false where a signal ended
+  /// it.
+  bool render(const Run& run, const renderer::Picture& reference, std::size_t& next);
   /// Returns false where a signal ended it.
   bool finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
                    const renderer::Picture& reference, const Reference& named);

@@ -15,6 +15,7 @@
 #include "apps/sweep/planned.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
+#include "apps/sweep/results_table.h"
 #include "apps/sweep/scene_sweep.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -55,7 +56,7 @@ void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
       check_outputs(cell);
     }
   }
-  if (settings.reference_file.empty()) return;
+  if (settings.reference_files.empty()) return;
   std::set<ReferenceKind> kinds;
   for (const PlannedScene& scene : plan.scenes) {
     for (const PlannedSeries& series : scene.series) kinds.insert(series.reference);
@@ -64,7 +65,7 @@ void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
     throw UsageError(fmt::format(
         "--reference: '{}' is one picture, but there are {} scenes with {} kinds of pictures, expected "
         "--reference-spp",
-        settings.reference_file, plan.scenes.size(), kinds.size()));
+        settings.reference_files.front(), plan.scenes.size(), kinds.size()));
   }
 }
 
@@ -137,8 +138,9 @@ class SweepRun {
   void prepare_folders() const {
     const fs::path folder = settings_.folder;
     for (const fs::path& needed : {folder, folder / "cells", folder / "pictures"}) make_folder(needed);
-    if (settings_.reference_file.empty()) make_folder(settings_.reference_folder);
-    for (const char* file : {"results.json", "results.csv", "report.html"}) check_writable(folder / file);
+    if (settings_.reference_files.empty()) make_folder(settings_.reference_folder);
+    for (const char* file : {"results.json", "results.csv", "results.md", "report.html"})
+      check_writable(folder / file);
   }
 
   /// Finds the cells of all scenes that are done, so that results are always complete. Returns false where a
@@ -243,6 +245,7 @@ class SweepRun {
     const ordered_json all = results();
     write_file_atomically(folder / "results.json", json_text(all) + "\n");
     write_file_atomically(folder / "results.csv", results_csv(all));
+    write_file_atomically(folder / "results.md", results_table(all));
   }
 
   void write_report() const {

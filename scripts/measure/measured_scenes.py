@@ -44,11 +44,6 @@ SCENES = {
 }
 
 
-def title_of(name):
-    """The title by the name that 'gatelight sweep' gives a scene."""
-    return next((scene.title for scene in SCENES.values() if scene.stem() == name), name)
-
-
 def add_scenes(parser):
     parser.add_argument("--scenes", default=os.environ.get("GATELIGHT_SCENES"), metavar="DIR",
                         help="folder of the large scenes (default: the environment variable GATELIGHT_SCENES)")
