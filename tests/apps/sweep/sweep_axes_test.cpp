@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/sweep/named_runs.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
 #include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
 namespace {
@@ -65,6 +67,57 @@ SweepWords words_for(FlagValues base, std::vector<std::string> vary = {}) {
 
 std::string refused(const SweepWords& words) {
   return refusal([&] { make_request(words); });
+}
+
+TEST(SweepRuns, AreANameAndFlagsWithValues) {
+  const NamedRun run = parse_run(" loss l2, fast :  --preset bare --loss=l2 --exposure -1");
+  EXPECT_EQ(run.name, "loss l2, fast");
+  EXPECT_THAT(run.flags,
+              ElementsAre(Pair("--preset", "bare"), Pair("--loss", "l2"), Pair("--exposure", "-1")));
+  EXPECT_TRUE(parse_run("default:").flags.empty());
+  for (const char* text : {"bare", ": --spp 2", "a: spp 2", "a: --spp"})
+    expect_message(refusal([&] { parse_run(text); }), {"--run", std::string("'") + text + "'"});
+}
+
+TEST(SweepRuns, AreReadFromAFile) {
+  const tests::TemporaryFolder folder;
+  SweepWords words = words_for({});
+  words.plans = {folder.write("a.plan", "# one a line\n\none: --spp 1\r\n  two: --spp 2\n").string()};
+  words.runs = {"three: --spp 3"};
+  std::vector<std::string> names;
+  for (const SweepBlock& block : make_request(words).blocks) names.push_back(block.row);
+  EXPECT_THAT(names, ElementsAre("one", "two", "three"));
+  for (const std::string& file : {folder.write("b.plan", "# nothing\n").string(), (folder / "none").string()})
+    tests::expect_refusal<InputError>([&] { read_runs(file); }, {file});
+}
+
+TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
+  const auto refused_run = [](
+                               const std::string& run, void (*change)(SweepWords&) = [](SweepWords&) {}) {
+    SweepWords words = words_for({});
+    words.runs = {"one: --spp 1", run};
+    change(words);
+    return refused(words);
+  };
+  EXPECT_EQ(refused_run("two: --spp 2 --train-steps 8 --preset bare"), "");
+  for (const char* flag : {"--output", "--seed", "--stats", "--frob"})
+    expect_message(refused_run(std::string("two: ") + flag + " 2"), {"--run", flag, "two"});
+  expect_message(refused_run("one: --spp 2"), {"'one'", "twice"});
+  expect_message(refused_run("two:", [](SweepWords& w) { w.vary = {"features=2,4"}; }), {"--vary"});
+  expect_message(refused_run("two:", [](SweepWords& w) { w.train_steps = "8"; }), {"--train-steps"});
+  expect_message(refused_run("two:",
+                             [](SweepWords& w) {
+                               w.axes = {{kAxisFlags[0], "nrc"}};
+                             }),
+                 {"--integrators"});
+  expect_message(refused_run("two:", [](SweepWords& w) { w.preset = "paper-table1"; }), {"paper-table1"});
+  SweepWords finished = words_for({});
+  finished.preset = "finished";
+  finished.train_steps = "8";
+  expect_message(refused(finished), {"--train-steps"});
+  finished.train_steps = "";
+  finished.base = {{"--integrator", "path"}};
+  expect_message(refused(finished), {"--integrator", "finished"});
 }
 
 TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySizes) {

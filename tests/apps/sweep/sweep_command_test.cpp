@@ -101,7 +101,8 @@ json without_seconds(json results) {
     for (json& reference : scene["references"]) reference.erase("seconds");
   }
   for (json& cell : results["cells"]) {
-    for (const char* key : {"seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m"})
+    for (const char* key : {"seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m",
+                            "equal_seconds", "times_faster", "extrapolated"})
       cell.erase(key);
   }
   return results;
@@ -523,6 +524,8 @@ TEST_F(SweepCommand, BadArgumentsAreCode1BeforeTheWork) {
   expect_refused({"--vary", "frob=1"}, {"--vary", "frob"});
   expect_refused({"--vary", "sampelr=sobol"}, {"--vary", "did you mean 'sampler'?"});
   expect_refused({"--reference", path("r.exr"), "--integrators", "nrc,nao"}, {"--reference-spp"});
+  expect_refused({"--reference", "a", "--reference", "b", "--reference", "c"}, {"--reference", "'c'"});
+  expect_refused({"--run", "bare"}, {"--run", "bare"});
   expect_failure(run_gatelight_inside({"sweep", "-o", path("out")}), 1, {"SCENE"});
   EXPECT_EQ(run_gatelight_inside(words("out", {}, path("none.glb"))).exit_code, 2);
   EXPECT_EQ(run_gatelight_inside(words("out", {"--camera", "none such"})).exit_code, 1);
@@ -564,6 +567,68 @@ TEST_F(SweepCommand, AGivenReferenceIsCompared) {
   }
   const Output missing = run_gatelight_inside(words("out", {"--reference", path("none.exr"), "--no-plain"}));
   expect_failure(missing, 2, {"none.exr"});
+}
+
+TEST_F(SweepCommand, NamedRunsAreMeasuredWithTheirBias) {
+  Words call = words("out", {"--run", "cached: --integrator nrc --query-at primary --train-steps 8", "--run",
+                             "two: --spp 2", "--keep-exr", "--seeds", "2", "--reference-spp", "256"});
+  const auto steps = std::find(call.begin(), call.end(), "--train-steps");
+  call.erase(steps, steps + 2);
+  const Output output = run_gatelight_inside(call);
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const json all = results("out");
+  std::map<std::string, json> second;
+  for (const json& cell : all["cells"]) {
+    EXPECT_TRUE(fs::exists(folder / ("out/pictures/" + cell["id"].get<std::string>() + ".exr")));
+    EXPECT_EQ(cell["errors"]["bias_rel_mse"].is_null(), cell["seed"] == 1);
+    if (cell["seed"] == 2) second[cell["run"].get<std::string>()] = cell;
+    if (cell["seed"] == 1) {
+      ASSERT_NO_FATAL_FAILURE(expect_picture_of_its_command(cell));
+    }
+  }
+  ASSERT_EQ(second.size(), 4u) << "path with 1 and 4 samples, and the runs";
+  const auto error = [&](const char* run, const char* key) {
+    return second.at(run)["errors"][key].get<double>();
+  };
+  // A cache of eight steps is biased, and paths are not.
+  EXPECT_GT(error("cached", "bias_rel_mse"), 0.5 * error("cached", "rel_mse_clean"));
+  EXPECT_LT(std::abs(error("path, 4 spp", "bias_rel_mse")), 0.5 * error("path, 4 spp", "rel_mse_clean"));
+  EXPECT_GT(error("path, 1 spp", "rel_mse_clean"), error("two", "rel_mse_clean"));
+  EXPECT_GT(error("two", "rel_mse_clean"), error("path, 4 spp", "rel_mse_clean"));
+  EXPECT_EQ(second.at("cached")["train_steps"], 8);
+  // The bias is that of `compare --halves`.
+  const std::string reference =
+      path("out/references/" + all["scenes"][0]["references"][0]["id"].get<std::string>());
+  const auto exr = [&](const json& cell) {
+    return path("out/pictures/" + cell["id"].get<std::string>() + ".exr");
+  };
+  std::string first;
+  for (const json& cell : all["cells"]) {
+    if (cell["run"] == "cached" && cell["seed"] == 1) first = exr(cell);
+  }
+  const Output compared =
+      run_gatelight_inside({"compare", reference + "_a.exr", first, "--halves", reference + "_b.exr",
+                            exr(second.at("cached")), "--json", "-", "--metric", "rel_mse"});
+  EXPECT_NEAR(json::parse(compared.out)["bias_rel_mse"].get<double>(), error("cached", "bias_rel_mse"),
+              1e-12);
+  EXPECT_THAT(read_file(folder / "out/results.md"),
+              AllOf(HasSubstr("| | cached | two |\n"), HasSubstr("|  | cached | ")));
+  // Nothing is made again, except a pair whose picture is missing.
+  const auto before = times_of({folder / "out/cells", folder / "out/pictures"});
+  ASSERT_EQ(run_gatelight_inside(call).exit_code, 0);
+  EXPECT_EQ(times_of({folder / "out/cells", folder / "out/pictures"}), before);
+  fs::remove(first);
+  ASSERT_EQ(run_gatelight_inside(call).exit_code, 0);
+  EXPECT_TRUE(fs::exists(first));
+  EXPECT_EQ(without_seconds(results("out"))["cells"].size(), all["cells"].size());
+  // The same reference from elsewhere, as its halves.
+  Words given = call;
+  given[3] = path("given");
+  given.insert(given.end(), {"--reference", reference + "_a.exr", "--reference", reference + "_b.exr"});
+  ASSERT_EQ(run_gatelight_inside(given).exit_code, 0);
+  const json again = results("given");
+  for (std::size_t i = 0; i < all["cells"].size(); ++i)
+    EXPECT_EQ(again["cells"][i]["errors"], all["cells"][i]["errors"]);
 }
 
 TEST_F(SweepCommand, SweepsMayShareAFolderOfReferences) {

@@ -178,19 +178,41 @@ TEST_F(SweepReferences, AGivenReferenceIsIdentifiedByItsPixels) {
   renderer::RenderOptions cell;
   cell.width = cell.height = 1;
   renderer::write_image(picture, file, {.exr_float = true});
-  const Reference first = given_reference(ReferenceKind::path, file, cell);
+  const Reference first = given_reference(ReferenceKind::path, {file}, cell);
   EXPECT_EQ(first.spp, 7);
   EXPECT_FALSE(first.rel_mse_noise.has_value());
   picture.layers[0].values[2] = 3.5f;
   renderer::write_image(picture, file, {.exr_float = true});
-  EXPECT_NE(given_reference(ReferenceKind::path, file, cell).key, first.key);
+  EXPECT_NE(given_reference(ReferenceKind::path, {file}, cell).key, first.key);
+}
+
+TEST_F(SweepReferences, GivenHalvesHaveAMeanItsNoiseAndTheBiasOfAPair) {
+  const auto write = [&](const char* name, float value) {
+    Picture picture{.width = 1, .height = 1, .metadata = {{"spp", "7"}}};
+    picture.layers = {{.channels = {"R", "G", "B"}, .values = {value, value, value}}};
+    const std::string file = (folder / name).string();
+    renderer::write_image(picture, file, {.exr_float = true});
+    return file;
+  };
+  renderer::RenderOptions cell;
+  cell.width = cell.height = 1;
+  Reference reference =
+      given_reference(ReferenceKind::path, {write("a.exr", 1.0f), write("b.exr", 3.0f)}, cell);
+  EXPECT_EQ(reference.spp, 14);
+  EXPECT_NEAR(*reference.rel_mse_noise, 1.0 / 4.01, 1e-9);
+  const Picture mean = *make_reference(reference, *scene_, settings(Integrator::path), {});
+  EXPECT_EQ(mean.layers[0].values[0], 2.0f);
+  // (1.5 - 1) (4 - 3) over the square of the mean.
+  const std::string second = write("second.exr", 4.0f);
+  EXPECT_NEAR(measure_bias(reference, write("first.exr", 1.5f), {renderer::read_image(second), second}),
+              0.5 / 4.01, 1e-9);
 }
 
 TEST_F(SweepReferences, AGivenReferenceFitsTheCellsOrIsRefused) {
   const std::string file = (folder / "r.exr").string();
   const auto give = [&](const Picture& picture, const renderer::RenderOptions& cell) {
     renderer::write_image(picture, file, {.exr_float = true});
-    given_reference(ReferenceKind::path, file, cell);
+    given_reference(ReferenceKind::path, {file}, cell);
   };
   renderer::RenderOptions cell;
   cell.width = 3;

@@ -17,6 +17,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_write.h"
+#include "renderer/settings/resolved_options.h"
 #include "renderer/surface/embree.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -127,6 +128,35 @@ TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
   EXPECT_EQ(r["seconds"]["total"], 4.25);
   EXPECT_EQ(r["estimated_error"], 0.125);
   EXPECT_EQ(r["options"]["denoiser"], "oidn");
+}
+
+TEST(SweepRecord, OfANamedRunKeepsWhatTheRunHasChosen) {
+  SweepWords words;
+  words.scenes = {"room.glb"};
+  words.runs = {"finished: --preset standard"};
+  words.no_plain = true;
+  SweepPlan plan = make_plan(make_request(words));
+  PlannedSeries& series = plan.scenes[0].series[0];
+  const CellPlace place{plan.scenes[0], series, 1, 0, "0123", "ref"};
+  EXPECT_TRUE(planned_record(place)["train_steps"].is_null());
+  const ordered_json cached = done_record(place, statistics(), errors(), false, 2.5f);
+  EXPECT_EQ(cached["run"], "finished");
+  EXPECT_EQ(cached["train_steps"], 8);
+  EXPECT_EQ(cached["options"]["train-steps"], 8);
+  EXPECT_EQ(cached["spp"], 8);
+  // Another scene gets paths.
+  PlannedSeries chosen = series;
+  renderer::use_integrator(chosen.settings.render, renderer::Integrator::path);
+  const ordered_json traced =
+      done_record({plan.scenes[0], chosen, 1, 0, "0123", "ref"}, statistics(), errors(), false, 2.5f);
+  EXPECT_EQ(traced["integrator"], "path");
+  EXPECT_TRUE(traced["encoding"].is_null());
+  EXPECT_EQ(traced["spp"], 12);
+  const TemporaryFolder folder;
+  for (const ordered_json& record : {cached, traced}) {
+    folder.write("cells/0123.json", record.dump());
+    EXPECT_EQ(*read_done_record(folder.path().string(), place, false), record);
+  }
 }
 
 TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
@@ -324,7 +354,9 @@ TEST(SweepResults, HaveTheSameColumnsWhateverTheirCells) {
             std::vector<std::string>(columns.begin(), columns.end() - 1));
   // Each number of a record has its own column.
   std::set<std::string> expected;
-  for (const auto& [key, value] : made.items()) {
+  const ordered_json in_results =
+      make_results({"x"}, {{.scene = {{"name", "a"}}, .cells = {made}}})["cells"][0];
+  for (const auto& [key, value] : in_results.items()) {
     if (key == "options" || key == "axes" || key == "schema") continue;
     if (!value.is_object()) expected.insert(key);
     if (!value.is_object()) continue;
