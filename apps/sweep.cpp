@@ -24,9 +24,9 @@ given and applies to all cells (--size, --camera, --batch ...; see its --help). 
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-With --run and --plan the pictures have names and flags of their own, with as many training steps as --train-steps says
-there, and no axes; flags for all cells apply where a run does not set them. Beside them the integrator without a cache
-is measured at the samples of --spp, as traced and, for denoised runs, denoised.
+With --run and --plan pictures have names and flags of their own, as 'gatelight render' has them; flags for all cells and
+axes apply where a run does not set them. Beside them the integrator without a cache is measured at the samples of --spp,
+as traced and, for denoised runs, denoised.
 
 Without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds, a sweep compares these by error and
 time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset bare after 8 to 1024
@@ -99,9 +99,8 @@ void add_axes(std::vector<Option>& table, SweepWords& words) {
   }
   axes.add(any_words("vary", words.vary, "NAME=LIST",
                      "Any other flag of render as an axis; may be given several times"));
-  axes.add(
-      any_words("run", words.runs, "'NAME: FLAGS'",
-                "A picture with flags of render of its own, instead of axes; may be given several times"));
+  axes.add(any_words("run", words.runs, "'NAME: FLAGS'",
+                     "A picture with flags of render of its own; may be given several times"));
   axes.add(any_words("plan", words.plans, "FILE", "Such runs, one a line; # begins a comment"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
                      "A flag for one scene only; may be given several times"));

@@ -50,6 +50,12 @@ bool is_base_flag(const std::string& flag) {
   return std::find(names.begin(), names.end(), flag) != names.end();
 }
 
+/// Whether `sweep` has a flag of its own that varies this one.
+bool has_axis(const std::string& flag) {
+  return std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
+                     [&](const AxisFlag& f) { return flag == f.varies; });
+}
+
 /// Whether a flag decides which scene is loaded.
 bool is_of_scene(const std::string& flag) {
   RenderSettings settings;
@@ -68,9 +74,7 @@ void check_vary(const std::string& flag) {
     throw UsageError(
         fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
   }
-  const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
-                                [&](const AxisFlag& f) { return flag == f.varies; });
-  if (!axis && flag != "--preset" && !is_base_flag(flag)) {
+  if (!has_axis(flag) && flag != "--preset" && !is_base_flag(flag)) {
     std::vector<std::string> names = base_flag_names();
     for (std::string& name : names) name.erase(0, 2);
     throw UsageError(fmt::format(
@@ -225,28 +229,14 @@ std::vector<SweepBlock> read_named_runs(const SweepWords& words) {
   std::vector<SweepBlock> blocks;
   for (NamedRun& run : runs) {
     for (const auto& [flag, value] : run.flags) {
-      if (contains(kOwnFlags, flag) || (flag != "--seed" && is_base_flag(flag))) continue;
+      if (contains(kOwnFlags, flag) || has_axis(flag) || (flag != "--seed" && is_base_flag(flag))) continue;
       throw UsageError(
           fmt::format("--run: '{}' of '{}' is no flag of render that decides a picture", flag, run.name));
     }
-    const auto same = [&](const SweepBlock& block) { return block.row == run.name; };
-    if (std::any_of(blocks.begin(), blocks.end(), same))
-      throw UsageError(fmt::format("--run: '{}' is named twice, expected different names", run.name));
     blocks.push_back(
         {.row = run.name, .base = {}, .axes = {}, .train_steps = {}, .run = std::move(run.flags)});
   }
   return blocks;
-}
-
-/// Refuses flags that would make other pictures of named runs.
-void refuse_beside_runs(const SweepWords& words) {
-  const std::string other = !words.vary.empty()          ? "--vary"
-                            : !words.axes.empty()        ? words.axes.front().first.name
-                            : !words.train_steps.empty() ? "--train-steps"
-                                                         : "";
-  if (other.empty()) return;
-  throw UsageError(
-      fmt::format("{}: named runs are not combined with axes, expected it in the flags of a --run", other));
 }
 
 std::vector<std::string> find_base_flags() {
@@ -297,8 +287,8 @@ const std::vector<std::string>& base_flag_names() {
 SweepRequest make_request(const SweepWords& words) {
   SweepRequest request;
   request.scenes = name_scenes(words.scenes);
-  const SweepPreset preset_rows = sweep_preset(words.preset);
-  request.blocks = preset_rows.blocks;
+  const SweepPreset rows = sweep_preset(words.preset);
+  request.blocks = rows.blocks;
   const bool preset = !request.blocks.empty();
   FlagValues base = words.base;
   drop_flag(base, "--seed");
@@ -309,17 +299,13 @@ SweepRequest make_request(const SweepWords& words) {
     }
     base.emplace_back("--preset", words.preset);
   }
-  if (std::vector<SweepBlock> runs = read_named_runs(words); !runs.empty()) {
-    if (preset)
-      throw UsageError(fmt::format("--preset: '{}' has rows of its own, expected it without --run and --plan",
-                                   words.preset));
-    request.blocks = std::move(runs);
-  } else if (wants_default_rows(words)) {
+  const std::vector<SweepBlock> runs = read_named_runs(words);
+  request.blocks.insert(request.blocks.end(), runs.begin(), runs.end());
+  if (wants_default_rows(words)) {
     request.blocks = default_rows();
-  } else if (!preset) {
+  } else if (request.blocks.empty()) {
     request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps, .run = {}});
   }
-  if (request.blocks.front().run) refuse_beside_runs(words);
   SweepWords with_preset = words;
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);
@@ -327,17 +313,19 @@ SweepRequest make_request(const SweepWords& words) {
   if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
+    if (block.run && !words.train_steps.empty())
+      throw UsageError("--train-steps: named runs have their own, expected it in the flags of a --run");
     if (block.run) continue;
     if (!words.train_steps.empty())
       block.train_steps = split_integers("--train-steps", words.train_steps, kSteps);
     add_defaults(block);
   }
   request.allow_external = words.allow_external;
-  request.plain_spp = preset_rows.plain_spp.empty() ? kDefaultPlainSpp : preset_rows.plain_spp;
+  request.plain_spp = rows.plain_spp.empty() ? kDefaultPlainSpp : rows.plain_spp;
   if (!words.spp.empty()) request.plain_spp = split_integers("--spp", words.spp, kSpp);
   // The paper has no rows without a cache.
-  request.plain = !words.no_plain && (!preset || !words.spp.empty() || !preset_rows.plain_spp.empty());
-  read_seeds(words, preset ? preset_rows.seeds : 1, request);
+  request.plain = !words.no_plain && (!preset || !words.spp.empty() || !rows.plain_spp.empty());
+  read_seeds(words, preset ? rows.seeds : 1, request);
   return request;
 }
 

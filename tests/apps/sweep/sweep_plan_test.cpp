@@ -351,6 +351,20 @@ TEST(SweepPlan, RunsThatDifferInTheChoiceOfTheIntegratorAreNotMerged) {
               ElementsAre("path", "path denoised", "auto", "nrc"));
 }
 
+TEST(SweepPlan, NamedRunsMayBeCombinedWithAxesAndStandBesideAPreset) {
+  SweepWords words;
+  words.scenes = {"room.glb"};
+  words.no_plain = true;
+  words.runs = {"bare: --preset bare", "wide: --preset bare --hidden 64"};
+  words.vary = {"hidden=16,32"};
+  EXPECT_THAT(labels(make_plan(make_request(words))),
+              ElementsAre("bare hidden 16", "bare hidden 32", "wide hidden 64"));
+  words.vary.clear();
+  words.preset = "finished";
+  EXPECT_THAT(labels(make_plan(make_request(words))),
+              ElementsAre("preview", "standard", "final", "bare", "wide"));
+}
+
 TEST(SweepPresets, FinishedPicturesAreNamedRunsBesidePathsOfBothKinds) {
   SweepWords words;
   words.scenes = {"room.glb"};
