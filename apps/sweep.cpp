@@ -24,24 +24,24 @@ given and applies to all cells (--size, --camera, --batch ...; see its --help). 
 --features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
 semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
 
-With --run and --plan pictures have names and flags of their own, as 'gatelight render' has them; flags for all cells and
-axes apply where a run does not set them. Beside them the integrator without a cache is measured at the samples of --spp,
-as traced and, for denoised runs, denoised.
+With --run and --plan pictures have names and flags of their own, as 'gatelight render' has them; flags for all cells
+and axes apply where a run does not set them. Beside them the integrator without a cache is measured at the samples of
+--spp, as traced and, for denoised runs, denoised.
 
-Without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds, a sweep compares these by error and
-time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset bare after 8 to 1024
-steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512 and 2048 steps with 2, 7 and 28
-samples. Wherever a cell with a cache is denoised, the integrator without one is measured both as traced and denoised.
-Time counts all phases: scouting, training, rendering, denoising.
+Without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds, a sweep compares
+these by error and time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset
+bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512 and 2048 steps
+with 2, 7 and 28 samples. Wherever a cell with a cache is denoised, the integrator without one is measured both as
+traced and denoised. Time counts all phases: scouting, training, rendering, denoising.
 
-DIR has results.csv and results.json (all cells of this call), results.md (their means over the seeds; how many times
-less time than the plain integrator they take for the same error, between and beyond its samples), report.html (charts, pictures and tables of them: one
-file that opens offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for
-same-as-gate), and cells/, a file for each cell that is done or has failed. The same command continues where it was
-stopped: it makes missing and failed cells, but none that is done. Cells are identified by the scene's content, all
-options, the processor and its instruction set, so that a DIR can serve several sweeps, one at a time. A cell that fails
-is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end the sweep after writing
-the results so far (130, 143 or 129).
+DIR has results.csv and results.json (all cells of this call), results.md (tables of means over the seeds, and how many
+times less time than the integrator without a cache they take for the same error), report.html (charts, pictures and
+tables of the cells: one file that opens offline), pictures and FLIP maps of the first seed, references,
+gate-memory.json (bytes for same-as-gate), and cells/, a file for each cell that is done or has failed. The same command
+continues where it was stopped: it makes missing and failed cells, but none that is done. Cells are identified by the
+scene's content, all options, the processor and its instruction set, so that a DIR can serve several sweeps, one at a
+time. A cell that fails is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end
+the sweep after writing the results so far (130, 143 or 129).
 
 With --keep-exr, two seeds and two halves of a reference, errors_bias_rel_mse of the second seed is the squared bias of
 the pair: the part of rel_mse that more samples would not remove ('gatelight compare --halves'). A reference in

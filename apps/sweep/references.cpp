@@ -131,6 +131,9 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   o.integrator = kind == ReferenceKind::ao      ? renderer::Integrator::ao
                  : kind == ReferenceKind::cache ? renderer::Integrator::nrc
                                                 : renderer::Integrator::path;
+  // A named run may choose, but its reference does not.
+  o.choose_integrator = false;
+  o.spp_of_paths = 0;
   o.time_limit_seconds = 0.0;
   o.max_error = 0.0;
   o.sampler = defaults.sampler;

@@ -19,6 +19,7 @@
 #include "renderer/image/image_write.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/render.h"
+#include "renderer/settings/presets.h"
 #include "renderer/surface/embree.h"
 #include "scene/gltf.h"
 #include "tests/support/messages.h"
@@ -122,6 +123,17 @@ TEST_F(SweepReferences, EstimateTheirNoiseFromTheirHalves) {
     EXPECT_EQ(again.rel_mse_noise, reference.rel_mse_noise);
     EXPECT_EQ(again.seconds, reference.seconds);
   }
+}
+
+TEST_F(SweepReferences, OfANamedRunDoNotChooseTheirIntegratorAndSamples) {
+  RenderSettings cell = settings(Integrator::nrc);
+  renderer::apply_preset(renderer::CachePreset::preview, cell.render);
+  ASSERT_TRUE(cell.render.choose_integrator);
+  Reference reference = plan(cell, ReferenceKind::path);
+  EXPECT_EQ(reference.key, plan(settings(Integrator::path), ReferenceKind::path).key);
+  const Picture mean = *make_reference(reference, *scene_, cell, {});
+  EXPECT_EQ(mean.metadata.at("spp"), "16");
+  EXPECT_EQ(mean.metadata.at("integrator"), "path");
 }
 
 TEST_F(SweepReferences, RepeatedStopsDoNotChangeTheirBits) {
