@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "renderer/image/image_read.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,11 +25,9 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class CacheCommand : public ::testing::Test {
+class CacheCommand : public FolderTest {
  protected:
   using Words = std::vector<std::string>;
-
-  std::string path(const std::string& name) const { return (folder / name).string(); }
 
   Output render(Words flags, const std::string& scene = "cornell-box") const {
     const Words defaults = {"--size", "24x16", "--spp", "2", "--train-steps", "6", "--batch", "256"};
@@ -47,8 +46,6 @@ class CacheCommand : public ::testing::Test {
     EXPECT_EQ(output.exit_code, 0) << output.err;
     return json::parse(output.out);
   }
-
-  TemporaryFolder folder;
 };
 
 /// Finite everywhere and not black.

@@ -7,6 +7,7 @@
 
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -18,10 +19,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class CompareCommand : public ::testing::Test {
+class CompareCommand : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   std::string picture(const std::string& name, int width, int height, float value,
                       std::map<std::string, std::string> metadata = {}) const {
     renderer::Picture picture{.width = width, .height = height, .metadata = std::move(metadata)};
@@ -30,8 +29,6 @@ class CompareCommand : public ::testing::Test {
     renderer::write_image(picture, folder / name, {.exr_float = true});
     return path(name);
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(CompareCommand, PrintsTextAndJson) {

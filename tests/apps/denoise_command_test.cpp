@@ -6,6 +6,7 @@
 
 #include "renderer/image/image_read.h"
 #include "tests/support/denoiser.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -13,10 +14,8 @@
 namespace gatelight::tests {
 namespace {
 
-class DenoiseCommand : public ::testing::Test {
+class DenoiseCommand : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   std::string render(const std::string& name, const std::vector<std::string>& more = {},
                      const std::string& seed = "1") const {
     std::vector<std::string> words = {"render",
@@ -40,8 +39,6 @@ class DenoiseCommand : public ::testing::Test {
   static std::vector<float> beauty(const std::string& file) {
     return renderer::read_image(file).layers[0].values;
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(DenoiseCommand, GivesTheFinishedPicture) {

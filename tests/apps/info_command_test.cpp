@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/image/image_write.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -21,10 +22,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class InfoCommand : public ::testing::Test {
+class InfoCommand : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   /// A light of each type and a camera of each type, three metres along x.
   std::string lit_scene() const {
     json file = json::parse(tiny_scene());
@@ -60,8 +59,6 @@ class InfoCommand : public ::testing::Test {
     EXPECT_EQ(run_gatelight(call).exit_code, 0);
     return path("a b.exr");
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(InfoCommand, ReportsWhichOfOverlappingBodiesFillsTheSpace) {

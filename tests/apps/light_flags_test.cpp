@@ -8,8 +8,8 @@
 
 #include "renderer/image/image_read.h"
 #include "tests/support/denoiser.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
@@ -31,7 +31,7 @@ std::string lit_scene() {
   return scene.dump();
 }
 
-class LightFlags : public ::testing::Test {
+class LightFlags : public FolderTest {
  protected:
   Picture render(const std::vector<std::string>& flags) const {
     const std::string file = (folder / "a.exr").string();
@@ -43,7 +43,6 @@ class LightFlags : public ::testing::Test {
     return read_image(file);
   }
 
-  TemporaryFolder folder;
   std::string scene = folder.write("lit.gltf", lit_scene());
 };
 

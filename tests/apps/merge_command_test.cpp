@@ -6,17 +6,15 @@
 
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 namespace {
 
-class MergeCommand : public ::testing::Test {
+class MergeCommand : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   std::string picture(const std::string& name, int width, float value,
                       std::map<std::string, std::string> metadata = {}) const {
     renderer::Picture picture{.width = width, .height = 1, .metadata = std::move(metadata)};
@@ -25,8 +23,6 @@ class MergeCommand : public ::testing::Test {
     renderer::write_image(picture, folder / name, {.exr_float = true});
     return path(name);
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/image/image_read.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class ViewFlags : public ::testing::Test {
+class ViewFlags : public FolderTest {
  protected:
   /// The tiny scene with cameras of these names, each farther away than the one before.
   std::string scene_of(const std::vector<std::string>& names) {
@@ -42,8 +42,6 @@ class ViewFlags : public ::testing::Test {
   std::vector<float> values(const std::string& name) const {
     return renderer::read_image(file(name)).layers[0].values;
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(ViewFlags, CameraAllRendersEveryCameraWhateverItsName) {

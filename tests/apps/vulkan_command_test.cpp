@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,7 +28,7 @@ bool has_usable_device() {
   return false;
 }
 
-class VulkanCommand : public ::testing::Test {
+class VulkanCommand : public FolderTest {
  protected:
   using Words = std::vector<std::string>;
 
@@ -36,8 +37,6 @@ class VulkanCommand : public ::testing::Test {
     if (std::getenv("GATELIGHT_REQUIRE_VULKAN") != nullptr) FAIL() << "no Vulkan device: " << devices();
     GTEST_SKIP() << "no Vulkan device";
   }
-
-  std::string path(const std::string& name) const { return (folder / name).string(); }
 
   Output render(Words flags) const {
     Words words = {"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--quiet"};
@@ -50,8 +49,6 @@ class VulkanCommand : public ::testing::Test {
     EXPECT_EQ(output.exit_code, 0) << output.err;
     return json::parse(output.out)["flip"]["mean"];
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
@@ -80,8 +77,8 @@ TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
                                path("c.safetensors"), "-o", path("learned.exr")});
     own.insert(own.end(), {"--train-steps", "0", "--device", learner, "--cache-in", path("c.safetensors"),
                            "-o", path("own.exr")});
-    ask.insert(ask.end(), {"--train-steps", "0", "--device", queried, "--cache-in", path("c.safetensors"), "-o",
-                           path("queried.exr")});
+    ask.insert(ask.end(), {"--train-steps", "0", "--device", queried, "--cache-in", path("c.safetensors"),
+                           "-o", path("queried.exr")});
     for (const Words& words : {learn, own, ask}) {
       const Output output = render(words);
       ASSERT_EQ(output.exit_code, 0) << output.err;

@@ -142,12 +142,4 @@ class Agreement {
   const char* what_ = "";
 };
 
-/// A step is a smooth function of the gradient, and the first batch does not move the output's bias.
-inline TrainingOptions smooth_options() {
-  TrainingOptions options;
-  make_smooth(options.adam);
-  options.start_at_mean = false;
-  return options;
-}
-
 }  // namespace gatelight::neural::testing

@@ -8,16 +8,14 @@
 #include <vector>
 
 #include "tests/extremes/extreme.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 
-class ErrorConsensus : public ::testing::Test {
+class ErrorConsensus : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   /// A square under a white sky.
   std::vector<std::string> words(const std::vector<std::string>& more) const {
     std::vector<std::string> all = {"render", scene, "--environment", "1,1,1", "--threads", "2"};
@@ -25,7 +23,6 @@ class ErrorConsensus : public ::testing::Test {
     return all;
   }
 
-  TemporaryFolder folder;
   std::string scene = folder.write("scene.gltf", tiny_scene());
 };
 

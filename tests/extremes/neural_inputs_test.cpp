@@ -42,7 +42,7 @@ void expect_finite_beyond(const ModelCase& c, const OwnedBatch& batch) {
   }
 }
 
-TEST(ExtremeInputs, OneBlobAtItsBorders) {
+TEST(ExtremeInputs, OneBlobAtItsBordersAgreesWithTheReference) {
   double worst = 0;
   const float inside = std::nextafter(1.0f, 0.0f);
   const std::vector<float> values = {0.0f,
@@ -83,7 +83,7 @@ TEST(ExtremeInputs, OneBlobAtItsBorders) {
                  fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
 }
 
-TEST(ExtremeInputs, DirectionsAtPolesAndSeams) {
+TEST(ExtremeInputs, DirectionsAtPolesAndSeamsAgreeWithTheReference) {
   double worst = 0;
   const float tiny = 1e-7f;
   const std::vector<Float3> directions = {
@@ -102,7 +102,7 @@ TEST(ExtremeInputs, DirectionsAtPolesAndSeams) {
                  fmt::format("answers off by {:.1e} (bound 3e-5)", worst), "");
 }
 
-TEST(ExtremeInputs, DirectionsThatAreNotUnitVectors) {
+TEST(ExtremeInputs, OfDirectionsThatAreNotUnitVectorsOnlyTheDirectionCounts) {
   double worst = 0;
   for (const InputSource source : {InputSource::direction, InputSource::normal}) {
     const ModelCase c = plain(source, InputEncoding::one_blob, 4);
@@ -126,7 +126,7 @@ TEST(ExtremeInputs, DirectionsThatAreNotUnitVectors) {
       "");
 }
 
-TEST(ExtremeInputs, BarycentricsOutside) {
+TEST(ExtremeInputs, BarycentricsOutsideATriangleGiveTheNearestPointsAnswers) {
   Agreement agreement;
   double worst = 0;
   for (const char* name : {"nrc", "gate_L2_stack_64", "gate_L5_per_triangle_stack_5_a_1"}) {
@@ -143,7 +143,7 @@ TEST(ExtremeInputs, BarycentricsOutside) {
                  fmt::format("the nearest point's answers, off by {:.1e} (bound 3e-5)", worst), "");
 }
 
-TEST(ExtremeInputs, PositionsOutsideTheGrid) {
+TEST(ExtremeInputs, PositionsOutsideTheGridGiveTheBordersAnswers) {
   double worst = 0;
   for (const char* name : {"hash_F4", "hash_16_levels", "hash_tables_of_8"}) {
     const ModelCase c = find_model_case(name);
@@ -159,7 +159,7 @@ TEST(ExtremeInputs, PositionsOutsideTheGrid) {
                  fmt::format("the border's answers, off by {:.1e} (bound 5e-5)", worst), "");
 }
 
-TEST(ExtremeInputs, BoundsOfTheGrid) {
+TEST(ExtremeInputs, GridsOfAnySizeAgreeWithTheReferenceAndInvalidBoundsAreRefused) {
   double worst = 0;
   std::size_t refused = 0;
   for (const float size : {1e-30f, 1e-6f, 1.0f, 1e6f, 1e30f}) {
@@ -185,7 +185,7 @@ TEST(ExtremeInputs, BoundsOfTheGrid) {
 }
 
 // Finite numbers whose products overflow; the renderer never gives them.
-TEST(ExtremeInputs, FrequenciesOfHugeNumbers) {
+TEST(ExtremeInputs, FrequenciesOfHugeNumbersLoseNoGradient) {
   for (const InputSource source : {InputSource::albedo, InputSource::roughness, InputSource::direction}) {
     const ModelCase c = plain(source, InputEncoding::frequency, 16);
     OwnedBatch batch = make_batch(*c.model, 97, 7);

@@ -36,7 +36,7 @@ std::uint32_t last_node(const GateLayout& layout, const OwnedMesh& mesh) {
   return greatest;
 }
 
-TEST(ExtremeLayouts, NodesUpTo2To32AndNoMore) {
+TEST(ExtremeLayouts, NodesUpTo2To32AreNumberedAndMoreAreRefused) {
   const OwnedMesh mesh = make_sheet(20, 0.1f, 1);
   double most = 0;
   std::string refused;
@@ -62,7 +62,7 @@ TEST(ExtremeLayouts, NodesUpTo2To32AndNoMore) {
                  fmt::format("more: \"{}\" (exit code 1)", refused));
 }
 
-TEST(ExtremeLayouts, BudgetsFromOneByteToTheGreatestNumber) {
+TEST(ExtremeLayouts, BudgetsFromOneByteToTheGreatestNumberAreKeptOrRefused) {
   const auto surfaces = make_small_surfaces();
   GateOptions options;
   std::size_t fitted = 0;
@@ -81,7 +81,7 @@ TEST(ExtremeLayouts, BudgetsFromOneByteToTheGreatestNumber) {
                  fmt::format("1 byte: \"{}\"", refused));
 }
 
-TEST(ExtremeLayouts, SpacingsAndScalesOfAnySize) {
+TEST(ExtremeLayouts, SpacingsAndScalesOfAnySizeGiveValidResolutions) {
   const auto surfaces = make_small_surfaces();
   std::size_t tried = 0;
   for (const bool cluster : {false, true})
@@ -103,7 +103,7 @@ TEST(ExtremeLayouts, SpacingsAndScalesOfAnySize) {
 }
 
 // Areas of 1e308 m2 and their squares overflow double precision.
-TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloats) {
+TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloatsGiveValidResolutions) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
   OwnedMesh mesh = make_sheet(3, 0.0f, 1);
   for (Float3& p : mesh.positions)
@@ -131,7 +131,7 @@ TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloats) {
                  "R from 1 to the greatest allowed", "");
 }
 
-TEST(ExtremeLayouts, DegenerateDuplicateAndFlippedTriangles) {
+TEST(ExtremeLayouts, DegenerateDuplicateAndFlippedTrianglesAgreeWithTheReference) {
   Agreement agreement;
   OwnedMesh mesh = make_sheet(2, 0.2f, 1);
   const auto triangles = mesh.triangles;

@@ -44,7 +44,7 @@ class ExtremesOnVulkan : public ::testing::Test {
   Agreement agreement{on_vulkan};
 };
 
-TEST_F(ExtremesOnVulkan, Targets) {
+TEST_F(ExtremesOnVulkan, TargetsAgreeWithTheReference) {
   for (const char* name : {"nrc", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
     TrainingOptions options = smooth_options();
@@ -99,7 +99,7 @@ TEST_F(ExtremesOnVulkan, TheInitialBiasMatchesTheReference) {
       fmt::format("the output's bias starts within {:.1e} of the reference's (bound 1e-5)", worst), "");
 }
 
-TEST_F(ExtremesOnVulkan, Models) {
+TEST_F(ExtremesOnVulkan, ModelsAgreeWithTheReference) {
   std::uint64_t seed = 10;
   const auto random_step = [&](const std::string& name, const ModelConfig& config) {
     const ModelCase c = make_case(name, config);
@@ -127,7 +127,7 @@ TEST_F(ExtremesOnVulkan, Models) {
                  agreement.text(), "");
 }
 
-TEST_F(ExtremesOnVulkan, WeightsAndCounters) {
+TEST_F(ExtremesOnVulkan, WeightsAndCountersAgreeWithTheReference) {
   const ModelCase c = find_model_case("nrc");
   const ParameterLayout& layout = c.model->parameters;
   TrainingOptions options = smooth_options();

@@ -20,7 +20,7 @@ void expect_same(Agreement& agreement, const ModelCase& c, std::uint64_t seed) {
   agreement.expect_same(c.name, c, options, state, batch);
 }
 
-TEST(ExtremeModels, ResolutionsOf1And32And64) {
+TEST(ExtremeModels, ResolutionsOf1And32And64AgreeWithTheReference) {
   Agreement agreement;
   std::uint64_t seed = 0;
   std::uint32_t nodes = 0;
@@ -49,7 +49,7 @@ TEST(ExtremeModels, ResolutionsOf1And32And64) {
                  agreement.text(), "R = 0 and R = 65: BadConfiguration (exit code 1)");
 }
 
-TEST(ExtremeModels, FeatureVectorsOf1And16AndStacksOf1And4) {
+TEST(ExtremeModels, FeatureVectorsOf1And16AndStacksOf1And4AgreeWithTheReference) {
   Agreement agreement;
   std::uint64_t seed = 20;
   for (const std::uint32_t features : {1u, 16u})
@@ -80,7 +80,7 @@ TEST(ExtremeModels, FeatureVectorsOf1And16AndStacksOf1And4) {
                  agreement.text(), fmt::format("{} beyond: BadConfiguration (exit code 1)", refused));
 }
 
-TEST(ExtremeModels, HashGridsOf1And16Levels) {
+TEST(ExtremeModels, HashGridsOf1And16LevelsAgreeWithTheReference) {
   Agreement agreement;
   std::uint64_t seed = 40;
   for (const std::uint32_t levels : {1u, 16u})
@@ -99,7 +99,7 @@ TEST(ExtremeModels, HashGridsOf1And16Levels) {
                  "");
 }
 
-TEST(ExtremeModels, NetworksOf16And128WithOneAndFiveLayers) {
+TEST(ExtremeModels, NetworksOf16And128WithOneAndFiveLayersAgreeWithTheReference) {
   Agreement agreement;
   std::uint64_t seed = 60;
   for (const std::uint32_t width : {16u, 128u})
@@ -126,7 +126,7 @@ ModelCase one_triangle(Sides sides, float spacing) {
   return {"one_triangle", make_model(config, surfaces)};
 }
 
-TEST(ExtremeModels, OneNode) {
+TEST(ExtremeModels, RecordsOfOneNodeAgreeWithTheReference) {
   const ModelCase c = one_triangle(Sides::front, 1e6f);
   EXPECT_EQ(c.model->parameters.node_count, 1u);
   Agreement agreement;
@@ -136,7 +136,7 @@ TEST(ExtremeModels, OneNode) {
   report_extreme("one node", "5000 records on it", agreement.text(), "");
 }
 
-TEST(ExtremeModels, NoStoredSurface) {
+TEST(ExtremeModels, WithoutAStoredSurfaceAStepChangesNothing) {
   std::size_t tried = 0;
   for (const bool instances : {false, true}) {
     ModelConfig config = default_gate_config();
@@ -171,7 +171,7 @@ TEST(ExtremeModels, NoStoredSurface) {
                  "a step changes nothing, answers are finite", "all records counted as unstored");
 }
 
-TEST(ExtremeModels, Fp16FeaturesAtOverflow) {
+TEST(ExtremeModels, Fp16FeaturesStayWithinTheirRange) {
   double worst = 0;
   for (const char* name : {"nrc", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
@@ -205,7 +205,7 @@ TEST(ExtremeModels, Fp16FeaturesAtOverflow) {
                  "features stay within 65504, answers finite", "");
 }
 
-TEST(ExtremeModels, Fp16FeaturesBelowTheNormalRange) {
+TEST(ExtremeModels, SubnormalFp16FeaturesAreReadExactly) {
   double worst = 0;
   const ModelCase c = find_model_case("nrc");
   TrainingOptions options;
@@ -233,7 +233,7 @@ TEST(ExtremeModels, Fp16FeaturesBelowTheNormalRange) {
       "");
 }
 
-TEST(ExtremeModels, AllWeightsZero) {
+TEST(ExtremeModels, WithAllWeightsZeroAnswersAreTheMeanTarget) {
   Agreement agreement;
   double worst = 0;
   for (const char* name : {"nrc", "nao", "hash_F4", "leaky_slope_0_percent"}) {
@@ -266,7 +266,7 @@ TEST(ExtremeModels, AllWeightsZero) {
 }
 
 // Every hidden unit on its negative side for all records.
-TEST(ExtremeModels, DeadUnits) {
+TEST(ExtremeModels, DeadUnitsAgreeWithTheReferenceAndStayFinite) {
   Agreement agreement;
   for (const char* name : {"nrc", "mlp_5x128", "leaky_slope_0_percent", "leaky_slope_30_percent"}) {
     const ModelCase c = find_model_case(name);
@@ -290,7 +290,7 @@ TEST(ExtremeModels, DeadUnits) {
                  fmt::format("{}; finite after 100 steps", agreement.text()), "");
 }
 
-TEST(ExtremeModels, L2WithHugeWeights) {
+TEST(ExtremeModels, L2WithHugeWeightsAgreesWithTheReferenceAndStaysFinite) {
   Agreement agreement;
   for (const float weight : {1e3f, 1e4f}) {
     const ModelCase c = find_model_case("mlp_1x16");

@@ -160,7 +160,7 @@ TEST(ExtremeRates, AZeroGradientMovesNoParameter) {
   report_extreme("epsilon 1e-30 and no gradient", "50 steps from zero to zero", "no parameter moves", "");
 }
 
-TEST(ExtremeRates, DecayAndAverageFromTheFirstStepToTheLast) {
+TEST(ExtremeRates, DecayAndAverageStayPositiveFromTheFirstStepToTheLast) {
   AdamOptions adam;
   const AverageOptions average;
   EXPECT_EQ(learning_rate_at(adam, 1), adam.learning_rate);
@@ -189,7 +189,7 @@ TEST(ExtremeRates, DecayAndAverageFromTheFirstStepToTheLast) {
                  "");
 }
 
-TEST(ExtremeRates, CountersNear2To32) {
+TEST(ExtremeRates, CountersNear2To32Saturate) {
   Agreement agreement;
   for (const char* name : {"nrc", "gate_L5_per_triangle_stack_5_a_1", "hash_F4"}) {
     const ModelCase c = find_model_case(name);

@@ -26,7 +26,7 @@ double error_after(Backend& backend, const Model& model, const OwnedBatch& batch
   return worst;
 }
 
-TEST(ExtremeTargets, BatchesOfOneRecord) {
+TEST(ExtremeTargets, BatchesOfOneRecordAgreeWithTheReference) {
   Agreement agreement;
   double worst = 0;
   for (const ModelCase& c : usual_cases()) {
@@ -46,7 +46,7 @@ TEST(ExtremeTargets, BatchesOfOneRecord) {
                  fmt::format("{}; answer off by {:.1e} (bound 1e-3)", agreement.text(), worst), "");
 }
 
-TEST(ExtremeTargets, AllRecordsOnOneTriangle) {
+TEST(ExtremeTargets, RecordsOfOneTriangleAgreeWithTheReference) {
   Agreement agreement;
   std::uint64_t most = 0;
   for (const char* name : {"nrc", "nao", "gate_L5_per_triangle_stack_5_a_1", "gate_L2_stack_64"}) {
@@ -69,7 +69,7 @@ TEST(ExtremeTargets, AllRecordsOnOneTriangle) {
   report_extreme("all records on one triangle", "4999 records, R = 1 to 64", agreement.text(), "");
 }
 
-TEST(ExtremeTargets, AllTargetsZero) {
+TEST(ExtremeTargets, TargetsOfZeroAreLearned) {
   Agreement agreement;
   double worst = 0;
   for (const ModelCase& c : usual_cases())
@@ -97,7 +97,7 @@ TEST(ExtremeTargets, AllTargetsZero) {
       "");
 }
 
-TEST(ExtremeTargets, AllTargetsEqual) {
+TEST(ExtremeTargets, EqualTargetsAreLearned) {
   Agreement agreement;
   double worst = 0;
   for (const ModelCase& c : usual_cases())
@@ -124,7 +124,7 @@ TEST(ExtremeTargets, AllTargetsEqual) {
 }
 
 // Adam remembers the square of a gradient for as long as it is above the usual ones.
-TEST(ExtremeTargets, OneTargetOf1e30) {
+TEST(ExtremeTargets, OneTargetOf1e30IsClampedAndForgotten) {
   Agreement agreement;
   double worst = 0;
   for (const ModelCase& c : usual_cases()) {
@@ -185,7 +185,7 @@ TEST(ExtremeTargets, OneBrightRecordDoesNotSetTheInitialAnswers) {
                  "");
 }
 
-TEST(ExtremeTargets, NanAndInfinityMixedIn) {
+TEST(ExtremeTargets, NanAndInfinityRejectOnlyTheirRecords) {
   Agreement agreement;
   std::uint64_t rejected = 0;
   for (const ModelCase& c : usual_cases())

@@ -33,7 +33,7 @@ json extension(const char* name, json value) {
   return {{"extensions", {{name, std::move(value)}}}};
 }
 
-TEST(Materials, CoreFactorsAndTexturesArrive) {
+TEST(Materials, CoreFactorsAndTexturesAreRead) {
   const Scene scene = load_material({{"name", "steel"},
                                      {"pbrMetallicRoughness",
                                       {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
@@ -153,7 +153,7 @@ TEST(Materials, BackFacesAreShownCulledOrLitByOption) {
                           Sides(false, false)));
 }
 
-TEST(Materials, IorSpecularAndUnlit) {
+TEST(Materials, IorSpecularAndUnlitAreRead) {
   EXPECT_FLOAT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 1.33}})).ior, 1.33f);
   EXPECT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 0}})).ior, 0.0f);
   EXPECT_EQ(only_material(extension("KHR_materials_ior", {{"ior", 0.5}})).ior, 1.0f);
@@ -168,7 +168,7 @@ TEST(Materials, IorSpecularAndUnlit) {
   EXPECT_TRUE(only_material(extension("KHR_materials_unlit", json::object())).unlit);
 }
 
-TEST(Materials, TransmissionAndVolume) {
+TEST(Materials, TransmissionAndVolumeAreRead) {
   json material = extension("KHR_materials_transmission",
                             {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}});
   EXPECT_FALSE(only_material(material).has_volume());
@@ -182,7 +182,7 @@ TEST(Materials, TransmissionAndVolume) {
   EXPECT_TRUE(m.attenuation_color.isApprox(Color(0.5f, 0.25f, 1)));
 }
 
-TEST(Materials, Iridescence) {
+TEST(Materials, IridescenceIsRead) {
   const Material m = only_material(
       extension("KHR_materials_iridescence", {{"iridescenceFactor", 0.5},
                                               {"iridescenceIor", 1.8},
@@ -205,7 +205,7 @@ TEST(Materials, OnlyVolumesDisperse) {
   EXPECT_TRUE(only_material(material).disperses());
 }
 
-TEST(Materials, DiffuseTransmission) {
+TEST(Materials, DiffuseTransmissionIsRead) {
   const Material plain = only_material(extension("KHR_materials_diffuse_transmission", json::object()));
   EXPECT_EQ(plain.diffuse_transmission, 0.0f);
   EXPECT_FALSE(plain.transmits());
@@ -224,7 +224,7 @@ TEST(Materials, DiffuseTransmission) {
   EXPECT_TRUE(only_material(material).has_volume());
 }
 
-TEST(Materials, Anisotropy) {
+TEST(Materials, AnisotropyIsRead) {
   const json anisotropic = extension(
       "KHR_materials_anisotropy",
       {{"anisotropyStrength", 0.6}, {"anisotropyRotation", -1.5}, {"anisotropyTexture", {{"index", 0}}}});
@@ -253,7 +253,7 @@ TEST(Materials, AnAnisotropicMeshTakesTangentsFromItsTextureCoordinates) {
   expect_messages(without.warnings, {{"anisotropic mesh"}});
 }
 
-TEST(Materials, ClearcoatAndSheen) {
+TEST(Materials, ClearcoatAndSheenAreRead) {
   json material =
       extension("KHR_materials_clearcoat", {{"clearcoatFactor", 0.5},
                                             {"clearcoatTexture", {{"index", 0}}},

@@ -102,7 +102,7 @@ TEST(Requirements, EmissiveTrianglesCountEachInstance) {
   EXPECT_TRUE(compute_requirements(scene).instances);
 }
 
-TEST(Requirements, LightsAndColours) {
+TEST(Requirements, LightsAndVertexColoursAreFound) {
   Scene scene = scene_of({lambert()});
   scene.meshes[0].colors.assign(3, Vec4(1, 0, 0, 1));
   scene.lights.resize(1);

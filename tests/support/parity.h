@@ -17,6 +17,7 @@
 #include "neural/reference/encode.h"
 #include "neural/reference/mlp.h"
 #include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::testing {
@@ -58,6 +59,14 @@ inline ModelState random_state(const Model& model, const TrainingOptions& option
 inline void make_smooth(AdamOptions& adam) {
   adam.learning_rate = 1.0f;
   adam.epsilon = 1.0f;
+}
+
+/// A step is a smooth function of the gradient, and the first batch does not move the output's bias.
+inline TrainingOptions smooth_options() {
+  TrainingOptions options;
+  make_smooth(options.adam);
+  options.start_at_mean = false;  // it would put targets near answers (make_smooth_batch)
+  return options;
 }
 
 // ---- batches

@@ -123,6 +123,35 @@ inline double mean_p_value(const Moments& moments, double expected, double round
   return student_two_sided(difference / error, static_cast<double>(moments.count() - 1));
 }
 
+/// The relative error of something learned, measured over a number of seeds: its mean (the bias) and the
+/// standard deviation of one seed.
+struct MeasuredError {
+  double bias = 0.0;
+  double deviation = 0.0;
+  int seeds = 0;
+};
+
+/// Tests values against the measured errors of other seeds, one by one and all together: by the prediction
+/// interval of normal errors, which includes the uncertainty of the measurement. The seeds must differ.
+class MeasuredErrors {
+ public:
+  /// p-value that `value` has the error of yet another seed, two-sided.
+  double p_value(double value, double exact, const MeasuredError& error) {
+    const double freedom = error.seeds - 1.0;
+    const double deviation = error.deviation * std::sqrt(1.0 + 1.0 / error.seeds);
+    const double score = (value / exact - 1.0 - error.bias) / deviation;
+    sum_ += score;
+    variance_ += freedom / (freedom - 2.0);
+    return student_two_sided(score, freedom);
+  }
+  /// The same of all values: a small error of the same sign in each of them.
+  double common_p_value() const { return normal_two_sided(sum_ / std::sqrt(variance_)); }
+
+ private:
+  double sum_ = 0.0;
+  double variance_ = 0.0;
+};
+
 struct ChiSquareResult {
   double p_value = 0.0;
   double statistic = 0.0;

@@ -31,6 +31,36 @@ TEST(StatisticsHelpers, MomentsMatchTheDefinition) {
   EXPECT_LT(mean_p_value(moments, 40.0), 0.01);
 }
 
+TEST(StatisticsHelpers, MeasuredErrorsAreUniformWhenTheHypothesisHoldsAndSeeACommonShift) {
+  // Errors with a bias of 0.01 and a deviation of 0.02: sums of twelve uniform numbers are nearly normal.
+  Random random(3);
+  const auto value = [&] {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) sum += random.uniform();
+    return 7.0 * (1.01 + 0.02 * sum);
+  };
+  constexpr int kRepetitions = 4000;
+  int single_below = 0, common_below = 0;
+  double shifted = 0.0;
+  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+    Moments measured;
+    for (int seed = 0; seed < 32; ++seed) measured.add(value() / 7.0 - 1.0);
+    const MeasuredError error = {measured.mean(), std::sqrt(measured.variance()), 32};
+    MeasuredErrors errors, shifted_errors;
+    for (int i = 0; i < 3; ++i) {
+      const double drawn = value();
+      if (errors.p_value(drawn, 7.0, error) < 0.1) ++single_below;
+      shifted_errors.p_value(1.06 * drawn, 7.0, error);
+    }
+    if (errors.common_p_value() < 0.1) ++common_below;
+    shifted += shifted_errors.common_p_value() < 1e-3 ? 1.0 : 0.0;
+  }
+  // 0.1 within five standard errors; those of the same measurement depend on each other a little.
+  EXPECT_NEAR(single_below / (3.0 * kRepetitions), 0.1, 0.016);
+  EXPECT_NEAR(static_cast<double>(common_below) / kRepetitions, 0.1, 0.03);
+  EXPECT_GT(shifted / kRepetitions, 0.9);
+}
+
 TEST(StatisticsHelpers, ChiSquarePValuesAreUniformWhenTheHypothesisHolds) {
   Random random(1);
   constexpr int kRepetitions = 2000;

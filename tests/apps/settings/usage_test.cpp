@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/settings/option_table.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -19,11 +20,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-class Usage : public ::testing::Test {
+class Usage : public FolderTest {
  protected:
   std::string scene() const { return folder.write("scene.gltf", tiny_scene()); }
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   /// Runs a render of the tiny scene that must be refused. It runs in this process, because there are many
   /// and the program starts slowly.
   Output refused(const std::vector<std::string>& flags) const {
@@ -34,8 +33,6 @@ class Usage : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
     return output;
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(Usage, HelpFitsOnTwoScreens) {
@@ -55,7 +52,8 @@ TEST_F(Usage, EachFlagOfTheShortHelpExists) {
   const std::string all =
       run_gatelight_inside({"render", "--help-all"}).out + run_gatelight_inside({"info", "--help-all"}).out;
   apps::RenderSettings settings;
-  for (const std::string& name : apps::common_names(apps::option_table(settings))) EXPECT_THAT(all, HasSubstr("--" + name)) << name;
+  for (const std::string& name : apps::common_names(apps::option_table(settings)))
+    EXPECT_THAT(all, HasSubstr("--" + name)) << name;
 }
 
 TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
@@ -194,87 +192,88 @@ struct BadValue {
   NameList names;
 };
 
+const std::vector<BadValue> kBadValues = {
+    {{"--spp", "0"}, {"--spp", "0", "1"}},
+    {{"--spp", "4.5"}, {"--spp", "4.5"}},
+    {{"--spp", "99999999999"}, {"--spp", "99999999999", "1"}},
+    {{"--size", "0x10"}, {"--size", "0x10", "1", "65536"}},
+    {{"--size", "65536x65536"}, {"--size", "65536x65536"}},
+    {{"--fov", "180"}, {"--fov", "180", "0.001", "179.9"}},
+    {{"--fov", "0"}, {"--fov", "0", "0.001"}},
+    {{"--eye", "1e20,0,0", "--target", "0,0,0"}, {"--eye", "1e+20", "1e+12"}},
+    {{"--clamp", "1e-41"}, {"--clamp", "1e-41", "0", "1.18e-38"}},
+    {{"--checkpoint", ""}, {"--checkpoint", "''", "FILE"}},
+    {{"--stats", ""}, {"--stats", "''", "FILE|-"}},
+    {{"--environment", ""}, {"--environment", "''", "auto|none|r,g,b|FILE"}},
+    {{"--camera", ""}, {"--camera", "''", "NAME|INDEX"}},
+    {{"-o", ""}, {"--output", "''", "FILE"}},
+    {{"--config", ""}, {"--config", "''", "FILE.toml"}},
+    {{"--time-limit", "-1"}, {"--time-limit", "-1", "0"}},
+    {{"--time-limit", "nan"}, {"--time-limit", "nan", "0"}},
+    {{"--max-error", "-0.1"}, {"--max-error", "-0.1", "0"}},
+    {{"--max-error", "5%"}, {"--max-error", "5%", "0"}},
+    {{"--region", "0,0,961,1"}, {"--region", "0,0,961,1", "960"}},
+    {{"--region", "5,5,5,6"}, {"--region", "5,5,5,6"}},
+    {{"--seed", "4294967296"}, {"--seed", "4294967296", "4294967295"}},
+    {{"--max-depth", "-1"}, {"--max-depth", "-1", "0"}},
+    {{"--threads", "-2"}, {"--threads", "-2", "0"}},
+    {{"--exposure", "inf"}, {"--exposure", "inf", "-100", "100"}},
+    {{"--clamp", "-0.5"}, {"--clamp", "-0.5", "0"}},
+    {{"--ao-distance", "0"}, {"--ao-distance", "0", "inf"}},
+    {{"--integrator", "nrc2"}, {"--integrator", "nrc2", "path|ao"}},
+    {{"--isa", "sse9"}, {"--isa", "sse9", "auto|scalar|avx2|avx512"}},
+    {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
+    {{"--cryptomatte", "object,asset"}, {"--cryptomatte", "asset", "object|material"}},
+    {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
+    {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
+    {{"--sky", "clear", "--environment", "auto"}, {"--sky", "--environment"}},
+    {{"--lights", "lamp"}, {"--lights", "lamp", "NAME=off"}},
+    {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
+    {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
+    {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
+    {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
+    {{"--light-groups", "rest=lamp"}, {"--light-groups", "rest"}},
+    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "--integrator path"}},
+    {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
+    {{"--eye", "1,2,3"}, {"--target", "--eye"}},
+    {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
+    {{"--eye", "0,1,0", "--target", "0,5,0"}, {"--up", "0,1,0"}},
+    {{"--camera", "none such"}, {"camera", "none such", "front"}},
+    {{"--progress", "loud"}, {"--progress", "loud", "auto|bar|json|none"}},
+    {{"--quiet", "--verbose"}, {"--quiet", "--verbose"}},
+    {{"--train-steps", "-1"}, {"--train-steps", "-1", "0"}},
+    {{"--train-steps", "many"}, {"--train-steps", "many"}},
+    {{"--batch", "0"}, {"--batch", "0", "1"}},
+    {{"--self-training", "on"}, {"--self-training", "on"}},
+    {{"--self-training-full", "1.5"}, {"--self-training-full", "1.5", "1"}},
+    {{"--features", "17"}, {"--features", "17", "1", "16"}},
+    {{"--stack", "adaptive,65"}, {"--stack", "65", "1", "64"}},
+    {{"--stack", "1,2,3,4,5"}, {"--stack", "1,2,3,4,5", "4"}},
+    {{"--stack", "adaptive,"}, {"--stack", "adaptive,"}},
+    {{"--resolution", "fixed:0"}, {"--resolution", "0", "1", "64"}},
+    {{"--resolution", "fixed"}, {"--resolution", "fixed", "uniform|paper|fixed:R"}},
+    {{"--node-spacing", "0"}, {"--node-spacing", "0"}},
+    {{"--cache-memory", "-1"}, {"--cache-memory", "-1", "0"}},
+    {{"--hash-log2-size", "32"}, {"--hash-log2-size", "32", "3", "31"}},
+    {{"--hash-growth", "0.5"}, {"--hash-growth", "0.5", "1"}},
+    {{"--hidden", "48"}, {"--hidden", "48", "16|32|64|128"}},
+    {{"--layers", "6"}, {"--layers", "6", "1", "5"}},
+    {{"--bias", "yes"}, {"--bias", "yes", "on|off"}},
+    {{"--learning-rate", "nan"}, {"--learning-rate", "nan", "0"}},
+    {{"--cache-roughness", "2"}, {"--cache-roughness", "2", "1"}},
+    {{"--device", "gpu"}, {"--device", "gpu", "cpu|vulkan"}},
+    {{"--device", "vulkan:"}, {"--device", "vulkan:", "INDEX"}},
+    {{"--preset", "fast"}, {"--preset", "fast", "bare|preview|standard|final|paper-nao|paper-nrc"}},
+    {{"--checkpoint-every", "-1"}, {"--checkpoint-every", "-1", "0"}},
+    {{"--query-at", "gather"}, {"--query-at", "path", "nao", "nrc"}},
+    {{"--aov", "resolution"}, {"--aov", "resolution", "nao", "nrc"}},
+    {{"--resume"}, {"--resume", "--checkpoint", "FILE"}},
+    {{"--spp"}, {"--spp"}},
+    {{"--spp", "1", "--spp", "2"}, {"--spp", "2"}},
+};
+
 TEST_F(Usage, BadValuesAreCode1AndNameFlagValueAndExpectation) {
-  const std::vector<BadValue> cases = {
-      {{"--spp", "0"}, {"--spp", "0", "1"}},
-      {{"--spp", "4.5"}, {"--spp", "4.5"}},
-      {{"--spp", "99999999999"}, {"--spp", "99999999999", "1"}},
-      {{"--size", "0x10"}, {"--size", "0x10", "1", "65536"}},
-      {{"--size", "65536x65536"}, {"--size", "65536x65536"}},
-      {{"--fov", "180"}, {"--fov", "180", "0.001", "179.9"}},
-      {{"--fov", "0"}, {"--fov", "0", "0.001"}},
-      {{"--eye", "1e20,0,0", "--target", "0,0,0"}, {"--eye", "1e+20", "1e+12"}},
-      {{"--clamp", "1e-41"}, {"--clamp", "1e-41", "0", "1.18e-38"}},
-      {{"--checkpoint", ""}, {"--checkpoint", "''", "FILE"}},
-      {{"--stats", ""}, {"--stats", "''", "FILE|-"}},
-      {{"--environment", ""}, {"--environment", "''", "auto|none|r,g,b|FILE"}},
-      {{"--camera", ""}, {"--camera", "''", "NAME|INDEX"}},
-      {{"-o", ""}, {"--output", "''", "FILE"}},
-      {{"--config", ""}, {"--config", "''", "FILE.toml"}},
-      {{"--time-limit", "-1"}, {"--time-limit", "-1", "0"}},
-      {{"--time-limit", "nan"}, {"--time-limit", "nan", "0"}},
-      {{"--max-error", "-0.1"}, {"--max-error", "-0.1", "0"}},
-      {{"--max-error", "5%"}, {"--max-error", "5%", "0"}},
-      {{"--region", "0,0,961,1"}, {"--region", "0,0,961,1", "960"}},
-      {{"--region", "5,5,5,6"}, {"--region", "5,5,5,6"}},
-      {{"--seed", "4294967296"}, {"--seed", "4294967296", "4294967295"}},
-      {{"--max-depth", "-1"}, {"--max-depth", "-1", "0"}},
-      {{"--threads", "-2"}, {"--threads", "-2", "0"}},
-      {{"--exposure", "inf"}, {"--exposure", "inf", "-100", "100"}},
-      {{"--clamp", "-0.5"}, {"--clamp", "-0.5", "0"}},
-      {{"--ao-distance", "0"}, {"--ao-distance", "0", "inf"}},
-      {{"--integrator", "nrc2"}, {"--integrator", "nrc2", "path|ao"}},
-      {{"--isa", "sse9"}, {"--isa", "sse9", "auto|scalar|avx2|avx512"}},
-      {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
-      {{"--cryptomatte", "object,asset"}, {"--cryptomatte", "asset", "object|material"}},
-      {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
-      {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
-      {{"--sky", "clear", "--environment", "auto"}, {"--sky", "--environment"}},
-      {{"--lights", "lamp"}, {"--lights", "lamp", "NAME=off"}},
-      {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
-      {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
-      {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
-      {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
-      {{"--light-groups", "rest=lamp"}, {"--light-groups", "rest"}},
-      {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "--integrator path"}},
-      {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
-      {{"--eye", "1,2,3"}, {"--target", "--eye"}},
-      {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
-      {{"--eye", "0,1,0", "--target", "0,5,0"}, {"--up", "0,1,0"}},
-      {{"--camera", "none such"}, {"camera", "none such", "front"}},
-      {{"--progress", "loud"}, {"--progress", "loud", "auto|bar|json|none"}},
-      {{"--quiet", "--verbose"}, {"--quiet", "--verbose"}},
-      {{"--train-steps", "-1"}, {"--train-steps", "-1", "0"}},
-      {{"--train-steps", "many"}, {"--train-steps", "many"}},
-      {{"--batch", "0"}, {"--batch", "0", "1"}},
-      {{"--self-training", "on"}, {"--self-training", "on"}},
-      {{"--self-training-full", "1.5"}, {"--self-training-full", "1.5", "1"}},
-      {{"--features", "17"}, {"--features", "17", "1", "16"}},
-      {{"--stack", "adaptive,65"}, {"--stack", "65", "1", "64"}},
-      {{"--stack", "1,2,3,4,5"}, {"--stack", "1,2,3,4,5", "4"}},
-      {{"--stack", "adaptive,"}, {"--stack", "adaptive,"}},
-      {{"--resolution", "fixed:0"}, {"--resolution", "0", "1", "64"}},
-      {{"--resolution", "fixed"}, {"--resolution", "fixed", "uniform|paper|fixed:R"}},
-      {{"--node-spacing", "0"}, {"--node-spacing", "0"}},
-      {{"--cache-memory", "-1"}, {"--cache-memory", "-1", "0"}},
-      {{"--hash-log2-size", "32"}, {"--hash-log2-size", "32", "3", "31"}},
-      {{"--hash-growth", "0.5"}, {"--hash-growth", "0.5", "1"}},
-      {{"--hidden", "48"}, {"--hidden", "48", "16|32|64|128"}},
-      {{"--layers", "6"}, {"--layers", "6", "1", "5"}},
-      {{"--bias", "yes"}, {"--bias", "yes", "on|off"}},
-      {{"--learning-rate", "nan"}, {"--learning-rate", "nan", "0"}},
-      {{"--cache-roughness", "2"}, {"--cache-roughness", "2", "1"}},
-      {{"--device", "gpu"}, {"--device", "gpu", "cpu|vulkan"}},
-      {{"--device", "vulkan:"}, {"--device", "vulkan:", "INDEX"}},
-      {{"--preset", "fast"}, {"--preset", "fast", "bare|preview|standard|final|paper-nao|paper-nrc"}},
-      {{"--checkpoint-every", "-1"}, {"--checkpoint-every", "-1", "0"}},
-      {{"--query-at", "gather"}, {"--query-at", "path", "nao", "nrc"}},
-      {{"--aov", "resolution"}, {"--aov", "resolution", "nao", "nrc"}},
-      {{"--resume"}, {"--resume", "--checkpoint", "FILE"}},
-      {{"--spp"}, {"--spp"}},
-      {{"--spp", "1", "--spp", "2"}, {"--spp", "2"}},
-  };
-  for (const BadValue& bad : cases) expect_failure(refused(bad.flags), 1, bad.names);
+  for (const BadValue& bad : kBadValues) expect_failure(refused(bad.flags), 1, bad.names);
 }
 
 TEST_F(Usage, AnOutputIsRequiredAndItsExtensionKnown) {

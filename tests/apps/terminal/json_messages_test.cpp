@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
@@ -20,10 +20,8 @@ using nlohmann::json;
 using ::testing::Contains;
 using ::testing::Not;
 
-class JsonMessages : public ::testing::Test {
+class JsonMessages : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   /// Throws where a line is no JSON.
   static std::vector<json> events(const Output& output) {
     std::vector<json> all;
@@ -55,7 +53,6 @@ class JsonMessages : public ::testing::Test {
     expect_message(description[0]["message"], names, place);
   }
 
-  TemporaryFolder folder;
   std::string scene = folder.write("scene.gltf", tiny_scene());
 };
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "renderer/image/image_read.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -17,10 +18,8 @@
 namespace gatelight::tests {
 namespace {
 
-class Signals : public ::testing::Test {
+class Signals : public FolderTest {
  protected:
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
   /// Arguments of a render that would take days.
   std::vector<std::string> endless() const {
     return {"render",        scene,   "-o",      path("a.exr"),  "-o",        path("b.png"),
@@ -28,7 +27,6 @@ class Signals : public ::testing::Test {
             "--progress",    "json",  "--stats", path("s.json"), "--threads", "1"};
   }
 
-  TemporaryFolder folder;
   std::string scene = folder.write("scene.gltf", tiny_scene());
 };
 

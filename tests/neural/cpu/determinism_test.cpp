@@ -12,6 +12,7 @@
 
 #include "neural/cpu/cpu_backend.h"
 #include "neural/trainer.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural {

@@ -8,6 +8,7 @@
 #include "neural/reference/adam.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {

@@ -5,6 +5,7 @@
 
 #include "neural/learning/adam.h"
 #include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {

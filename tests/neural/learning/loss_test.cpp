@@ -7,6 +7,7 @@
 
 #include "neural/reference/record_gradient.h"
 #include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {
@@ -18,7 +19,7 @@ TEST(Loss, LuminanceWeighsThreeOutputsAndAveragesOthers) {
   EXPECT_DOUBLE_EQ(luminance(std::vector<double>{1, 2, 3, 6}), 3.0);
 }
 
-TEST(Loss, ValuesByHand) {
+TEST(Loss, ValuesAreThoseWorkedByHand) {
   const std::vector<double> outputs = {1, 2, 3}, targets = {0, 2, 5};
   EXPECT_DOUBLE_EQ(loss_denominator(Loss::l2, outputs), 1.0);
   EXPECT_DOUBLE_EQ(loss_value(outputs, targets, 1.0), 1.0 + 0.0 + 4.0);

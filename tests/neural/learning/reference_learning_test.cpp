@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {
@@ -79,19 +80,19 @@ struct Sphere {
   }
 };
 
-TEST(ReferenceLearning, Constant) {
+TEST(ReferenceLearning, AConstantIsLearned) {
   const auto [early, late] = Sphere(1).learn([](const Float3&) { return std::vector<float>{0.7f}; }, 25);
   EXPECT_LT(early, 0.02);
   EXPECT_LT(late, 0.005);
 }
 
-TEST(ReferenceLearning, Ramp) {
+TEST(ReferenceLearning, ARampIsLearned) {
   const auto [early, late] = Sphere(1).learn([](const Float3& p) { return std::vector<float>{p[2]}; }, 30);
   EXPECT_LT(late, 0.5 * early);
   EXPECT_LT(late, 0.03);  // its deviation is 0.58
 }
 
-TEST(ReferenceLearning, SphericalHarmonicsOfOneBand) {
+TEST(ReferenceLearning, SphericalHarmonicsOfOneBandAreLearned) {
   // The five functions of l = 2; the deviation of each is sqrt(1 / 4 pi) = 0.28.
   const Field band = [](const Float3& p) {
     const auto [x, y, z] = p;

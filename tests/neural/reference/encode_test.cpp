@@ -9,6 +9,7 @@
 #include "neural/reference/auxiliary.h"
 #include "neural/reference/hash_grid_encoding.h"
 #include "neural/reference/one_blob.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {

@@ -16,6 +16,7 @@
 #include "neural/reference/loss.h"
 #include "neural/reference/mlp.h"
 #include "neural/reference/record_gradient.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {

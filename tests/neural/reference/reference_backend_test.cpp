@@ -1,3 +1,5 @@
+// A step and answers of the reference: its records, counts and refusals.
+
 #include "neural/reference/reference_backend.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +8,9 @@
 #include <limits>
 
 #include "base/errors.h"
-#include "base/half.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
+#include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
 namespace gatelight::neural::reference {
@@ -28,59 +30,6 @@ std::vector<float> answers(const Backend& backend, const Model& model, const Own
   std::vector<float> out(points.size() * model.config.mlp.outputs);
   backend.query(points.points(), options, out);
   return out;
-}
-
-TEST(ReferenceBackend, StateComesBackFromExportAndImport) {
-  for (const char* name : kCases) {
-    const auto model = find_model_case(name).model;
-    for (const auto& [word, options] : testing::all_training_options(*model)) {
-      SCOPED_TRACE(std::string(name) + " " + word);
-      const auto backend = make_reference_backend(model, options);
-      EXPECT_EQ(backend->export_state(), initial_state(*model, options));
-      for (std::uint64_t step = 0; step < 2; ++step) backend->train(make_batch(*model, 20, step).training());
-      const ModelState state = backend->export_state();
-      const auto other = make_reference_backend(model, options);
-      other->import_state(state);
-      EXPECT_EQ(other->export_state(), state);
-      EXPECT_EQ(state.steps, 2u);
-    }
-  }
-}
-
-TEST(ReferenceBackend, FeaturesKeptInHalfPrecisionAreRoundedOnImport) {
-  const auto model = find_model_case("nrc").model;
-  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp32}) {
-    TrainingOptions options;
-    options.precision = precision;
-    const auto backend = make_reference_backend(model, options);
-    ModelState state = backend->export_state();
-    state.parameters.front() = 0.1f;
-    state.averages.front() = 0.3f;
-    backend->import_state(state);
-    const bool rounds = precision == FeaturePrecision::fp16;
-    EXPECT_EQ(backend->export_state().parameters.front(), rounds ? half_to_float(float_to_half(0.1f)) : 0.1f);
-    EXPECT_EQ(backend->export_state().averages.front(), rounds ? half_to_float(float_to_half(0.3f)) : 0.3f);
-  }
-}
-
-TEST(ReferenceBackend, StatesOfOtherSizesAreRefused) {
-  const auto model = find_model_case("nrc").model;
-  TrainingOptions options;
-  options.count_triangles = true;
-  const auto backend = make_reference_backend(model, options);
-  const ModelState state = backend->export_state();
-  const auto refuses = [&](auto change) {
-    ModelState other = state;
-    change(other);
-    EXPECT_THROW(backend->import_state(other), BadConfiguration);
-    EXPECT_EQ(backend->export_state(), state);
-  };
-  refuses([](ModelState& s) { s.parameters.pop_back(); });
-  refuses([](ModelState& s) { s.averages.push_back(0); });
-  refuses([](ModelState& s) { s.first_moments.clear(); });
-  refuses([](ModelState& s) { s.second_moments.pop_back(); });
-  refuses([](ModelState& s) { s.node_steps.clear(); });
-  refuses([](ModelState& s) { s.triangle_steps.push_back(1); });
 }
 
 TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothing) {
@@ -260,72 +209,6 @@ TEST(ReferenceBackend, WeightsWithANonFiniteGradientAreNotChanged) {
     EXPECT_TRUE(std::isfinite(after.second_moments[p]));
   }
   EXPECT_EQ(after.node_steps, state.node_steps);
-}
-
-TEST(ReferenceBackend, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
-  const auto model = find_model_case("nrc").model;
-  const auto holds = [&](const ModelState& state) {
-    std::size_t count = 0;
-    for (std::size_t p = 0; p < model->parameters.network; ++p)
-      count += half_to_float(float_to_half(state.parameters[p])) == state.parameters[p] &&
-               half_to_float(float_to_half(state.averages[p])) == state.averages[p];
-    return count;
-  };
-  const OwnedBatch points = make_batch(*model, 50, 7);
-  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
-    TrainingOptions options;
-    options.precision = precision;
-    const auto backend = make_reference_backend(model, options);
-    for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 300, step).training());
-    ModelState state = backend->export_state();
-    if (precision == FeaturePrecision::fp16)
-      EXPECT_EQ(holds(state), model->parameters.network);
-    else
-      EXPECT_LT(holds(state), model->parameters.network * 9 / 10);
-    // A backend in fp32 with the rounded features gives the same answers.
-    const std::vector<float> half = answers(*backend, *model, points);
-    for (std::size_t p = 0; p < model->parameters.network; ++p)
-      state.averages[p] = half_to_float(float_to_half(state.averages[p]));
-    const auto rounded = make_reference_backend(model, {});
-    rounded->import_state(state);
-    const std::vector<float> full = answers(*rounded, *model, points);
-    for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i], full[i], 1e-5f);
-  }
-}
-
-TEST(ReferenceBackend, HalfFeaturesStayWithinTheirRange) {
-  const auto model = find_model_case("nao").model;
-  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
-    TrainingOptions options;
-    options.precision = precision;
-    options.adam.learning_rate = 1e5f;
-    const auto backend = make_reference_backend(model, options);
-    for (std::uint64_t step = 0; step < 3; ++step) backend->train(make_batch(*model, 50, step).training());
-    float greatest = 0;
-    const ModelState state = backend->export_state();
-    for (std::size_t p = 0; p < model->parameters.network; ++p)
-      greatest = std::max(greatest, std::abs(state.parameters[p]));
-    EXPECT_EQ(greatest, 65504.0f);
-  }
-}
-
-TEST(ReferenceBackend, TrainingReadsRoundedMasters) {
-  // Masters between two halves give the loss that the half gives.
-  const auto model = find_model_case("gate_only").model;
-  TrainingOptions options;
-  options.start_at_mean = false;
-  options.precision = FeaturePrecision::fp16_masters;
-  const OwnedBatch batch = make_batch(*model, 30, 7);
-  const auto loss = [&](double offset) {
-    const auto backend = make_reference_backend(model, options);
-    ModelState state = backend->export_state();
-    for (std::size_t p = 0; p < model->parameters.network; ++p)
-      state.parameters[p] = static_cast<float>((p % 5 + 1) * (1 + offset));
-    backend->import_state(state);
-    return backend->train(batch.training()).loss;
-  };
-  EXPECT_EQ(loss(0.0), loss(1e-4));
-  EXPECT_NE(loss(0.0), loss(1e-2));
 }
 
 TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {

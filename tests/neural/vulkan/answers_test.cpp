@@ -7,15 +7,7 @@ namespace {
 
 using namespace testing;
 
-class VulkanAnswers : public OnVulkan {
- protected:
-  static void TearDownTestSuite() { agreement_.reset(); }
-  static Agreement& agreement() {
-    if (agreement_ == nullptr) agreement_ = std::make_unique<Agreement>();
-    return *agreement_;
-  }
-  static inline std::unique_ptr<Agreement> agreement_;
-};
+class VulkanAnswers : public AgreesOnVulkan {};
 
 // The other models are in every_model_slow_test.cpp.
 TEST_F(VulkanAnswers, AgreeForUsualModels) {
@@ -71,13 +63,9 @@ TEST_F(VulkanAnswers, AgreeForMorePointsThanAChunk) {
   host->import_state(state);
   device->import_state(state);
   const QueryOptions raw{QueryPrecision::fp32, OutputRange::raw, true};
-  EXPECT_LE(relative_difference(Agreement::answers(*device, *c.model, batch, raw),
-                                Agreement::answers(*host, *c.model, batch, raw)),
-            kVulkanTolerance);
+  EXPECT_LE(relative_difference(answers(*device, *c.model, batch, raw), answers(*host, *c.model, batch, raw)),
+            kTolerance);
 }
-
-// The bound of the CPU's kernels (kernel_parity_test.cpp): inputs, weights and activations have eight bits.
-constexpr double kBf16Tolerance = 0.025;
 
 TEST_F(VulkanAnswers, AgreeInBf16) {
   std::uint64_t seed = 600;
@@ -94,13 +82,11 @@ TEST_F(VulkanAnswers, AgreeInBf16) {
       SCOPED_TRACE(fmt::format("{}{}", name, averaged ? " averaged" : ""));
       const QueryOptions bf16{QueryPrecision::bf16, OutputRange::raw, averaged};
       const QueryOptions fp32{QueryPrecision::fp32, OutputRange::raw, averaged};
-      const std::vector<float> got = Agreement::answers(*device, *c.model, batch, bf16);
-      EXPECT_LE(relative_difference(got, Agreement::answers(*reference, *c.model, batch, bf16)),
-                kBf16Tolerance);
+      const std::vector<float> got = answers(*device, *c.model, batch, bf16);
+      EXPECT_LE(relative_difference(got, answers(*reference, *c.model, batch, bf16)), kBf16Tolerance);
       // The same numbers are rounded; a sum's last bit may round one of them the other way.
-      EXPECT_LE(relative_difference(got, Agreement::answers(*host, *c.model, batch, bf16)),
-                0.3 * kBf16Tolerance);
-      EXPECT_NE(got, Agreement::answers(*device, *c.model, batch, fp32)) << "bf16 is to round";
+      EXPECT_LE(relative_difference(got, answers(*host, *c.model, batch, bf16)), 0.3 * kBf16Tolerance);
+      EXPECT_NE(got, answers(*device, *c.model, batch, fp32)) << "bf16 is to round";
     }
   }
 }
@@ -114,7 +100,7 @@ TEST_F(VulkanAnswers, AreClampedToTheRange) {
   const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
   device->import_state(state);
   const auto ask = [&](OutputRange range) {
-    return Agreement::answers(*device, *c.model, batch, {QueryPrecision::fp32, range, true});
+    return answers(*device, *c.model, batch, {QueryPrecision::fp32, range, true});
   };
   const std::vector<float> raw = ask(OutputRange::raw), positive = ask(OutputRange::non_negative),
                            unit = ask(OutputRange::unit);
@@ -134,8 +120,7 @@ TEST_F(VulkanAnswers, AreUpToDateAfterEachStep) {
     for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})
       for (const bool averaged : {true, false}) {
         const QueryOptions ask{precision, OutputRange::raw, averaged};
-        EXPECT_EQ(Agreement::answers(*device, *c.model, batch, ask),
-                  Agreement::answers(*fresh, *c.model, batch, ask))
+        EXPECT_EQ(answers(*device, *c.model, batch, ask), answers(*fresh, *c.model, batch, ask))
             << "step " << step << (averaged ? " averaged" : "");
       }
   }

@@ -42,7 +42,7 @@ Outcome learn(Backend& backend, const Model& model, const std::vector<OwnedBatch
   Outcome outcome;
   for (const OwnedBatch& batch : batches) outcome.losses.push_back(backend.train(batch.training()).loss);
   outcome.state = backend.export_state();
-  outcome.answers = Agreement::answers(backend, model, batches[0], {});
+  outcome.answers = answers(backend, model, batches[0], {});
   return outcome;
 }
 
@@ -87,7 +87,7 @@ TEST_F(VulkanDeterminism, OverlappingStepsHaveTheBitsOfSequentialSteps) {
   const auto together = make_vulkan_backend(test_machine(), c.model, {});
   for (const OwnedBatch& batch : batches) together->start(batch.training());
   Outcome outcome;
-  outcome.answers = Agreement::answers(*together, *c.model, batches[0], {});
+  outcome.answers = answers(*together, *c.model, batches[0], {});
   outcome.state = together->export_state();
   for (std::size_t i = 0; i < batches.size(); ++i) outcome.losses.push_back(together->finish().loss);
   EXPECT_THROW(together->finish(), BadConfiguration);
@@ -150,8 +150,8 @@ TEST_F(VulkanDeterminism, ACacheMovesBetweenDevices) {
   host.load(path, "moves");
   EXPECT_TRUE(same_bits(host.backend().export_state(), device.backend().export_state()));
   const OwnedBatch points = make_batch(*c.model, 500, 8);
-  EXPECT_LT(relative_difference(Agreement::answers(host.backend(), *c.model, points, {}),
-                                Agreement::answers(device.backend(), *c.model, points, {})),
+  EXPECT_LT(relative_difference(answers(host.backend(), *c.model, points, {}),
+                                answers(device.backend(), *c.model, points, {})),
             1e-5);
   host.train(points.training());
   host.save(path, "moves");

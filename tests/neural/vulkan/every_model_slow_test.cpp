@@ -8,15 +8,7 @@ namespace {
 
 using namespace testing;
 
-class VulkanEveryModel : public OnVulkan {
- protected:
-  static void TearDownTestSuite() { agreement_.reset(); }
-  static Agreement& agreement() {
-    if (agreement_ == nullptr) agreement_ = std::make_unique<Agreement>();
-    return *agreement_;
-  }
-  static inline std::unique_ptr<Agreement> agreement_;
-};
+class VulkanEveryModel : public AgreesOnVulkan {};
 
 // Tiles hold up to 64 points.
 constexpr std::size_t kSizes[] = {1, 63, 64, 65, 97, 130, 7};

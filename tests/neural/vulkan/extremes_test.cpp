@@ -35,7 +35,7 @@ void expect_finite(const Backend& backend, const OwnedBatch& batch, const Model&
   };
   EXPECT_TRUE(finite(state.parameters) && finite(state.averages) && finite(state.first_moments) &&
               finite(state.second_moments));
-  EXPECT_TRUE(finite(Agreement::answers(backend, model, batch, {})));
+  EXPECT_TRUE(finite(answers(backend, model, batch, {})));
 }
 
 TEST_F(VulkanExtremes, WeightsStayFiniteForEveryTarget) {

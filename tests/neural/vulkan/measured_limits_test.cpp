@@ -9,7 +9,7 @@ namespace {
 
 class VulkanLimits : public testing::OnVulkan {};
 
-TEST_F(VulkanLimits, ArePlausible) {
+TEST_F(VulkanLimits, LieBetweenASlowCoreAndAHundredTimesTheFastestDevice) {
   const vulkan::MeasuredLimits limits = vulkan::measure_limits(*testing::test_machine(), 16u << 20);
   // From one slow core to a hundred times the fastest device there is.
   EXPECT_GT(limits.operations_per_second, 1e6);

@@ -235,10 +235,10 @@ TEST_F(VulkanShaders, TrainNetworkFindsTheReferencesGradients) {
         expected[model.parameters.network + p] = static_cast<float>(sums[model.parameters.network + p]);
       }
       const std::vector<bool> none(model.parameters.node_count, true);
-      EXPECT_LE(tensor_difference(model, got, expected, none), kVulkanTolerance);
+      EXPECT_LE(tensor_difference(model, got, expected, none), kTolerance);
       EXPECT_LE(relative_difference(bench.read<float>(bench.gradients, batch.size() * features),
                                     expected_gradients),
-                kVulkanTolerance);
+                kTolerance);
       double losses = 0;
       for (const float tile : bench.read<float>(bench.losses, bench.cut.tiles))
         losses += static_cast<double>(tile);

@@ -10,7 +10,7 @@
 #include "neural/vulkan/submission.h"
 #include "neural/vulkan/transfer.h"
 #include "tests/neural/vulkan/device.h"
-#include "tests/support/model_cases.h"
+#include "tests/support/counter_random.h"
 
 namespace gatelight::neural::vulkan {
 namespace {

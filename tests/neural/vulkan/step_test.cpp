@@ -9,15 +9,7 @@ namespace {
 
 using namespace testing;
 
-class VulkanStep : public OnVulkan {
- protected:
-  static void TearDownTestSuite() { agreement_.reset(); }
-  static Agreement& agreement() {
-    if (agreement_ == nullptr) agreement_ = std::make_unique<Agreement>();
-    return *agreement_;
-  }
-  static inline std::unique_ptr<Agreement> agreement_;
-};
+class VulkanStep : public AgreesOnVulkan {};
 
 // The other models are in every_model_slow_test.cpp.
 TEST_F(VulkanStep, AgreesForUsualModels) {

@@ -23,122 +23,155 @@ struct BsdfCase {
   }
 };
 
-/// White materials: their albedo is one.
-inline std::vector<BsdfCase> white_cases() {
-  std::vector<BsdfCase> cases;
-  const auto add = [&](const char* name, bool front, bool layered, auto&& change) {
-    SurfaceMaterial material;
-    material.diffuse_transmission_color.setOnes();
-    material.anisotropy_direction = Vec3::UnitX();
-    change(material);
-    cases.push_back({name, material, front, layered});
+namespace detail {
+
+template <typename Change>
+void add(std::vector<BsdfCase>& cases, const char* name, bool front, bool layered, Change&& change) {
+  SurfaceMaterial material;
+  material.diffuse_transmission_color.setOnes();
+  material.anisotropy_direction = Vec3::UnitX();
+  change(material);
+  cases.push_back({name, material, front, layered});
+}
+
+inline auto glass(float ior, float transmission) {
+  return [=](SurfaceMaterial& m) {
+    m.transmission = transmission;
+    m.thin_walled = false;
+    m.ior = ior;
   };
-  add("dielectric", true, false, [](SurfaceMaterial&) {});
-  add("metal", true, false, [](SurfaceMaterial& m) { m.metallic = 1.0f; });
-  add("half metal", true, false, [](SurfaceMaterial& m) { m.metallic = 0.5f; });
-  add("ior 3", true, false, [](SurfaceMaterial& m) { m.ior = 3.0f; });
-  add("ior 1", true, false, [](SurfaceMaterial& m) { m.ior = 1.0f; });
-  add("ior 0", true, false, [](SurfaceMaterial& m) { m.ior = 0.0f; });
-  add("specular 0.3", true, false, [](SurfaceMaterial& m) { m.specular = 0.3f; });
-  add("thin", true, false, [](SurfaceMaterial& m) { m.transmission = 1.0f; });
-  const auto glass = [](float ior, float transmission) {
-    return [=](SurfaceMaterial& m) {
-      m.transmission = transmission;
-      m.thin_walled = false;
-      m.ior = ior;
-    };
+}
+
+inline auto film(float film_ior, float thickness) {
+  return [=](SurfaceMaterial& m) {
+    m.iridescence = 1.0f;
+    m.film_ior = film_ior;
+    m.film_thickness = thickness;
   };
-  add("into glass", true, false, glass(1.5f, 1.0f));
-  add("out of glass", false, false, glass(1.5f, 1.0f));
-  add("into water", true, false, glass(1.33f, 1.0f));
-  add("out of water", false, false, glass(1.33f, 1.0f));
-  add("into ior 3", true, false, glass(3.0f, 1.0f));
-  add("out of ior 3", false, false, glass(3.0f, 1.0f));
-  add("clear", true, false, glass(1.0f, 1.0f));
-  add("half glass", true, false, glass(1.5f, 0.5f));
-  add("cloth", true, false, [](SurfaceMaterial& m) { m.diffuse_transmission = 0.6f; });
-  add("paper, all through", true, false, [](SurfaceMaterial& m) {
+}
+
+inline auto anisotropic(float strength, float turn) {
+  return [=](SurfaceMaterial& m) {
+    m.metallic = 1.0f;
+    m.anisotropy = strength;
+    m.anisotropy_direction = Vec3(std::cos(turn), std::sin(turn), 0.0f);
+  };
+}
+
+inline void add_opaque_and_thin(std::vector<BsdfCase>& cases) {
+  add(cases, "dielectric", true, false, [](SurfaceMaterial&) {});
+  add(cases, "metal", true, false, [](SurfaceMaterial& m) { m.metallic = 1.0f; });
+  add(cases, "half metal", true, false, [](SurfaceMaterial& m) { m.metallic = 0.5f; });
+  add(cases, "ior 3", true, false, [](SurfaceMaterial& m) { m.ior = 3.0f; });
+  add(cases, "ior 1", true, false, [](SurfaceMaterial& m) { m.ior = 1.0f; });
+  add(cases, "ior 0", true, false, [](SurfaceMaterial& m) { m.ior = 0.0f; });
+  add(cases, "specular 0.3", true, false, [](SurfaceMaterial& m) { m.specular = 0.3f; });
+  add(cases, "thin", true, false, [](SurfaceMaterial& m) { m.transmission = 1.0f; });
+}
+
+inline void add_glasses(std::vector<BsdfCase>& cases) {
+  add(cases, "into glass", true, false, glass(1.5f, 1.0f));
+  add(cases, "out of glass", false, false, glass(1.5f, 1.0f));
+  add(cases, "into water", true, false, glass(1.33f, 1.0f));
+  add(cases, "out of water", false, false, glass(1.33f, 1.0f));
+  add(cases, "into ior 3", true, false, glass(3.0f, 1.0f));
+  add(cases, "out of ior 3", false, false, glass(3.0f, 1.0f));
+  add(cases, "clear", true, false, glass(1.0f, 1.0f));
+  add(cases, "half glass", true, false, glass(1.5f, 0.5f));
+}
+
+inline void add_diffuse_transmission(std::vector<BsdfCase>& cases) {
+  add(cases, "cloth", true, false, [](SurfaceMaterial& m) { m.diffuse_transmission = 0.6f; });
+  add(cases, "paper, all through", true, false, [](SurfaceMaterial& m) {
     m.diffuse_transmission = 1.0f;
     m.ior = 2.0f;
   });
-  add("cloth and sheet", true, false, [](SurfaceMaterial& m) {
+  add(cases, "cloth and sheet", true, false, [](SurfaceMaterial& m) {
     m.diffuse_transmission = 0.5f;
     m.transmission = 0.5f;
   });
-  const auto milky = [&glass](SurfaceMaterial& m) {
+  const auto milky = [](SurfaceMaterial& m) {
     glass(1.5f, 0.5f)(m);
     m.diffuse_transmission = 0.7f;
   };
-  add("into milky glass", true, false, milky);
-  add("out of milky glass", false, false, milky);
-  add("coat on cloth", true, true, [](SurfaceMaterial& m) {
+  add(cases, "into milky glass", true, false, milky);
+  add(cases, "out of milky glass", false, false, milky);
+  add(cases, "coat on cloth", true, true, [](SurfaceMaterial& m) {
     m.diffuse_transmission = 0.5f;
     m.clearcoat = 1.0f;
     m.clearcoat_roughness = 0.3f;
   });
-  const auto film = [](float film_ior, float thickness) {
-    return [=](SurfaceMaterial& m) {
-      m.iridescence = 1.0f;
-      m.film_ior = film_ior;
-      m.film_thickness = thickness;
-    };
-  };
-  add("film on plastic", true, false, film(1.3f, 400.0f));
-  add("soap bubble", true, false, [&film](SurfaceMaterial& m) {
+}
+
+inline void add_films(std::vector<BsdfCase>& cases) {
+  add(cases, "film on plastic", true, false, film(1.3f, 400.0f));
+  add(cases, "soap bubble", true, false, [](SurfaceMaterial& m) {
     film(1.33f, 520.0f)(m);
     m.transmission = 1.0f;
     m.ior = 1.0f;
   });
-  add("film on sheet", true, false, [&film](SurfaceMaterial& m) {
+  add(cases, "film on sheet", true, false, [](SurfaceMaterial& m) {
     film(1.8f, 300.0f)(m);
     m.transmission = 1.0f;
   });
-  add("film on glass", true, false, [&film, &glass](SurfaceMaterial& m) {
+  add(cases, "film on glass", true, false, [](SurfaceMaterial& m) {
     glass(1.5f, 1.0f)(m);
     film(1.3f, 250.0f)(m);
   });
-  add("out of glass with a film", false, false, [&film, &glass](SurfaceMaterial& m) {
+  add(cases, "out of glass with a film", false, false, [](SurfaceMaterial& m) {
     glass(1.5f, 1.0f)(m);
     film(1.3f, 250.0f)(m);
   });
-  const auto anisotropic = [](float strength, float turn) {
-    return [=](SurfaceMaterial& m) {
-      m.metallic = 1.0f;
-      m.anisotropy = strength;
-      m.anisotropy_direction = Vec3(std::cos(turn), std::sin(turn), 0.0f);
-    };
-  };
-  add("anisotropic along", true, false, anisotropic(0.7f, 0.0f));
-  add("anisotropic across", true, false, anisotropic(0.7f, 1.5708f));
-  add("anisotropic askew", true, false, anisotropic(0.45f, 0.6f));
-  add("fully anisotropic", true, false, anisotropic(1.0f, 2.5f));
-  add("anisotropic plastic", true, false, [](SurfaceMaterial& m) {
+}
+
+inline void add_anisotropic(std::vector<BsdfCase>& cases) {
+  add(cases, "anisotropic along", true, false, anisotropic(0.7f, 0.0f));
+  add(cases, "anisotropic across", true, false, anisotropic(0.7f, 1.5708f));
+  add(cases, "anisotropic askew", true, false, anisotropic(0.45f, 0.6f));
+  add(cases, "fully anisotropic", true, false, anisotropic(1.0f, 2.5f));
+  add(cases, "anisotropic plastic", true, false, [](SurfaceMaterial& m) {
     m.anisotropy = 0.6f;
     m.ior = 2.0f;
   });
-  add("anisotropic sheet", true, false, [&anisotropic](SurfaceMaterial& m) {
+  add(cases, "anisotropic sheet", true, false, [](SurfaceMaterial& m) {
     anisotropic(0.5f, 0.9f)(m);
     m.metallic = 0.0f;
     m.transmission = 1.0f;
   });
-  add("coat", true, true, [](SurfaceMaterial& m) {
+}
+
+inline void add_layered(std::vector<BsdfCase>& cases) {
+  add(cases, "coat", true, true, [](SurfaceMaterial& m) {
     m.clearcoat = 1.0f;
     m.clearcoat_roughness = 0.4f;
   });
-  add("smooth coat on metal", true, true, [](SurfaceMaterial& m) {
+  add(cases, "smooth coat on metal", true, true, [](SurfaceMaterial& m) {
     m.clearcoat = 0.7f;
     m.metallic = 1.0f;
   });
-  add("sheen", true, true, [](SurfaceMaterial& m) {
+  add(cases, "sheen", true, true, [](SurfaceMaterial& m) {
     m.sheen_color = Color(1.0f, 1.0f, 1.0f);
     m.sheen_roughness = 0.5f;
   });
-  add("rough sheen under coat", true, true, [](SurfaceMaterial& m) {
+  add(cases, "rough sheen under coat", true, true, [](SurfaceMaterial& m) {
     m.sheen_color = Color(0.5f, 0.5f, 0.5f);
     m.sheen_roughness = 1.0f;
     m.clearcoat = 0.5f;
     m.clearcoat_roughness = 0.2f;
   });
+}
+
+}  // namespace detail
+
+/// White materials: their albedo is one.
+inline std::vector<BsdfCase> white_cases() {
+  std::vector<BsdfCase> cases;
+  detail::add_opaque_and_thin(cases);
+  detail::add_glasses(cases);
+  detail::add_diffuse_transmission(cases);
+  detail::add_films(cases);
+  detail::add_anisotropic(cases);
+  detail::add_layered(cases);
   return cases;
 }
 

@@ -1,17 +1,15 @@
-// Training of a cache: its answers, its counts, when it stops, and that threads and interruptions change no
-// bit.
+// Training of a cache: its counts, when it stops, and that threads and interruptions change no bit.
 
 #include "renderer/cache/cache_session.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/errors.h"
+#include "tests/renderer/cache/cache_sessions.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -20,140 +18,6 @@ using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
 using testing::with_threads;
-
-RenderOptions small(Integrator integrator) {
-  RenderOptions options;
-  options.integrator = integrator;
-  options.max_depth = 32;
-  options.cache.batch = 2048;
-  options.cache.node_spacing = 0.7f;
-  return options;
-}
-
-/// The points that the camera sees, as points to query.
-SurfacePoints seen_points(const ViewedWorld& viewed, const CacheSession& session) {
-  SurfacePoints points(session.inputs());
-  for (int y = 1; y < viewed.region.height(); y += 3) {
-    for (int x = 1; x < viewed.region.width(); x += 3) {
-      const CameraRay ray = viewed.camera.ray(static_cast<float>(x), static_cast<float>(y));
-      Hit hit;
-      viewed.world.accel.intersect(std::span(&ray.ray, 1), std::span(&hit, 1), true);
-      if (!hit) continue;
-      const Surface surface = viewed.world.surfaces.at(hit, ray.ray.direction, 0.0f, 0.5f);
-      points.push_back(
-          surface_point(hit, side_of(surface.front, viewed.world.scene.instances[hit.instance].mirrors),
-                        -ray.ray.direction, surface, surface.material.base_color));
-    }
-  }
-  return points;
-}
-
-std::vector<float> answers_of(CacheSession& session, const SurfacePoints& points) {
-  std::vector<float> answers(session.outputs() * points.size());
-  session.answer(points, answers);
-  return answers;
-}
-
-/// Mean of all answers at the points that the camera sees.
-double mean_answer(CacheSession& session, const ViewedWorld& viewed) {
-  testing::Moments moments;
-  for (const float a : answers_of(session, seen_points(viewed, session))) moments.add(static_cast<double>(a));
-  EXPECT_GT(moments.count(), 300u);
-  return moments.mean();
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-void expect_same_state(const CacheState& a, const CacheState& b) {
-  EXPECT_TRUE(same_bits(a.model.parameters, b.model.parameters));
-  EXPECT_TRUE(same_bits(a.model.averages, b.model.averages));
-  EXPECT_TRUE(same_bits(a.model.first_moments, b.model.first_moments));
-  EXPECT_TRUE(same_bits(a.model.second_moments, b.model.second_moments));
-  EXPECT_EQ(a.model, b.model);
-  EXPECT_EQ(a.steps, b.steps);
-  EXPECT_EQ(a.triangle_counts, b.triangle_counts);
-  EXPECT_EQ(a.guard, b.guard);
-  EXPECT_EQ(a.setup.sides, b.setup.sides);
-  EXPECT_EQ(a.setup.spacing_scales, b.setup.spacing_scales);
-  EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
-  EXPECT_EQ(a.setup.node_spacing, b.setup.node_spacing);
-}
-
-struct Learned {
-  CacheHolds holds;
-  neural::FeatureEncoding encoding;
-};
-
-class CacheSessionLearns : public ::testing::TestWithParam<Learned> {};
-
-TEST_P(CacheSessionLearns, TheLightOfAClosedFurnace) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 30.0f));
-  RenderOptions options = small(Integrator::nrc);
-  options.cache.holds = GetParam().holds;
-  options.cache.encoding = GetParam().encoding;
-  options.cache.hash_grid.levels = 4;
-  options.cache.hash_grid.log2_table_size = 12;
-  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-  session.train(100, {});
-  EXPECT_EQ(session.steps(), 100u);
-  const double sent = 30.0 / (1.0 - 0.6);
-  const double cached = GetParam().holds == CacheHolds::indirect ? sent - 30.0 : sent;
-  EXPECT_NEAR(mean_answer(session, viewed) / cached, 1.0, 0.03);
-
-  const CacheStatistics s = session.statistics();
-  EXPECT_EQ(s.steps, 100);
-  EXPECT_EQ(s.rejected, 0u);
-  EXPECT_EQ(s.unstored, 0u);
-  EXPECT_EQ(s.negative_answers, 0u);
-  EXPECT_NEAR(static_cast<double>(s.records), 100.0 * 2048.0, 0.05 * 100.0 * 2048.0);
-  EXPECT_LE(s.records, 100u * 2048u);
-  EXPECT_GT(s.nodes, 0u);
-  EXPECT_EQ(s.nodes, session.model().parameters.node_count);
-  EXPECT_FALSE(s.backend.empty());
-}
-
-std::string name_of(const Learned& l) {
-  const char* const holds[] = {"All", "NoDelta", "Indirect"};
-  return std::string(holds[static_cast<std::size_t>(l.holds)]) +
-         (l.encoding == neural::FeatureEncoding::gate ? "Gate" : "HashGrid");
-}
-
-INSTANTIATE_TEST_SUITE_P(All, CacheSessionLearns,
-                         ::testing::Values(Learned{CacheHolds::all, neural::FeatureEncoding::gate},
-                                           Learned{CacheHolds::no_delta, neural::FeatureEncoding::gate},
-                                           Learned{CacheHolds::indirect, neural::FeatureEncoding::gate},
-                                           Learned{CacheHolds::no_delta, neural::FeatureEncoding::hash_grid}),
-                         [](const auto& learned) { return name_of(learned.param); });
-
-TEST(CacheSession, PointsOfEverySourceLearnTheSameFurnace) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 2.0f));
-  for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
-    RenderOptions options = small(Integrator::nrc);
-    options.cache.source = source;
-    options.cache.samples_per_point = 4;
-    options.cache.candidates = 4;
-    options.cache.bf16_queries = true;
-    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-    session.train(80, {});
-    EXPECT_NEAR(mean_answer(session, viewed) / 5.0, 1.0, 0.03);
-  }
-}
-
-TEST(CacheSession, AnAttenuatedCacheLearnsTooLittle) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small(Integrator::nrc);
-  options.cache.holds = CacheHolds::all;
-  options.cache.self_training.start_step = 0;
-  options.cache.self_training.vertices = 1;
-  options.cache.self_training.full_fraction = 0.0f;
-  options.cache.self_training.attenuation = 0.5f;
-  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-  session.train(120, {});
-  // y = Le + a / 2 y.
-  EXPECT_NEAR(mean_answer(session, viewed), 1.0 / 0.7, 0.04 / 0.7);
-}
 
 /// A room of two materials with a lamp, a mirror and a glossy ball: everything that a batch may meet.
 SceneBuilder room() {
@@ -177,7 +41,7 @@ SceneBuilder room() {
 TEST(CacheSession, AnyNumberOfThreadsLearnsTheSameBits) {
   const ViewedWorld viewed(room());
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    RenderOptions options = small(integrator);
+    RenderOptions options = small_session(integrator);
     options.max_depth = 6;
     options.cache.candidates = 4;
     options.cache.self_training.start_step = 3;
@@ -201,7 +65,7 @@ TEST(CacheSession, AnyNumberOfThreadsLearnsTheSameBits) {
 
 TEST(CacheSession, InterruptedAndContinuedElsewhereItLearnsTheSameBits) {
   const ViewedWorld viewed(room());
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   options.max_depth = 6;
   options.cache.candidates = 4;
   options.cache.self_training.start_step = 3;
@@ -225,7 +89,7 @@ TEST(CacheSession, InterruptedAndContinuedElsewhereItLearnsTheSameBits) {
 
 TEST(CacheSession, SeedsLearnDifferently) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   CacheState states[2];
   for (const std::uint32_t seed : {0u, 1u}) {
     options.seed = seed;
@@ -238,7 +102,7 @@ TEST(CacheSession, SeedsLearnDifferently) {
 
 TEST(CacheSession, ItStopsOnRequestOrOutOfTime) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   CacheSession session(viewed.world, viewed.camera, viewed.region, options);
   std::vector<int> reported;
   std::vector<std::uint64_t> exported;
@@ -275,7 +139,7 @@ void answer_always(CacheSession& session, float value) {
 
 TEST(CacheSession, NegativeAnswersAreZeroAndCounted) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 8.0f));
-  const RenderOptions options = small(Integrator::nrc);
+  const RenderOptions options = small_session(Integrator::nrc);
   CacheSession session(viewed.world, viewed.camera, viewed.region, options);
   const SurfacePoints points = seen_points(viewed, session);
   answer_always(session, -0.5f);
@@ -290,7 +154,7 @@ TEST(CacheSession, NegativeAnswersAreZeroAndCounted) {
 TEST(CacheSession, OverflowingAnswersAreFinite) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 8.0f));
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    const RenderOptions options = small(integrator);
+    const RenderOptions options = small_session(integrator);
     CacheSession session(viewed.world, viewed.camera, viewed.region, options);
     const SurfacePoints points = seen_points(viewed, session);
     const float most = integrator == Integrator::nrc ? std::numeric_limits<float>::max() : 1.0f;
@@ -309,37 +173,9 @@ TEST(CacheSession, OverflowingAnswersAreFinite) {
   }
 }
 
-TEST(CacheSession, OcclusionIsLearnedAndStaysWithinOne) {
-  SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-9, 0, 9), Vec3(18, 0, 0),
-               Vec3(0, 0, -18));
-  builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
-  const ViewedWorld viewed(builder);
-  const RenderOptions options = small(Integrator::nao);
-  CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-  EXPECT_EQ(session.outputs(), 1u);
-  session.train(30, {});
-  for (const float a : answers_of(session, seen_points(viewed, session))) {
-    ASSERT_LE(a, 1.0f);
-    ASSERT_GT(a, 0.95f);
-  }
-}
-
-TEST(CacheSession, LearningRatesBeyondAllBoundsAreAnErrorAndAnswersStayFinite) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  for (const float rate : {1e3f, 1e20f}) {
-    RenderOptions options = small(Integrator::nrc);
-    options.cache.batch = 512;
-    options.cache.training.adam.learning_rate = rate;
-    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-    EXPECT_THROW(session.train(150, {}), TrainingDiverged) << rate;
-    for (const float a : answers_of(session, seen_points(viewed, session))) ASSERT_TRUE(std::isfinite(a));
-  }
-}
-
 TEST(CacheSession, SamplesOfAPointDoNotMultiplyTheWork) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   options.cache.path_length = 3;
   options.min_depth = 64;
   for (const int times : {1, 8}) {
@@ -358,7 +194,7 @@ TEST(CacheSession, SamplesOfAPointDoNotMultiplyTheWork) {
 
 TEST(CacheSession, MirrorsAreCountedWherePathsBegin) {
   const ViewedWorld viewed(room());
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   options.max_depth = 4;
   options.cache.candidates = 16;
   CacheSession session(viewed.world, viewed.camera, viewed.region, options);
@@ -375,7 +211,7 @@ TEST(CacheSession, MirrorsAreCountedWherePathsBegin) {
 TEST(CacheSession, TrianglesAreCountedOnlyWhereTheCountsAreUsed) {
   const ViewedWorld viewed(room());
   const auto counted = [&](int candidates, const std::vector<Aov>& aovs, neural::FeatureEncoding encoding) {
-    RenderOptions options = small(Integrator::nrc);
+    RenderOptions options = small_session(Integrator::nrc);
     options.cache.candidates = candidates;
     options.cache.encoding = encoding;
     options.aovs = aovs;
@@ -394,7 +230,7 @@ TEST(CacheSession, WithoutTrainingRecordsItStillRuns) {
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
     for (const auto encoding : {neural::FeatureEncoding::gate, neural::FeatureEncoding::hash_grid}) {
-      RenderOptions options = small(integrator);
+      RenderOptions options = small_session(integrator);
       options.cache.encoding = encoding;
       options.cache.hash_grid.log2_table_size = 8;
       options.cache.batch = 64;
@@ -409,10 +245,10 @@ TEST(CacheSession, WithoutTrainingRecordsItStillRuns) {
 
 TEST(CacheSession, InvalidModelsAndDevicesAreRefused) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small(Integrator::nrc);
+  RenderOptions options = small_session(Integrator::nrc);
   options.cache.mlp.width = 33;
   EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), BadConfiguration);
-  options = small(Integrator::nrc);
+  options = small_session(Integrator::nrc);
   options.cache.device = "abacus";
   EXPECT_THROW(CacheSession(viewed.world, viewed.camera, viewed.region, options), Unavailable);
 }

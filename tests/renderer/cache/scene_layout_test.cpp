@@ -104,7 +104,7 @@ struct Kind {
 
 class SidesOfKinds : public ::testing::TestWithParam<Kind> {};
 
-TEST_P(SidesOfKinds, AViewersSideIsTheOneOfTheCornersAndHasStorage) {
+TEST_P(SidesOfKinds, TheSideTowardsTheViewerFollowsTheWindingAndHasStorage) {
   const auto [mirrors, double_sided, glass] = GetParam();
   scene::Material material = SceneBuilder::lambert(Color::Constant(0.5f));
   material.double_sided = double_sided;

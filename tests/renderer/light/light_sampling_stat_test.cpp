@@ -146,7 +146,7 @@ TEST(LightSamplingTest, BothSidesOfATwoSidedTriangleAreSampled) {
   EXPECT_NEAR(expect_samples_follow_densities(lit, Vec3(0.3f, 3.5f, 0.2f), -Vec3::UnitY(), 31), 1.0, 2e-3);
 }
 
-TEST(LightSamplingTest, AQuadAndItsPowerTable) {
+TEST(LightSamplingTest, SamplesOfAQuadFollowTheirDensity) {
   for (const LightSelection selection : {LightSelection::tree, LightSelection::power}) {
     scene::Scene scene;
     testing::add_light(scene, testing::quad(Vec3(-1, 2, -1), Vec3(2, 0, 0), Vec3(0, 0, 2)), Color(3, 2, 1));
@@ -157,7 +157,7 @@ TEST(LightSamplingTest, AQuadAndItsPowerTable) {
   }
 }
 
-TEST(LightSamplingTest, ManyTrianglesAllAround) {
+TEST(LightSamplingTest, SamplesOfTrianglesAllAroundFollowTheirDensity) {
   for (const LightSelection selection : {LightSelection::tree, LightSelection::power}) {
     scene::Scene scene;
     testing::Random random(3);

@@ -16,7 +16,7 @@ struct Case {
   double estimate(int smoothing) const { return estimated_error(picture, values, errors, smoothing); }
 };
 
-TEST(EstimatedError, IsRelativeToTheValue) {
+TEST(ErrorEstimate, IsRelativeToTheValue) {
   Case c;
   std::fill(c.values.values.begin(), c.values.values.end(), 2.0f);
   std::fill(c.errors.values.begin(), c.errors.values.end(), 0.5f);
@@ -25,14 +25,14 @@ TEST(EstimatedError, IsRelativeToTheValue) {
   }
 }
 
-TEST(EstimatedError, IsThatOfCompareInTheDark) {
+TEST(ErrorEstimate, IsThatOfCompareInTheDark) {
   Case c;
   EXPECT_EQ(c.estimate(2), 0.0);
   c.errors.values[4] = 1.0f;
   EXPECT_NEAR(c.estimate(0), std::sqrt(1.0 / 1e-2 / (7 * 5 * 3)), 1e-9);
 }
 
-TEST(EstimatedError, ABrightSampleIsRelativeToItsNeighbourhood) {
+TEST(ErrorEstimate, ABrightSampleIsRelativeToItsNeighbourhood) {
   Case c;
   const std::size_t middle = 3 * (2 * 7 + 3);
   c.values.values[middle] = 90.0f;
@@ -42,7 +42,7 @@ TEST(EstimatedError, ABrightSampleIsRelativeToItsNeighbourhood) {
   EXPECT_NEAR(c.estimate(1), std::sqrt(8100.0 / (100.0 + 1e-2) / count), 1e-5);
 }
 
-TEST(EstimatedError, ChannelsAreSeparateAndNeighbourhoodsEndAtBorders) {
+TEST(ErrorEstimate, ChannelsAreSeparateAndNeighbourhoodsEndAtBorders) {
   Case c;
   c.errors.values[0] = 1.0f;     // red of the first pixel
   c.values.values[1] = 1000.0f;  // its green

@@ -76,7 +76,7 @@ TEST(ShadowTerminator, ABallLosesNoLightToItsTriangles) {
   }
 }
 
-TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoneEither) {
+TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoLight) {
   scene::Scene placed = ball(12, true, SceneBuilder::lambert(Color::Ones()));
   for (const Vec3& scale : {Vec3(0.9f, 0.9f, 0.9f), Vec3(-0.9f, 0.9f, 0.9f)}) {
     placed.instances[0].baked = false;

@@ -115,7 +115,7 @@ constexpr double kErrors = 5.7;
 
 class WhiteFurnace : public ::testing::TestWithParam<Case> {};
 
-TEST_P(WhiteFurnace, HidesTheBall) {
+TEST_P(WhiteFurnace, ABallThatAbsorbsNothingIsInvisible) {
   Material material = white();
   GetParam().make(material);
   const Picture picture = ball(material, 128);

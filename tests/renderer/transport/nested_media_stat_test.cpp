@@ -7,14 +7,26 @@
 #include "renderer/render.h"
 #include "renderer/transport/view_check.h"
 #include "renderer/transport/world.h"
+#include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/shadow_rays.h"
+#include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
+using testing::channel_moments;
+using testing::Moments;
 using testing::SceneBuilder;
 
+// Of the means of this file.
+const double kSignificance = testing::sidak(1e-4, 16);
+
 constexpr float kWater = 1.33f, kGlass = 1.5f;
+
+void expect_mean(const Moments& moments, double expected) {
+  EXPECT_GT(testing::mean_p_value(moments, expected, 1e-5), kSignificance)
+      << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
+}
 
 /// Slabs across the z axis, before a lamp of radiance 1.
 struct Stack : SceneBuilder {
@@ -23,8 +35,8 @@ struct Stack : SceneBuilder {
   Stack() {
     scene::Material lamp = lambert(Color::Zero(), Color::Ones());
     quad(material(lamp), Vec3(-50, -50, -1), Vec3(100, 0, 0), Vec3(0, 100, 0));
-    options.width = options.height = 1;
-    options.spp = 40000;
+    options.width = options.height = 16;
+    options.spp = 156;
     options.max_depth = options.min_depth = 100;
     options.camera.look_at =
         LookAt{.eye = Vec3(0.1f, 0.2f, 10), .target = Vec3(0.1f, 0.2f, 0), .up = Vec3(0, 1, 0)};
@@ -42,11 +54,13 @@ struct Stack : SceneBuilder {
     instance.placement = static_cast<int>(scene().instances.size());
     return instance;
   }
-  Color render() {
-    const Picture picture = Renderer(scene(), options).render();
-    const std::vector<float>& v = picture.layers[0].values;
+  Picture picture() { return Renderer(scene(), options).render(); }
+  /// Light without noise.
+  Color exact_light() {
+    const std::vector<float> v = picture().layers[0].values;
     return {v[0], v[1], v[2]};
   }
+  void expect_light(double expected) { expect_mean(channel_moments(picture(), 1), expected); }
 };
 
 /// Fresnel's reflectance at normal incidence, over the transmittance. These add up in a stack of plates whose
@@ -61,14 +75,14 @@ TEST(NestedMedia, ABlockInWaterHasTheIndexOfBoth) {
   stack.slab(kWater, 0, 3);
   stack.slab(kGlass, 1, 2);
   const double expected = 1.0 / (1.0 + 2.0 * plate(1, kWater) + 2.0 * plate(kWater, kGlass));
-  EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.004);
+  stack.expect_light(expected);
 }
 
 TEST(NestedMedia, TheSameMediumInsideIsInvisible) {
   Stack stack;
   stack.slab(kWater, 0, 3);
   stack.slab(kWater, 1, 2);
-  EXPECT_NEAR(static_cast<double>(stack.render()[1]), 1.0 / (1.0 + 2.0 * plate(1, kWater)), 0.003);
+  stack.expect_light(1.0 / (1.0 + 2.0 * plate(1, kWater)));
 }
 
 TEST(NestedMedia, OverlappingBlocksHaveOneBoundaryBetweenThem) {
@@ -77,7 +91,8 @@ TEST(NestedMedia, OverlappingBlocksHaveOneBoundaryBetweenThem) {
     Stack stack;
     stack.slab(kWater, 0, 3).dielectric_priority = priority;
     stack.slab(kGlass, 2, 4);
-    EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.004) << priority;
+    SCOPED_TRACE(priority);
+    stack.expect_light(expected);
   }
 }
 
@@ -88,7 +103,7 @@ TEST(NestedMedia, OnlyTheStrongerMediumAbsorbsWhereTheyOverlap) {
     stack.options.spp = 4;
     stack.slab(1.0f, 0, 2, red);
     stack.slab(1.0f, 1, 3, green).dielectric_priority = priority;
-    const Color passed = stack.render();
+    const Color passed = stack.exact_light();
     EXPECT_NEAR(passed[0], std::exp(-0.5f * (2.0f - priority)), 1e-4f) << priority;
     EXPECT_NEAR(passed[1], std::exp(-0.5f * (1.0f + priority)), 1e-4f) << priority;
     EXPECT_NEAR(passed[2], 1.0f, 1e-4f);
@@ -100,7 +115,7 @@ TEST(NestedMedia, LeavingTheInnerMediumDoesNotLeaveTheOuterOne) {
   stack.options.spp = 4;
   stack.slab(1.0f, 0, 3, Color(0.5f, 0.0f, 0.0f));
   stack.slab(1.0f, 1, 2, Color(0.0f, 0.5f, 0.0f));
-  const Color passed = stack.render();
+  const Color passed = stack.exact_light();
   EXPECT_NEAR(passed[0], std::exp(-1.0f), 1e-4f);
   EXPECT_NEAR(passed[1], std::exp(-0.5f), 1e-4f);
 }
@@ -114,7 +129,7 @@ TEST(NestedMedia, ACameraInTheWaterStartsInItsMedium) {
   const double passed = 1.0 / (1.0 + 2.0 * plate(kWater, kGlass) + plate(kWater, 1));
   const double behind = 1.0 - 1.0 / (1.0 + plate(1, kWater));
   const double expected = static_cast<double>(kWater * kWater) * passed / (1.0 - (1.0 - passed) * behind);
-  EXPECT_NEAR(static_cast<double>(stack.render()[1]), expected, 0.005);
+  stack.expect_light(expected);
 
   // A smooth ball in the way of the ray that looks for the water's surface.
   stack.sphere(stack.material(SceneBuilder::lambert(Color::Ones())),
@@ -172,16 +187,19 @@ TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
     options.direct = direct;
     options.camera.look_at = LookAt{.eye = Vec3(0, 0, 2), .target = Vec3::Zero(), .up = Vec3(0, 1, 0)};
     options.camera.fov_degrees = 20.0f;
-    const Picture picture = Renderer(builder.scene(), options).render();
-    Color sum = Color::Zero();
-    const std::vector<float>& v = picture.layers[0].values;
-    for (std::size_t i = 0; i < v.size(); i += 3) sum += Color(v[i], v[i + 1], v[i + 2]);
-    return Color(sum / 64.0f);
+    return Renderer(builder.scene(), options).render();
   };
-  const Color samples = seen(DirectLight::nee), bounces = seen(DirectLight::bsdf);
-  EXPECT_GT(samples[0], 1e-4f);
-  EXPECT_LT(samples[0], 0.3f * samples[2]) << "the water is blue";
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(samples[c] / bounces[c], 1.0f, 0.03f) << c;
+  const Picture samples = seen(DirectLight::nee), bounces = seen(DirectLight::bsdf);
+  EXPECT_GT(channel_moments(samples, 0).mean(), 1e-4);
+  EXPECT_LT(channel_moments(samples, 0).mean(), 0.3 * channel_moments(samples, 2).mean())
+      << "the water is blue";
+  for (std::size_t c = 0; c < 3; ++c) {
+    // A paired test: each pixel sees another part of the sheet, but the same part in both pictures.
+    Moments differences;
+    for (std::size_t i = c; i < samples.layers[0].values.size(); i += 3)
+      differences.add(static_cast<double>(bounces.layers[0].values[i] - samples.layers[0].values[i]));
+    expect_mean(differences, 0.0);
+  }
 }
 
 TEST(NestedMedia, RoughIceThatOverlapsWaterLosesNoLight) {
@@ -194,8 +212,8 @@ TEST(NestedMedia, RoughIceThatOverlapsWaterLosesNoLight) {
   stack.scene().materials[0].emission.setZero();
   stack.scene().materials[0].base_color.setOnes();
   stack.options.environment.constant = Color::Ones();
-  stack.options.spp = 4000;
-  EXPECT_NEAR(static_cast<double>(stack.render()[1]), 1.0, 5e-3);
+  stack.options.spp = 16;
+  stack.expect_light(1.0);
 }
 
 TEST(NestedMedia, ABlockOfAirInDispersingGlassIsColourlessAtNormalIncidence) {
@@ -205,9 +223,9 @@ TEST(NestedMedia, ABlockOfAirInDispersingGlassIsColourlessAtNormalIncidence) {
   stack.slab(kGlass, 0, 3);
   stack.slab(1.0f, 1, 2);
   stack.scene().materials[1].dispersion = 1.0f;
-  const Color light = stack.render();
+  const Picture picture = stack.picture();
   const double expected = 1.0 / (1.0 + 4.0 * plate(1, kGlass));
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(static_cast<double>(light[c]), expected, 0.015) << c;
+  for (std::size_t c = 0; c < 3; ++c) expect_mean(channel_moments(picture, c), expected);
 }
 
 /// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so all are invisible.
@@ -232,12 +250,8 @@ TEST(NestedMedia, BallsInAWhiteFurnaceAreInvisible) {
     options.max_depth = options.min_depth = 500;
     options.environment.constant = Color::Ones();
     options.camera.look_at = LookAt{.eye = Vec3(0, 0.5f, 4), .target = Vec3::Zero(), .up = Vec3(0, 1, 0)};
-    const Picture picture = Renderer(builder.scene(), options).render();
-    double sum = 0.0;
-    for (const float v : picture.layers[0].values) sum += static_cast<double>(v);
-    EXPECT_NEAR(sum / static_cast<double>(picture.layers[0].values.size()), 1.0,
-                roughness == 0.0f ? 1e-3 : 1e-2)
-        << roughness;
+    SCOPED_TRACE(roughness);
+    expect_mean(channel_moments(Renderer(builder.scene(), options).render(), 1), 1.0);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "renderer/render.h"
+#include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -27,10 +28,7 @@ RenderOptions looking(const Vec3& eye, float fov_degrees) {
 }
 
 Moments pixels(const scene::Scene& s, const RenderOptions& options) {
-  const Picture picture = Renderer(s, options).render();
-  Moments moments;
-  for (const float value : picture.layers[0].values) moments.add(static_cast<double>(value));
-  return moments;
+  return testing::moments_of(Renderer(s, options).render());
 }
 
 /// A normal map all over a ball, which leans the normals by some 20 degrees to and fro.
@@ -47,8 +45,8 @@ void make_rough(scene::Scene& s, scene::Mesh& ball, scene::Material& material) {
   }
 }
 
-/// Mean radiance of a white ball in a sky of radiance 1, from the whole of it.
-double white_ball(int segments, DirectLight direct, bool two_sided, bool bumps) {
+/// Pixels of a white ball in a sky of radiance 1, from the whole of it.
+Moments white_ball(int segments, DirectLight direct, bool two_sided, bool bumps) {
   SceneBuilder builder;
   scene::Material white = SceneBuilder::lambert(Color::Ones());
   white.double_sided = two_sided;
@@ -57,22 +55,31 @@ double white_ball(int segments, DirectLight direct, bool two_sided, bool bumps) 
   RenderOptions options = looking(Vec3(0.5f, 0.3f, 4.0f), 30.0f);
   options.environment.constant = Color::Ones();
   options.direct = direct;
-  return pixels(builder.scene(), options).mean();
+  return pixels(builder.scene(), options);
 }
 
 TEST(TerminatorEnergy, AWhiteBallInAWhiteSkyIsInvisible) {
   for (const DirectLight direct : {DirectLight::mis, DirectLight::nee, DirectLight::bsdf}) {
     for (const int segments : {12, 24, 48}) {
-      EXPECT_NEAR(white_ball(segments, direct, false, false), 1.0, 0.002) << segments;
-      EXPECT_NEAR(white_ball(segments, direct, true, false), 1.0, 0.002) << segments << ", two-sided";
+      for (const bool two_sided : {false, true}) {
+        const Moments ball = white_ball(segments, direct, two_sided, false);
+        EXPECT_GT(testing::mean_p_value(ball, 1.0), testing::sidak(1e-4, 18))
+            << segments << " segments, mean " << ball.mean() << " +- " << ball.standard_error();
+      }
     }
   }
 }
 
 TEST(TerminatorEnergy, UnderANormalMapACoarseBallIsAsBrightAsAFineOne) {
-  const double fine = white_ball(192, DirectLight::mis, false, true);
-  for (const int segments : {12, 24, 48})
-    EXPECT_NEAR(white_ball(segments, DirectLight::mis, false, true), fine, 0.01 * fine) << segments;
+  const Moments fine = white_ball(192, DirectLight::mis, false, true);
+  for (const int segments : {12, 24, 48}) {
+    const Moments coarse = white_ball(segments, DirectLight::mis, false, true);
+    const double error = std::hypot(coarse.standard_error(), fine.standard_error());
+    const double freedom = static_cast<double>(coarse.count() + fine.count() - 2);
+    EXPECT_GT(testing::student_two_sided((coarse.mean() - fine.mean()) / error, freedom),
+              testing::sidak(1e-4, 3))
+        << segments << " segments, mean " << coarse.mean() << ", expected " << fine.mean() << " +- " << error;
+  }
 }
 
 /// The brightest pixel of a closed black room with a sun and a sky outside.

@@ -1,0 +1,43 @@
+#pragma once
+// Small renders of one square through the real program.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+#include "tests/support/tiny_scene.h"
+
+namespace gatelight::tests {
+
+class SquareRenders : public FolderTest {
+ protected:
+  Output render(const std::vector<std::string>& flags) const {
+    if (std::find(flags.begin(), flags.end(), "--spp") != flags.end()) return render_open(flags);
+    std::vector<std::string> more = flags;
+    more.insert(more.end(), {"--spp", "4"});
+    return render_open(more);
+  }
+
+  /// Renders without --spp.
+  Output render_open(const std::vector<std::string>& flags) const {
+    std::vector<std::string> arguments = {"render", scene, "--environment", "1,1,1", "--size", "24x16"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return run_gatelight(arguments);
+  }
+
+  std::string scene = folder.write("scene.gltf", tiny_scene());
+};
+
+inline std::set<std::string> keys(const nlohmann::json& object) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+}  // namespace gatelight::tests

@@ -1,0 +1,160 @@
+// Foreign, damaged and malicious cache files are refused.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/neural/model/cache_files.h"
+
+namespace gatelight::neural::testing {
+namespace {
+
+/// Replaces a text of the file's header by another of the same length.
+void replace(const std::filesystem::path& path, const std::string& from, const std::string& to) {
+  ASSERT_EQ(from.size(), to.size());
+  std::string bytes = read_file(path);
+  const std::size_t place = bytes.find(from);
+  ASSERT_NE(place, std::string::npos) << from;
+  bytes.replace(place, from.size(), to);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(DamagedCacheFile, AForeignFileAndAnotherVersionAreRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  Trainer trainer = make_trainer(c, {}, 2);
+  const auto expect_refused = [&](const std::string& from, const std::string& to, const NameList& names) {
+    save_version_1(make_trainer(c, {}, 1), folder / "a");
+    replace(folder / "a", from, to);
+    expect_load_refused(trainer, folder / "a", names);
+  };
+  expect_refused(R"("version":"1")", R"("version":"3")", {"version", "3", "2"});
+  expect_refused(R"("version":"1")", R"("version":"2")", {"digest"});
+  expect_refused(R"("format":"gate)", R"("format":"Gate)", {"format", "Gatelight-cache"});
+  expect_refused(R"("format")", R"("formaT")", {"format"});
+  expect_refused(R"("network")", R"("netwOrk")", {"network"});
+  expect_refused(R"("network":"{)", R"("network":"[)", {"network"});
+  expect_refused(R"("steps")", R"("sTeps")", {"steps"});
+  write_safetensors(folder / "a", {}, {{"format", "pt"}});
+  expect_load_refused(trainer, folder / "a", {"format", "pt"});
+}
+
+TEST(DamagedCacheFile, ATensorTooManyIsRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  save_version_1(make_trainer(c, {}, 1), folder / "a");
+  std::string bytes = read_file(folder / "a");
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes.data(), 8);
+  const std::string data_bytes = std::to_string(bytes.size() - 8 - length);
+  std::string header = bytes.substr(8, length);
+  header.insert(header.find_last_of('}'), R"(,"more":{"dtype":"F32","shape":[0],"data_offsets":[)" +
+                                              data_bytes + "," + data_bytes + "]}");
+  length = header.size();
+  std::memcpy(bytes.data(), &length, 8);
+  folder.write("b", bytes.substr(0, 8) + header + bytes.substr(bytes.size() - std::stoul(data_bytes)));
+  Trainer trainer = make_trainer(c, {}, 2);
+  expect_load_refused(trainer, folder / "b", {"more"});
+}
+
+TEST(DamagedCacheFile, NonFiniteStatesAndNegativeSecondMomentsAreRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  struct Case {
+    std::vector<float> ModelState::*array;
+    float value;
+    NameList names;
+  };
+  for (const Case& bad : std::initializer_list<Case>{
+           {&ModelState::parameters, kNan, {"layers.0.weight", "7", "nan"}},
+           {&ModelState::parameters, -kInfinity, {"layers.0.weight", "7", "-inf"}},
+           {&ModelState::averages, kInfinity, {"average.layers.0.weight", "7", "inf"}},
+           {&ModelState::first_moments, kNan, {"first_moment.layers.0.weight", "7", "nan"}},
+           {&ModelState::second_moments, kNan, {"second_moment.layers.0.weight", "7", "nan"}},
+           {&ModelState::first_moments, -kInfinity, {"first_moment.layers.0.weight", "7", "-inf"}},
+           {&ModelState::second_moments, kInfinity, {"second_moment.layers.0.weight", "7", "inf"}},
+           {&ModelState::second_moments, -1.0f, {"second_moment.layers.0.weight", "7", "-1"}}}) {
+    Trainer broken = make_trainer(c, {}, 1);
+    ModelState state = state_of(broken);
+    (state.*bad.array)[7] = bad.value;
+    broken.backend().import_state(state);
+    broken.save(folder / "a", kFingerprint);
+    Trainer trainer = make_trainer(c, {}, 2);
+    const ModelState before = state_of(trainer);
+    expect_load_refused(trainer, folder / "a", bad.names);
+    EXPECT_TRUE(same_bits(state_of(trainer), before));
+  }
+}
+
+TEST(DamagedCacheFile, EveryTruncationIsRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  make_trainer(c, {}, 1).save(folder / "a", kFingerprint);
+  const std::string bytes = read_file(folder / "a");
+  Trainer trainer = make_trainer(c, {}, 2);
+  const ModelState before = state_of(trainer);
+  for (std::size_t size = 0; size < bytes.size(); size += size < 4096 ? 1 : 7) {
+    std::filesystem::remove(folder / "b");  // an overwritten file may be flushed to the disk at once
+    folder.write("b", bytes.substr(0, size));
+    ASSERT_NE(refusal<CacheFileError>([&] { trainer.load(folder / "b", kFingerprint); }), "")
+        << size << " of " << bytes.size();
+  }
+  folder.write("b", bytes + '\0');
+  EXPECT_NE(refusal<CacheFileError>([&] { trainer.load(folder / "b", kFingerprint); }), "");
+  EXPECT_TRUE(same_bits(state_of(trainer), before));
+}
+
+TEST(DamagedCacheFile, EveryChangedByteIsRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  make_trainer(c, {}, 1).save(folder / "a", kFingerprint);
+  const std::string bytes = read_file(folder / "a");
+  Trainer trainer = make_trainer(c, {}, 2);
+  const ModelState before = state_of(trainer);
+  for (std::size_t place = 0; place < bytes.size(); ++place) {
+    const auto put = [&](int byte) {
+      std::fstream(folder / "a", std::ios::binary | std::ios::in | std::ios::out)
+          .seekp(static_cast<std::streamoff>(place))
+          .put(static_cast<char>(byte));
+    };
+    for (const int flip : {1 << place % 8, 0xff}) {
+      put(bytes[place] ^ flip);
+      ASSERT_NE(refusal<CacheFileError>([&] { trainer.load(folder / "a", kFingerprint); }), "")
+          << "byte " << place << " of " << bytes.size() << ", " << flip;
+    }
+    put(bytes[place]);
+  }
+  EXPECT_TRUE(same_bits(state_of(trainer), before));
+}
+
+// Recursive functions print and compare nested values.
+TEST(DamagedCacheFile, DeepNestingInTheMetadataIsRefused) {
+  const TemporaryFolder folder;
+  const ModelCase c = tiny_case();
+  Trainer trainer = make_trainer(c, {}, 2);
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  write_safetensors(
+      folder / "a", {},
+      {{"format", "gatelight-cache"}, {"version", "1"}, {"network", "{\"levels\":" + deep + "}"}});
+  expect_load_refused(trainer, folder / "a", {"network", "levels"});
+}
+
+TEST(DamagedCacheFile, ARefusalIsOneLineWhateverTheFileHolds) {
+  const TemporaryFolder folder;
+  write_safetensors(folder / "a", {}, {{"format", "\x1b[31mred\n\r" + std::string(100000, 'x')}});
+  Trainer trainer = make_trainer(tiny_case(), {}, 2);
+  const std::string what = refusal<CacheFileError>([&] { trainer.load(folder / "a", kFingerprint); });
+  tests::expect_names(what, {(folder / "a").string(), "format", "[31mred"});
+  EXPECT_LT(what.size(), 1500u);
+}
+
+}  // namespace
+}  // namespace gatelight::neural::testing

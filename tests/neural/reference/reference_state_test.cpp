@@ -1,0 +1,149 @@
+// The state of the reference: export, import and the precision of features.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "base/half.h"
+#include "neural/reference/reference_backend.h"
+#include "tests/support/model_batches.h"
+#include "tests/support/model_cases.h"
+
+namespace gatelight::neural::reference {
+namespace {
+
+using testing::find_model_case;
+using testing::make_batch;
+using testing::OwnedBatch;
+
+TEST(ReferenceState, StateComesBackFromExportAndImport) {
+  for (const char* name : {"nrc", "nao", "hash_F4", "gate_with_everything", "gate_L5_per_triangle",
+                           "plain_roughness_one_blob_8"}) {
+    const auto model = find_model_case(name).model;
+    for (const auto& [word, options] : testing::all_training_options(*model)) {
+      SCOPED_TRACE(std::string(name) + " " + word);
+      const auto backend = make_reference_backend(model, options);
+      EXPECT_EQ(backend->export_state(), initial_state(*model, options));
+      for (std::uint64_t step = 0; step < 2; ++step) backend->train(make_batch(*model, 20, step).training());
+      const ModelState state = backend->export_state();
+      const auto other = make_reference_backend(model, options);
+      other->import_state(state);
+      EXPECT_EQ(other->export_state(), state);
+      EXPECT_EQ(state.steps, 2u);
+    }
+  }
+}
+
+TEST(ReferenceState, FeaturesKeptInHalfPrecisionAreRoundedOnImport) {
+  const auto model = find_model_case("nrc").model;
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp32}) {
+    TrainingOptions options;
+    options.precision = precision;
+    const auto backend = make_reference_backend(model, options);
+    ModelState state = backend->export_state();
+    state.parameters.front() = 0.1f;
+    state.averages.front() = 0.3f;
+    backend->import_state(state);
+    const bool rounds = precision == FeaturePrecision::fp16;
+    EXPECT_EQ(backend->export_state().parameters.front(), rounds ? half_to_float(float_to_half(0.1f)) : 0.1f);
+    EXPECT_EQ(backend->export_state().averages.front(), rounds ? half_to_float(float_to_half(0.3f)) : 0.3f);
+  }
+}
+
+TEST(ReferenceState, StatesOfOtherSizesAreRefused) {
+  const auto model = find_model_case("nrc").model;
+  TrainingOptions options;
+  options.count_triangles = true;
+  const auto backend = make_reference_backend(model, options);
+  const ModelState state = backend->export_state();
+  const auto refuses = [&](auto change) {
+    ModelState other = state;
+    change(other);
+    EXPECT_THROW(backend->import_state(other), BadConfiguration);
+    EXPECT_EQ(backend->export_state(), state);
+  };
+  refuses([](ModelState& s) { s.parameters.pop_back(); });
+  refuses([](ModelState& s) { s.averages.push_back(0); });
+  refuses([](ModelState& s) { s.first_moments.clear(); });
+  refuses([](ModelState& s) { s.second_moments.pop_back(); });
+  refuses([](ModelState& s) { s.node_steps.clear(); });
+  refuses([](ModelState& s) { s.triangle_steps.push_back(1); });
+}
+
+TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
+  const auto model = find_model_case("nrc").model;
+  const auto holds = [&](const ModelState& state) {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      count += half_to_float(float_to_half(state.parameters[p])) == state.parameters[p] &&
+               half_to_float(float_to_half(state.averages[p])) == state.averages[p];
+    return count;
+  };
+  const OwnedBatch points = make_batch(*model, 50, 7);
+  const auto answers = [&](const Backend& backend) {
+    std::vector<float> out(points.size() * model->config.mlp.outputs);
+    backend.query(points.points(), {}, out);
+    return out;
+  };
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
+    TrainingOptions options;
+    options.precision = precision;
+    const auto backend = make_reference_backend(model, options);
+    for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 300, step).training());
+    ModelState state = backend->export_state();
+    if (precision == FeaturePrecision::fp16)
+      EXPECT_EQ(holds(state), model->parameters.network);
+    else
+      EXPECT_LT(holds(state), model->parameters.network * 9 / 10);
+    // A backend in fp32 with the rounded features gives the same answers.
+    const std::vector<float> half = answers(*backend);
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      state.averages[p] = half_to_float(float_to_half(state.averages[p]));
+    const auto rounded = make_reference_backend(model, {});
+    rounded->import_state(state);
+    const std::vector<float> full = answers(*rounded);
+    for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i], full[i], 1e-5f);
+  }
+}
+
+TEST(ReferenceState, HalfFeaturesStayWithinTheirRange) {
+  const auto model = find_model_case("nao").model;
+  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
+    TrainingOptions options;
+    options.precision = precision;
+    options.adam.learning_rate = 1e5f;
+    const auto backend = make_reference_backend(model, options);
+    for (std::uint64_t step = 0; step < 3; ++step) backend->train(make_batch(*model, 50, step).training());
+    float greatest = 0;
+    const ModelState state = backend->export_state();
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      greatest = std::max(greatest, std::abs(state.parameters[p]));
+    EXPECT_EQ(greatest, 65504.0f);
+  }
+}
+
+TEST(ReferenceState, TrainingReadsRoundedMasters) {
+  // Masters between two halves give the loss that the half gives.
+  const auto model = find_model_case("gate_only").model;
+  TrainingOptions options;
+  options.start_at_mean = false;
+  options.precision = FeaturePrecision::fp16_masters;
+  const OwnedBatch batch = make_batch(*model, 30, 7);
+  const auto loss = [&](double offset) {
+    const auto backend = make_reference_backend(model, options);
+    ModelState state = backend->export_state();
+    for (std::size_t p = 0; p < model->parameters.network; ++p)
+      state.parameters[p] = static_cast<float>((p % 5 + 1) * (1 + offset));
+    backend->import_state(state);
+    return backend->train(batch.training()).loss;
+  };
+  EXPECT_EQ(loss(0.0), loss(1e-4));
+  EXPECT_NE(loss(0.0), loss(1e-2));
+}
+
+}  // namespace
+}  // namespace gatelight::neural::reference

@@ -1,0 +1,77 @@
+#pragma once
+// Sessions that train a small cache, their answers and states.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "renderer/cache/cache_session.h"
+#include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+
+/// Options of a session that learns a closed box in a hundred steps.
+inline RenderOptions small_session(Integrator integrator) {
+  RenderOptions options;
+  options.integrator = integrator;
+  options.max_depth = 32;
+  options.cache.batch = 2048;
+  options.cache.node_spacing = 0.7f;
+  return options;
+}
+
+/// The points that the camera sees, as points to query.
+inline SurfacePoints seen_points(const testing::ViewedWorld& viewed, const CacheSession& session) {
+  SurfacePoints points(session.inputs());
+  for (int y = 1; y < viewed.region.height(); y += 3) {
+    for (int x = 1; x < viewed.region.width(); x += 3) {
+      const CameraRay ray = viewed.camera.ray(static_cast<float>(x), static_cast<float>(y));
+      Hit hit;
+      viewed.world.accel.intersect(std::span(&ray.ray, 1), std::span(&hit, 1), true);
+      if (!hit) continue;
+      const Surface surface = viewed.world.surfaces.at(hit, ray.ray.direction, 0.0f, 0.5f);
+      points.push_back(
+          surface_point(hit, side_of(surface.front, viewed.world.scene.instances[hit.instance].mirrors),
+                        -ray.ray.direction, surface, surface.material.base_color));
+    }
+  }
+  return points;
+}
+
+inline std::vector<float> answers_of(CacheSession& session, const SurfacePoints& points) {
+  std::vector<float> answers(session.outputs() * points.size());
+  session.answer(points, answers);
+  return answers;
+}
+
+/// Mean of all answers at the points that the camera sees.
+inline double mean_answer(CacheSession& session, const testing::ViewedWorld& viewed) {
+  testing::Moments moments;
+  for (const float a : answers_of(session, seen_points(viewed, session))) moments.add(static_cast<double>(a));
+  EXPECT_GT(moments.count(), 300u);
+  return moments.mean();
+}
+
+inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+inline void expect_same_state(const CacheState& a, const CacheState& b) {
+  EXPECT_TRUE(same_bits(a.model.parameters, b.model.parameters));
+  EXPECT_TRUE(same_bits(a.model.averages, b.model.averages));
+  EXPECT_TRUE(same_bits(a.model.first_moments, b.model.first_moments));
+  EXPECT_TRUE(same_bits(a.model.second_moments, b.model.second_moments));
+  EXPECT_EQ(a.model, b.model);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.triangle_counts, b.triangle_counts);
+  EXPECT_EQ(a.guard, b.guard);
+  EXPECT_EQ(a.setup.sides, b.setup.sides);
+  EXPECT_EQ(a.setup.spacing_scales, b.setup.spacing_scales);
+  EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
+  EXPECT_EQ(a.setup.node_spacing, b.setup.node_spacing);
+}
+
+}  // namespace gatelight::renderer
