@@ -1,6 +1,7 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)
+find_package(TinyGLTF CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(draco CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)

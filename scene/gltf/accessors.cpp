@@ -14,10 +14,8 @@ namespace {
 /// An accessor without data stands for zeros. This bound keeps one line of JSON from filling the memory.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 20;
 
-int component_count(std::string_view type) {
-  if (type == "SCALAR") return 1;
-  const int side = type.back() - '0';
-  return type.starts_with("MAT") ? side * side : side;
+bool is_matrix(int type) {
+  return type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
 }
 
 /// Calls use(value) with a value of the component type.
@@ -94,32 +92,34 @@ void to_floats(int type, const std::uint8_t* element, int count, bool normalized
 
 AccessorReader::AccessorReader(const Document& document, int accessor)
     : document_(document),
-      accessor_(document.item("accessors", accessor)),
+      accessor_(element(document.model().accessors, accessor)),
       where_(fmt::format("accessors[{}]", accessor)),
-      type_(accessor_["componentType"]),
-      components_(component_count(accessor_["type"].get_ref<const std::string&>())),
-      count_(accessor_["count"]),
+      type_(accessor_.componentType),
+      components_(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor_.type))),
+      count_(accessor_.count),
       element_size_(static_cast<std::size_t>(components_) * component_size(type_)),
       stride_(element_size_),
-      place_(accessor_) {
+      place_{accessor_.bufferView, accessor_.byteOffset} {
   if (place_.view < 0) {
     if (count_ > kMaxZeros) {
       document.fail(where_,
                     fmt::format("count {} without a bufferView, expected at most {}", count_, kMaxZeros));
     }
   } else {
-    stride_ = document.item("bufferViews", place_.view).value("byteStride", element_size_);
+    const std::size_t stride = element(document.model().bufferViews, place_.view).byteStride;
+    if (stride > 0) stride_ = stride;
     if (stride_ < element_size_) {
       document.fail(where_, fmt::format("byteStride {}, expected at least {}", stride_, element_size_));
     }
     check_range(place_, count_, stride_, element_size_, where_);
   }
-  if (!accessor_.contains("sparse")) return;
-  const json& sparse = accessor_["sparse"];
-  sparse_count_ = sparse["count"];
-  sparse_indices_ = Place(sparse["indices"]);
-  sparse_values_ = Place(sparse["values"]);
-  index_type_ = sparse["indices"]["componentType"];
+  if (!accessor_.sparse.isSparse) return;
+  const auto& indices = accessor_.sparse.indices;
+  const auto& values = accessor_.sparse.values;
+  sparse_count_ = static_cast<std::size_t>(accessor_.sparse.count);
+  sparse_indices_ = {indices.bufferView, static_cast<std::size_t>(indices.byteOffset)};
+  sparse_values_ = {values.bufferView, static_cast<std::size_t>(values.byteOffset)};
+  index_type_ = indices.componentType;
   if (sparse_count_ > count_) {
     document.fail(where_ + ".sparse", fmt::format("count {}, expected at most {}", sparse_count_, count_));
   }
@@ -130,7 +130,7 @@ AccessorReader::AccessorReader(const Document& document, int accessor)
 
 void AccessorReader::check_range(const Place& place, std::size_t count, std::size_t stride,
                                  std::size_t element, std::string_view where) const {
-  const std::size_t size = document_.item("bufferViews", place.view)["byteLength"];
+  const std::size_t size = gltf::element(document_.model().bufferViews, place.view).byteLength;
   const bool fits = place.offset <= size && element <= size - place.offset &&
                     (count - 1) <= (size - place.offset - element) / stride;
   if (!fits) {
@@ -144,8 +144,7 @@ void AccessorReader::check_range(const Place& place, std::size_t count, std::siz
 void AccessorReader::expect_attribute(std::string_view semantic,
                                       std::initializer_list<int> components) const {
   const bool fits = std::find(components.begin(), components.end(), components_) != components.end() &&
-                    !accessor_["type"].get_ref<const std::string&>().starts_with("MAT") &&
-                    type_ != kUnsignedInt;
+                    !is_matrix(accessor_.type) && type_ != kUnsignedInt;
   if (fits) return;
   std::string wanted;
   for (const int n : components) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", n);
@@ -171,7 +170,7 @@ void AccessorReader::for_each_sparse(const Write& write) const {
 }
 
 void AccessorReader::read_floats(Selection selection, int width, float* out, bool force_normalized) const {
-  const bool normalized = force_normalized || accessor_.value("normalized", false);
+  const bool normalized = force_normalized || accessor_.normalized;
   const std::size_t rows = selection.empty() ? count_ : selection.size();
   if (sparse_count_ > 0) {
     // Sparse accessors are rare and small: the whole accessor is assembled, then the selection is read from
@@ -212,7 +211,7 @@ void AccessorReader::read_indices(std::uint32_t* out) const {
 }
 
 void check_accessors(const Document& document) {
-  for (std::size_t i = 0; i < document.list("accessors").size(); ++i)
+  for (std::size_t i = 0; i < document.model().accessors.size(); ++i)
     AccessorReader(document, static_cast<int>(i));
 }
 

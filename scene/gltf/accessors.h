@@ -55,10 +55,6 @@ class AccessorReader {
   struct Place {
     int view = -1;
     std::size_t offset = 0;
-
-    Place() = default;
-    explicit Place(const json& source)
-        : view(source.value("bufferView", -1)), offset(source.value("byteOffset", std::size_t{0})) {}
   };
 
   void check_range(const Place& place, std::size_t count, std::size_t stride, std::size_t element,
@@ -71,7 +67,7 @@ class AccessorReader {
   void for_each_sparse(const Write& write) const;
 
   const Document& document_;
-  const json& accessor_;
+  const tinygltf::Accessor& accessor_;
   std::string where_;
   int type_ = 0;
   int components_ = 0;

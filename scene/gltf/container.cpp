@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 namespace gatelight::scene::gltf {
@@ -21,7 +22,7 @@ std::uint32_t read_u32(Bytes bytes, std::size_t offset) {
 }
 
 void split_glb(Container& container, const std::string& file, Warnings& warnings) {
-  Bytes bytes = container.file.bytes();
+  Bytes bytes = container.file;
   if (bytes.size() < 12) {
     throw make_error(file, "header", fmt::format("{} bytes, expected a .glb header of 12", bytes.size()));
   }
@@ -90,7 +91,7 @@ OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, s
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!stream) fail(fmt::format("cannot be opened ({}), expected a readable file", std::strerror(errno)));
   OwnedBytes bytes(size);
-  if (std::fread(bytes.data.get(), 1, bytes.size, stream.get()) != bytes.size) {
+  if (std::fread(bytes.data(), 1, bytes.size(), stream.get()) != bytes.size()) {
     fail(fmt::format("could not be read to its end, expected {} bytes", size));
   }
   return bytes;
@@ -100,7 +101,7 @@ Container open_container(const std::filesystem::path& path, Warnings& warnings) 
   const std::string file = path.string();
   Container container;
   container.file = read_file(path, file, "");
-  const Bytes bytes = container.file.bytes();
+  const Bytes bytes = container.file;
   if (bytes.empty()) throw make_error(file, "", "an empty file, expected glTF 2.0");
   if (bytes.size() >= 4 && read_u32(bytes, 0) == kMagic) {
     split_glb(container, file, warnings);

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/gltf/error.h"
 
@@ -15,14 +15,7 @@ namespace gatelight::scene::gltf {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Bytes with one owner, not initialised.
-struct OwnedBytes {
-  std::unique_ptr<std::uint8_t[]> data;
-  std::size_t size = 0;
-
-  explicit OwnedBytes(std::size_t n = 0) : data(std::make_unique_for_overwrite<std::uint8_t[]>(n)), size(n) {}
-  Bytes bytes() const { return {data.get(), size}; }
-};
+using OwnedBytes = std::vector<std::uint8_t>;
 
 /// Reads a whole file. An InputError names `file` (the scene) and `where` (the place in the scene that refers
 /// to `path`).

@@ -1,5 +1,5 @@
 #pragma once
-// An opened glTF file: the checked JSON, and the bytes behind its buffers.
+// An opened glTF file: tinygltf's model of its checked JSON, and the bytes behind its buffers.
 
 #include <filesystem>
 #include <mutex>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/gltf/container.h"
-#include "scene/gltf/json.h"
+#include "scene/gltf/model.h"
 #include "scene/gltf/uri.h"
 
 namespace gatelight::scene::gltf {
@@ -18,14 +18,11 @@ class Document {
   /// buffer view lies in its buffer. Throws InputError.
   Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings);
 
-  const json& root() const { return root_; }
-  /// A list of the root, such as "nodes"; empty if the file has none.
-  const json& list(const char* name) const;
-  /// An element of such a list.
-  const json& item(const char* list_name, int index) const { return element(list(list_name), index); }
+  /// Its buffers that are part of a .glb are empty; view() has their bytes.
+  const tinygltf::Model& model() const { return model_; }
   const std::string& file() const { return file_; }
   /// The bytes behind a URI of this file. Throws InputError.
-  OwnedBytes read(std::string_view uri, std::string_view where) const {
+  OwnedBytes read(const std::string& uri, std::string_view where) const {
     return read_uri(uri, uris_, file_, where);
   }
   /// Call this, from one thread, before allocating `bytes` because of a count in the file. Throws InputError
@@ -41,22 +38,16 @@ class Document {
   }
 
  private:
-  struct Buffer {
-    OwnedBytes storage;  ///< empty if the bytes belong to the .glb
-    Bytes bytes;         ///< byteLength bytes; empty for a placeholder
-  };
-
-  void check_descriptions() const;
-  void load_buffers();
-  void check_views() const;
-  /// The bytes at a place that has a buffer, an offset and a length.
-  Bytes range(const json& place, std::string_view where) const;
+  void take_binary(const nlohmann::json& root);
+  OwnedBytes read_buffer(std::size_t index, const std::string& uri, std::size_t length);
+  void check_length(std::size_t buffer, std::size_t found, std::size_t expected) const;
+  Bytes range(int buffer, std::size_t offset, std::size_t length, std::string_view where) const;
 
   std::string file_;
   UriOptions uris_;
   Container container_;
-  json root_;
-  std::vector<Buffer> buffers_;
+  tinygltf::Model model_;
+  std::vector<Bytes> buffers_;               ///< byteLength bytes; empty for a placeholder
   std::size_t read_bytes_ = 0;               ///< size of the file and its buffers
   mutable std::size_t claimed_ = 0;          ///< sum of all claims, bytes
   mutable std::mutex mutex_;                 ///< guards decoded_

@@ -46,11 +46,11 @@ bool read_rows(const draco::PointAttribute& attribute, Selection selection, std:
 
 }  // namespace
 
-DracoPrimitive::DracoPrimitive(const Document& document, const json& extension, std::string where)
+DracoPrimitive::DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where)
     : document_(document),
       extension_(extension),
       where_(std::move(where) + ".extensions.KHR_draco_mesh_compression") {
-  const Bytes bytes = document.view(extension["bufferView"], where_);
+  const Bytes bytes = document.view(integer_or(extension, "bufferView", -1), where_);
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::string error = "no mesh";
@@ -74,13 +74,18 @@ std::size_t DracoPrimitive::vertex_count() const {
   return mesh_->num_points();
 }
 
+int DracoPrimitive::id_of(const std::string& semantic) const {
+  const tinygltf::Value* attributes = find_member(extension_, "attributes");
+  return attributes ? integer_or(*attributes, semantic.c_str(), -1) : -1;
+}
+
 bool DracoPrimitive::has(const std::string& semantic) const {
-  return extension_["attributes"].contains(semantic);
+  return id_of(semantic) >= 0;
 }
 
 void DracoPrimitive::read_floats(const std::string& semantic, Selection selection, int width, bool normalized,
                                  float* out) const {
-  const int id = extension_["attributes"].value(semantic, -1);
+  const int id = id_of(semantic);
   const draco::PointAttribute* attribute = mesh_->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
   if (!attribute)
     document_.fail(where_, fmt::format("{} is attribute {}, expected one of the data", semantic, id));

@@ -18,7 +18,7 @@ namespace gatelight::scene::gltf {
 class DracoPrimitive {
  public:
   /// Decodes the primitive. Throws InputError.
-  DracoPrimitive(const Document& document, const json& extension, std::string where);
+  DracoPrimitive(const Document& document, const tinygltf::Value& extension, std::string where);
   ~DracoPrimitive();
 
   std::size_t vertex_count() const;
@@ -30,8 +30,11 @@ class DracoPrimitive {
   void read_triangles(std::vector<std::array<std::uint32_t, 3>>& out) const;
 
  private:
+  /// The number of an attribute in the compressed data, or -1.
+  int id_of(const std::string& semantic) const;
+
   const Document& document_;
-  const json& extension_;
+  const tinygltf::Value& extension_;
   std::string where_;
   std::unique_ptr<draco::Mesh> mesh_;
 };

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace gatelight::scene::gltf {
 namespace {
+
+using nlohmann::json;
 
 /// For KHR_texture_basisu and MSFT_texture_dds only the fallback picture of a texture is read.
 constexpr std::string_view kSupported[] = {
@@ -55,13 +58,6 @@ void check_extensions(const json& root, std::string_view file, Warnings& warning
       warnings.add(fmt::format("extensionsUsed: {} is not supported and ignored", name));
     }
   }
-}
-
-const json* find_extension(const json& object, const char* name) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end()) return nullptr;
-  const auto found = extensions->find(name);
-  return found == extensions->end() ? nullptr : &*found;
 }
 
 }  // namespace gatelight::scene::gltf

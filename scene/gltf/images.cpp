@@ -96,22 +96,21 @@ Image decode(const Document& document, Bytes bytes, std::string_view where, Warn
   throw image_error(document, where, fmt::format("cannot be decoded ({})", error.what()));
 }
 
-Image read(const Document& document, const json& source, const std::string& where, const std::string& name,
-           Warnings& warnings) {
+Image read(const Document& document, const tinygltf::Image& source, const std::string& where,
+           const std::string& name, Warnings& warnings) {
   const std::string named = fmt::format("{} ({})", where, name);
-  if (const std::string uri = source.value("uri", ""); !uri.empty()) {
-    return decode(document, document.read(uri, where + ".uri").bytes(), named, warnings);
-  }
-  if (!source.contains("bufferView")) throw image_error(document, where, "neither uri nor bufferView");
-  return decode(document, document.view(source["bufferView"], where), named, warnings);
+  if (!source.uri.empty())
+    return decode(document, document.read(source.uri, where + ".uri"), named, warnings);
+  if (source.bufferView < 0) throw image_error(document, where, "neither uri nor bufferView");
+  return decode(document, document.view(source.bufferView, where), named, warnings);
 }
 
 }  // namespace
 
 Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings) {
-  const json& source = document.item("images", index);
+  const tinygltf::Image& source = element(document.model().images, index);
   const std::string where = fmt::format("images[{}]", index);
-  std::string name = source.value("name", uri_name(source.value("uri", "")));
+  std::string name = source.name.empty() ? uri_name(source.uri) : source.name;
   if (name.empty()) name = where;
   Image image;
   try {

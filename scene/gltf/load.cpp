@@ -19,10 +19,10 @@
 #include "scene/bake.h"
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/document.h"
-#include "scene/gltf/extensions.h"
 #include "scene/gltf/image_light.h"
 #include "scene/gltf/images.h"
 #include "scene/gltf/materials.h"
+#include "scene/gltf/model.h"
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/triangles.h"
@@ -72,8 +72,8 @@ class Loader {
     choose_origin(graph);
     place(graph.placements);
     load_images();
-    if (!document_.list("scenes").empty()) {
-      const int shown = options_.scene >= 0 ? options_.scene : document_.root().value("scene", 0);
+    if (!document_.model().scenes.empty()) {
+      const int shown = options_.scene >= 0 ? options_.scene : std::max(document_.model().defaultScene, 0);
       scene_.image_light = load_image_light(document_, shown, options_.missing_is_error, warnings_);
     }
     if (options_.bake_transforms) bake_transforms(scene_);
@@ -93,8 +93,10 @@ class Loader {
   };
 
   void read_variants() {
-    if (const json* extension = find_extension(document_.root(), "KHR_materials_variants")) {
-      for (const json& variant : (*extension)["variants"]) scene_.variants.push_back(variant["name"]);
+    if (const tinygltf::Value* extension =
+            find_extension(document_.model().extensions, "KHR_materials_variants")) {
+      for (const tinygltf::Value& variant : array_of(*extension, "variants"))
+        scene_.variants.push_back(text_or(variant, "name", ""));
     }
     if (options_.variant.empty()) return;
     const auto found = std::find(scene_.variants.begin(), scene_.variants.end(), options_.variant);
@@ -109,37 +111,35 @@ class Loader {
     variant_ = static_cast<int>(found - scene_.variants.begin());
   }
 
-  int material_of(const json& primitive) const {
-    const json* extension = find_extension(primitive, "KHR_materials_variants");
+  int material_of(const tinygltf::Primitive& primitive) const {
+    const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_materials_variants");
     if (variant_ >= 0 && extension) {
-      for (const json& mapping : (*extension)["mappings"]) {
-        const json& variants = mapping["variants"];
-        if (std::find(variants.begin(), variants.end(), variant_) != variants.end())
-          return mapping["material"];
+      for (const tinygltf::Value& mapping : array_of(*extension, "mappings")) {
+        for (const tinygltf::Value& variant : array_of(mapping, "variants")) {
+          if (variant.GetNumberAsInt() == variant_) return integer_or(mapping, "material", -1);
+        }
       }
     }
-    return primitive.value("material", -1);
+    return primitive.material;
   }
 
   /// The file's first image with the same URI and buffer view, so that equal images are decoded once.
   int first_alike(int image) {
-    const json& source = document_.item("images", image);
-    const std::string uri = source.value("uri", "");
-    const int view = source.value("bufferView", -1);
-    if (uri.empty() && view < 0) return image;
-    return alike_.try_emplace({uri, view}, image).first->second;
+    const tinygltf::Image& source = element(document_.model().images, image);
+    if (source.uri.empty() && source.bufferView < 0) return image;
+    return alike_.try_emplace({source.uri, source.bufferView}, image).first->second;
   }
 
   /// Loads the materials and textures, and numbers the images, of the placed meshes only.
   void load_materials(const std::vector<Placement>& placements) {
     Numbering materials;
     Numbering textures;
-    first_part_.assign(document_.list("meshes").size(), -1);
+    first_part_.assign(document_.model().meshes.size(), -1);
     for (const Placement& placement : placements) {
       int& first = first_part_[static_cast<std::size_t>(placement.mesh)];
       if (first >= 0) continue;
       first = static_cast<int>(parts_.size());
-      const json& primitives = document_.item("meshes", placement.mesh)["primitives"];
+      const auto& primitives = element(document_.model().meshes, placement.mesh).primitives;
       for (std::size_t i = 0; i < primitives.size(); ++i) {
         parts_.push_back(
             {placement.mesh, static_cast<int>(i), materials.number_of(material_of(primitives[i]))});
@@ -165,17 +165,15 @@ class Loader {
   /// Memory of a primitive according to its accessors; 0 for Draco, whose size is only in the compressed
   /// data.
   std::size_t mesh_bytes(const Part& part) const {
-    const json& primitive = element(document_.item("meshes", part.mesh)["primitives"], part.primitive);
-    const json& attributes = primitive["attributes"];
-    const int mode = mode_of(primitive);
-    if (!attributes.contains("POSITION") || mode < kTriangles) return 0;
-    if (find_extension(primitive, "KHR_draco_mesh_compression")) return 0;
-    const auto count_of = [&](int accessor) -> std::size_t {
-      return document_.item("accessors", accessor)["count"];
-    };
-    const std::size_t vertices = count_of(attributes["POSITION"]);
-    const std::size_t indices = primitive.contains("indices") ? count_of(primitive["indices"]) : vertices;
-    const std::size_t triangles = mode == kTriangles ? indices / 3 : indices;
+    const tinygltf::Primitive& primitive =
+        element(element(document_.model().meshes, part.mesh).primitives, part.primitive);
+    const auto positions = primitive.attributes.find("POSITION");
+    if (positions == primitive.attributes.end() || primitive.mode < TINYGLTF_MODE_TRIANGLES) return 0;
+    if (find_extension(primitive.extensions, "KHR_draco_mesh_compression")) return 0;
+    const auto count_of = [&](int accessor) { return element(document_.model().accessors, accessor).count; };
+    const std::size_t vertices = count_of(positions->second);
+    const std::size_t indices = primitive.indices >= 0 ? count_of(primitive.indices) : vertices;
+    const std::size_t triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? indices / 3 : indices;
     return triangles * sizeof(std::array<std::uint32_t, 3>) +
            std::min(vertices, 3 * triangles) * kVertexBytes;
   }

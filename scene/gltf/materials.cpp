@@ -6,26 +6,22 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "scene/gltf/extensions.h"
+#include "scene/gltf/model.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
-// OpenGL's numbers, which glTF uses.
-constexpr int kNearest = 9728;
-constexpr int kRepeat = 10497;
-constexpr int kClampToEdge = 33071;
-constexpr int kMirroredRepeat = 33648;
+using tinygltf::Value;
 
 /// The image of a texture: the first of these that it has; or -1. Formats that cannot be read come last:
 /// their image is used only so that the message can name its format.
-int image_of(const json& texture) {
+int image_of(const tinygltf::Texture& texture) {
   const auto of = [&](const char* extension) {
-    const json* const found = find_extension(texture, extension);
-    return found ? found->value("source", -1) : -1;
+    const Value* const found = find_extension(texture.extensions, extension);
+    return found ? integer_or(*found, "source", -1) : -1;
   };
-  for (const int image : {of("EXT_texture_webp"), texture.value("source", -1), of("KHR_texture_basisu"),
-                          of("MSFT_texture_dds")}) {
+  for (const int image :
+       {of("EXT_texture_webp"), texture.source, of("KHR_texture_basisu"), of("MSFT_texture_dds")}) {
     if (image >= 0) return image;
   }
   return -1;
@@ -36,45 +32,44 @@ class Converter {
   Converter(const Document& document, int index, Warnings& warnings)
       : document_(document), where_(fmt::format("materials[{}]", index)), warnings_(warnings) {}
 
-  Material convert(const json& source) {
+  Material convert(const tinygltf::Material& source) {
     Material m;
-    m.name = source.value("name", "");
-    if (const json* old = find_extension(source, "KHR_materials_pbrSpecularGlossiness")) {
+    m.name = source.name;
+    if (const Value* old = find_extension(source.extensions, "KHR_materials_pbrSpecularGlossiness")) {
       read_specular_glossiness(*old, m);
     } else {
-      const json pbr = source.value("pbrMetallicRoughness", json::object());
-      read_base(pbr, "baseColorFactor", "baseColorTexture", m);
-      m.metallic = unit(pbr, "metallicFactor", 1.0);
-      m.roughness = unit(pbr, "roughnessFactor", 1.0);
-      m.metallic_roughness_texture = slot(pbr, "metallicRoughnessTexture");
+      const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+      read_base(pbr.baseColorFactor, "baseColorFactor", m);
+      m.base_color_texture = slot(pbr.baseColorTexture, "baseColorTexture");
+      m.metallic = unit(pbr.metallicFactor, "metallicFactor");
+      m.roughness = unit(pbr.roughnessFactor, "roughnessFactor");
+      m.metallic_roughness_texture = slot(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
     }
-    m.normal_texture = slot(source, "normalTexture");
-    m.normal_scale = normal_scale(source, "normalTexture");
-    m.emission_texture = slot(source, "emissiveTexture");
-    m.emission =
-        unit(vector_or<Eigen::Vector3d>(source, "emissiveFactor", Eigen::Vector3d::Zero()), "emissiveFactor");
-    const std::string alpha_mode = source.value("alphaMode", "OPAQUE");
-    if (alpha_mode == "MASK") m.alpha_mode = AlphaMode::mask;
-    if (alpha_mode == "BLEND") m.alpha_mode = AlphaMode::blend;
-    m.alpha_cutoff = source.value("alphaCutoff", 0.5f);
-    m.double_sided = source.value("doubleSided", false);
-    read_extensions(source, m);
+    m.normal_texture = slot(source.normalTexture, "normalTexture");
+    m.normal_scale = static_cast<float>(source.normalTexture.scale);
+    m.emission_texture = slot(source.emissiveTexture, "emissiveTexture");
+    m.emission = unit(Eigen::Vector3d(source.emissiveFactor.data()), "emissiveFactor");
+    if (source.alphaMode == "MASK") m.alpha_mode = AlphaMode::mask;
+    if (source.alphaMode == "BLEND") m.alpha_mode = AlphaMode::blend;
+    m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+    m.double_sided = source.doubleSided;
+    read_extensions(source.extensions, m);
     drop_unread_textures(m);
     return m;
   }
 
  private:
-  void read_base(const json& object, const char* factor, const char* texture, Material& m) {
-    const auto base = vector_or<Eigen::Vector4d>(object, factor, Eigen::Vector4d::Ones());
-    m.base_color = unit(base.head<3>(), factor);
-    m.base_alpha = unit(base[3], factor);
-    m.base_color_texture = slot(object, texture);
+  void read_base(const std::vector<double>& factor, const char* name, Material& m) {
+    const auto base = vector_or<Eigen::Vector4d>(factor, Eigen::Vector4d::Ones());
+    m.base_color = unit(base.head<3>(), name);
+    m.base_alpha = unit(base[3], name);
   }
 
   /// The older material model: a dielectric whose reflectance at normal incidence is a colour.
   /// KHR_materials_ior keeps the index 0 for this: its Fresnel reflectance is 1, which the colour scales.
-  void read_specular_glossiness(const json& old, Material& m) {
-    read_base(old, "diffuseFactor", "diffuseTexture", m);
+  void read_specular_glossiness(const Value& old, Material& m) {
+    read_base(numbers_of(old, "diffuseFactor"), "diffuseFactor", m);
+    m.base_color_texture = slot(old, "diffuseTexture");
     m.metallic = 0.0f;
     m.ior = 0.0f;
     m.specular_color =
@@ -83,59 +78,59 @@ class Converter {
     m.specular_color_texture = m.glossiness_texture = slot(old, "specularGlossinessTexture");
   }
 
-  void read_extensions(const json& material, Material& m) {
+  void read_extensions(const tinygltf::ExtensionMap& material, Material& m) {
     m.unlit = find_extension(material, "KHR_materials_unlit") != nullptr;
-    if (const json* e = find_extension(material, "KHR_materials_emissive_strength")) {
-      m.emission *= e->value("emissiveStrength", 1.0f);
+    if (const Value* e = find_extension(material, "KHR_materials_emissive_strength")) {
+      m.emission *= float_or(*e, "emissiveStrength", 1.0f);
       if (!m.emission.allFinite())
         document_.fail(where_, "emissiveStrength too large, expected finite emission");
     }
-    if (const json* e = find_extension(material, "KHR_materials_ior")) {
-      const float ior = e->value("ior", 1.5f);
+    if (const Value* e = find_extension(material, "KHR_materials_ior")) {
+      const float ior = float_or(*e, "ior", 1.5f);
       m.ior = ior == 0.0f ? 0.0f : std::max(ior, 1.0f);
       if (m.ior != ior) warnings_.add(where_ + ".ior: below 1, taken as 1");
     }
-    if (const json* e = find_extension(material, "KHR_materials_specular")) {
+    if (const Value* e = find_extension(material, "KHR_materials_specular")) {
       m.specular = unit(*e, "specularFactor", 1.0);
       m.specular_texture = slot(*e, "specularTexture");
       // Values above 1 are allowed: the renderer limits the reflectance at normal incidence, not the factor.
       m.specular_color = vector_or<Color>(*e, "specularColorFactor", Color::Ones()).max(0.0f);
       m.specular_color_texture = slot(*e, "specularColorTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_transmission")) {
+    if (const Value* e = find_extension(material, "KHR_materials_transmission")) {
       m.transmission = unit(*e, "transmissionFactor", 0.0);
       m.transmission_texture = slot(*e, "transmissionTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_diffuse_transmission")) {
+    if (const Value* e = find_extension(material, "KHR_materials_diffuse_transmission")) {
       m.diffuse_transmission = unit(*e, "diffuseTransmissionFactor", 0.0);
       m.diffuse_transmission_texture = slot(*e, "diffuseTransmissionTexture");
       m.diffuse_transmission_color = unit_color(*e, "diffuseTransmissionColorFactor", 1.0f);
       m.diffuse_transmission_color_texture = slot(*e, "diffuseTransmissionColorTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_volume")) {
+    if (const Value* e = find_extension(material, "KHR_materials_volume")) {
       // Only rasterisers need the value of the thickness; rays measure it. Its texture is not read.
-      m.thickness = e->value("thicknessFactor", 0.0f);
-      m.attenuation_distance = e->value("attenuationDistance", kInfinity);
+      m.thickness = float_or(*e, "thicknessFactor", 0.0f);
+      m.attenuation_distance = float_or(*e, "attenuationDistance", kInfinity);
       m.attenuation_color = unit_color(*e, "attenuationColor", 1.0f);
     }
-    if (const json* e = find_extension(material, "KHR_materials_dispersion"))
-      m.dispersion = e->value("dispersion", 0.0f);
-    if (const json* e = find_extension(material, "KHR_materials_iridescence")) {
+    if (const Value* e = find_extension(material, "KHR_materials_dispersion"))
+      m.dispersion = float_or(*e, "dispersion", 0.0f);
+    if (const Value* e = find_extension(material, "KHR_materials_iridescence")) {
       m.iridescence = unit(*e, "iridescenceFactor", 0.0);
       m.iridescence_texture = slot(*e, "iridescenceTexture");
-      const float ior = e->value("iridescenceIor", 1.3f);
+      const float ior = float_or(*e, "iridescenceIor", 1.3f);
       m.film_ior = std::max(ior, 1.0f);
       if (m.film_ior != ior) warnings_.add(where_ + ".iridescenceIor: below 1, taken as 1");
-      m.film_thickness_minimum = e->value("iridescenceThicknessMinimum", 100.0f);
-      m.film_thickness_maximum = e->value("iridescenceThicknessMaximum", 400.0f);
+      m.film_thickness_minimum = float_or(*e, "iridescenceThicknessMinimum", 100.0f);
+      m.film_thickness_maximum = float_or(*e, "iridescenceThicknessMaximum", 400.0f);
       m.film_thickness_texture = slot(*e, "iridescenceThicknessTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_anisotropy")) {
+    if (const Value* e = find_extension(material, "KHR_materials_anisotropy")) {
       m.anisotropy = unit(*e, "anisotropyStrength", 0.0);
-      m.anisotropy_rotation = e->value("anisotropyRotation", 0.0f);
+      m.anisotropy_rotation = float_or(*e, "anisotropyRotation", 0.0f);
       m.anisotropy_texture = slot(*e, "anisotropyTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_clearcoat")) {
+    if (const Value* e = find_extension(material, "KHR_materials_clearcoat")) {
       m.clearcoat = unit(*e, "clearcoatFactor", 0.0);
       m.clearcoat_texture = slot(*e, "clearcoatTexture");
       m.clearcoat_roughness = unit(*e, "clearcoatRoughnessFactor", 0.0);
@@ -143,7 +138,7 @@ class Converter {
       m.clearcoat_normal_texture = slot(*e, "clearcoatNormalTexture");
       m.clearcoat_normal_scale = normal_scale(*e, "clearcoatNormalTexture");
     }
-    if (const json* e = find_extension(material, "KHR_materials_sheen")) {
+    if (const Value* e = find_extension(material, "KHR_materials_sheen")) {
       m.sheen_color = unit_color(*e, "sheenColorFactor", 0.0f);
       m.sheen_color_texture = slot(*e, "sheenColorTexture");
       m.sheen_roughness = unit(*e, "sheenRoughnessFactor", 0.0);
@@ -184,26 +179,38 @@ class Converter {
     return {unit(values[0], name), unit(values[1], name), unit(values[2], name)};
   }
 
-  float unit(const json& object, const char* name, double fallback) {
-    return unit(object.value(name, fallback), name);
+  float unit(const Value& object, const char* name, double fallback) {
+    return unit(number_or(object, name, fallback), name);
   }
 
-  Color unit_color(const json& object, const char* name, float fallback) {
+  Color unit_color(const Value& object, const char* name, float fallback) {
     return unit(vector_or<Vec3>(object, name, Vec3::Constant(fallback)).cast<double>(), name);
   }
 
-  static float normal_scale(const json& object, const char* texture) {
-    return object.contains(texture) ? object[texture].value("scale", 1.0f) : 1.0f;
+  static float normal_scale(const Value& object, const char* texture) {
+    const Value* info = find_member(object, texture);
+    return info ? float_or(*info, "scale", 1.0f) : 1.0f;
   }
 
-  TextureSlot slot(const json& object, const char* name) {
+  TextureSlot slot(const Value& object, const char* name) {
+    const Value* info = find_member(object, name);
+    if (!info) return {};
+    const Value* extensions = find_member(*info, "extensions");
+    return slot(integer_or(*info, "index", -1), integer_or(*info, "texCoord", 0),
+                extensions ? find_member(*extensions, "KHR_texture_transform") : nullptr, name);
+  }
+
+  /// Info is one of tinygltf's three types of texture references.
+  template <typename Info>
+  TextureSlot slot(const Info& info, const char* name) {
+    if (info.index < 0) return {};
+    return slot(info.index, info.texCoord, find_extension(info.extensions, "KHR_texture_transform"), name);
+  }
+
+  TextureSlot slot(int index, int texcoord, const Value* transform, const char* name) {
     TextureSlot result;
-    if (!object.contains(name)) return result;
-    const json& info = object[name];
-    const int index = info["index"];
-    int texcoord = info.value("texCoord", 0);
-    if (const json* transform = find_extension(info, "KHR_texture_transform")) {
-      texcoord = transform->value("texCoord", texcoord);
+    if (transform) {
+      texcoord = integer_or(*transform, "texCoord", texcoord);
       result.transform = texture_transform(*transform);
     }
     if (texcoord > 1) {
@@ -211,7 +218,7 @@ class Converter {
           fmt::format("{}.{}: texCoord {} is not supported, the texture is ignored", where_, name, texcoord));
       return result;
     }
-    if (image_of(document_.item("textures", index)) < 0) {
+    if (image_of(element(document_.model().textures, index)) < 0) {
       warnings_.add(fmt::format("textures[{}]: has no image that can be read, it is ignored", index));
       return result;
     }
@@ -222,10 +229,10 @@ class Converter {
 
   /// Translation * rotation * scale. The rotation is counter-clockwise as seen in the picture, where v points
   /// down from the upper left corner.
-  static Eigen::Matrix<float, 2, 3> texture_transform(const json& t) {
+  static Eigen::Matrix<float, 2, 3> texture_transform(const Value& t) {
     const auto offset = vector_or<Eigen::Vector2d>(t, "offset", Eigen::Vector2d::Zero());
     const auto scale = vector_or<Eigen::Vector2d>(t, "scale", Eigen::Vector2d::Ones());
-    const double angle = t.value("rotation", 0.0);
+    const double angle = number_or(t, "rotation", 0.0);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     Eigen::Matrix<double, 2, 3> m;
@@ -240,8 +247,8 @@ class Converter {
 };
 
 Wrap convert_wrap(int mode) {
-  if (mode == kClampToEdge) return Wrap::clamp_to_edge;
-  if (mode == kMirroredRepeat) return Wrap::mirrored_repeat;
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp_to_edge;
+  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirrored_repeat;
   return Wrap::repeat;
 }
 
@@ -249,18 +256,18 @@ Wrap convert_wrap(int mode) {
 
 Material convert_material(const Document& document, int index, Warnings& warnings) {
   if (index < 0) return {};
-  return Converter(document, index, warnings).convert(document.item("materials", index));
+  return Converter(document, index, warnings).convert(element(document.model().materials, index));
 }
 
 Texture convert_texture(const Document& document, int index) {
-  const json& source = document.item("textures", index);
+  const tinygltf::Texture& source = element(document.model().textures, index);
   Texture texture;
   texture.image = image_of(source);
-  if (source.contains("sampler")) {
-    const json& sampler = document.item("samplers", source["sampler"]);
-    texture.wrap_s = convert_wrap(sampler.value("wrapS", kRepeat));
-    texture.wrap_t = convert_wrap(sampler.value("wrapT", kRepeat));
-    texture.nearest = sampler.value("magFilter", 0) == kNearest;
+  if (source.sampler >= 0) {
+    const tinygltf::Sampler& sampler = element(document.model().samplers, source.sampler);
+    texture.wrap_s = convert_wrap(sampler.wrapS);
+    texture.wrap_t = convert_wrap(sampler.wrapT);
+    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
   return texture;
 }

@@ -5,12 +5,12 @@
 
 namespace gatelight::scene::gltf {
 
-OwnedBytes decode_meshopt(Bytes source, const json& extension, std::size_t length, std::string_view file,
-                          std::string_view where) {
-  const std::size_t count = extension["count"];
-  const std::size_t stride = extension["byteStride"];
-  const std::string mode = extension["mode"];
-  const std::string filter = extension.value("filter", "NONE");
+OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
+                          std::string_view file, std::string_view where) {
+  const std::size_t count = size_of(extension, "count");
+  const std::size_t stride = size_of(extension, "byteStride");
+  const std::string mode = text_or(extension, "mode", "");
+  const std::string filter = text_or(extension, "filter", "NONE");
   const auto require = [&](bool fits, std::string_view what) {
     if (!fits) throw make_error(file, where, what);
   };
@@ -33,18 +33,18 @@ OwnedBytes decode_meshopt(Bytes source, const json& extension, std::size_t lengt
   OwnedBytes out(length);
   int status = 0;
   if (vertices) {
-    status = meshopt_decodeVertexBuffer(out.data.get(), count, stride, source.data(), source.size());
+    status = meshopt_decodeVertexBuffer(out.data(), count, stride, source.data(), source.size());
   } else if (mode == "TRIANGLES") {
-    status = meshopt_decodeIndexBuffer(out.data.get(), count, stride, source.data(), source.size());
+    status = meshopt_decodeIndexBuffer(out.data(), count, stride, source.data(), source.size());
   } else {
-    status = meshopt_decodeIndexSequence(out.data.get(), count, stride, source.data(), source.size());
+    status = meshopt_decodeIndexSequence(out.data(), count, stride, source.data(), source.size());
   }
   require(status == 0,
           fmt::format("{} data that cannot be decoded (code {}), expected meshopt data", mode, status));
 
-  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data.get(), count, stride);
-  if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data.get(), count, stride);
-  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data.get(), count, stride);
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
   return out;
 }
 

@@ -6,13 +6,15 @@
 #include <cmath>
 
 #include "scene/gltf/accessors.h"
-#include "scene/gltf/extensions.h"
+#include "scene/gltf/model.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
-/// The outer angle of a spot light in radians, an eighth of a turn.
-constexpr double kDefaultCone = 0.7853981634;
+/// The first of two names that is not empty.
+const std::string& name_of(const std::string& own, const std::string& other) {
+  return own.empty() ? other : own;
+}
 
 /// The rigid part of a camera's transform. It keeps the direction of view and the plane of "up". Scale, shear
 /// and mirroring have no meaning for a camera.
@@ -33,39 +35,37 @@ Affine rigid(const Document& document, int node, const Eigen::Affine3d& world) {
 }  // namespace
 
 Camera make_camera(const Document& document, int node_index, const Eigen::Affine3d& world) {
-  const json& node = document.item("nodes", node_index);
-  const int index = node["camera"];
-  const json& source = document.item("cameras", index);
+  const tinygltf::Node& node = element(document.model().nodes, node_index);
+  const int index = node.camera;
+  const tinygltf::Camera& source = element(document.model().cameras, index);
   const std::string where = fmt::format("cameras[{}]", index);
   Camera camera;
-  camera.name = name_of(source, node);
-  camera.node = node.value("name", "");
+  camera.name = name_of(source.name, node.name);
+  camera.node = node.name;
   camera.transform = rigid(document, node_index, world);
-  const json& lens = source[source["type"].get<std::string>()];
-  if (source["type"] == "orthographic") {
+  if (source.type == "orthographic") {
     camera.orthographic = true;
-    camera.half_height = std::abs(lens["ymag"].get<float>());
-    camera.half_width = std::abs(lens["xmag"].get<float>());
+    camera.half_height = static_cast<float>(std::abs(source.orthographic.ymag));
+    camera.half_width = static_cast<float>(std::abs(source.orthographic.xmag));
     if (camera.half_height == 0.0f || camera.half_width == 0.0f) {
       document.fail(where, "xmag or ymag is 0, expected a size");
     }
   } else {
-    camera.vertical_fov = lens["yfov"];
-    camera.aspect = lens.value("aspectRatio", 0.0f);
+    camera.vertical_fov = static_cast<float>(source.perspective.yfov);
+    camera.aspect = static_cast<float>(source.perspective.aspectRatio);
   }
   return camera;
 }
 
 PunctualLight make_light(const Document& document, int node_index, int light_index,
                          const Eigen::Affine3d& world) {
-  const json& extension = *find_extension(document.root(), "KHR_lights_punctual");
-  const json& source = element(extension["lights"], light_index);
+  const tinygltf::Light& source = element(document.model().lights, light_index);
   PunctualLight light;
-  light.name = name_of(source, document.item("nodes", node_index));
-  if (source["type"] == "directional") light.type = LightType::directional;
-  if (source["type"] == "spot") light.type = LightType::spot;
-  light.intensity = vector_or<Color>(source, "color", Color::Ones()).max(0.0f);
-  light.intensity *= source.value("intensity", 1.0f);
+  light.name = name_of(source.name, element(document.model().nodes, node_index).name);
+  if (source.type == "directional") light.type = LightType::directional;
+  if (source.type == "spot") light.type = LightType::spot;
+  light.intensity = vector_or<Color>(source.color, Color::Ones()).max(0.0f);
+  light.intensity *= static_cast<float>(source.intensity);
   const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light_index);
   if (!light.intensity.allFinite()) document.fail(where, "intensity too large, expected finite numbers");
   light.position = world.translation().cast<float>();
@@ -74,11 +74,10 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
   const Vec3 side = world.linear().col(0).stableNormalized().cast<float>();
   const Vec3 across = side - light.direction * light.direction.dot(side);
   light.side = across.norm() > 1e-3f ? Vec3(across.normalized()) : any_perpendicular(light.direction);
-  light.range = source.value("range", kInfinity);
+  light.range = source.range > 0.0 ? static_cast<float>(source.range) : kInfinity;
   if (light.type == LightType::spot) {
-    const json& spot = source["spot"];
-    const double outer = std::min(spot.value("outerConeAngle", kDefaultCone), static_cast<double>(kPi) / 2.0);
-    const double inner = spot.value("innerConeAngle", 0.0);
+    const double outer = std::min(source.spot.outerConeAngle, static_cast<double>(kPi) / 2.0);
+    const double inner = source.spot.innerConeAngle;
     if (!(inner < outer)) {
       document.fail(where + ".spot",
                     fmt::format("innerConeAngle {}, expected less than outerConeAngle {}", inner, outer));
@@ -89,12 +88,21 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
   return light;
 }
 
-std::vector<Eigen::Affine3d> read_instances(const Document& document, const json& extension,
+std::map<std::string, int> instance_attributes(const tinygltf::Value& extension) {
+  std::map<std::string, int> accessors;
+  if (const tinygltf::Value* attributes = find_member(extension, "attributes")) {
+    for (const auto& [semantic, accessor] : attributes->Get<tinygltf::Value::Object>())
+      accessors[semantic] = accessor.GetNumberAsInt();
+  }
+  return accessors;
+}
+
+std::vector<Eigen::Affine3d> read_instances(const Document& document,
+                                            const std::map<std::string, int>& attributes,
                                             const std::string& where) {
-  const json& attributes = extension["attributes"];
   // Custom attributes must have the same count, too.
   std::size_t count = 0;
-  for (const auto& [semantic, accessor] : attributes.items()) {
+  for (const auto& [semantic, accessor] : attributes) {
     const AccessorReader reader(document, accessor);
     if (count != 0 && reader.count() != count) {
       document.fail(reader.where(), fmt::format("count {} for {} of {}, expected {}", reader.count(),
@@ -105,7 +113,7 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document, const json
   const auto read = [&](const std::string& semantic, int components) {
     std::vector<float> rows;
     if (!attributes.contains(semantic)) return rows;
-    const AccessorReader reader(document, attributes[semantic]);
+    const AccessorReader reader(document, attributes.at(semantic));
     reader.expect_attribute(semantic, {components});
     rows.resize(count * static_cast<std::size_t>(components));
     reader.read_floats({}, components, rows.data());

@@ -1,6 +1,8 @@
 #pragma once
 // Converts the cameras, lights and instances that a node refers to.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "scene/gltf/document.h"
@@ -11,8 +13,12 @@ namespace gatelight::scene::gltf {
 Camera make_camera(const Document& document, int node, const Eigen::Affine3d& world);
 PunctualLight make_light(const Document& document, int node, int light, const Eigen::Affine3d& world);
 
+/// The attributes of EXT_mesh_gpu_instancing: an accessor for each name.
+std::map<std::string, int> instance_attributes(const tinygltf::Value& extension);
+
 /// The transforms of EXT_mesh_gpu_instancing, relative to the node.
-std::vector<Eigen::Affine3d> read_instances(const Document& document, const json& extension,
+std::vector<Eigen::Affine3d> read_instances(const Document& document,
+                                            const std::map<std::string, int>& attributes,
                                             const std::string& where);
 
 /// The first of a skin's inverse bind matrices.

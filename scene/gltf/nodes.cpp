@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scene/gltf/accessors.h"
-#include "scene/gltf/extensions.h"
+#include "scene/gltf/model.h"
 #include "scene/gltf/node_content.h"
 
 namespace gatelight::scene::gltf {
@@ -15,42 +15,38 @@ namespace {
 using Transform = Eigen::Affine3d;
 
 Transform local_transform(const Document& document, int index) {
-  const json& node = document.item("nodes", index);
-  const std::string where = fmt::format("nodes[{}]", index);
+  const tinygltf::Node& node = element(document.model().nodes, index);
+  const auto where = [&](const char* member) { return fmt::format("nodes[{}].{}", index, member); };
   Transform t = Transform::Identity();
-  if (node.contains("matrix")) {
-    const Eigen::Matrix4d m = vector_or<Eigen::Matrix4d>(node, "matrix", Eigen::Matrix4d::Identity());
+  if (!node.matrix.empty()) {
+    const Eigen::Matrix4d m(node.matrix.data());
     if ((m.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)).cwiseAbs().maxCoeff() > 1e-6) {
-      document.fail(where + ".matrix", fmt::format("last row {} {} {} {}, expected 0 0 0 1", m(3, 0), m(3, 1),
-                                                   m(3, 2), m(3, 3)));
+      document.fail(where("matrix"), fmt::format("last row {} {} {} {}, expected 0 0 0 1", m(3, 0), m(3, 1),
+                                                 m(3, 2), m(3, 3)));
     }
     t.matrix().topRows<3>() = m.topRows<3>();
     return t;
   }
-  t.translate(vector_or<Eigen::Vector3d>(node, "translation", Eigen::Vector3d::Zero()));
-  const Eigen::Quaterniond q(vector_or<Eigen::Vector4d>(node, "rotation", Eigen::Vector4d::UnitW()));
-  if (!(q.norm() > 1e-12)) document.fail(where + ".rotation", "0 0 0 0, expected a unit quaternion");
+  t.translate(vector_or<Eigen::Vector3d>(node.translation, Eigen::Vector3d::Zero()));
+  const Eigen::Quaterniond q(vector_or<Eigen::Vector4d>(node.rotation, Eigen::Vector4d::UnitW()));
+  if (!(q.norm() > 1e-12)) document.fail(where("rotation"), "0 0 0 0, expected a unit quaternion");
   t.rotate(q.normalized());
-  t.scale(vector_or<Eigen::Vector3d>(node, "scale", Eigen::Vector3d::Ones()));
+  t.scale(vector_or<Eigen::Vector3d>(node.scale, Eigen::Vector3d::Ones()));
   return t;
 }
 
-std::vector<int> children_of(const json& node) {
-  return node.value("children", std::vector<int>());
-}
-
 /// Whether the node itself leaves its meshes, its lights and its children visible.
-bool is_visible(const json& node) {
-  const json* const visibility = find_extension(node, "KHR_node_visibility");
-  return !visibility || visibility->value("visible", true);
+bool is_visible(const tinygltf::Node& node) {
+  const tinygltf::Value* const visibility = find_extension(node.extensions, "KHR_node_visibility");
+  return !visibility || !visibility->Has("visible") || visibility->Get("visible").Get<bool>();
 }
 
 /// The parent of each node, or -1. Checks that each node has at most one parent and that there is no cycle.
 std::vector<int> find_parents(const Document& document) {
-  const json& nodes = document.list("nodes");
+  const std::vector<tinygltf::Node>& nodes = document.model().nodes;
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const int child : children_of(nodes[i])) {
+    for (const int child : nodes[i].children) {
       int& parent = parents[static_cast<std::size_t>(child)];
       if (parent >= 0) {
         document.fail(
@@ -84,7 +80,7 @@ class GraphWalk {
       Transform parent;
       bool visible;
     };
-    const std::vector<int> roots = document_.item("scenes", scene).value("nodes", std::vector<int>());
+    const std::vector<int>& roots = element(document_.model().scenes, scene).nodes;
     std::vector<char> is_root(parents_.size(), 0);
     std::vector<Entry> stack;
     for (std::size_t i = roots.size(); i-- > 0;) {
@@ -101,11 +97,12 @@ class GraphWalk {
       const Entry entry = stack.back();
       stack.pop_back();
       const Transform world = entry.parent * local_transform(document_, entry.node);
-      const json& node = document_.item("nodes", entry.node);
+      const tinygltf::Node& node = element(document_.model().nodes, entry.node);
       const bool visible = entry.visible && is_visible(node);
       visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), visible);
-      const std::vector<int> children = children_of(node);
-      for (std::size_t i = children.size(); i-- > 0;) stack.push_back({children[i], world, visible});
+      for (std::size_t i = node.children.size(); i-- > 0;) {
+        stack.push_back({node.children[i], world, visible});
+      }
     }
     return std::move(graph_);
   }
@@ -120,82 +117,83 @@ class GraphWalk {
 
   /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility).
   void visit(int index, const Transform& world, bool visible) {
-    const json& node = document_.item("nodes", index);
-    if (visible && node.contains("mesh")) place_mesh(index, node, world);
-    if (node.contains("camera")) {
+    const tinygltf::Node& node = element(document_.model().nodes, index);
+    if (visible && node.mesh >= 0) place_mesh(index, node, world);
+    if (node.camera >= 0) {
       graph_.cameras.push_back(make_camera(document_, index, world));
       graph_.camera_positions.push_back(world.translation());
     }
-    if (const json* light = find_extension(node, "KHR_lights_punctual"); visible && light) {
-      graph_.lights.push_back(make_light(document_, index, (*light)["light"], world));
+    const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
+    if (visible && light) {
+      graph_.lights.push_back(make_light(document_, index, integer_or(*light, "light", 0), world));
       graph_.light_positions.push_back(world.translation());
     }
   }
 
-  void place_mesh(int index, const json& node, const Transform& world) {
-    const int mesh_index = node["mesh"];
-    const json& mesh = document_.item("meshes", mesh_index);
+  void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
+    const tinygltf::Mesh& mesh = element(document_.model().meshes, node.mesh);
     Transform base = world;
-    if (const int skin = node.value("skin", -1); skin >= 0) {
+    if (node.skin >= 0) {
       warnings_.add("skins and morph targets are shown in their bind pose");
-      base = checked(bind_pose(skin), fmt::format("skins[{}]", skin));
+      base = checked(bind_pose(node.skin), fmt::format("skins[{}]", node.skin));
     }
-    for (const json& primitive : mesh["primitives"]) {
-      if (!primitive.value("targets", json()).empty())
-        warnings_.add("skins and morph targets are shown in their bind pose");
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (!primitive.targets.empty()) warnings_.add("skins and morph targets are shown in their bind pose");
     }
-    std::string name = name_of(node, mesh);
+    std::string name = node.name.empty() ? mesh.name : node.name;
     if (name.empty()) name = fmt::format("node {}", index);
     const float priority = dielectric_priority(index, node);
-    if (const json* instancing = find_extension(node, "EXT_mesh_gpu_instancing")) {
+    if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
-      claim_instances(*instancing, mesh, where);
-      if ((*instancing)["attributes"].empty()) {
+      const std::map<std::string, int> attributes = instance_attributes(*instancing);
+      claim_instances(attributes, mesh, where);
+      if (attributes.empty()) {
         warnings_.add(where + ": no attributes that give the number of instances; drawn once");
-        add(mesh_index, name, base, priority);
+        add(node.mesh, name, base, priority);
       }
-      for (const Transform& t : read_instances(document_, *instancing, where)) {
-        add(mesh_index, name, checked(base * t, where), priority);
+      for (const Transform& t : read_instances(document_, attributes, where)) {
+        add(node.mesh, name, checked(base * t, where), priority);
       }
     } else {
-      add(mesh_index, name, base, priority);
+      add(node.mesh, name, base, priority);
     }
   }
 
   /// Called before the instances are allocated: a huge count needs only a few characters.
-  void claim_instances(const json& extension, const json& mesh, const std::string& where) {
+  void claim_instances(const std::map<std::string, int>& attributes, const tinygltf::Mesh& mesh,
+                       const std::string& where) {
     std::size_t count = 0;
-    for (const int accessor : extension["attributes"]) {
-      count = std::max<std::size_t>(count, document_.item("accessors", accessor)["count"]);
+    for (const auto& [semantic, accessor] : attributes) {
+      count = std::max(count, element(document_.model().accessors, accessor).count);
     }
-    const std::size_t name_bytes = mesh.value("name", "").size();
-    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + name_bytes), where);
+    document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
   }
 
   /// In glTF only the joints place a skinned mesh. In the bind pose all joints agree, so the first one gives
   /// the transform from the mesh to the world.
   Transform bind_pose(int index) const {
-    const json& skin = document_.item("skins", index);
+    const tinygltf::Skin& skin = element(document_.model().skins, index);
     Transform joint = Transform::Identity();
-    if (skin["joints"].empty()) return joint;
-    for (int i = skin["joints"][0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+    if (skin.joints.empty()) return joint;
+    for (int i = skin.joints[0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
       joint = local_transform(document_, i) * joint;
     }
-    const int matrices = skin.value("inverseBindMatrices", -1);
-    if (matrices >= 0) joint = joint * read_first_matrix(document_, matrices);
+    if (skin.inverseBindMatrices >= 0) {
+      joint = joint * read_first_matrix(document_, skin.inverseBindMatrices);
+    }
     return joint;
   }
 
   /// An application's own number, which modelling programs write as a custom property of the object.
-  float dielectric_priority(int index, const json& node) const {
+  float dielectric_priority(int index, const tinygltf::Node& node) const {
     constexpr const char* kName = "dielectric_priority";
-    const auto extras = node.find("extras");
-    if (extras == node.end() || !extras->is_object() || !extras->contains(kName)) return 0.0f;
-    const json& value = (*extras)[kName];
-    const float priority = value.is_number() ? value.get<float>() : kInfinity;
+    if (!node.extras.Has(kName)) return 0.0f;
+    const tinygltf::Value& value = node.extras.Get(kName);
+    const float priority = value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : kInfinity;
     if (std::isfinite(priority)) return priority;
-    warnings_.add(fmt::format("nodes[{}].extras.{}: {}, expected a finite number, taken as 0", index, kName,
-                              value.dump(-1, ' ', true, json::error_handler_t::replace)));
+    warnings_.add(
+        fmt::format("nodes[{}].extras.{}: {}, expected a finite number, taken as 0", index, kName,
+                    value.IsString() ? value.Get<std::string>() : fmt::format("{}", value.Get<double>())));
     return 0.0f;
   }
 
@@ -221,7 +219,7 @@ class GraphWalk {
 }  // namespace
 
 Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
-  const std::size_t count = document.list("scenes").size();
+  const std::size_t count = document.model().scenes.size();
   if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
     document.fail("scenes", fmt::format("scene {} requested, expected less than {}", scene, count));
   }
@@ -230,7 +228,7 @@ Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
     warnings.add("the file has no scene");
     return {};
   }
-  if (scene < 0) scene = document.root().value("scene", 0);
+  if (scene < 0) scene = std::max(document.model().defaultScene, 0);
   return graph_walk.walk(scene);
 }
 

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/draco.h"
-#include "scene/gltf/extensions.h"
 #include "scene/gltf/materials.h"
+#include "scene/gltf/model.h"
 #include "scene/gltf/triangles.h"
 #include "scene/tangents.h"
 #include "scene/texture_slots.h"
@@ -36,8 +37,9 @@ Needs needs_of(const Material& material) {
 /// The source of a primitive's vertices: accessors, or Draco's data described by accessors.
 class Vertices {
  public:
-  Vertices(const Document& document, const json& primitive, const DracoPrimitive* draco, std::string where)
-      : document_(document), attributes_(primitive["attributes"]), draco_(draco), where_(std::move(where)) {
+  Vertices(const Document& document, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
+           std::string where)
+      : document_(document), attributes_(primitive.attributes), draco_(draco), where_(std::move(where)) {
     if (!has("POSITION")) document.fail(where_ + ".attributes", "no POSITION, expected one");
     count_ = draco ? draco->vertex_count() : reader("POSITION").count();
     if (count_ > 0xffffffffu)
@@ -56,7 +58,7 @@ class Vertices {
     if (draco_ && draco_->has(semantic)) {
       bool normalized = force_normalized;
       if (attributes_.contains(semantic)) {
-        normalized |= document_.item("accessors", attributes_[semantic]).value("normalized", false);
+        normalized |= element(document_.model().accessors, attributes_.at(semantic)).normalized;
       }
       draco_->read_floats(semantic, selection, width, normalized, out);
       return;
@@ -72,11 +74,11 @@ class Vertices {
 
  private:
   AccessorReader reader(const std::string& semantic) const {
-    return AccessorReader(document_, attributes_[semantic]);
+    return AccessorReader(document_, attributes_.at(semantic));
   }
 
   const Document& document_;
-  const json& attributes_;
+  const std::map<std::string, int>& attributes_;
   const DracoPrimitive* draco_;
   std::string where_;
   std::size_t count_ = 0;
@@ -142,17 +144,17 @@ std::vector<std::uint32_t> compact(std::vector<std::array<std::uint32_t, 3>>& tr
 
 Mesh load_primitive(const Document& document, int mesh_index, int primitive_index, const Material& material,
                     Warnings& warnings) {
-  const json& source = document.item("meshes", mesh_index);
-  const json& primitive = element(source["primitives"], primitive_index);
+  const tinygltf::Mesh& source = element(document.model().meshes, mesh_index);
+  const tinygltf::Primitive& primitive = element(source.primitives, primitive_index);
   const std::string where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
 
   Mesh mesh;
-  mesh.name = source.value("name", "");
-  if (mode_of(primitive) < kTriangles) {
+  mesh.name = source.name;
+  if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     warnings.add("points and lines are not drawn");
     return mesh;
   }
-  const json* extension = find_extension(primitive, "KHR_draco_mesh_compression");
+  const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_draco_mesh_compression");
   std::optional<DracoPrimitive> draco;
   if (extension) draco.emplace(document, *extension, where);
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -60,9 +62,11 @@ class Checker {
         if (!extension.is_object()) fail({&path, name}, extension, "an object");
       }
     }
+    static const std::vector<const Rule*> kNone;
     const auto found = rules_.find(type);
-    if (found == rules_.end()) return;
-    for (const Rule* rule : found->second) {
+    const std::vector<const Rule*>& rules = found == rules_.end() ? kNone : found->second;
+    std::size_t checked = 0;
+    for (const Rule* rule : rules) {
       const auto member = value.find(rule->name);
       const Path here{&path, rule->name};
       if (member == value.end()) {
@@ -70,12 +74,22 @@ class Checker {
         continue;
       }
       check_member(*member, *rule, here);
+      ++checked;
     }
+    if (checked < value.size()) erase_others(value, rules);
   }
 
  private:
   [[noreturn]] void fail(const Path& path, const json& value, std::string_view expected) const {
     throw make_error(file_, path.text(), fmt::format("{}, expected {}", show(value), expected));
+  }
+
+  static void erase_others(json& value, const std::vector<const Rule*>& rules) {
+    for (auto member = value.begin(); member != value.end();) {
+      const bool known = std::any_of(rules.begin(), rules.end(),
+                                     [&](const Rule* rule) { return rule->name == member.key(); });
+      member = known ? std::next(member) : value.erase(member);
+    }
   }
 
   void check_member(json& value, const Rule& rule, const Path& path) const {
@@ -104,10 +118,11 @@ class Checker {
   }
 
   void check_value(json& value, const Rule& rule, const Path& path) const {
+    if (rule.kind == Kind::anything) return;
     if (rule.kind == Kind::object) return check_object(value, rule.target, path);
     if (!fits(value, rule)) fail(path, value, expectation(rule));
     if (rule.kind == Kind::number) value = value.get<double>();
-    if (is_whole(rule.kind)) value = static_cast<std::int64_t>(value.get<double>());
+    if (is_whole(rule.kind)) value = static_cast<std::uint64_t>(value.get<double>());
   }
 
   static bool is_whole(Kind kind) { return kind == Kind::integer || kind == Kind::index; }
@@ -140,6 +155,7 @@ class Checker {
       case Kind::index:
         return fmt::format("an index into {} ({} there)", rule.target, size_of(rule.target));
       case Kind::number:
+      case Kind::anything:
         break;
     }
     const double most = std::numeric_limits<float>::max();

@@ -10,7 +10,15 @@
 
 namespace gatelight::scene::gltf {
 
-enum class Kind : unsigned char { boolean, integer, number, string, index, object };
+enum class Kind : unsigned char {
+  boolean,
+  integer,
+  number,
+  string,
+  index,
+  object,
+  anything  ///< kept without a check
+};
 enum class Shape : unsigned char {
   single,
   list,
@@ -37,8 +45,9 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
 /// The whole table (schema_rules.cpp).
 std::span<const Rule> schema_rules();
 
-/// Checks the document and unifies its numbers: integer properties are stored as integers (1.0 becomes 1),
-/// all others as double, so that no later reader truncates. Throws InputError.
+/// Checks the document, and keeps only its checked values: members without a rule are erased. Unifies its
+/// numbers: integer properties are stored as unsigned integers (1.0 becomes 1), all others as double, so that
+/// no later reader truncates. Throws InputError.
 void check_schema(nlohmann::json& root, std::string_view file);
 
 }  // namespace gatelight::scene::gltf

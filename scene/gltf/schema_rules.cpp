@@ -156,6 +156,7 @@ constexpr Rule kRules[] = {
     numbers("node", "scale", 3),
     numbers("node", "translation", 3),
     numbers("node", "weights", 0),
+    {"node", "extras", Kind::anything},
     object("node", "extensions", "node.extensions"),
     object("node.extensions", "KHR_lights_punctual", "node.light"),
     required(index("node.light", "light", "KHR_lights_punctual")),

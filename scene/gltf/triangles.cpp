@@ -38,10 +38,10 @@ void check_indices(const Document& document, const Triangles& triangles, std::si
   }
 }
 
-Triangles read_triangles(const Document& document, const json& primitive, std::size_t vertex_count,
-                         const std::string& where, Warnings& warnings) {
+Triangles read_triangles(const Document& document, const tinygltf::Primitive& primitive,
+                         std::size_t vertex_count, const std::string& where, Warnings& warnings) {
   std::optional<AccessorReader> indices;
-  if (primitive.contains("indices")) indices.emplace(document, primitive["indices"]);
+  if (primitive.indices >= 0) indices.emplace(document, primitive.indices);
   const std::size_t count = indices ? indices->count() : vertex_count;
   const auto fill = [&](std::uint32_t* out) {
     if (indices) {
@@ -51,12 +51,12 @@ Triangles read_triangles(const Document& document, const json& primitive, std::s
     }
   };
 
-  const int mode = mode_of(primitive);
+  const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
   Triangles triangles;
-  if (mode == kStrip || mode == kFan) {
+  if (strip || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
     std::vector<std::uint32_t> list(count);
     fill(list.data());
-    triangles = assemble(list, mode == kStrip);
+    triangles = assemble(list, strip);
   } else if (count % 3 == 0) {
     triangles.resize(count / 3);
     if (count > 0) fill(triangles.data()->data());

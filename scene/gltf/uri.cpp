@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
+#include <limits>
 #include <optional>
+
+#include "scene/gltf/tinygltf.h"
 
 namespace gatelight::scene::gltf {
 namespace {
+
+constexpr std::size_t kMostBase64 = std::numeric_limits<int>::max() / 2;  // tinygltf counts in int
 
 /// Whether the text begins with `prefix`, a text in lower case; ASCII letters of either case are equal.
 bool begins_with(std::string_view text, std::string_view prefix) {
@@ -36,38 +40,17 @@ std::string decode_percent(std::string_view text) {
   return out;
 }
 
-constexpr std::array<std::int8_t, 256> base64_table() {
-  std::array<std::int8_t, 256> table{};
-  table.fill(-1);
-  for (std::size_t i = 0; i < 26; ++i) {
-    table['A' + i] = static_cast<std::int8_t>(i);
-    table['a' + i] = static_cast<std::int8_t>(26 + i);
-  }
-  for (std::size_t i = 0; i < 10; ++i) table['0' + i] = static_cast<std::int8_t>(52 + i);
-  table['+'] = 62;
-  table['/'] = 63;
-  return table;
-}
-
-/// Returns nullopt if a character or the length is wrong. Padding is optional.
+/// Returns nullopt if a character or the length is wrong. Padding is optional. tinygltf stops at the first
+/// wrong character, so the number of bytes tells whether there is one.
 std::optional<OwnedBytes> decode_base64(std::string_view text) {
-  static constexpr std::array<std::int8_t, 256> kTable = base64_table();
   for (int pad = 0; pad < 2 && !text.empty() && text.back() == '='; ++pad) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
-  OwnedBytes out(text.size() * 3 / 4);
-  std::uint32_t bits = 0;
-  int held = 0;
-  std::size_t n = 0;
-  for (const char c : text) {
-    const std::int8_t value = kTable[static_cast<unsigned char>(c)];
-    if (value < 0) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    held += 6;
-    if (held >= 8) {
-      held -= 8;
-      out.data[n++] = static_cast<std::uint8_t>(bits >> held);
-    }
-  }
+  if (text.empty()) return OwnedBytes();
+  if (text.size() % 4 == 1 || text.size() > kMostBase64) return std::nullopt;
+  OwnedBytes out;
+  std::string type;
+  std::string uri = "data:application/octet-stream;base64,";
+  uri += text;
+  if (!tinygltf::DecodeDataURI(&out, type, uri, text.size() * 3 / 4, true)) return std::nullopt;
   return out;
 }
 
@@ -103,13 +86,14 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   if (begins_with(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
-    if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");
+    if (!bytes)
+      throw make_error(file, where,
+                       fmt::format("a data URI that is not base64, expected base64 of at most {} characters",
+                                   kMostBase64));
     return std::move(*bytes);
   }
   const std::string text = decode_percent(body);
-  OwnedBytes bytes(text.size());
-  std::copy(text.begin(), text.end(), bytes.data.get());
-  return bytes;
+  return {text.begin(), text.end()};
 }
 
 }  // namespace
