@@ -13,7 +13,7 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-constexpr std::size_t kMostBase64 = std::numeric_limits<int>::max() / 2;  // tinygltf counts in int
+constexpr std::size_t kMostBase64 = std::numeric_limits<int>::max();  // tinygltf counts in int
 
 /// Whether the text begins with `prefix`, a text in lower case; ASCII letters of either case are equal.
 bool begins_with(std::string_view text, std::string_view prefix) {
