@@ -82,8 +82,9 @@ void check_descriptions(const json& root, std::string_view file) {
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     require(cameras[i], cameras[i]["type"], fmt::format("cameras[{}]", i));
   }
-  constexpr const char* kLights = "/extensions/KHR_lights_punctual/lights";
-  const json lights = root.value(json::json_pointer(kLights), json::array());
+  const json::json_pointer place("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(place)) return;
+  const json& lights = root.at(place);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i]["type"] != "spot") continue;
     require(lights[i], "spot", fmt::format("extensions.KHR_lights_punctual.lights[{}]", i));
