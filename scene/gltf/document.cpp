@@ -18,6 +18,9 @@ using nlohmann::json;
 constexpr std::size_t kMostPerByte = 256;
 constexpr std::size_t kSmallScene = std::size_t{1} << 30;
 
+/// The shortest node that shows a mesh has 10 characters, and 537 bytes in tinygltf's model.
+constexpr std::size_t kMostPerCharacter = 64;
+
 }  // namespace
 
 Document::Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings)
@@ -26,7 +29,7 @@ Document::Document(const std::filesystem::path& path, bool allow_external, Warni
       container_(open_container(path, warnings)),
       read_bytes_(container_.file.size()) {
   json root = judge(container_.json, file_, warnings);
-  claim(model_bytes(root), "JSON");
+  check_model_size(model_bytes(root));
   take_binary(root);
   model_ =
       read_model(std::move(root), file_, [this](std::size_t i, const std::string& uri, std::size_t length) {
@@ -35,6 +38,14 @@ Document::Document(const std::filesystem::path& path, bool allow_external, Warni
   for (const tinygltf::Buffer& buffer : model_.buffers) buffers_.emplace_back(buffer.data);
   if (!container_.binary.empty()) buffers_[0] = container_.binary;
   decoded_.resize(model_.bufferViews.size());
+}
+
+void Document::check_model_size(std::size_t bytes) const {
+  const std::size_t text = container_.json.size();
+  const std::size_t most = std::max(kSmallScene, text * kMostPerCharacter);
+  if (bytes <= most) return;
+  fail("JSON", fmt::format("objects of {} MiB in memory, expected at most {} of a text of {} bytes",
+                           bytes >> 20, most >> 20, text));
 }
 
 /// Keeps the file's bytes only if its first buffer is the .glb's BIN chunk.
@@ -73,8 +84,8 @@ void Document::claim(std::size_t bytes, std::string_view where) const {
   }
   fail(where,
        fmt::format(
-           "{:.0f} MiB of vertices, triangles, instances and JSON objects up to here, expected at most {} of "
-           "a file of {} bytes with its buffers",
+           "{:.0f} MiB of vertices, triangles and instances up to here, expected at most {} of a file "
+           "of {} bytes with its buffers",
            (static_cast<double>(claimed_) + static_cast<double>(bytes)) / 0x1p20, most >> 20, read_bytes_));
 }
 

@@ -38,6 +38,7 @@ class Document {
   }
 
  private:
+  void check_model_size(std::size_t bytes) const;
   void take_binary(const nlohmann::json& root);
   OwnedBytes read_buffer(std::size_t index, const std::string& uri, std::size_t length);
   void check_length(std::size_t buffer, std::size_t found, std::size_t expected) const;
