@@ -12,6 +12,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "base/nearest_word.h"
@@ -66,9 +67,9 @@ class Loader {
     Graph graph = flatten_nodes(document_, options_.scene, warnings_);
     scene_.lights = std::move(graph.lights);
     scene_.cameras = std::move(graph.cameras);
-    load_materials(graph.placements);
-    claim_memory(graph.placements);
-    load_meshes();
+    load_materials(graph);
+    claim_memory(graph);
+    load_meshes(graph);
     choose_origin(graph);
     place(graph.placements);
     load_images();
@@ -86,7 +87,9 @@ class Loader {
   }
 
  private:
+  /// A primitive in a pose.
   struct Part {
+    int pose;
     int mesh;
     int primitive;
     int material;  ///< index into scene_.materials
@@ -131,18 +134,19 @@ class Loader {
   }
 
   /// Loads the materials and textures, and numbers the images, of the placed meshes only.
-  void load_materials(const std::vector<Placement>& placements) {
+  void load_materials(const Graph& graph) {
     Numbering materials;
     Numbering textures;
-    first_part_.assign(document_.model().meshes.size(), -1);
-    for (const Placement& placement : placements) {
-      int& first = first_part_[static_cast<std::size_t>(placement.mesh)];
+    first_part_.assign(graph.poses.size(), -1);
+    for (const Placement& placement : graph.placements) {
+      int& first = first_part_[static_cast<std::size_t>(placement.pose)];
       if (first >= 0) continue;
       first = static_cast<int>(parts_.size());
-      const auto& primitives = element(document_.model().meshes, placement.mesh).primitives;
+      const int mesh = element(graph.poses, placement.pose).mesh;
+      const auto& primitives = element(document_.model().meshes, mesh).primitives;
       for (std::size_t i = 0; i < primitives.size(); ++i) {
         parts_.push_back(
-            {placement.mesh, static_cast<int>(i), materials.number_of(material_of(primitives[i]))});
+            {placement.pose, mesh, static_cast<int>(i), materials.number_of(material_of(primitives[i]))});
       }
     }
     for (const int original : materials.order()) {
@@ -178,17 +182,17 @@ class Loader {
            std::min(vertices, 3 * triangles) * kVertexBytes;
   }
 
-  void claim_memory(const std::vector<Placement>& placements) const {
+  void claim_memory(const Graph& graph) const {
     for (const Part& part : parts_) {
       document_.claim(mesh_bytes(part), fmt::format("meshes[{}].primitives[{}]", part.mesh, part.primitive));
     }
-    for (const Placement& placement : placements) {
+    for (const Placement& placement : graph.placements) {
       const bool copied = options_.bake_transforms && is_flat(placement.transform);
       std::size_t bytes = 0;
       for_each_part(placement, [&](std::size_t i) {
         bytes += sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(parts_[i]) : 0);
       });
-      document_.claim(bytes, fmt::format("meshes[{}]", placement.mesh));
+      document_.claim(bytes, fmt::format("meshes[{}]", element(graph.poses, placement.pose).mesh));
     }
   }
 
@@ -214,12 +218,15 @@ class Loader {
     for (const Warnings& w : warnings) warnings_.merge(w);
   }
 
-  void load_meshes() {
+  void load_meshes(const Graph& graph) {
     scene_.meshes.resize(parts_.size());
     load_each(parts_.size(), [&](std::size_t i, Warnings& warnings) {
       const Part& part = parts_[i];
       const Material& material = scene_.materials[static_cast<std::size_t>(part.material)];
-      scene_.meshes[i] = load_primitive(document_, part.mesh, part.primitive, material, warnings);
+      const Pose& pose = element(graph.poses, part.pose);
+      std::span<const JointMatrix> joints;
+      if (pose.skin >= 0) joints = element(graph.joints, pose.skin);
+      scene_.meshes[i] = load_primitive(document_, pose, part.primitive, joints, material, warnings);
       scene_.meshes[i].material = part.material;
     });
   }
@@ -270,8 +277,8 @@ class Loader {
 
   template <typename Function>
   void for_each_part(const Placement& placement, Function function) const {
-    const auto first = static_cast<std::size_t>(first_part_[static_cast<std::size_t>(placement.mesh)]);
-    for (std::size_t i = first; i < parts_.size() && parts_[i].mesh == placement.mesh; ++i) function(i);
+    const auto first = static_cast<std::size_t>(first_part_[static_cast<std::size_t>(placement.pose)]);
+    for (std::size_t i = first; i < parts_.size() && parts_[i].pose == placement.pose; ++i) function(i);
   }
 
   void place(const std::vector<Placement>& placements) {
@@ -309,7 +316,7 @@ class Loader {
   Scene scene_;
   int variant_ = -1;
   std::vector<Part> parts_;
-  std::vector<int> first_part_;  ///< by the file's mesh; its parts are consecutive
+  std::vector<int> first_part_;  ///< by the pose; its parts are consecutive
   Numbering images_;
   std::map<std::pair<std::string, int>, int> alike_;  ///< by URI and buffer view
 };

@@ -141,17 +141,23 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document,
   return transforms;
 }
 
-Eigen::Affine3d read_first_matrix(const Document& document, int accessor) {
+std::vector<Eigen::Affine3d> read_inverse_bind_matrices(const Document& document, int accessor,
+                                                        std::size_t joints) {
+  std::vector<Eigen::Affine3d> matrices(joints, Eigen::Affine3d::Identity());
+  if (accessor < 0) return matrices;
   const AccessorReader reader(document, accessor);
   if (reader.components() != 16 || reader.component_type() != kFloat) {
     document.fail(reader.where(), "inverse bind matrices that are not MAT4 of floats, expected those");
   }
-  const std::uint32_t first = 0;
-  Eigen::Matrix4f m;
-  reader.read_floats({&first, 1}, 16, m.data());
-  Eigen::Affine3d t = Eigen::Affine3d::Identity();
-  t.matrix().topRows<3>() = m.topRows<3>().cast<double>();
-  return t;
+  if (reader.count() < joints) {
+    document.fail(reader.where(), fmt::format("{} inverse bind matrices, expected {}, one for each joint",
+                                              reader.count(), joints));
+  }
+  std::vector<Eigen::Matrix4f> rows(reader.count());
+  reader.read_floats({}, 16, rows.data()->data());
+  for (std::size_t i = 0; i < joints; ++i)
+    matrices[i].matrix().topRows<3>() = rows[i].topRows<3>().cast<double>();
+  return matrices;
 }
 
 }  // namespace gatelight::scene::gltf

@@ -21,7 +21,8 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document,
                                             const std::map<std::string, int>& attributes,
                                             const std::string& where);
 
-/// The first of a skin's inverse bind matrices.
-Eigen::Affine3d read_first_matrix(const Document& document, int accessor);
+/// The inverse bind matrices of a skin with this many joints: the identity where the file has none.
+std::vector<Eigen::Affine3d> read_inverse_bind_matrices(const Document& document, int accessor,
+                                                        std::size_t joints);
 
 }  // namespace gatelight::scene::gltf

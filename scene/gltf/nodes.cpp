@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/model.h"
@@ -72,7 +74,9 @@ std::vector<int> find_parents(const Document& document) {
 class GraphWalk {
  public:
   GraphWalk(const Document& document, Warnings& warnings)
-      : document_(document), warnings_(warnings), parents_(find_parents(document)) {}
+      : document_(document), warnings_(warnings), parents_(find_parents(document)) {
+    graph_.joints.resize(document.model().skins.size());
+  }
 
   Graph walk(int scene) {
     struct Entry {
@@ -132,14 +136,10 @@ class GraphWalk {
 
   void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
     const tinygltf::Mesh& mesh = element(document_.model().meshes, node.mesh);
-    Transform base = world;
-    if (node.skin >= 0) {
-      warnings_.add("skins and morph targets are shown in their bind pose");
-      base = checked(bind_pose(node.skin), fmt::format("skins[{}]", node.skin));
-    }
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      if (!primitive.targets.empty()) warnings_.add("skins and morph targets are shown in their bind pose");
-    }
+    const int pose = pose_of(node, mesh);
+    // In glTF only the joints place a skinned mesh.
+    const Transform base =
+        graph_.poses[static_cast<std::size_t>(pose)].skin >= 0 ? Transform::Identity() : world;
     std::string name = node.name.empty() ? mesh.name : node.name;
     if (name.empty()) name = fmt::format("node {}", index);
     const float priority = dielectric_priority(index, node);
@@ -149,13 +149,13 @@ class GraphWalk {
       claim_instances(attributes, mesh, where);
       if (attributes.empty()) {
         warnings_.add(where + ": no attributes that give the number of instances; drawn once");
-        add(node.mesh, name, base, priority);
+        add(pose, name, base, priority);
       }
       for (const Transform& t : read_instances(document_, attributes, where)) {
-        add(node.mesh, name, checked(base * t, where), priority);
+        add(pose, name, checked(base * t, where), priority);
       }
     } else {
-      add(node.mesh, name, base, priority);
+      add(pose, name, base, priority);
     }
   }
 
@@ -169,19 +169,53 @@ class GraphWalk {
     document_.claim(count * (sizeof(Transform) + sizeof(Placement) + mesh.name.size()), where);
   }
 
-  /// In glTF only the joints place a skinned mesh. In the bind pose all joints agree, so the first one gives
-  /// the transform from the mesh to the world.
-  Transform bind_pose(int index) const {
+  /// The number of the node's pose.
+  int pose_of(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+    Pose pose{node.mesh, node.weights.empty() ? mesh.weights : node.weights, node.skin};
+    if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0.0; }))
+      pose.weights.clear();
+    if (pose.skin >= 0) {
+      if (element(document_.model().skins, pose.skin).joints.empty()) {
+        warnings_.add("a skin without joints is ignored");
+        pose.skin = -1;
+      } else {
+        load_joints(pose.skin);
+      }
+    }
+    const auto [entry, is_new] = pose_numbers_.try_emplace(pose, static_cast<int>(graph_.poses.size()));
+    if (is_new) graph_.poses.push_back(std::move(pose));
+    return entry->second;
+  }
+
+  void load_joints(int index) {
+    std::vector<JointMatrix>& joints = graph_.joints[static_cast<std::size_t>(index)];
+    if (!joints.empty()) return;
     const tinygltf::Skin& skin = element(document_.model().skins, index);
-    Transform joint = Transform::Identity();
-    if (skin.joints.empty()) return joint;
-    for (int i = skin.joints[0]; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
-      joint = local_transform(document_, i) * joint;
+    const std::string where = fmt::format("skins[{}]", index);
+    document_.claim(skin.joints.size() * (sizeof(Transform) + sizeof(JointMatrix)), where);
+    const std::vector<Transform> inverses =
+        read_inverse_bind_matrices(document_, skin.inverseBindMatrices, skin.joints.size());
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      const Transform joint = world_of(skin.joints[i]) * inverses[i];
+      joints.push_back(checked(joint, where).matrix().topRows<3>().cast<float>());
     }
-    if (skin.inverseBindMatrices >= 0) {
-      joint = joint * read_first_matrix(document_, skin.inverseBindMatrices);
+  }
+
+  /// The node's transform to the world, kept for its descendants.
+  const Transform& world_of(int node) {
+    worlds_.resize(parents_.size());
+    std::vector<int> unknown;
+    for (int i = node; i >= 0 && !worlds_[static_cast<std::size_t>(i)];
+         i = parents_[static_cast<std::size_t>(i)]) {
+      unknown.push_back(i);
     }
-    return joint;
+    for (std::size_t k = unknown.size(); k-- > 0;) {
+      const int parent = parents_[static_cast<std::size_t>(unknown[k])];
+      const Transform local = local_transform(document_, unknown[k]);
+      worlds_[static_cast<std::size_t>(unknown[k])] =
+          parent < 0 ? local : *worlds_[static_cast<std::size_t>(parent)] * local;
+    }
+    return *worlds_[static_cast<std::size_t>(node)];
   }
 
   /// An application's own number, which modelling programs write as a custom property of the object.
@@ -197,8 +231,8 @@ class GraphWalk {
     return 0.0f;
   }
 
-  void add(int mesh, const std::string& name, const Transform& t, float dielectric_priority) {
-    Placement placement{mesh, name, Affine::Identity(), t.translation(), dielectric_priority};
+  void add(int pose, const std::string& name, const Transform& t, float dielectric_priority) {
+    Placement placement{pose, name, Affine::Identity(), t.translation(), dielectric_priority};
     placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
     // Some files hide meshes by scaling them to a line or a point. Such a mesh is invisible, and no ray can
     // be transformed into its space.
@@ -213,6 +247,8 @@ class GraphWalk {
   const Document& document_;
   Warnings& warnings_;
   std::vector<int> parents_;
+  std::vector<std::optional<Transform>> worlds_;  ///< of nodes; empty where they are not known yet
+  std::map<Pose, int> pose_numbers_;
   Graph graph_;
 };
 

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/pose.h"
 #include "scene/scene.h"
 
 namespace gatelight::scene::gltf {
 
 /// A glTF mesh (all its primitives) in the world.
 struct Placement {
-  int mesh = -1;     ///< index in the file
+  int pose = -1;     ///< into Graph::poses
   std::string name;  ///< Instance::name
   Affine transform = Affine::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
@@ -19,6 +20,8 @@ struct Placement {
 };
 
 struct Graph {
+  std::vector<Pose> poses;
+  std::vector<std::vector<JointMatrix>> joints;  ///< of each of the file's skins that a pose has; else empty
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
-#include "scene/gltf/accessors.h"
+#include "scene/gltf/deform.h"
 #include "scene/gltf/draco.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/model.h"
 #include "scene/gltf/triangles.h"
+#include "scene/gltf/vertices.h"
 #include "scene/tangents.h"
 #include "scene/texture_slots.h"
 #include "scene/vertex_repair.h"
@@ -32,65 +32,6 @@ Needs needs_of(const Material& material) {
   if (material.clearcoat_normal_texture) needs.tangents = &material.clearcoat_normal_texture;
   if (material.normal_texture) needs.tangents = &material.normal_texture;
   return needs;
-}
-
-/// The source of a primitive's vertices: accessors, or Draco's data described by accessors.
-class Vertices {
- public:
-  Vertices(const Document& document, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
-           std::string where)
-      : document_(document), attributes_(primitive.attributes), draco_(draco), where_(std::move(where)) {
-    if (!has("POSITION")) document.fail(where_ + ".attributes", "no POSITION, expected one");
-    count_ = draco ? draco->vertex_count() : reader("POSITION").count();
-    if (count_ > 0xffffffffu)
-      document.fail(where_, fmt::format("{} vertices, expected at most 2^32 - 1", count_));
-  }
-
-  std::size_t count() const { return count_; }
-
-  bool has(const std::string& semantic) const {
-    return attributes_.contains(semantic) || (draco_ && draco_->has(semantic));
-  }
-
-  /// Writes one row for each element of the selection, or count() rows if it is empty.
-  void read(const std::string& semantic, std::initializer_list<int> components, Selection selection,
-            int width, float* out, bool force_normalized = false) const {
-    if (draco_ && draco_->has(semantic)) {
-      bool normalized = force_normalized;
-      if (attributes_.contains(semantic)) {
-        normalized |= element(document_.model().accessors, attributes_.at(semantic)).normalized;
-      }
-      draco_->read_floats(semantic, selection, width, normalized, out);
-      return;
-    }
-    const AccessorReader source = reader(semantic);
-    source.expect_attribute(semantic, components);
-    if (source.count() != count_) {
-      document_.fail(source.where(), fmt::format("count {} for {} of {}, expected {} as POSITION",
-                                                 source.count(), semantic, where_, count_));
-    }
-    source.read_floats(selection, width, out, force_normalized);
-  }
-
- private:
-  AccessorReader reader(const std::string& semantic) const {
-    return AccessorReader(document_, attributes_.at(semantic));
-  }
-
-  const Document& document_;
-  const std::map<std::string, int>& attributes_;
-  const DracoPrimitive* draco_;
-  std::string where_;
-  std::size_t count_ = 0;
-};
-
-/// Leaves the rows empty where the file has none.
-template <typename Rows>
-void read_rows(const Vertices& vertices, const std::string& semantic, Selection selection, Rows& rows) {
-  constexpr int kWidth = Rows::value_type::RowsAtCompileTime;
-  if (!vertices.has(semantic)) return;
-  rows.resize(selection.empty() ? vertices.count() : selection.size());
-  vertices.read(semantic, {kWidth}, selection, kWidth, rows.data()->data());
 }
 
 std::vector<Vec4> read_colors(const Vertices& vertices, Selection selection) {
@@ -140,13 +81,47 @@ std::vector<std::uint32_t> compact(std::vector<std::array<std::uint32_t, 3>>& tr
   return used;
 }
 
+/// Reads what the material needs, with tangents of the file.
+void read_attributes(const Vertices& vertices, const Needs& needs, Selection selection, Mesh& mesh) {
+  read_rows(vertices, "POSITION", selection, mesh.positions);
+  read_rows(vertices, "NORMAL", selection, mesh.normals);
+  if (needs.uv[0]) read_rows(vertices, "TEXCOORD_0", selection, mesh.uv0);
+  if (needs.uv[1]) read_rows(vertices, "TEXCOORD_1", selection, mesh.uv1);
+  // The specification says that tangents of flat-shaded meshes are ignored.
+  if (needs.tangents && !mesh.normals.empty()) read_rows(vertices, "TANGENT", selection, mesh.tangents);
+  mesh.colors = read_colors(vertices, selection);
+}
+
+/// Checks the positions, repairs the other attributes, and generates missing tangents.
+void complete(const Document& document, const Vertices& vertices, const Needs& needs, Selection selection,
+              Mesh& mesh, Warnings& warnings) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (mesh.positions[i].allFinite()) continue;
+    const Vec3& p = mesh.positions[i];
+    document.fail(vertices.where(), fmt::format("position {} is ({}, {}, {}), expected finite numbers",
+                                                selection.empty() ? i : selection[i], p.x(), p.y(), p.z()));
+  }
+  if (repair_normals(mesh))
+    warnings.add("normals that are zero or not finite are replaced by the triangles' own");
+  if (repair_uvs(mesh)) warnings.add("texture coordinates that are not finite are replaced by zero");
+  if ((needs.uv[0] && mesh.uv0.empty()) || (needs.uv[1] && mesh.uv1.empty())) {
+    warnings.add("a textured mesh has no texture coordinates");
+  }
+  if (!needs.tangents) return;
+  if (mesh.tangents.empty()) {
+    generate_tangents(mesh, *needs.tangents);
+  } else {
+    repair_tangents(mesh);
+  }
+}
+
 }  // namespace
 
-Mesh load_primitive(const Document& document, int mesh_index, int primitive_index, const Material& material,
-                    Warnings& warnings) {
-  const tinygltf::Mesh& source = element(document.model().meshes, mesh_index);
+Mesh load_primitive(const Document& document, const Pose& pose, int primitive_index,
+                    std::span<const JointMatrix> joints, const Material& material, Warnings& warnings) {
+  const tinygltf::Mesh& source = element(document.model().meshes, pose.mesh);
   const tinygltf::Primitive& primitive = element(source.primitives, primitive_index);
-  const std::string where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
+  const std::string where = fmt::format("meshes[{}].primitives[{}]", pose.mesh, primitive_index);
 
   Mesh mesh;
   mesh.name = source.name;
@@ -181,33 +156,10 @@ Mesh load_primitive(const Document& document, int mesh_index, int primitive_inde
       needs.tangents = nullptr;
     }
   }
-  read_rows(vertices, "POSITION", selection, mesh.positions);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (mesh.positions[i].allFinite()) continue;
-    const Vec3& p = mesh.positions[i];
-    document.fail(where, fmt::format("position {} is ({}, {}, {}), expected finite numbers",
-                                     selection.empty() ? i : selection[i], p.x(), p.y(), p.z()));
-  }
-  read_rows(vertices, "NORMAL", selection, mesh.normals);
-  if (needs.uv[0]) read_rows(vertices, "TEXCOORD_0", selection, mesh.uv0);
-  if (needs.uv[1]) read_rows(vertices, "TEXCOORD_1", selection, mesh.uv1);
-  mesh.colors = read_colors(vertices, selection);
-
-  if (repair_normals(mesh))
-    warnings.add("normals that are zero or not finite are replaced by the triangles' own");
-  if (repair_uvs(mesh)) warnings.add("texture coordinates that are not finite are replaced by zero");
-  if ((needs.uv[0] && mesh.uv0.empty()) || (needs.uv[1] && mesh.uv1.empty())) {
-    warnings.add("a textured mesh has no texture coordinates");
-  }
-  if (needs.tangents) {
-    // The specification says that tangents of flat-shaded meshes are ignored.
-    if (!mesh.normals.empty()) read_rows(vertices, "TANGENT", selection, mesh.tangents);
-    if (mesh.tangents.empty()) {
-      generate_tangents(mesh, *needs.tangents);
-    } else {
-      repair_tangents(mesh);
-    }
-  }
+  read_attributes(vertices, needs, selection, mesh);
+  morph(vertices, primitive, pose.weights, selection, mesh);
+  if (!joints.empty()) apply_skin(document, vertices, joints, selection, mesh, warnings);
+  complete(document, vertices, needs, selection, mesh, warnings);
   return mesh;
 }
 
