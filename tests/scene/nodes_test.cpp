@@ -366,21 +366,5 @@ TEST(Instancing, CustomAttributesSetTheCountToo) {
   }
 }
 
-TEST(Skins, ShowTheBindPoseWithOneWarning) {
-  GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", primitive["attributes"]["POSITION"]}}};
-  const int mesh = file.mesh(primitive);
-  // The inverse of the joint's place, then moved by 3 along x: the mesh stands at x = 3.
-  const int ibm =
-      file.accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, -5, 0, 1}, kFloat, "MAT4", 1);
-  file.node({{"translation", {0, 5, 0}}, {"name", "joint"}});
-  file.add("skins", {{"joints", {0}}, {"inverseBindMatrices", ibm}});
-  file.node({{"mesh", mesh}, {"skin", 0}, {"translation", {100, 100, 100}}});
-  const Scene scene = file.load();
-  EXPECT_EQ(only_mesh(scene).positions[0], Vec3(3, 0, 0)) << "the node's own transform does not count";
-  expect_messages(scene.warnings, {{"skins"}});
-}
-
 }  // namespace
 }  // namespace gatelight::scene
