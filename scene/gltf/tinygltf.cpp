@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>  // tiny_gltf.h does not include it without its file access
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>

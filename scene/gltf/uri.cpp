@@ -45,7 +45,7 @@ std::string decode_percent(std::string_view text) {
 std::optional<OwnedBytes> decode_base64(std::string_view text) {
   for (int pad = 0; pad < 2 && !text.empty() && text.back() == '='; ++pad) text.remove_suffix(1);
   if (text.empty()) return OwnedBytes();
-  if (text.size() % 4 == 1 || text.size() > kMostBase64) return std::nullopt;
+  if (text.size() % 4 == 1) return std::nullopt;
   OwnedBytes out;
   std::string type;
   std::string uri = "data:application/octet-stream;base64,";
@@ -84,12 +84,14 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   const std::string_view body = uri.substr(comma + 1);
   constexpr std::string_view kBase64 = ";base64";
   if (begins_with(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
+    if (body.size() > kMostBase64) {
+      throw make_error(
+          file, where,
+          fmt::format("a data URI of {} characters, expected at most {}", body.size(), kMostBase64));
+    }
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));
-    if (!bytes)
-      throw make_error(file, where,
-                       fmt::format("a data URI that is not base64, expected base64 of at most {} characters",
-                                   kMostBase64));
+    if (!bytes) throw make_error(file, where, "a data URI that is not base64, expected base64");
     return std::move(*bytes);
   }
   const std::string text = decode_percent(body);

@@ -1,5 +1,7 @@
 // The sort of references by node and its split into runs and pieces, against the standard library.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 

@@ -11,6 +11,7 @@
 #include "tests/support/denoiser.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::renderer {
@@ -72,17 +73,22 @@ TEST(Background, ATransparentPictureOverTheEnvironmentIsTheScene) {
     const Picture apart = rendered(builder.scene(), options);
     ASSERT_EQ(apart.layers.front().channels.back(), "A");
     ASSERT_EQ(apart.layers.size(), 1u) << "the layer of the alpha was not requested";
+    testing::Moments errors;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const float *a = pixel(apart, x, y), *w = pixel(whole, x, y);
-        // The pane's tint is a colour and alpha one number: its luminance is right. Weak light undergoes
-        // roulette by the mean of the pixel so far, which includes the sky.
+        // The pane's tint is a colour and alpha one number: its luminance is right.
         const Color difference(w[0] - a[0], w[1] - a[1], w[2] - a[2]);
-        EXPECT_NEAR(luminance(difference), (1.0f - a[3]) * luminance(sky),
-                    integrator == Integrator::ao ? 1e-4f : 0.05f)
-            << x << "," << y << " of integrator " << static_cast<int>(integrator);
+        errors.add(static_cast<double>(luminance(difference) - (1.0f - a[3]) * luminance(sky)));
+        if (integrator == Integrator::ao) {
+          EXPECT_NEAR(errors.mean(), 0.0, 1e-4) << x << "," << y;
+        }
       }
     }
+    // Weak light undergoes roulette by the mean of the pixel so far, which includes the sky.
+    EXPECT_GT(testing::mean_p_value(errors, 0.0), testing::sidak(1e-4, 9))
+        << errors.mean() << " +- " << errors.standard_error() << ", integrator "
+        << static_cast<int>(integrator);
     // The box, the sheet, the block of glass, and nothing.
     EXPECT_FLOAT_EQ(pixel(apart, 8, 12)[3], 1.0f);
     EXPECT_NEAR(pixel(apart, 13, 12)[3], 0.3f, 0.07f);
@@ -94,6 +100,13 @@ TEST(Background, ATransparentPictureOverTheEnvironmentIsTheScene) {
       EXPECT_LT(pixel(apart, 18, 12)[3], 0.6f);
     }
   }
+}
+
+/// The sum of pixels of a sheet of alpha 0.3, by the law of independent samples. The denoiser keeps means.
+void expect_alpha(double sum, int pixels, int samples) {
+  const double error = std::sqrt(0.3 * 0.7 / (pixels * samples));
+  EXPECT_GT(testing::normal_two_sided((sum / pixels - 0.3) / error), testing::sidak(1e-4, 9))
+      << sum / pixels << " +- " << error;
 }
 
 /// A blended sheet of alpha 0.3 over the whole view, before nothing.
@@ -149,7 +162,7 @@ TEST(Background, AnEmissiveSheetHasItsAlphaToo) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) sum += static_cast<double>(pixel(picture, x, y)[3]);
   }
-  EXPECT_NEAR(sum / (kWidth * kHeight), 0.3, 0.01);
+  expect_alpha(sum, kWidth * kHeight, 64);
 }
 
 /// A picture whose red is its column and green its row.
@@ -219,7 +232,7 @@ TEST(Background, TheAlphaIsDenoisedToo) {
         squares += a * a;
       }
     }
-    EXPECT_NEAR(sum / count, 0.3, 0.08);
+    expect_alpha(sum, count, 4);
     return std::sqrt(squares / count - sum * sum / count / count);
   };
   const double raw = spread();
@@ -284,11 +297,13 @@ TEST(ShadowCatcher, ShowsThePartOfTheSkyThatAWallHides) {
   options.spp = 256;
   const Picture picture = rendered(scene, options);
   for (const int x : {16, 20, 26}) {
-    double mean = 0.0;
-    for (int y = 4; y < 20; ++y) mean += static_cast<double>(pixel(picture, x, y)[3]) / 16.0;
+    testing::Moments column;
+    for (int y = 4; y < 20; ++y) column.add(static_cast<double>(pixel(picture, x, y)[3]));
     // An endless wall of height h at the distance d hides (1 - cos(atan(h / d))) / 2 of the irradiance.
     const double d = (x + 0.5 - 16.0) / 12.0 * std::tan(M_PI / 8.0) * 10.0 - static_cast<double>(edge);
-    EXPECT_NEAR(mean, 0.5 * (1.0 - d / std::hypot(d, 3.0)), 0.012) << x;
+    const double expected = 0.5 * (1.0 - d / std::hypot(d, 3.0));
+    EXPECT_GT(testing::mean_p_value(column, expected), testing::sidak(1e-4, 9))
+        << x << ": " << column.mean() << " +- " << column.standard_error() << ", expected " << expected;
   }
 }
 
