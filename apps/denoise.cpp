@@ -15,6 +15,7 @@
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_options.h"
+#include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/progress.h"
@@ -163,9 +164,10 @@ class DenoiseRun {
       throw UsageError(fmt::format("denoise: '{}' is not an .exr file", settings_.input));
     FileNames names;
     names.read("INPUT", settings_.input);
+    check_stdout(settings_.outputs);
     for (const std::string& output : settings_.outputs) {
       names.write("--output", output);
-      renderer::check_image_output(output);
+      check_picture_output(output);
     }
     check_display(settings_.image.display);
   }
@@ -217,7 +219,7 @@ class DenoiseRun {
     std::exception_ptr first_error;
     for (const std::string& output : settings_.outputs) {
       try {
-        renderer::write_image(picture, output, settings_.image);
+        write_picture(picture, output, settings_.image);
       } catch (...) {
         if (!first_error) first_error = std::current_exception();
       }

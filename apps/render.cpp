@@ -13,6 +13,7 @@
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/settings/unused_flags.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
@@ -36,7 +37,7 @@ namespace {
 
 constexpr const char* kRenderFooter =
     R"(SIGINT, SIGTERM and SIGHUP finish the current pass and write the picture so far (exit code 130, 143 or 129); a second
-one ends the program at once. SIGUSR1 writes a snapshot of all outputs.
+one ends the program at once. SIGUSR1 writes a snapshot of all files of -o.
 Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
 Intensities of KHR_lights_punctual are taken as radiometric numbers: W/sr (point, spot) and W/m2 (directional).
 
@@ -149,7 +150,8 @@ class RenderRun {
   }
 
   /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
-  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
+  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics,
+                      const std::vector<std::string>& outputs) {
     renderer::ImageWriteOptions image = settings_.image;
     const float suitable = renderer::auto_exposure(picture);
     if (!settings_.exposure) image.display.exposure = suitable;
@@ -157,9 +159,9 @@ class RenderRun {
     report_.exposure = image.display.exposure;
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
-    for (const std::string& output : settings_.outputs) {
+    for (const std::string& output : outputs) {
       try {
-        renderer::write_image(picture, output, image);
+        write_picture(picture, output, image);
       } catch (...) {
         if (!first_error) first_error = std::current_exception();
       }
@@ -182,7 +184,7 @@ class RenderRun {
 
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
     try {
-      write_pictures(picture, statistics);
+      write_pictures(picture, statistics, files_of(settings_.outputs));
       progress_.clear();
       log_detail("snapshot written");
     } catch (const std::exception& error) {
@@ -198,7 +200,7 @@ class RenderRun {
                        report_.statistics.nonfinite));
     }
     const Clock::time_point start = Clock::now();
-    write_pictures(std::move(picture), report_.statistics);
+    write_pictures(std::move(picture), report_.statistics, settings_.outputs);
     report_.write_seconds = seconds_since(start);
     report_.total_seconds = seconds_since(start_);
     if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));

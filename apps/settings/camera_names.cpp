@@ -56,12 +56,12 @@ std::string single_name(const RenderSettings& settings, const scene::Scene& scen
 void check_camera_names(const RenderSettings& settings) {
   if (!names_all(settings)) return;
   const auto require = [&](const char* flag, const std::string& file) {
-    if (!file.empty() && file != "-" && file.find(kCamera) == std::string::npos)
+    if (!file.empty() && file.find(kCamera) == std::string::npos)
       throw UsageError(
           fmt::format("{}: '{}' is one file for all cameras, expected {{camera}} in its name", flag, file));
   };
   for (const std::string& output : settings.outputs) require("--output", output);
-  require("--stats", settings.stats);
+  if (settings.stats != "-") require("--stats", settings.stats);
   const auto refuse = [&](const char* flag, const std::string& file) {
     if (!file.empty())
       throw UsageError(fmt::format("{}: '{}' belongs to one picture, expected one --camera", flag, file));

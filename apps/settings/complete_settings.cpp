@@ -9,6 +9,7 @@
 #include "apps/settings/camera_names.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/settings/view_file.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
@@ -234,6 +235,7 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render);
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
+  check_stdout(settings.outputs, settings.stats);
   check_camera_names(settings);
   check_file_names({&settings, 1});
   if (settings.render.threads == 0) settings.render.threads = available_threads();
@@ -255,7 +257,7 @@ void check_inputs(const RenderSettings& settings) {
 }
 
 void check_outputs(const RenderSettings& settings) {
-  for (const std::string& output : settings.outputs) check_image_output(output);
+  for (const std::string& output : settings.outputs) check_picture_output(output);
   check_display(settings.image.display);
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
   if (const std::string& cache = settings.render.cache.cache_out; !cache.empty()) check_writable(cache);

@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
 #include "base/file/atomic_file.h"
 
@@ -13,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_file(const std::string& name) {
-  return !name.empty() && name != "-";
+  return !name.empty() && !stdout_format(name);
 }
 
 /// A path that cannot be resolved stays as it is named; opening it will fail later.

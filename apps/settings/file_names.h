@@ -11,7 +11,7 @@
 
 namespace gatelight::apps {
 
-/// Files are compared by their location after following links, not by name. Empty names and "-" are no files.
+/// Files are compared by their location after following links, not by name. Empty names and those of standard output are no files.
 class FileNames {
  public:
   void read(std::string_view flag, const std::string& name);

@@ -110,9 +110,10 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display] = image;
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output = group.add(common(not_in_sweep(
-      any_words("output", outputs, "FILE",
-                "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times"))));
+  Option& output = group.add(common(not_in_sweep(any_words(
+      "output", outputs, "FILE|-",
+      "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times. - is stdout, as PNG; "
+      "exr:- and the like choose its format"))));
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;

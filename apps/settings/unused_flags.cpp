@@ -6,23 +6,22 @@
 #include <initializer_list>
 #include <set>
 
-#include "renderer/image/image_format.h"
+#include "apps/settings/picture_output.h"
 
 namespace gatelight::apps {
 
-using renderer::image_format;
 using renderer::ImageFormat;
 
 bool shows_on_a_screen(const std::vector<std::string>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) {
-    const ImageFormat format = image_format(output);
+    const ImageFormat format = output_format(output);
     return format == ImageFormat::png || format == ImageFormat::jpeg || format == ImageFormat::tiff;
   });
 }
 
 std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
   std::set<ImageFormat> formats;
-  for (const std::string& output : settings.outputs) formats.insert(image_format(output));
+  for (const std::string& output : settings.outputs) formats.insert(output_format(output));
   const auto any = [&](std::initializer_list<ImageFormat> wanted) {
     return std::any_of(wanted.begin(), wanted.end(), [&](ImageFormat f) { return formats.contains(f); });
   };

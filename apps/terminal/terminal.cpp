@@ -39,15 +39,16 @@ void print_json_line(const nlohmann::ordered_json& object) {
   std::fflush(stderr);
 }
 
-void write_text(const std::string& target, const std::string& text) {
-  if (target != "-") {
-    write_file_atomically(target, text);
-    return;
-  }
+void write_stdout(std::string_view bytes) {
   if (is_silent) return;
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
     throw OutputError("cannot write to stdout: " + std::generic_category().message(errno));
   }
+}
+
+void write_text(const std::string& target, const std::string& text) {
+  if (target == "-") return write_stdout(text);
+  write_file_atomically(target, text);
 }
 
 }  // namespace gatelight::apps

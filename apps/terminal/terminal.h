@@ -18,8 +18,10 @@ void print_status(std::string_view text);
 /// Writes the object as one line to stderr and flushes it.
 void print_json_line(const nlohmann::ordered_json& object);
 
-/// Writes a result. `target` is a file or "-" for stdout. Throws OutputError, for a closed or full
-/// stdout too.
+/// Writes a result to stdout. Throws OutputError, for a closed or full stdout and a pipe without a reader.
+void write_stdout(std::string_view bytes);
+
+/// Writes a result. `target` is a file or "-" for stdout. Throws OutputError.
 void write_text(const std::string& target, const std::string& text);
 
 }  // namespace gatelight::apps

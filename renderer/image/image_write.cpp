@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -46,6 +49,28 @@ std::vector<float> radiance_of(const Picture& picture) {
   return rgb;
 }
 
+/// What write_exr() writes to a stream in memory.
+std::vector<std::uint8_t> exr_of(const Picture& picture, bool all_float) {
+  char* data = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = ::open_memstream(&data, &size);
+  if (stream == nullptr) throw std::bad_alloc();
+  try {
+    write_exr(picture, stream, all_float);
+  } catch (...) {
+    std::fclose(stream);
+    std::free(data);
+    throw;
+  }
+  // The stream's size is the place where it stands.
+  const bool at_end = std::fseek(stream, 0, SEEK_END) == 0;
+  const bool complete = std::fclose(stream) == 0 && at_end;
+  std::vector<std::uint8_t> bytes(data, data + size);
+  std::free(data);
+  if (!complete) throw std::bad_alloc();
+  return bytes;
+}
+
 /// The file is encoded in memory, so that AtomicFile reports every error of the disk.
 std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
                                  const ImageWriteOptions& options) {
@@ -61,6 +86,22 @@ std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
                                 : png_of<std::uint8_t>(picture, options.display);
     default:
       return image_library().encode(format, displayed(picture, options.display), width, height, options.bits);
+  }
+}
+
+/// Errors of the codecs, which do not know the file.
+template <class Function>
+void naming(const std::string& target, const Function& function) {
+  try {
+    function();
+  } catch (const OutputError&) {
+    throw;
+  } catch (const BadOption&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw OutputError(fmt::format("cannot write {}: {}", target, error.what()));
   }
 }
 
@@ -101,11 +142,21 @@ void check_image_output(const std::filesystem::path& path) {
   check_writable(path);
 }
 
+std::vector<std::uint8_t> encode_image(const Picture& picture, ImageFormat format,
+                                       const ImageWriteOptions& options) {
+  std::vector<std::uint8_t> bytes;
+  naming("a picture", [&] {
+    bytes =
+        format == ImageFormat::exr ? exr_of(picture, options.exr_float) : encode(picture, format, options);
+  });
+  return bytes;
+}
+
 void write_image(const Picture& picture, const std::filesystem::path& path,
                  const ImageWriteOptions& options) {
   require_known_format(path);
   AtomicFile file(path);
-  try {
+  naming(fmt::format("'{}'", path.string()), [&] {
     const ImageFormat format = image_format(path);
     if (format == ImageFormat::exr) {
       write_exr(picture, file.stream(), options.exr_float);
@@ -113,15 +164,7 @@ void write_image(const Picture& picture, const std::filesystem::path& path,
       const std::vector<std::uint8_t> bytes = encode(picture, format, options);
       file.write(bytes.data(), bytes.size());
     }
-  } catch (const OutputError&) {
-    throw;
-  } catch (const BadOption&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw OutputError(fmt::format("cannot write '{}': {}", path.string(), error.what()));
-  }
+  });
   file.commit();
 }
 

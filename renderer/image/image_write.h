@@ -7,6 +7,7 @@
 
 #include "base/file/atomic_file.h"
 #include "renderer/image/display.h"
+#include "renderer/image/image_format.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
@@ -22,6 +23,10 @@ void check_image_output(const std::filesystem::path& path);
 
 /// displayed() in bytes, three a pixel; with alpha over black.
 std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options = {});
+
+/// The content of a file. Throws OutputError, or what displayed() throws.
+std::vector<std::uint8_t> encode_image(const Picture& picture, ImageFormat format,
+                                       const ImageWriteOptions& options = {});
 
 /// An EXR holds every layer and has the metadata in its header, with ZIP compression. Its data window is the
 /// picture, its display window the full picture. The same picture gives the same bytes. The other formats
