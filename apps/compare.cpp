@@ -10,6 +10,7 @@
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -95,6 +96,7 @@ void check_outputs(const CompareSettings& settings) {
   names.write("--error-map", settings.error_map);
   names.write("--json", settings.json);
   if (!settings.error_map.empty()) {
+    refuse_frame_pattern("--error-map", settings.error_map);
     if (std::filesystem::path(settings.error_map).extension() != ".png") {
       throw UsageError(fmt::format("--error-map: '{}' is not a .png file", settings.error_map));
     }

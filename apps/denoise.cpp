@@ -166,6 +166,7 @@ class DenoiseRun {
     names.read("INPUT", settings_.input);
     check_stdout(settings_.outputs);
     for (const std::string& output : settings_.outputs) {
+      refuse_frame_pattern("--output", output);
       names.write("--output", output);
       check_picture_output(output);
     }

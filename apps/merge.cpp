@@ -10,6 +10,7 @@
 #include "apps/seeds.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -74,6 +75,7 @@ void require_finite(const renderer::Picture& picture, const std::string& file) {
 }
 
 int run_merge(const MergeSettings& settings) {
+  refuse_frame_pattern("--output", settings.output);
   require_exr(settings.output);
   for (const std::string& input : settings.inputs) require_exr(input);
   renderer::check_image_output(settings.output);

@@ -235,6 +235,7 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render);
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
+  for (const std::string& output : settings.outputs) refuse_frame_pattern("--output", output);
   check_stdout(settings.outputs, settings.stats);
   check_camera_names(settings);
   check_file_names({&settings, 1});

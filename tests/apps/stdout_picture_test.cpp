@@ -1,4 +1,4 @@
-// Pictures that go to standard output.
+// Pictures that go to standard output, and names that are refused.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,6 +111,27 @@ TEST_F(StdoutPicture, ASnapshotLeavesItOut) {
   ASSERT_EQ(output.exit_code, 0) << output.err;
   EXPECT_THAT(output.err, HasSubstr("snapshot written"));
   EXPECT_EQ(output.out, read_file(path("a.png"))) << "one picture";
+}
+
+class NameOfAFrame : public SquareRenders {};
+
+TEST_F(NameOfAFrame, IsRefusedForASinglePicture) {
+  for (const char* name : {"a-%04d.png", "%d.png", "a.####.png", "a##.exr", "{frame}.png"}) {
+    expect_failure(run_gatelight_inside({"render", scene, "-o", path(name)}), 1, {"--output", name, "frame"});
+    expect_failure(run_gatelight_inside({"denoise", path("a.exr"), "-o", path(name)}), 1,
+                   {"--output", "frame"});
+  }
+  expect_failure(run_gatelight_inside({"merge", "-o", path("a%d.exr"), path("b.exr")}), 1,
+                 {"--output", "frame"});
+  expect_failure(
+      run_gatelight_inside({"compare", path("a.exr"), path("b.exr"), "--error-map", path("%3d.png")}), 1,
+      {"--error-map", "frame"});
+}
+
+TEST_F(NameOfAFrame, OtherNamesStay) {
+  std::filesystem::create_directory(path("##"));
+  for (const char* name : {"50%.png", "room #3.png", "##/a.png", "a%b.png", "{camera}.png"})
+    EXPECT_EQ(render({"-o", path(name), "--quiet"}).exit_code, 0) << name;
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ const std::vector<std::string> kNames = {
     "ünïcödé 日本語 🙂",
     "hash # and % 100%41",
     "quote ' and \" both",
-    "{0} %s %04d {}",
+    "{0} %s %04x {}",
     "a?b=c&d;e",
     "-o",
     "new\nline",
