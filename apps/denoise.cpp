@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
@@ -18,6 +19,7 @@
 #include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
 #include "apps/terminal/progress.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
@@ -217,6 +219,9 @@ class DenoiseRun {
   void write(const renderer::Picture& picture) {
     settings_.image.display.exposure =
         settings_.exposure ? *settings_.exposure : renderer::auto_exposure(picture);
+    if (const std::string text = overflow_warning(picture, settings_.outputs, settings_.image);
+        !text.empty() && !settings_.quiet)
+      log_warning(text);
     std::exception_ptr first_error;
     for (const std::string& output : settings_.outputs) {
       try {

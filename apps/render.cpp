@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/rank_checks.h"
+#include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/camera_names.h"
@@ -199,6 +200,8 @@ class RenderRun {
       warn(fmt::format("{} samples were not finite and are left out; --stats locates the first of them",
                        report_.statistics.nonfinite));
     }
+    if (const std::string text = overflow_warning(picture, settings_.outputs, settings_.image); !text.empty())
+      warn(text);
     const Clock::time_point start = Clock::now();
     write_pictures(std::move(picture), report_.statistics, settings_.outputs);
     report_.write_seconds = seconds_since(start);

@@ -14,6 +14,8 @@
 #include <limits>
 #include <system_error>
 
+#include "base/half.h"
+
 namespace gatelight::renderer {
 namespace {
 
@@ -55,9 +57,8 @@ class StdioStream final : public Imf::OStream {
 
 /// Keeps finite radiance finite. The conversion of `half` turns values beyond its range into infinity.
 half to_half(float value) {
-  constexpr float kLargest = 65504.0f;
-  if (value > kLargest && value <= std::numeric_limits<float>::max()) return half(kLargest);
-  if (value < -kLargest && value >= std::numeric_limits<float>::lowest()) return half(-kLargest);
+  if (value > kMaxHalf && value <= std::numeric_limits<float>::max()) return half(kMaxHalf);
+  if (value < -kMaxHalf && value >= std::numeric_limits<float>::lowest()) return half(-kMaxHalf);
   return half(value);
 }
 

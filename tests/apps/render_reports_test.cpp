@@ -173,6 +173,31 @@ TEST_F(RenderReports, APictureThatIsFarTooBrightForAScreenIsReported) {
   EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(warning)));
 }
 
+TEST_F(RenderReports, ValuesBeyondHalfAreCountedByLayer) {
+  nlohmann::json lamp = json::parse(tiny_scene());
+  lamp["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+  lamp["materials"][0]["emissiveFactor"] = {1, 1, 0};
+  lamp["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1e6;
+  scene = folder.write("lamp.gltf", lamp.dump());
+  const Output half = render({"-o", path("a.exr"), "--stats", "-"});
+  ASSERT_EQ(half.exit_code, 0) << half.err;
+  const Picture picture = read_image(path("a.exr"));
+  const std::vector<float>& values = picture.layers[0].values;
+  const auto count = std::count(values.begin(), values.end(), 65504.0f);
+  EXPECT_GT(count, 0);
+  for (const float value : values) EXPECT_TRUE(std::isfinite(value));
+  const std::string beauty = fmt::format("{} in the picture", count);
+  expect_messages(half.warnings(), {{"65504", beauty, "--exr float"}});
+  expect_messages(json::parse(half.out)["warnings"], {{"65504", beauty, "--exr float"}});
+  const auto no_warning = [&](std::vector<std::string> flags) {
+    EXPECT_THAT(render(flags).err, Not(HasSubstr("65504")));
+  };
+  no_warning({"-o", path("a.exr"), "--exr", "float"});
+  EXPECT_GE(read_image(path("a.exr")).layers[0].values[3 * (8 * 24 + 12)], 1e6f);
+  no_warning({"-o", path("a.hdr")});
+  EXPECT_THAT(render({"-o", "exr:-"}).err, HasSubstr("65504"));
+}
+
 TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   // The square and its twin light each other, and the sum of emitted and reflected light overflows.
   nlohmann::json hot = json::parse(tiny_scene());
@@ -183,7 +208,8 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
       {{"mesh", 0}, {"rotation", {0, -0.70710678, 0, 0.70710678}}, {"translation", {1, 0, 1}}});
   hot["scenes"][0]["nodes"].push_back(2);
   scene = folder.write("hot.gltf", hot.dump());
-  const std::vector<std::string> flags = {"-o", path("a.exr"), "--size", "24x16", "--spp", "4"};
+  const std::vector<std::string> flags = {"-o",     path("a.exr"), "--exr", "float",
+                                          "--size", "24x16",       "--spp", "4"};
   std::vector<std::string> dropping = {"render", scene, "--stats", "-"};
   dropping.insert(dropping.end(), flags.begin(), flags.end());
   const Output dropped = run_gatelight(dropping);

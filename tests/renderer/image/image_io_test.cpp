@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "renderer/image/half_overflow.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "tests/support/messages.h"
@@ -88,6 +89,20 @@ TEST(ExrRoundTrip, FiniteRadianceBeyondHalfStaysFinite) {
   picture.layers = {{.channels = {"R", "G", "B"}, .values = {1e6f, -1e6f, kInf}}};
   write_image(picture, folder / "a.exr");
   EXPECT_THAT(read_image(folder / "a.exr").layers[0].values, ElementsAre(65504.0f, -65504.0f, kInf));
+}
+
+TEST(HalfOverflow, CountsFiniteValuesOfEachLayerThatHalfWouldChange) {
+  Picture picture{.width = 1, .height = 1};
+  picture.layers = {{.channels = {"R", "G", "B"}, .values = {1e6f, -65505.0f, kInf}},
+                    {.name = "albedo", .channels = {"R", "G", "B"}, .values = {65504.0f, -1.0f, 0.0f}},
+                    {.name = "depth", .channels = {"Z"}, .values = {1e6f}, .full_precision = true},
+                    {.name = "raw", .channels = {"R", "G", "B"}, .values = {0.0f, 65504.5f, NAN}}};
+  const std::vector<HalfOverflow> found = half_overflows(picture);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].layer, "");
+  EXPECT_EQ(found[0].values, 2u);
+  EXPECT_EQ(found[1].layer, "raw");
+  EXPECT_EQ(found[1].values, 1u);
 }
 
 TEST(ExrRoundTrip, SamePictureGivesSameBytes) {
