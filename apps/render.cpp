@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/rank_checks.h"
+#include "apps/reports/glare_warning.h"
 #include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
 #include "apps/reports/run_report.h"
@@ -76,6 +77,7 @@ class RenderRun {
     const scene::Scene scene = load();
     if (const int number = signal(); number != 0) return stop_without_picture(number);
     expect_equal_ranks(settings_, scene, group_);
+    bright_lights_ = lights_from_watts(scene);
     const std::size_t memory = require_memory_of_ranks(settings_, scene, group_);
     log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.is_single() ? "" : " by each rank",
                            format_bytes(memory)));
@@ -156,7 +158,7 @@ class RenderRun {
     renderer::ImageWriteOptions image = settings_.image;
     const float suitable = renderer::auto_exposure(picture);
     if (!settings_.exposure) image.display.exposure = suitable;
-    warn_of_glare(image.display.exposure - suitable, suitable);
+    warn_of_glare(picture, image.display, suitable);
     report_.exposure = image.display.exposure;
     picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
     std::exception_ptr first_error;
@@ -170,17 +172,14 @@ class RenderRun {
     if (first_error) std::rethrow_exception(first_error);
   }
 
-  /// Lights that an exporter wrote in watts are hundreds of times too bright for a screen.
-  void warn_of_glare(float stops_too_bright, float suitable) {
-    constexpr float kTooBright = 4.0f;
-    if (stops_too_bright < kTooBright || settings_.given.contains("--exposure") || glare_reported_ ||
-        !shows_on_a_screen(settings_.outputs))
+  void warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display,
+                     float suitable) {
+    if (settings_.given.contains("--exposure") || glare_reported_ || !shows_on_a_screen(settings_.outputs))
       return;
+    const std::string text = glare_warning(picture, display, suitable, bright_lights_);
+    if (text.empty()) return;
     glare_reported_ = true;
-    warn(
-        fmt::format("the picture is {:.0f} stops too bright for a screen (are lights of the file in watts?); "
-                    "--exposure {:.1f} shows it, or --lights scales the lights",
-                    stops_too_bright, suitable));
+    warn(text);
   }
 
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
@@ -250,6 +249,7 @@ class RenderRun {
   RunReport report_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
+  std::string bright_lights_;  ///< lights_from_watts()
   bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };

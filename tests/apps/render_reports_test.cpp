@@ -166,11 +166,37 @@ TEST_F(RenderReports, APictureThatIsFarTooBrightForAScreenIsReported) {
     more.insert(more.end(), {"--environment-scale", scale, "-o", path("a.exr"), "--spp", "1"});
     return render_open(more).err;
   };
-  const char* const warning = "stops too bright for a screen";
+  const char* const warning = "of the pixels are clipped to white";
   EXPECT_THAT(lit("1000", {"-o", path("a.png")}), AllOf(HasSubstr(warning), HasSubstr("--exposure -")));
   EXPECT_THAT(lit("1000", {}), Not(HasSubstr(warning))) << "an EXR stores any radiance";
   EXPECT_THAT(lit("1000", {"-o", path("a.png"), "--exposure", "0"}), Not(HasSubstr(warning)));
-  EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(warning)));
+  EXPECT_THAT(lit("1", {"-o", path("a.png")}), Not(HasSubstr(warning))) << "a white picture";
+  EXPECT_THAT(lit("1000", {"-o", path("a.png")}), Not(HasSubstr("watts"))) << "no lamp";
+}
+
+TEST_F(RenderReports, LampsInWattsAreNamedWhereTheyAreTheReason) {
+  const auto warnings_of = [&](double intensity, const char* lights, const json& more = json::object()) {
+    json lit = json::parse(tiny_scene());
+    lit["extensionsUsed"] = {"KHR_lights_punctual"};
+    lit["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"name", "lamp"}, {"type", "point"}, {"intensity", intensity}}};
+    lit["nodes"].push_back(
+        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    lit["scenes"][0]["nodes"].push_back(2);
+    lit["materials"][0].update(more);
+    const Output output =
+        run_gatelight({"render", folder.write("lit.gltf", lit.dump()), "-o", path("a.png"), "--size", "24x16",
+                       "--spp", "4", "--environment", "none", "--lights", lights});
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return output.warnings();
+  };
+  // Blender writes a lamp of 200 W as 200 W * 683 lm/W / (4 pi) = 10870 cd.
+  expect_messages(warnings_of(10870, "lamp=1"),
+                  {{"clipped to white", "--exposure -", "683", "--lights '*=0.00146'"}});
+  EXPECT_THAT(warnings_of(10870, "lamp=0.00146"), ::testing::IsEmpty()) << "the advice helps";
+  EXPECT_THAT(warnings_of(15.9, "lamp=1"), ::testing::IsEmpty());
+  expect_messages(warnings_of(10870, "lamp=1", {{"emissiveFactor", {1, 1, 1}}}),
+                  {{"clipped to white", "--lights 'lamp=0.00146'"}});
 }
 
 TEST_F(RenderReports, ValuesBeyondHalfAreCountedByLayer) {
