@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "scene/gltf/judge.h"
 #include "scene/gltf/meshopt.h"
@@ -103,16 +104,18 @@ Bytes Document::range(int buffer, std::size_t offset, std::size_t length, std::s
 
 Bytes Document::view(int index, std::string_view where) const {
   const tinygltf::BufferView& view = element(model_.bufferViews, index);
-  const tinygltf::Value* meshopt = find_extension(view.extensions, "EXT_meshopt_compression");
-  if (!meshopt) return range(view.buffer, view.byteOffset, view.byteLength, where);
+  const auto* const used = std::find_if(std::begin(kMeshoptNames), std::end(kMeshoptNames),
+                                        [&](const char* name) { return view.extensions.count(name) > 0; });
+  if (used == std::end(kMeshoptNames)) return range(view.buffer, view.byteOffset, view.byteLength, where);
 
   const std::lock_guard lock(mutex_);
   OwnedBytes& decoded = decoded_[static_cast<std::size_t>(index)];
   if (decoded.empty()) {
-    const std::string place = fmt::format("bufferViews[{}].extensions.EXT_meshopt_compression", index);
-    const Bytes source = range(integer_or(*meshopt, "buffer", 0), size_of(*meshopt, "byteOffset"),
-                               size_of(*meshopt, "byteLength"), place);
-    decoded = decode_meshopt(source, *meshopt, view.byteLength, file_, place);
+    const std::string place = fmt::format("bufferViews[{}].extensions.{}", index, *used);
+    const tinygltf::Value& meshopt = *find_extension(view.extensions, *used);
+    const Bytes source = range(integer_or(meshopt, "buffer", 0), size_of(meshopt, "byteOffset"),
+                               size_of(meshopt, "byteLength"), place);
+    decoded = decode_meshopt(source, meshopt, view.byteLength, file_, place);
   }
   return decoded;
 }

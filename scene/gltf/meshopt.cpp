@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
+#include "scene/gltf/color_filter.h"
+
 namespace gatelight::scene::gltf {
 
 OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::size_t length,
@@ -22,11 +24,17 @@ OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::s
   require(count * stride == length,
           fmt::format("{} elements of {} bytes, expected {} bytes (byteLength of the view)", count, stride,
                       length));
-  // The codecs spend at least 2 bits on 16 bytes of a vertex, and a byte on a triangle or an index. Data that
-  // claims more is wrong and is refused before memory is allocated.
-  require(count * stride / 64 <= source.size(), fmt::format("count {}, expected data for it", count));
+  constexpr std::uint8_t kVersion1 = 0xa1;
+  const bool version_1 = vertices && !source.empty() && source.front() == kVersion1;
+  require(!version_1 || MESHOPTIMIZER_VERSION >= 230,
+          fmt::format("data of codec version 1, expected version 0: libmeshoptimizer {}.{} is too old for it",
+                      MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100));
+  // The codecs spend at least 2 bits on 16 bytes of a vertex (version 1: on 256), and a byte on a triangle or
+  // an index. Data that claims more is wrong and is refused before memory is allocated.
+  require(count * stride / (version_1 ? 1024 : 64) <= source.size(),
+          fmt::format("count {}, expected data for it", count));
   require(filter == "NONE" || vertices, fmt::format("filter {}, expected NONE with mode {}", filter, mode));
-  require(filter != "OCTAHEDRAL" || stride == 4 || stride == 8,
+  require((filter != "OCTAHEDRAL" && filter != "COLOR") || stride == 4 || stride == 8,
           fmt::format("byteStride {}, expected 4 or 8", stride));
   require(filter != "QUATERNION" || stride == 8, fmt::format("byteStride {}, expected 8", stride));
 
@@ -45,6 +53,7 @@ OwnedBytes decode_meshopt(Bytes source, const tinygltf::Value& extension, std::s
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
+  if (filter == "COLOR") decode_color_filter(out, stride);
   return out;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
-// EXT_meshopt_compression: libmeshoptimizer decodes a buffer view.
+// KHR_meshopt_compression and EXT_meshopt_compression: libmeshoptimizer decodes a buffer view.
+
+#include <string_view>
 
 #include "scene/gltf/container.h"
 #include "scene/gltf/model.h"

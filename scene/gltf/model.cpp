@@ -123,10 +123,13 @@ class Reader {
   /// tinygltf cuts the whole numbers of extensions to 32 bits, but not the others.
   static void widen(json& view) {
     const auto extensions = view.find("extensions");
-    if (extensions == view.end() || !extensions->contains("EXT_meshopt_compression")) return;
-    json& meshopt = (*extensions)["EXT_meshopt_compression"];
-    for (const char* name : {"byteOffset", "byteLength"}) {
-      if (meshopt.contains(name)) meshopt[name] = meshopt[name].get<double>();
+    if (extensions == view.end()) return;
+    for (const char* extension : kMeshoptNames) {
+      if (!extensions->contains(extension)) continue;
+      json& meshopt = (*extensions)[extension];
+      for (const char* name : {"byteOffset", "byteLength"}) {
+        if (meshopt.contains(name)) meshopt[name] = meshopt[name].get<double>();
+      }
     }
   }
 

@@ -31,6 +31,9 @@ const T& element(const std::vector<T>& list, int index) {
   return list[static_cast<std::size_t>(index)];
 }
 
+/// The names of the compression by meshoptimizer. A view has one of them.
+inline constexpr const char* kMeshoptNames[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
+
 /// The extension of an object, or null.
 inline const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
   const auto found = extensions.find(name);

@@ -94,6 +94,7 @@ constexpr Rule kRules[] = {
     required(integer("buffer", "byteLength", 1, kByteLimit)),
     object("buffer", "extensions", "buffer.extensions"),
     object("buffer.extensions", "EXT_meshopt_compression", "meshopt_fallback"),
+    object("buffer.extensions", "KHR_meshopt_compression", "meshopt_fallback"),
     boolean("meshopt_fallback", "fallback"),
 
     text("bufferView", "name"),
@@ -104,13 +105,14 @@ constexpr Rule kRules[] = {
     integer("bufferView", "target", 0, kIntLimit),
     object("bufferView", "extensions", "bufferView.extensions"),
     object("bufferView.extensions", "EXT_meshopt_compression", "meshopt"),
+    object("bufferView.extensions", "KHR_meshopt_compression", "meshopt"),
     required(index("meshopt", "buffer", "buffers")),
     integer("meshopt", "byteOffset", 0, kByteLimit),
     required(integer("meshopt", "byteLength", 1, kByteLimit)),
     required(integer("meshopt", "byteStride", 1, 256)),
     required(integer("meshopt", "count", 1, kIntLimit)),
     required(text("meshopt", "mode", "ATTRIBUTES|TRIANGLES|INDICES")),
-    text("meshopt", "filter", "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL"),
+    text("meshopt", "filter", "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL|COLOR"),
 
     text("accessor", "name"),
     index("accessor", "bufferView", "bufferViews"),

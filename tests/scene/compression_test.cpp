@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <set>
 
+#include "scene/gltf/color_filter.h"
 #include "tests/support/gltf_builder.h"
 
 namespace gatelight::scene {
@@ -64,9 +67,10 @@ Mesh plain_sheet() {
   return only_mesh(file.load());
 }
 
-GltfBuilder meshopt_sheet(const std::string& index_mode) {
+GltfBuilder meshopt_sheet(const std::string& index_mode,
+                          const std::string& extension = "EXT_meshopt_compression") {
   GltfBuilder file;
-  file.root["extensionsRequired"] = {"EXT_meshopt_compression"};
+  file.root["extensionsRequired"] = {extension};
   const std::vector<float> xyz = sheet_positions();
   const std::vector<std::uint32_t> list = sheet_indices();
   const std::size_t vertices = xyz.size() / 3;
@@ -85,20 +89,19 @@ GltfBuilder meshopt_sheet(const std::string& index_mode) {
     const int packed_view = file.view(bytes);
     const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
     json view = {{"buffer", 1}, {"byteLength", count * stride}};
-    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
-                                                     {"byteOffset", where["byteOffset"]},
-                                                     {"byteLength", bytes.size()},
-                                                     {"byteStride", stride},
-                                                     {"count", count},
-                                                     {"mode", mode}};
+    view["extensions"][extension] = {{"buffer", 0},
+                                     {"byteOffset", where["byteOffset"]},
+                                     {"byteLength", bytes.size()},
+                                     {"byteStride", stride},
+                                     {"count", count},
+                                     {"mode", mode}};
     return file.add("bufferViews", view);
   };
   const int vertex_view = add(packed, vertices, 12, "ATTRIBUTES");
   const int index_view = add(indices, list.size(), 2, index_mode);
   while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {
-      {{"byteLength", file.bin.size()}},
-      {{"byteLength", 1 << 20}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+  file.root["buffers"] = {{{"byteLength", file.bin.size()}},
+                          {{"byteLength", 1 << 20}, {"extensions", {{extension, {{"fallback", true}}}}}}};
   json primitive;
   primitive["attributes"]["POSITION"] = file.add(
       "accessors",
@@ -113,11 +116,106 @@ GltfBuilder meshopt_sheet(const std::string& index_mode) {
 
 TEST(Meshopt, DecodesToThePlainMesh) {
   const Mesh plain = plain_sheet();
-  for (const char* mode : {"TRIANGLES", "INDICES"}) {
-    const Mesh mesh = only_mesh(meshopt_sheet(mode).load());
-    EXPECT_EQ(mesh.positions, plain.positions) << mode;
-    EXPECT_EQ(triangle_set(mesh, 1e-4f), triangle_set(plain, 1e-4f)) << mode;
+  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    for (const char* mode : {"TRIANGLES", "INDICES"}) {
+      GltfBuilder file = meshopt_sheet(mode, extension);
+      const Mesh mesh = only_mesh(file.load());
+      EXPECT_EQ(mesh.positions, plain.positions) << mode;
+      EXPECT_EQ(triangle_set(mesh, 1e-4f), triangle_set(plain, 1e-4f)) << mode;
+    }
   }
+}
+
+/// Colours in YCoCg, four values each, with the formula of the extension's appendix B.
+std::vector<double> ycocg_to_rgba(const std::vector<int>& values, int bits, double greatest) {
+  std::vector<double> rgba;
+  const double scale = greatest / (std::pow(2.0, bits) - 1.0);
+  for (std::size_t i = 0; i < values.size(); i += 4) {
+    const double y = values[i], co = values[i + 1], cg = values[i + 2];
+    const int low = values[i + 3] - (1 << (bits - 1));
+    for (const double value : {y + co - cg, y + cg, y - co - cg, 2.0 * low + low % 2})
+      rgba.push_back(value * scale);
+  }
+  return rgba;
+}
+
+/// All colours of a coarse grid in `bits` bits, as an encoder writes them. Co and Cg lose their last bit.
+std::vector<int> grid_of_colors(int bits) {
+  std::vector<int> values;
+  const int most = (1 << bits) - 1;
+  const auto at = [&](int k) { return k * most / 3; };
+  for (int k = 0; k < 64; ++k) {
+    const int r = at(k / 16), g = at(k / 4 % 4), b = at(k % 4);
+    const int co = (r - b) / 2, rest = b + co, cg = (g - rest) / 2, y = rest + cg;
+    values.insert(values.end(), {y, co, cg, (1 << (bits - 1)) + (most >> 1) * (k % 4) / 3});
+  }
+  return values;
+}
+
+template <class Channel>
+void expect_color_filter(int bits) {
+  const std::vector<int> values = grid_of_colors(bits);
+  std::vector<Channel> channels;
+  for (const int value : values) channels.push_back(static_cast<Channel>(value));
+  std::vector<std::uint8_t> bytes(channels.size() * sizeof(Channel));
+  std::memcpy(bytes.data(), channels.data(), bytes.size());
+  gltf::decode_color_filter(bytes, 4 * sizeof(Channel));
+  std::memcpy(channels.data(), bytes.data(), bytes.size());
+  const double greatest = std::numeric_limits<Channel>::max();
+  const std::vector<double> expected = ycocg_to_rgba(values, bits, greatest);
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    EXPECT_NEAR(channels[i], std::clamp(expected[i], 0.0, greatest), 0.501) << bits << " bits, value " << i;
+}
+
+TEST(Meshopt, ColorFilterFollowsItsFormula) {
+  for (const int bits : {2, 5, 8}) expect_color_filter<std::uint8_t>(bits);
+  for (const int bits : {2, 8, 11, 16}) expect_color_filter<std::uint16_t>(bits);
+  std::vector<std::uint8_t> wrong = {255, 127, 128, 0, 0, 128, 127, 1};  // no alpha tells the bits
+  gltf::decode_color_filter(wrong, 4);
+}
+
+TEST(Meshopt, ColorFilterGivesColors) {
+  // White, red, green and half transparent blue; 8 bits a channel.
+  const std::vector<std::uint8_t> filtered = {255, 0, 0,   255, 64, 127, 192, 255,
+                                              128, 0, 127, 255, 64, 129, 192, 128 + 64};
+  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(4, 4));
+  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), filtered.data(), 4, 4));
+  GltfBuilder file;
+  json primitive = {{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}}}};
+  primitive["indices"] = file.indices({0, 1, 2, 0, 2, 3});
+  const int packed_view = file.view(packed);
+  const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
+  json view = {{"buffer", 1}, {"byteLength", 16}, {"byteStride", 4}};
+  view["extensions"]["KHR_meshopt_compression"] = {{"buffer", 0},
+                                                   {"byteOffset", where["byteOffset"]},
+                                                   {"byteLength", packed.size()},
+                                                   {"byteStride", 4},
+                                                   {"count", 4},
+                                                   {"mode", "ATTRIBUTES"},
+                                                   {"filter", "COLOR"}};
+  const int decoded = file.add("bufferViews", view);
+  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
+  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 16}}};
+  primitive["attributes"]["COLOR_0"] = file.add("accessors", {{"bufferView", decoded},
+                                                              {"componentType", kUnsignedByte},
+                                                              {"normalized", true},
+                                                              {"type", "VEC4"},
+                                                              {"count", 4}});
+  file.node({{"mesh", file.mesh(primitive)}});
+  const Mesh mesh = only_mesh(file.load());
+  const std::vector<Vec4> expected = {{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0.5f}};
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_LE((mesh.colors[i] - expected[i]).cwiseAbs().maxCoeff(), 1.6f / 255.0f) << i;
+}
+
+TEST(Meshopt, DataOfANewerLibraryIsNamed) {
+  if (MESHOPTIMIZER_VERSION >= 230) GTEST_SKIP() << "this library reads it";
+  GltfBuilder file = meshopt_sheet("TRIANGLES", "KHR_meshopt_compression");
+  const json& view = file.root["bufferViews"][1]["extensions"]["KHR_meshopt_compression"];
+  file.bin[view["byteOffset"].get<std::size_t>()] = 0xa1;
+  file.expect_refused(
+      {"bufferViews[1].extensions.KHR_meshopt_compression", "version 1", "version 0", "libmeshoptimizer"});
 }
 
 TEST(Meshopt, OctahedralFilterGivesNormals) {

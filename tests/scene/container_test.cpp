@@ -129,7 +129,7 @@ TEST(Extensions, AllSupportedExtensionsAreAccepted) {
         "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume",
         "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_unlit", "KHR_materials_variants",
         "KHR_lights_punctual", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
-        "KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     file.root["extensionsRequired"].push_back(name);
     file.root["extensionsUsed"].push_back(name);
   }
