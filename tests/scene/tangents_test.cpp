@@ -135,5 +135,18 @@ TEST(Tangents, TangentsOfTheFileAreUsedWhenANormalMapNeedsThem) {
   EXPECT_TRUE(only_mesh(file.load(options)).tangents.empty()) << "unused";
 }
 
+TEST(Tangents, AllThatNeedsAFrameGetsTheSame) {
+  GltfBuilder file = with_normal_map();
+  file.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+  const LoadOptions options{.missing_is_error = false};
+  const std::vector<Vec4> expected = only_mesh(file.load(options)).tangents;
+  file.root["materials"][0] = {{"extensions", {{"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}}}}}};
+  EXPECT_EQ(only_mesh(file.load(options)).tangents, expected);
+  file.root["materials"][0] = {{"extensions",
+                                {{"KHR_materials_clearcoat",
+                                  {{"clearcoatFactor", 1.0}, {"clearcoatNormalTexture", {{"index", 0}}}}}}}};
+  EXPECT_EQ(only_mesh(file.load(options)).tangents, expected);
+}
+
 }  // namespace
 }  // namespace gatelight::scene
