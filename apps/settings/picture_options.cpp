@@ -212,7 +212,7 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 
 std::vector<Option> picture_options(RenderOptions& options) {
   auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
-         max_error, max_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
+         max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
          light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
          light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
          checkpoint] = options;
@@ -250,8 +250,10 @@ std::vector<Option> picture_options(RenderOptions& options) {
 
   OptionGroup light{table, "Light transport"};
   light.add(integrator_option(integrator, choose_integrator));
-  light.add(common(number("max-depth", max_depth, kDepth, "N",
-                          "Largest number of scattering events; 1: emission and direct light")));
+  light.add(common(number_or("none", "max-depth", max_depth, kDepth, "N",
+                             "Largest number of scattering events; 1: emission and direct light")));
+  light.add(number_or("none", "max-transmission-depth", max_transmission_depth, kDepth, "N",
+                      "Largest number of them that go to the other side of a surface; panes do not count"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
   light.add(choice("direct", direct,
                    "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));

@@ -148,6 +148,7 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
   // Radiance and occlusion have different limits of length.
   if (kind == ReferenceKind::ao) {
     o.max_depth = defaults.max_depth;
+    o.max_transmission_depth = defaults.max_transmission_depth;
   } else {
     o.ao_distance = defaults.ao_distance;
   }

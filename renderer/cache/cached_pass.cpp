@@ -64,7 +64,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       queries_(session.inputs()) {
   plan_.query_at = context.options.cache.query_at;
   plan_.guides = has(context.options.aovs, Aov::cache_radiance);
-  plan_.max_depth = context.options.max_depth;
+  plan_.max_depth = context.options.max_depth.value_or(kNoDepthLimit);
   plan_.min_depth = context.options.min_depth;
   if (context.options.cache.view == CacheView::cache) {
     if (plan_.query_at != QueryAt::none) plan_.query_at = QueryAt::primary;

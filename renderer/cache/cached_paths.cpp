@@ -24,9 +24,6 @@ const Roulette& narrow_roulette(const PathPlan& plan) {
 /// two, single precision cannot represent both, and the vertex makes no record.
 constexpr float kLeastScale = 1e-20f;
 
-/// More scattering events than any path has.
-constexpr int kNoRoulette = 1 << 30;
-
 }  // namespace
 
 StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural::Sides> sides)
@@ -122,7 +119,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray
   const BlockKind kind = kind_of(path, m, kernels, plan);
   int min_depth = plan.min_depth;
   // Where a path ends in the cache, Russian roulette applies at every depth (narrow_roulette), or never.
-  if (kind != kScatters) min_depth = options_.cached.emission() ? path.depth : kNoRoulette;
+  if (kind != kScatters) min_depth = options_.cached.emission() ? path.depth : kNoDepthLimit;
   PathBlock& block = scratch.block_of(kind, kernels);
   path.wait(walk_, m, number, min_depth, block);
   return &block;

@@ -40,7 +40,7 @@ struct PathPlan {
   /// The paths are samples of the picture as well, and as such end in the cache here (PathBatch::ends).
   QueryAt samples_at = QueryAt::none;
   int most_records = kNone;  ///< for each path; kNone: no limit
-  int max_depth = 8;         ///< scattering events
+  int max_depth = kNoDepthLimit;  ///< scattering events
   int min_depth = 2;         ///< before Russian roulette
   /// Light samples whose light over the vertex's reflectance is below this are traced by Russian roulette.
   /// 0: CameraSample::contribution_threshold of the path decides.
@@ -57,12 +57,14 @@ struct PathStart {
 /// The options that these paths read.
 struct CachedPathsOptions {
   MisRule mis;
+  int max_transmission_depth = kNoDepthLimit;
   CachedLight cached;
   float min_roughness = 0.0f;     ///< perceptual; narrower lobes are not cached
   float spread_threshold = 0.0f;  ///< of QueryAt::spread, over the spread at the first surface
 };
 inline CachedPathsOptions cached_paths_options(const RenderOptions& options) {
   return {{options.direct, options.mis},
+          options.max_transmission_depth.value_or(kNoDepthLimit),
           {options.cache.holds},
           options.cache.min_roughness,
           options.cache.spread_threshold};
@@ -74,7 +76,7 @@ class CachedPaths {
 
   /// The world and `stored` must outlive the object.
   CachedPaths(const World& world, const CachedPathsOptions& options, const StoredSurfaces& stored)
-      : walk_(world, options.mis),
+      : walk_(world, options.mis, options.max_transmission_depth),
         options_(options),
         stored_(stored),
         separate_delta_(world.lights.has_delta() && !options.cached.light_sample(true)) {

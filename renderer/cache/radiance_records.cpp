@@ -10,8 +10,6 @@
 namespace gatelight::renderer {
 namespace {
 
-/// More scattering events than Russian roulette lets a path reach: 0.95 to this power is 1e-22.
-constexpr int kEndless = 1000;
 
 /// PathPlan::contribution_threshold over the mean target. It does not change the error of the trained cache
 /// (transport/README.md).
@@ -61,7 +59,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
   // In a path of limited length later vertices have less light than the first, at the same nodes. So only the
   // first vertex becomes a record.
-  plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kEndless;
+  plan.max_depth = options_.cache.path_length > 0 ? options_.cache.path_length : kNoDepthLimit;
   plan.most_records = options_.cache.path_length > 0 ? 1 : kNone;
   plan.min_depth = options_.min_depth;
   plan.contribution_threshold = request.contribution_threshold;

@@ -190,7 +190,7 @@ void add_background(Texts& texts, const BackgroundOptions& options) {
 // set. Cryptomattes are neither in films nor in checkpoints.
 NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
   [[maybe_unused]] const auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths,
-                                time_limit_seconds, max_error, max_depth, min_depth, seed, threads, sampler,
+                                time_limit_seconds, max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler,
                                 filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
                                 clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy,
                                 memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] =
@@ -203,7 +203,8 @@ NamedTexts deciding_options(const RenderOptions& options, const View& view, cons
   texts.add("size", fmt::format("{}x{}", width, height));
   texts.add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
   texts.add("camera", text_of(view));
-  texts.add("max-depth", max_depth);
+  texts.add("max-depth", max_depth, "none");
+  texts.add("max-transmission-depth", max_transmission_depth, "none");
   texts.add("min-depth", min_depth);
   texts.add("seed", seed);
   texts.add("sampler", sampler);

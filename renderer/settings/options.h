@@ -53,6 +53,9 @@ struct CameraOptions {
 /// Number of samples per pixel which means that something else ends the picture.
 inline constexpr int kOpenSpp = 1 << 24;
 
+/// More scattering events than Russian roulette lets a path reach.
+inline constexpr int kNoDepthLimit = 1 << 30;
+
 struct RenderOptions {
   Integrator integrator = Integrator::path;
   /// With nrc: a scene whose light paths are too short for a cache to pay off gets path
@@ -67,7 +70,9 @@ struct RenderOptions {
   /// Time of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off
-  int max_depth = 8;       ///< scattering events; 1 is emission and direct light
+  /// Scattering events; 1 is emission and direct light. Without a limit only Russian roulette ends paths.
+  std::optional<int> max_depth;
+  std::optional<int> max_transmission_depth;  ///< scattering events to the other side of a surface
   int min_depth = 2;       ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
   int threads = 0;  ///< 0: what the machine and the cgroup allow

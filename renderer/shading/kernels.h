@@ -37,10 +37,11 @@ struct BsdfTables {
 /// Russian roulette: paths survive with the probability min(most, factor * sqrt(throughput)). In bright
 /// rooms, where long paths carry much light, the throughput itself costs more noise than it saves time
 /// (Country Kitchen: a tenth more noise in the same time). The throughput leaves out
-/// BsdfSample::radiance_scale, which is no loss.
+/// BsdfSample::radiance_scale, which is no loss. `most` ends paths that lose nothing. With albedos above its
+/// square root the variance would grow with each event.
 struct Roulette {
   float factor = 1.0f;
-  float most = 0.95f;
+  float most = 0.99f;
 };
 
 struct ShadingContext {

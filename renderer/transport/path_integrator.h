@@ -14,11 +14,15 @@ namespace gatelight::renderer {
 /// The options that the path tracer reads.
 struct PathIntegratorOptions {
   MisRule mis;
-  int max_depth = 8;  ///< scattering events
+  int max_depth = kNoDepthLimit;  ///< scattering events
+  int max_transmission_depth = kNoDepthLimit;
   int min_depth = 2;  ///< before Russian roulette
 };
 inline PathIntegratorOptions path_integrator_options(const RenderOptions& options) {
-  return {{options.direct, options.mis}, options.max_depth, options.min_depth};
+  return {{options.direct, options.mis},
+          options.max_depth.value_or(kNoDepthLimit),
+          options.max_transmission_depth.value_or(kNoDepthLimit),
+          options.min_depth};
 }
 
 /// Traces batches of camera paths breadth first: all rays of a depth together, in packets. Thread-safe; the
@@ -29,7 +33,7 @@ class PathIntegrator {
 
   /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
-      : walk_(world, options.mis), options_(options) {}
+      : walk_(world, options.mis, options.max_transmission_depth), options_(options) {}
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
   /// world has groups of lights, their parts are in Scratch::parts.

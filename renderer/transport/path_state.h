@@ -13,15 +13,17 @@
 
 namespace gatelight::renderer {
 
-/// The scene of a walk and its MIS rule.
+/// The scene of a walk and its rules.
 struct Walk {
   const World& world;
   MisRule mis;
+  int max_transmission_depth;  ///< a path ends after that many scattering events to the other side
   Shading shading;
 
-  Walk(const World& where, const MisRule& rule)
+  Walk(const World& where, const MisRule& rule, int max_transmissions)
       : world(where),
         mis(rule),
+        max_transmission_depth(max_transmissions),
         shading(world.lights, world.light_arrays, world.kernels, world.requirements.sheen, mis.direct,
                 mis.heuristic) {}
 };
@@ -105,6 +107,7 @@ struct PathState {
   float contribution_threshold = 0.0f;  ///< CameraSample::contribution_threshold
   std::uint32_t seed = 0;
   std::int32_t depth = 0;      ///< scattering events so far
+  std::int32_t transmissions = 0;  ///< scattering events to the other side so far
   std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
   bool sees_through = true;    ///< all surfaces so far were mirrors or clear
   bool emission_only = false;  ///< from here on the path only passes panes and counts emission
@@ -219,8 +222,8 @@ struct PathState {
     return shadow_roulette_number(seed) * least < contribution ? least / contribution : 0.0f;
   }
 
-  /// Makes the next ray of a lane that is shaded, from its hit. False: the path ends, because it passed too
-  /// many surfaces without scattering.
+  /// Makes the next ray of a lane that is shaded, from its hit. False: the path ends, because it went through
+  /// too many surfaces.
   bool advance(const Walk& walk, const PathBlock& block, int lane, const DirectionSample& sampled,
                const Hit& hit, Ray& ray) {
     const ShadingBlock& p = block.points;
@@ -232,11 +235,12 @@ struct PathState {
       departure.without_mis |= without_mis;
     } else {
       depth += 1;
+      transmissions += sampled.transmitted ? 1 : 0;
       departure = {lane_vector(p.position, lane), light_normal(p, lane), 0.0f, sampled.pdf,
                    sampled.delta || without_mis};
     }
     surfaces += 1;
-    if (surfaces > depth + kMaxPassed) return false;
+    if (surfaces > depth + kMaxPassed || transmissions > walk.max_transmission_depth) return false;
     seed = next_seed(seed);
     ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed};
     cone.width = block.cone_width[lane];

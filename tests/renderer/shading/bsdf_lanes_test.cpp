@@ -303,7 +303,7 @@ TEST(BsdfLanes, RouletteIsThatOfTheScalarCode) {
       const bool pane = plain.is_delta[lane] && plain.transmitted[lane];
       const bool plays = (pane ? 0 : 1) >= p.events_before_roulette;
       const Color throughput = p.throughput * lane_color(plain.weight, lane);
-      const float survival = plays ? std::min(0.95f, std::sqrt(throughput.maxCoeff())) : 1.0f;
+      const float survival = plays ? std::min(Roulette{}.most, std::sqrt(throughput.maxCoeff())) : 1.0f;
       ASSERT_FLOAT_EQ(played.survival[lane], survival);
       const bool survives = !plays || roulette_number(next_seed(p.seed)) < survival;
       ASSERT_EQ(played.alive[lane] != 0, survives);
