@@ -66,7 +66,7 @@ Examples:
   gatelight sweep kitchen.glb sponza.glb -o both --encodings gate,hashgrid --cache-memory same-as-gate --seeds 3
   gatelight sweep kitchen.glb sponza.glb -o both --for sponza:camera=hall --for sponza:environment=0.65,0.8,1
   gatelight sweep kitchen.glb -o kitchen --features 2,4,8 --vary batch=4096,16384 --dry-run
-  gatelight sweep kitchen.glb -o kitchen --preset finished --max-depth 64
+  gatelight sweep kitchen.glb -o kitchen --preset finished
   gatelight sweep kitchen.glb -o kitchen --run 'bare: --preset bare' --run 'gather: --integrator nrc --query-at gather'
   gatelight sweep kitchen.glb -o kitchen --advise --max-error 0.05
   gatelight sweep -o kitchen --advise --max-time 10

@@ -212,10 +212,10 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
 
 std::vector<Option> picture_options(RenderOptions& options) {
   auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths, time_limit_seconds,
-         max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler, filter, filter_width, mis, direct,
-         light_selection, glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
-         light_groups, nan_policy, memory_limit_bytes, isa, camera, environment, background, cache,
-         checkpoint] = options;
+         max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler, filter,
+         filter_width, mis, direct, light_selection, glass_shadows, watertight, clamp, ao_distance, denoise,
+         aovs, cryptomattes, light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
+         background, cache, checkpoint] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);

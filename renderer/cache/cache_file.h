@@ -1,5 +1,5 @@
 #pragma once
-// A trained cache in a file of its own (--cache-out, --cache-in): for another camera of the same scene.
+// A trained cache in a file of its own (`cache-out`, `cache-in`): for another camera of the same scene.
 // renderer/driver/README.md lists what must be equal.
 
 #include <filesystem>

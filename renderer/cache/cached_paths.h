@@ -39,9 +39,9 @@ struct PathPlan {
   bool guides = false;
   /// The paths are samples of the picture as well, and as such end in the cache here (PathBatch::ends).
   QueryAt samples_at = QueryAt::none;
-  int most_records = kNone;  ///< for each path; kNone: no limit
+  int most_records = kNone;       ///< for each path; kNone: no limit
   int max_depth = kNoDepthLimit;  ///< scattering events
-  int min_depth = 2;         ///< before Russian roulette
+  int min_depth = 2;              ///< before Russian roulette
   /// Light samples whose light over the vertex's reflectance is below this are traced by Russian roulette.
   /// 0: CameraSample::contribution_threshold of the path decides.
   float contribution_threshold = 0.0f;

@@ -10,7 +10,6 @@
 namespace gatelight::renderer {
 namespace {
 
-
 /// PathPlan::contribution_threshold over the mean target. It does not change the error of the trained cache
 /// (transport/README.md).
 constexpr float kThresholdShare = 0.3f;

@@ -16,7 +16,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Bytes per triangle of Embree's high-quality, robust BVH while it is built. This is a generous estimate,
-/// not a measurement. The finished BVH has 64 to 67 (gatelight-bench --benchmark_filter=bvh).
+/// not a measurement. The finished BVH has 64 to 67 (the benchmark bvh).
 constexpr std::size_t kBvhBytes = 320;
 constexpr std::size_t kInstanceBytes = 512;
 /// Bytes of an emissive triangle with its node of the light tree and its record for the kernels.

@@ -190,11 +190,11 @@ void add_background(Texts& texts, const BackgroundOptions& options) {
 // set. Cryptomattes are neither in films nor in checkpoints.
 NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
   [[maybe_unused]] const auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths,
-                                time_limit_seconds, max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler,
-                                filter, filter_width, mis, direct, light_selection, glass_shadows, watertight,
-                                clamp, ao_distance, denoise, aovs, cryptomattes, light_groups, nan_policy,
-                                memory_limit_bytes, isa, camera, environment, background, cache, checkpoint] =
-      options;
+                                time_limit_seconds, max_error, max_depth, max_transmission_depth, min_depth,
+                                seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
+                                glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
+                                light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
+                                background, cache, checkpoint] = options;
   [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, library] = denoise;
   std::vector<std::string> layers;
   for (const Aov aov : aovs) layers.push_back(enum_name(aov));

@@ -1,5 +1,5 @@
 #pragma once
-// The group of each light of a picture (--light-groups).
+// The group of each light of a picture (`light-groups`).
 
 #include <cstdint>
 #include <string>

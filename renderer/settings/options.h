@@ -73,7 +73,7 @@ struct RenderOptions {
   /// Scattering events; 1 is emission and direct light. Without a limit only Russian roulette ends paths.
   std::optional<int> max_depth;
   std::optional<int> max_transmission_depth;  ///< scattering events to the other side of a surface
-  int min_depth = 2;       ///< Russian roulette starts after this many scattering events
+  int min_depth = 2;                          ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
   int threads = 0;  ///< 0: what the machine and the cgroup allow
   SamplerKind sampler = SamplerKind::sobol;

@@ -106,11 +106,11 @@ struct PathState {
   Color spectrum{1.0f, 1.0f, 1.0f};
   float contribution_threshold = 0.0f;  ///< CameraSample::contribution_threshold
   std::uint32_t seed = 0;
-  std::int32_t depth = 0;      ///< scattering events so far
+  std::int32_t depth = 0;          ///< scattering events so far
   std::int32_t transmissions = 0;  ///< scattering events to the other side so far
-  std::int32_t surfaces = 0;   ///< hit so far: selects the block of sampler dimensions
-  bool sees_through = true;    ///< all surfaces so far were mirrors or clear
-  bool emission_only = false;  ///< from here on the path only passes panes and counts emission
+  std::int32_t surfaces = 0;       ///< hit so far: selects the block of sampler dimensions
+  bool sees_through = true;        ///< all surfaces so far were mirrors or clear
+  bool emission_only = false;      ///< from here on the path only passes panes and counts emission
 
   PathState() = default;
   PathState(const World& world, const CameraSample& start, std::size_t which)

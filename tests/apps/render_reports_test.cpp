@@ -113,7 +113,7 @@ TEST_F(RenderReports, TheRecipeIsInTheHeader) {
   EXPECT_EQ(recipe.at("spp"), "4");
   EXPECT_EQ(recipe.at("integrator"), "path");
   EXPECT_THAT(recipe.at("command"), HasSubstr("--seed 9"));
-  EXPECT_EQ(json::parse(recipe.at("options"))["max-depth"], 8);
+  EXPECT_EQ(json::parse(recipe.at("options"))["max-depth"], "none");
 }
 
 TEST_F(RenderReports, TheEstimatedErrorIsInSummaryStatisticsAndRecipe) {

@@ -131,7 +131,7 @@ TEST(Glass, NestedBallsAddNoLight) {
                   air, brightest),
       "shells of one object are no media of their own: each refracts as from air, so that deep inside light "
       "is "
-      "reflected totally and ends at --max-depth");
+      "reflected totally and ends at the depth limit of 1000");
 }
 
 /// Mean radiance of a wall that a lamp or a sun lights through a stack of panes.

@@ -32,7 +32,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
          o.region = {{0, 1, 2, 3}};
        },
        {"region", "all", "0,1,2,3"}},
-      {[](O o, C) { o.max_depth = 9; }, {"max-depth", "8", "9"}},
+      {[](O o, C) { o.max_depth = 9; }, {"max-depth", "none", "9"}},
       {[](O o, C) { o.min_depth = 9; }, {"min-depth", "2", "9"}},
       {[](O o, C) { o.seed = 4294967295u; }, {"seed", "0", "4294967295"}},
       {[](O o, C) { o.sampler = SamplerKind::independent; }, {"sampler", "sobol", "independent"}},
