@@ -1,5 +1,8 @@
 #include "apps/settings/option_table.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -54,7 +57,8 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, back_faces, lights, profiles, bake_transforms,
+  auto& [scene, variant, missing_is_error, allow_external, ignored, back_faces, lights, profiles,
+         bake_transforms,
          threads] = load;  // all transforms are baked; --threads of the picture sets the threads
   group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
   group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
@@ -83,6 +87,16 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .in_sweep = SweepUse::scene});
   group.add(of_scene(choice("missing", missing_is_error, kMissing, "When a texture cannot be read")));
   group.add(external_option(allow_external));
+  group.add(
+      {.name = "ignore-required",
+       .unit = "NAME,...",
+       .help =
+           "Extensions of glTF that the file may require although they are not supported: they are left out",
+       .value = [&ignored]() -> OptionValue {
+         return ignored.empty() ? OptionValue() : fmt::format("{}", fmt::join(ignored, ","));
+       },
+       .read = [&ignored](const std::string& text) { ignored = split_list("--ignore-required", text); },
+       .in_sweep = SweepUse::scene});
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {

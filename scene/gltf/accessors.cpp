@@ -131,8 +131,8 @@ AccessorReader::AccessorReader(const Document& document, int accessor)
 void AccessorReader::check_range(const Place& place, std::size_t count, std::size_t stride,
                                  std::size_t element, std::string_view where) const {
   const std::size_t size = gltf::element(document_.model().bufferViews, place.view).byteLength;
-  const bool fits = place.offset <= size && element <= size - place.offset &&
-                    (count - 1) <= (size - place.offset - element) / stride;
+  const bool fits = count == 0 || (place.offset <= size && element <= size - place.offset &&
+                                   (count - 1) <= (size - place.offset - element) / stride);
   if (!fits) {
     document_.fail(where,
                    fmt::format("{} elements of {} bytes at {}, stride {}, expected to fit the {} bytes of "
@@ -141,11 +141,14 @@ void AccessorReader::check_range(const Place& place, std::size_t count, std::siz
   }
 }
 
+bool AccessorReader::fits_attribute(std::initializer_list<int> components) const {
+  return std::find(components.begin(), components.end(), components_) != components.end() &&
+         !is_matrix(accessor_.type) && type_ != kUnsignedInt;
+}
+
 void AccessorReader::expect_attribute(std::string_view semantic,
                                       std::initializer_list<int> components) const {
-  const bool fits = std::find(components.begin(), components.end(), components_) != components.end() &&
-                    !is_matrix(accessor_.type) && type_ != kUnsignedInt;
-  if (fits) return;
+  if (fits_attribute(components)) return;
   std::string wanted;
   for (const int n : components) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", n);
   document_.fail(where_, fmt::format("{} components of type {} for {}, expected {} (not of type 5125)",
@@ -172,6 +175,7 @@ void AccessorReader::for_each_sparse(const Write& write) const {
 void AccessorReader::read_floats(Selection selection, int width, float* out, bool force_normalized) const {
   const bool normalized = force_normalized || accessor_.normalized;
   const std::size_t rows = selection.empty() ? count_ : selection.size();
+  if (rows == 0) return;
   if (sparse_count_ > 0) {
     // Sparse accessors are rare and small: the whole accessor is assembled, then the selection is read from
     // it.
@@ -200,6 +204,7 @@ void AccessorReader::read_indices(std::uint32_t* out) const {
                    fmt::format("{} components of type {} for indices, expected 1 of 5121, 5123 or 5125",
                                components_, type_));
   }
+  if (count_ == 0) return;
   if (place_.view >= 0) {
     copy_indices(type_, data(place_), stride_, count_, out);
   } else {
@@ -208,11 +213,6 @@ void AccessorReader::read_indices(std::uint32_t* out) const {
   for_each_sparse([&](std::uint32_t index, const std::uint8_t* element) {
     copy_indices(type_, element, element_size_, 1, out + index);
   });
-}
-
-void check_accessors(const Document& document) {
-  for (std::size_t i = 0; i < document.model().accessors.size(); ++i)
-    AccessorReader(document, static_cast<int>(i));
 }
 
 }  // namespace gatelight::scene::gltf

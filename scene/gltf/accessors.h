@@ -38,8 +38,10 @@ class AccessorReader {
   int component_type() const { return type_; }
   const std::string& where() const { return where_; }
 
-  /// Throws InputError for another number of components, for matrices, and for unsigned 32-bit integers,
-  /// which only indices may have.
+  /// False for another number of components, for matrices, and for unsigned 32-bit integers, which only
+  /// indices may have.
+  bool fits_attribute(std::initializer_list<int> components) const;
+  /// Throws InputError where that is false.
   void expect_attribute(std::string_view semantic, std::initializer_list<int> components) const;
 
   /// Writes selection.size() (or count()) rows of `width` floats. Integers are mapped to [0, 1] or [-1, 1] if
@@ -80,8 +82,5 @@ class AccessorReader {
   Place sparse_indices_;
   Place sparse_values_;
 };
-
-/// Checks every accessor of the file, used or not. Throws InputError.
-void check_accessors(const Document& document);
 
 }  // namespace gatelight::scene::gltf

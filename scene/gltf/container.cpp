@@ -29,42 +29,50 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
   const std::uint32_t version = read_u32(bytes, 4);
   if (version != 2) throw make_error(file, "header", fmt::format("version {}, expected 2", version));
   const std::uint32_t length = read_u32(bytes, 8);
-  if (length < 12 || length > bytes.size()) {
-    throw make_error(
-        file, "header",
-        fmt::format("length {}, expected 12 to {} (the size of the file)", length, bytes.size()));
-  }
-  if (length < bytes.size()) {
+  if (length < 20 || length > bytes.size()) {
+    warnings.add(fmt::format("header: length {}, expected 20 to {} (the size of the file); all is read",
+                             length, bytes.size()));
+  } else if (length < bytes.size()) {
     warnings.add(
         fmt::format("header: {} bytes after the end of the .glb are ignored", bytes.size() - length));
+    bytes = bytes.first(length);
   }
-  bytes = bytes.first(length);
 
   bool has_json = false;
   std::size_t offset = 12;
   for (int chunk = 0; offset < bytes.size(); ++chunk) {
     const std::string where = fmt::format("chunk {}", chunk);
     if (bytes.size() - offset < 8) {
-      throw make_error(file, where,
-                       fmt::format("{} bytes left, expected a header of 8", bytes.size() - offset));
+      warnings.add(fmt::format("{}: {} bytes left, expected a header of 8; they are ignored", where,
+                               bytes.size() - offset));
+      break;
     }
-    const std::uint32_t size = read_u32(bytes, offset);
+    std::size_t size = read_u32(bytes, offset);
     const std::uint32_t type = read_u32(bytes, offset + 4);
     offset += 8;
     if (size > bytes.size() - offset) {
-      throw make_error(file, where,
-                       fmt::format("length {}, expected at most {}", size, bytes.size() - offset));
+      warnings.add(fmt::format("{}: length {}, expected at most {}, which is taken", where, size,
+                               bytes.size() - offset));
+      size = bytes.size() - offset;
     }
     const Bytes content = bytes.subspan(offset, size);
     if (chunk == 0 && type != kJson) {
       throw make_error(file, where, fmt::format("type {:#010x}, expected JSON first", type));
     }
     if (type == kJson) {
-      if (has_json) throw make_error(file, where, "a second JSON chunk, expected one");
+      if (has_json) {
+        warnings.add(where + ": a second JSON chunk is ignored");
+        offset += size;
+        continue;
+      }
       has_json = true;
       container.json = {reinterpret_cast<const char*>(content.data()), content.size()};
     } else if (type == kBinary) {
-      if (container.has_binary) throw make_error(file, where, "a second BIN chunk, expected one at most");
+      if (container.has_binary) {
+        warnings.add(where + ": a second BIN chunk is ignored");
+        offset += size;
+        continue;
+      }
       container.has_binary = true;
       container.binary = content;
     }

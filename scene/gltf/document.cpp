@@ -22,20 +22,25 @@ constexpr std::size_t kSmallScene = std::size_t{1} << 30;
 /// The shortest node that shows a mesh has 10 characters, and 537 bytes in tinygltf's model.
 constexpr std::size_t kMostPerCharacter = 64;
 
+/// Views that reach beyond the bytes that are there are refused where they are read.
+void warn_of_length(std::size_t buffer, std::size_t found, std::size_t expected, Warnings& warnings) {
+  if (found >= expected) return;
+  warnings.add(fmt::format("buffers[{}]: {} bytes, expected {} (byteLength)", buffer, found, expected));
+}
+
 }  // namespace
 
-Document::Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings)
+Document::Document(const std::filesystem::path& path, const LoadOptions& options, Warnings& warnings)
     : file_(path.string()),
-      uris_{path.parent_path(), allow_external},
+      uris_{path.parent_path(), options.allow_external},
       container_(open_container(path, warnings)),
       read_bytes_(container_.file.size()) {
-  json root = judge(container_.json, file_, warnings);
+  json root = judge(container_.json, file_, options, warnings);
   check_model_size(model_bytes(root));
-  take_binary(root);
-  model_ =
-      read_model(std::move(root), file_, [this](std::size_t i, const std::string& uri, std::size_t length) {
-        return read_buffer(i, uri, length);
-      });
+  take_binary(root, warnings);
+  model_ = read_model(std::move(root), file_, [&](std::size_t i, const std::string& uri, std::size_t length) {
+    return read_buffer(i, uri, length, warnings);
+  });
   for (const tinygltf::Buffer& buffer : model_.buffers) buffers_.emplace_back(buffer.data);
   if (!container_.binary.empty()) buffers_[0] = container_.binary;
   decoded_.resize(model_.bufferViews.size());
@@ -50,7 +55,7 @@ void Document::check_model_size(std::size_t bytes) const {
 }
 
 /// Keeps the file's bytes only if its first buffer is the .glb's BIN chunk.
-void Document::take_binary(const json& root) {
+void Document::take_binary(const json& root, Warnings& warnings) {
   const auto buffers = root.find("buffers");
   const bool used =
       container_.has_binary && buffers != root.end() && !buffers->empty() && !(*buffers)[0].contains("uri");
@@ -59,22 +64,17 @@ void Document::take_binary(const json& root) {
     return;
   }
   const std::size_t length = (*buffers)[0]["byteLength"];
-  check_length(0, container_.binary.size(), length);
-  container_.binary = container_.binary.first(length);
+  warn_of_length(0, container_.binary.size(), length, warnings);
+  container_.binary = container_.binary.first(std::min(length, container_.binary.size()));
 }
 
-OwnedBytes Document::read_buffer(std::size_t index, const std::string& uri, std::size_t length) {
-  OwnedBytes bytes = read(uri, fmt::format("buffers[{}].uri", index));
+OwnedBytes Document::read_buffer(std::size_t index, const std::string& uri, std::size_t length,
+                                 Warnings& warnings) {
+  OwnedBytes bytes = read(uri, fmt::format("buffers[{}].uri", index), warnings);
   read_bytes_ += bytes.size();
-  check_length(index, bytes.size(), length);
-  bytes.resize(length);
+  warn_of_length(index, bytes.size(), length, warnings);
+  bytes.resize(std::min(length, bytes.size()));
   return bytes;
-}
-
-void Document::check_length(std::size_t buffer, std::size_t found, std::size_t expected) const {
-  if (found >= expected) return;
-  fail(fmt::format("buffers[{}]", buffer),
-       fmt::format("{} bytes, expected {} (byteLength)", found, expected));
 }
 
 void Document::claim(std::size_t bytes, std::string_view where) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/gltf.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/model.h"
 #include "scene/gltf/uri.h"
@@ -14,16 +15,16 @@ namespace gatelight::scene::gltf {
 
 class Document {
  public:
-  /// Opens the file and checks everything that needs no decoding: schema, extensions, buffers, and that every
-  /// buffer view lies in its buffer. Throws InputError.
-  Document(const std::filesystem::path& path, bool allow_external, Warnings& warnings);
+  /// Opens the file, and checks what the shown scene refers to and what needs no decoding: schema,
+  /// extensions, buffers, and that every buffer view lies in its buffer. Throws InputError.
+  Document(const std::filesystem::path& path, const LoadOptions& options, Warnings& warnings);
 
   /// Its buffers that are part of a .glb are empty; view() has their bytes.
   const tinygltf::Model& model() const { return model_; }
   const std::string& file() const { return file_; }
   /// The bytes behind a URI of this file. Throws InputError.
-  OwnedBytes read(const std::string& uri, std::string_view where) const {
-    return read_uri(uri, uris_, file_, where);
+  OwnedBytes read(const std::string& uri, std::string_view where, Warnings& warnings) const {
+    return read_uri(uri, uris_, file_, where, warnings);
   }
   /// Call this, from one thread, before allocating `bytes` because of a count in the file. Throws InputError
   /// if the sum of all calls is implausible for a file of this size: a huge count needs only a few
@@ -39,16 +40,15 @@ class Document {
 
  private:
   void check_model_size(std::size_t bytes) const;
-  void take_binary(const nlohmann::json& root);
-  OwnedBytes read_buffer(std::size_t index, const std::string& uri, std::size_t length);
-  void check_length(std::size_t buffer, std::size_t found, std::size_t expected) const;
+  void take_binary(const nlohmann::json& root, Warnings& warnings);
+  OwnedBytes read_buffer(std::size_t index, const std::string& uri, std::size_t length, Warnings& warnings);
   Bytes range(int buffer, std::size_t offset, std::size_t length, std::string_view where) const;
 
   std::string file_;
   UriOptions uris_;
   Container container_;
   tinygltf::Model model_;
-  std::vector<Bytes> buffers_;               ///< byteLength bytes; empty for a placeholder
+  std::vector<Bytes> buffers_;               ///< byteLength bytes, or fewer; empty for a placeholder
   std::size_t read_bytes_ = 0;               ///< size of the file and its buffers
   mutable std::size_t claimed_ = 0;          ///< sum of all claims, bytes
   mutable std::mutex mutex_;                 ///< guards decoded_

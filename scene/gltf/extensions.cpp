@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -41,22 +42,53 @@ constexpr std::string_view kSupported[] = {
     "MSFT_texture_dds",
 };
 
-bool is_supported(std::string_view name) {
-  return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
+/// Unsupported ones that no still picture needs: animation, physics, sound, interaction, other data about the
+/// scene, levels of detail, and hints.
+constexpr std::string_view kHarmless[] = {
+    "EXT_feature_metadata",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_mesh_manifold",
+    "EXT_structural_metadata",
+    "KHR_animation_pointer",
+    "KHR_audio_emitter",
+    "KHR_collision_shapes",
+    "KHR_implicit_shapes",
+    "KHR_interactivity",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_physics_rigid_bodies",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+};
+
+bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
 
-void check_extensions(const json& root, std::string_view file, Warnings& warnings) {
-  for (const std::string name : root.value("extensionsRequired", json::array())) {
-    if (!is_supported(name)) {
-      throw make_error(file, "extensionsRequired",
-                       fmt::format("{} is not supported, expected only supported extensions", name));
+void check_extensions(const json& root, const std::vector<std::string>& ignored, std::string_view file,
+                      Warnings& warnings) {
+  const json required = root.value("extensionsRequired", json::array());
+  for (const std::string name : required) {
+    const bool passes = is_one_of(kSupported, name) || is_one_of(kHarmless, name) ||
+                        std::find(ignored.begin(), ignored.end(), name) != ignored.end();
+    if (!passes) {
+      throw make_error(
+          file, "extensionsRequired",
+          fmt::format("{} is not supported, expected only supported extensions (`ignore-required` "
+                      "renders without it)",
+                      name));
     }
   }
-  for (const std::string name : root.value("extensionsUsed", json::array())) {
-    if (!is_supported(name)) {
-      warnings.add(fmt::format("extensionsUsed: {} is not supported and ignored", name));
+  for (const json& names : {required, root.value("extensionsUsed", json::array())}) {
+    for (const std::string name : names) {
+      if (!is_one_of(kSupported, name))
+        warnings.add(fmt::format("the extension {} is not supported and ignored", name));
     }
   }
 }

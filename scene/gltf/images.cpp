@@ -100,7 +100,7 @@ Image read(const Document& document, const tinygltf::Image& source, const std::s
            const std::string& name, Warnings& warnings) {
   const std::string named = fmt::format("{} ({})", where, name);
   if (!source.uri.empty())
-    return decode(document, document.read(source.uri, where + ".uri"), named, warnings);
+    return decode(document, document.read(source.uri, where + ".uri", warnings), named, warnings);
   if (source.bufferView < 0) throw image_error(document, where, "neither uri nor bufferView");
   return decode(document, document.view(source.bufferView, where), named, warnings);
 }

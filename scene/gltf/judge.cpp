@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <set>
 #include <string>
 
 #include "scene/gltf/extensions.h"
@@ -50,19 +52,28 @@ json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-/// Accepts "2." and digits: the specification keeps minor versions compatible.
+/// Accepts "2", and "2." with digits: the specification keeps minor versions compatible.
 bool is_version_2(std::string_view version) {
-  return version.size() > 2 && version.starts_with("2.") &&
-         version.find_first_not_of("0123456789", 2) == std::string_view::npos;
+  return version == "2" || (version.size() > 2 && version.starts_with("2.") &&
+                            version.find_first_not_of("0123456789", 2) == std::string_view::npos);
 }
 
-void check_version(const json& asset, std::string_view file) {
-  for (const char* key : {"version", "minVersion"}) {
-    if (!asset.contains(key)) continue;
-    const std::string& version = asset[key].get_ref<const std::string&>();
-    const bool fits = std::string_view(key) == "version" ? is_version_2(version) : version == "2.0";
-    if (!fits)
-      throw make_error(file, fmt::format("asset.{}", key), fmt::format("'{}', expected 2.0", version));
+/// Before all else: lists of other versions have another form.
+void check_version(json& root, std::string_view file, Warnings& warnings) {
+  json& asset = root["asset"];
+  if (!asset.is_object()) asset = json::object();
+  const auto version = asset.find("version");
+  if (version == asset.end() || !version->is_string()) {
+    warnings.add("asset.version: missing, taken as 2.0");
+    asset["version"] = "2.0";
+  } else if (const std::string& text = version->get_ref<const std::string&>(); !is_version_2(text)) {
+    throw make_error(file, "asset.version", fmt::format("'{}', expected 2.0", text));
+  }
+  const auto least = asset.find("minVersion");
+  if (least != asset.end() && *least != "2.0") {
+    throw make_error(
+        file, "asset.minVersion",
+        fmt::format("{}, expected 2.0", least->dump(-1, ' ', false, json::error_handler_t::replace)));
   }
 }
 
@@ -70,38 +81,75 @@ void check_version(const json& asset, std::string_view file) {
 const json& list(const json& root, const char* name) {
   static const json kNone = json::array();
   const auto found = root.find(name);
-  return found == root.end() ? kNone : *found;
+  return found == root.end() || !found->is_array() ? kNone : *found;
 }
 
-/// The members that a type demands, which the schema's table cannot express.
-void check_descriptions(const json& root, std::string_view file) {
-  const auto require = [&](const json& object, const std::string& member, const std::string& where) {
-    if (!object.contains(member)) throw make_error(file, where, fmt::format("no {}, expected one", member));
-  };
-  const json& cameras = list(root, "cameras");
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    require(cameras[i], cameras[i]["type"], fmt::format("cameras[{}]", i));
+/// A file without scenes shows all its nodes.
+void add_scene(json& root, Warnings& warnings) {
+  if (!list(root, "scenes").empty() || list(root, "nodes").empty()) return;
+  std::set<json> children;
+  for (const json& node : list(root, "nodes")) {
+    if (!node.is_object()) continue;
+    for (const json& child : list(node, "children")) children.insert(child);
   }
+  json roots = json::array();
+  for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
+    if (!children.contains(i)) roots.push_back(i);
+  }
+  root["scenes"] = json::array({{{"nodes", std::move(roots)}}});
+  warnings.add("the file has no scene; all its nodes are shown");
+}
+
+/// Members of cameras and lights that depend on their type, which the schema's table cannot express. tinygltf
+/// wants some that no picture needs.
+void complete_cameras(json& root, std::string_view file) {
+  if (!root.contains("cameras")) return;
+  json& cameras = root["cameras"];
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::string type = cameras[i]["type"];
+    if (!cameras[i].contains(type)) {
+      throw make_error(file, fmt::format("cameras[{}]", i), fmt::format("no {}, expected one", type));
+    }
+    for (const char* plane : {"znear", "zfar"}) {
+      if (!cameras[i][type].contains(plane)) cameras[i][type][plane] = 0.0;
+    }
+  }
+}
+
+void complete_lights(json& root, Warnings& warnings) {
   const json::json_pointer place("/extensions/KHR_lights_punctual/lights");
   if (!root.contains(place)) return;
-  const json& lights = root.at(place);
+  json& lights = root.at(place);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (lights[i]["type"] != "spot") continue;
-    require(lights[i], "spot", fmt::format("extensions.KHR_lights_punctual.lights[{}]", i));
+    json& type = lights[i]["type"];
+    if (type.is_null()) type = "unknown";
+    if (type != "spot" || lights[i].contains("spot")) continue;
+    warnings.add(
+        fmt::format("extensions.KHR_lights_punctual.lights[{}]: no spot, its defaults are taken", i));
+    lights[i]["spot"] = json::object();
   }
 }
 
-void check_views(const json& root, std::string_view file) {
-  const json& views = list(root, "bufferViews");
+void check_views(json& root, std::string_view file, Warnings& warnings) {
+  if (!root.contains("bufferViews")) return;
+  json& views = root["bufferViews"];
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const json& view = views[i];
+    json& view = views[i];
     const std::string where = fmt::format("bufferViews[{}]", i);
-    const std::size_t stride = view.value("byteStride", std::size_t{0});
-    if (stride % 4 != 0)
-      throw make_error(file, where, fmt::format("byteStride {}, expected a multiple of 4", stride));
+    const std::size_t size = view["byteLength"];
+    if (view.contains("byteStride")) {
+      const std::size_t stride = view["byteStride"];
+      if (stride == 0) {
+        warnings.add(fmt::format("{}: byteStride 0, read as missing", where));
+        view.erase("byteStride");
+      } else if (stride % 4 != 0 || stride > 252) {
+        warnings.add(fmt::format("{}: byteStride {}, expected a multiple of 4 up to 252; taken as it is",
+                                 where, stride));
+      }
+    }
+    if (size == 0) continue;
     const std::size_t buffer = view["buffer"];
     const std::size_t offset = view.value("byteOffset", std::size_t{0});
-    const std::size_t size = view["byteLength"];
     const std::size_t length = list(root, "buffers")[buffer]["byteLength"];
     if (offset > length || size > length - offset) {
       throw make_error(
@@ -113,13 +161,15 @@ void check_views(const json& root, std::string_view file) {
 
 }  // namespace
 
-json judge(std::string_view text, std::string_view file, Warnings& warnings) {
+json judge(std::string_view text, std::string_view file, const LoadOptions& options, Warnings& warnings) {
   json root = parse_json(text, file);
-  check_schema(root, file);
-  check_version(root["asset"], file);
-  check_descriptions(root, file);
-  check_extensions(root, file, warnings);
-  check_views(root, file);
+  check_version(root, file, warnings);
+  add_scene(root, warnings);
+  check_schema(root, options.scene, file, warnings);
+  check_extensions(root, options.ignore_required, file, warnings);
+  complete_cameras(root, file);
+  complete_lights(root, warnings);
+  check_views(root, file, warnings);
   return root;
 }
 

@@ -18,6 +18,7 @@
 #include "base/nearest_word.h"
 #include "base/platform/threads.h"
 #include "scene/bake.h"
+#include "scene/doubled_lamps.h"
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/image_light.h"
@@ -57,12 +58,11 @@ class Numbering {
 class Loader {
  public:
   Loader(const std::filesystem::path& path, const LoadOptions& options)
-      : options_(options), document_(path, options.allow_external, warnings_) {
+      : options_(options), document_(path, options, warnings_) {
     scene_.path = path.string();
   }
 
   Scene load() {
-    check_accessors(document_);
     read_variants();
     Graph graph = flatten_nodes(document_, options_.scene, warnings_);
     scene_.lights = std::move(graph.lights);
@@ -78,6 +78,7 @@ class Loader {
       scene_.image_light = load_image_light(document_, shown, options_.missing_is_error, warnings_);
     }
     if (options_.bake_transforms) bake_transforms(scene_);
+    separate_doubled_lamps(scene_);
     scene_.bounds = compute_bounds(scene_);
     check_bounds();
     adjust_lights(scene_, options_.lights);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "scene/gltf/error.h"
@@ -50,6 +50,7 @@ class Reader {
     for_each(root, "buffers", [&](json& buffer) { take_buffer(buffer); });
     for_each(root, "images", [&](json& image) { take_image(image); });
     for_each(root, "bufferViews", widen);
+    for_each(root, "bufferViews", [&](json& view) { take_stride(view); });
     add_view(root);
     for_each(root, "nodes", keep_priority);
   }
@@ -61,9 +62,8 @@ class Reader {
                           void* self) {
       std::size_t index = 0;
       std::from_chars(path.data(), path.data() + path.size(), index);
-      const Buffer& buffer = static_cast<const Reader*>(self)->buffers_[index];
-      *out = buffer.uri ? static_cast<const Reader*>(self)->read_(index, *buffer.uri, buffer.length)
-                        : std::vector<unsigned char>(1);
+      *out = std::move(static_cast<Reader*>(self)->buffers_[index]);
+      if (out->empty()) out->resize(1);
       return true;
     };
     reader.SetFsCallbacks({exists, expand, whole, nullptr, this});
@@ -72,12 +72,13 @@ class Reader {
   void complete(tinygltf::Model& model) {
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
       model.buffers[i].uri.clear();
-      if (!buffers_[i].uri) model.buffers[i].data.clear();
+      if (is_empty_[i]) model.buffers[i].data.clear();
     }
     for (std::size_t i = 0; i < images_.size(); ++i) {
       model.images[i].uri = std::move(images_[i].uri);
       model.images[i].bufferView = images_[i].view;
     }
+    for (std::size_t i = 0; i < strides_.size(); ++i) model.bufferViews[i].byteStride = strides_[i];
     if (no_view_ < 0) return;
     model.bufferViews.pop_back();
     for (tinygltf::Accessor& accessor : model.accessors) {
@@ -86,10 +87,6 @@ class Reader {
   }
 
  private:
-  struct Buffer {
-    std::optional<std::string> uri;
-    std::size_t length;
-  };
   struct Image {
     std::string uri;
     int view;
@@ -99,17 +96,22 @@ class Reader {
     return std::move(object[name].get_ref<std::string&>());
   }
 
-  /// tinygltf wants a URI of each buffer, copies data URIs several times, and reads a '+' of a name as a
-  /// space. It is given the buffer's index, and asks for the file of this name.
+  /// tinygltf wants a URI of each buffer and at least one byte, copies data URIs several times, and reads a
+  /// '+' of a name as a space. It is given the buffer's index, and asks for the file of this name.
   void take_buffer(json& buffer) {
-    Buffer taken{std::nullopt, buffer["byteLength"]};
-    if (buffer.contains("uri")) {
-      taken.uri = take_text(buffer, "uri");
-    } else {
-      buffer["byteLength"] = 1u;
-    }
+    std::vector<std::uint8_t> bytes;
+    if (buffer.contains("uri"))
+      bytes = read_(buffers_.size(), take_text(buffer, "uri"), buffer["byteLength"]);
+    buffer["byteLength"] = std::max<std::size_t>(bytes.size(), 1);
     buffer["uri"] = std::to_string(buffers_.size());
-    buffers_.push_back(std::move(taken));
+    is_empty_.push_back(bytes.empty());
+    buffers_.push_back(std::move(bytes));
+  }
+
+  /// tinygltf refuses strides that are no multiple of 4 up to 252.
+  void take_stride(json& view) {
+    strides_.push_back(view.value("byteStride", std::size_t{0}));
+    view.erase("byteStride");
   }
 
   /// tinygltf would read every picture, used or not, one after another, and its bytes without a check of
@@ -162,7 +164,9 @@ class Reader {
   }
 
   const ReadBuffer& read_;
-  std::vector<Buffer> buffers_;
+  std::vector<std::vector<std::uint8_t>> buffers_;  ///< until tinygltf has taken them
+  std::vector<bool> is_empty_;
+  std::vector<std::size_t> strides_;
   std::vector<Image> images_;
   int no_view_ = -1;
 };

@@ -14,7 +14,7 @@
 
 namespace gatelight::scene::gltf {
 
-/// Returns exactly `length` bytes of buffer `index`, which has this URI.
+/// Returns at most `length` bytes of buffer `index`, which has this URI.
 using ReadBuffer =
     std::function<std::vector<std::uint8_t>(std::size_t index, const std::string& uri, std::size_t length)>;
 

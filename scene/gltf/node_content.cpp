@@ -57,16 +57,22 @@ Camera make_camera(const Document& document, int node_index, const Eigen::Affine
   return camera;
 }
 
-PunctualLight make_light(const Document& document, int node_index, int light_index,
-                         const Eigen::Affine3d& world) {
+std::optional<PunctualLight> make_light(const Document& document, int node_index, int light_index,
+                                        const Eigen::Affine3d& world, Warnings& warnings) {
   const tinygltf::Light& source = element(document.model().lights, light_index);
   PunctualLight light;
   light.name = name_of(source.name, element(document.model().nodes, node_index).name);
-  if (source.type == "directional") light.type = LightType::directional;
-  if (source.type == "spot") light.type = LightType::spot;
+  const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light_index);
+  if (source.type == "directional") {
+    light.type = LightType::directional;
+  } else if (source.type == "spot") {
+    light.type = LightType::spot;
+  } else if (source.type != "point") {
+    warnings.add(where + ": a light without a known type is left out");
+    return std::nullopt;
+  }
   light.intensity = vector_or<Color>(source.color, Color::Ones()).max(0.0f);
   light.intensity *= static_cast<float>(source.intensity);
-  const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light_index);
   if (!light.intensity.allFinite()) document.fail(where, "intensity too large, expected finite numbers");
   light.position = world.translation().cast<float>();
   const Eigen::Vector3d direction = -world.linear().col(2).stableNormalized();
@@ -79,10 +85,12 @@ PunctualLight make_light(const Document& document, int node_index, int light_ind
     const double outer = std::min(source.spot.outerConeAngle, static_cast<double>(kPi) / 2.0);
     const double inner = source.spot.innerConeAngle;
     if (!(inner < outer)) {
-      document.fail(where + ".spot",
-                    fmt::format("innerConeAngle {}, expected less than outerConeAngle {}", inner, outer));
+      warnings.add(
+          fmt::format("{}.spot: innerConeAngle {}, expected less than outerConeAngle {}; a hard edge is "
+                      "taken",
+                      where, inner, outer));
     }
-    light.cos_inner = static_cast<float>(std::cos(inner));
+    light.cos_inner = static_cast<float>(std::cos(std::min(inner, outer)));
     light.cos_outer = static_cast<float>(std::cos(outer));
   }
   return light;
@@ -99,7 +107,7 @@ std::map<std::string, int> instance_attributes(const tinygltf::Value& extension)
 
 std::vector<Eigen::Affine3d> read_instances(const Document& document,
                                             const std::map<std::string, int>& attributes,
-                                            const std::string& where) {
+                                            const std::string& where, Warnings& warnings) {
   // Custom attributes must have the same count, too.
   std::size_t count = 0;
   for (const auto& [semantic, accessor] : attributes) {
@@ -130,11 +138,11 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document,
     if (!rotations.empty()) {
       const Eigen::Quaterniond q(rotations[i * 4 + 3], rotations[i * 4], rotations[i * 4 + 1],
                                  rotations[i * 4 + 2]);
-      if (!(q.norm() > 1e-6)) {
-        document.fail(where,
-                      fmt::format("ROTATION {} of length {}, expected a unit quaternion", i, q.norm()));
+      if (q.norm() > 1e-6) {
+        t.rotate(q.normalized());
+      } else {
+        warnings.add(where + ": a ROTATION of length 0, expected a unit quaternion; no rotation is taken");
       }
-      t.rotate(q.normalized());
     }
     if (!scales.empty()) t.scale(Eigen::Map<const Vec3>(&scales[i * 3]).cast<double>());
   }

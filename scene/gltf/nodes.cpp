@@ -16,7 +16,7 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-Transform local_transform(const Document& document, int index) {
+Transform local_transform(const Document& document, int index, Warnings& warnings) {
   const tinygltf::Node& node = element(document.model().nodes, index);
   const auto where = [&](const char* member) { return fmt::format("nodes[{}].{}", index, member); };
   Transform t = Transform::Identity();
@@ -31,8 +31,11 @@ Transform local_transform(const Document& document, int index) {
   }
   t.translate(vector_or<Eigen::Vector3d>(node.translation, Eigen::Vector3d::Zero()));
   const Eigen::Quaterniond q(vector_or<Eigen::Vector4d>(node.rotation, Eigen::Vector4d::UnitW()));
-  if (!(q.norm() > 1e-12)) document.fail(where("rotation"), "0 0 0 0, expected a unit quaternion");
-  t.rotate(q.normalized());
+  if (q.norm() > 1e-12) {
+    t.rotate(q.normalized());
+  } else {
+    warnings.add(where("rotation") + ": 0 0 0 0, expected a unit quaternion; no rotation is taken");
+  }
   t.scale(vector_or<Eigen::Vector3d>(node.scale, Eigen::Vector3d::Ones()));
   return t;
 }
@@ -85,22 +88,27 @@ class GraphWalk {
       bool visible;
     };
     const std::vector<int>& roots = element(document_.model().scenes, scene).nodes;
+    std::vector<char> is_listed(parents_.size(), 0);
+    for (const int root : roots) is_listed[static_cast<std::size_t>(root)] = 1;
     std::vector<char> is_root(parents_.size(), 0);
     std::vector<Entry> stack;
     for (std::size_t i = roots.size(); i-- > 0;) {
       const std::size_t root = static_cast<std::size_t>(roots[i]);
-      const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
-      if (parents_[root] >= 0) {
-        document_.fail(where, fmt::format("node {} has a parent, expected a root", root));
-      }
-      if (is_root[root]) document_.fail(where, fmt::format("node {} is listed twice, expected once", root));
+      const auto warn = [&](const char* what) {
+        warnings_.add(fmt::format("scenes[{}].nodes[{}]: node {} {}", scene, i, root, what));
+      };
+      bool shown = is_root[root] != 0;
+      if (shown) warn("is listed twice, shown once");
+      for (int p = parents_[root]; p >= 0 && !shown; p = parents_[static_cast<std::size_t>(p)])
+        shown = is_listed[static_cast<std::size_t>(p)] != 0;
+      if (parents_[root] >= 0) warn(shown ? "is shown as a child" : "has a parent, it is shown as a root");
       is_root[root] = 1;
-      stack.push_back({roots[i], Transform::Identity(), true});
+      if (!shown) stack.push_back({roots[i], Transform::Identity(), true});
     }
     while (!stack.empty()) {
       const Entry entry = stack.back();
       stack.pop_back();
-      const Transform world = entry.parent * local_transform(document_, entry.node);
+      const Transform world = entry.parent * local_transform(document_, entry.node, warnings_);
       const tinygltf::Node& node = element(document_.model().nodes, entry.node);
       const bool visible = entry.visible && is_visible(node);
       visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), visible);
@@ -128,10 +136,12 @@ class GraphWalk {
       graph_.camera_positions.push_back(world.translation());
     }
     const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
-    if (visible && light) {
-      graph_.lights.push_back(make_light(document_, index, integer_or(*light, "light", 0), world));
-      graph_.light_positions.push_back(world.translation());
-    }
+    if (!visible || !light) return;
+    std::optional<PunctualLight> made =
+        make_light(document_, index, integer_or(*light, "light", 0), world, warnings_);
+    if (!made) return;
+    graph_.lights.push_back(*std::move(made));
+    graph_.light_positions.push_back(world.translation());
   }
 
   void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
@@ -151,7 +161,7 @@ class GraphWalk {
         warnings_.add(where + ": no attributes that give the number of instances; drawn once");
         add(pose, name, base, priority);
       }
-      for (const Transform& t : read_instances(document_, attributes, where)) {
+      for (const Transform& t : read_instances(document_, attributes, where, warnings_)) {
         add(pose, name, checked(base * t, where), priority);
       }
     } else {
@@ -211,7 +221,7 @@ class GraphWalk {
     }
     for (std::size_t k = unknown.size(); k-- > 0;) {
       const int parent = parents_[static_cast<std::size_t>(unknown[k])];
-      const Transform local = local_transform(document_, unknown[k]);
+      const Transform local = local_transform(document_, unknown[k], warnings_);
       worlds_[static_cast<std::size_t>(unknown[k])] =
           parent < 0 ? local : *worlds_[static_cast<std::size_t>(parent)] * local;
     }

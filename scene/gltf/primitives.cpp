@@ -129,18 +129,25 @@ Mesh load_primitive(const Document& document, const Pose& pose, int primitive_in
     warnings.add("points and lines are not drawn");
     return mesh;
   }
+  if (!primitive.attributes.contains("POSITION")) {
+    warnings.add(fmt::format("{}: no POSITION, it is left out", where));
+    return mesh;
+  }
   const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_draco_mesh_compression");
   std::optional<DracoPrimitive> draco;
   if (extension) draco.emplace(document, *extension, where);
 
-  const Vertices vertices(document, primitive, draco ? &*draco : nullptr, where);
+  const Vertices vertices(document, primitive, draco ? &*draco : nullptr, where, warnings);
   if (draco) {
     draco->read_triangles(mesh.triangles);
     check_indices(document, mesh.triangles, vertices.count(), where);
-  } else {
+  } else if (vertices.count() > 0) {
     mesh.triangles = read_triangles(document, primitive, vertices.count(), where, warnings);
   }
-  if (mesh.triangles.empty()) return mesh;
+  if (mesh.triangles.empty()) {
+    warnings.add(fmt::format("{}: no triangles, it is left out", where));
+    return mesh;
+  }
   const std::vector<std::uint32_t> selection = compact(mesh.triangles, vertices.count());
 
   Needs needs = needs_of(material);

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "scene/gltf/error.h"
+#include "scene/gltf/references.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -51,15 +52,22 @@ bool is_choice(std::string_view choices, std::string_view value) {
 
 class Checker {
  public:
-  Checker(json& root, std::string_view file) : root_(root), file_(file) {
+  Checker(References& references, std::string_view file, Warnings& warnings)
+      : references_(references), file_(file), warnings_(warnings) {
     for (const Rule& rule : schema_rules()) rules_[rule.owner].push_back(&rule);
   }
 
   void check_object(json& value, std::string_view type, const Path& path) const {
     if (!value.is_object()) fail(path, value, "an object");
     if (type.ends_with(".extensions")) {
-      for (auto& [name, extension] : value.items()) {
-        if (!extension.is_object()) fail({&path, name}, extension, "an object");
+      for (auto extension = value.begin(); extension != value.end();) {
+        if (extension->is_object()) {
+          ++extension;
+          continue;
+        }
+        const std::string name = extension.key();
+        warnings_.add(complaint({&path, name}, *extension, "an object") + "; it is ignored");
+        extension = value.erase(extension);
       }
     }
     static const std::vector<const Rule*> kNone;
@@ -73,15 +81,33 @@ class Checker {
         if (rule->required) throw make_error(file_, here.text(), "missing, expected " + expectation(*rule));
         continue;
       }
-      check_member(*member, *rule, here);
-      ++checked;
+      if (fits_member(*member, *rule, here)) {
+        ++checked;
+      } else {
+        value.erase(member);
+      }
     }
     if (checked < value.size()) erase_others(value, rules);
   }
 
+  void check_element(const References::Element& element) const {
+    const auto& [list, index] = element;
+    const Path root{};
+    const bool of_extension = list->place.starts_with("/extensions/");
+    const Path extensions{&root, "extensions"};
+    const Path extension{&extensions, list->name};
+    const std::string_view member = list->place.substr(list->place.rfind('/') + 1);
+    const Path elements{of_extension ? &extension : &root, member};
+    check_object(references_.value(element), list->type, {&elements, {}, index});
+  }
+
  private:
+  static std::string complaint(const Path& path, const json& value, std::string_view expected) {
+    return fmt::format("{}: {}, expected {}", path.text(), show(value), expected);
+  }
+
   [[noreturn]] void fail(const Path& path, const json& value, std::string_view expected) const {
-    throw make_error(file_, path.text(), fmt::format("{}, expected {}", show(value), expected));
+    throw make_error(file_, "", complaint(path, value, expected));
   }
 
   static void erase_others(json& value, const std::vector<const Rule*>& rules) {
@@ -89,6 +115,22 @@ class Checker {
       const bool known = std::any_of(rules.begin(), rules.end(),
                                      [&](const Rule* rule) { return rule->name == member.key(); });
       member = known ? std::next(member) : value.erase(member);
+    }
+  }
+
+  /// Whether a member of a lenient rule fits. Of others it throws.
+  bool fits_member(json& value, const Rule& rule, const Path& path) const {
+    if (!rule.lenient) {
+      check_member(value, rule, path);
+      return true;
+    }
+    try {
+      check_member(value, rule, path);
+      return true;
+    } catch (const InputError& error) {
+      const std::string_view line = error.what();
+      warnings_.add(fmt::format("{}; it is ignored", line.substr(file_.size() + 2)));
+      return false;
     }
   }
 
@@ -102,6 +144,9 @@ class Checker {
           fail(path, value, rule.length > 0 ? fmt::format("an array of {}", rule.length) : "an array");
         }
         for (std::size_t i = 0; i < value.size(); ++i) check_value(value[i], rule, {&path, {}, i});
+        return;
+      case Shape::elements:
+        if (!value.is_array()) fail(path, value, "an array");
         return;
       case Shape::lists: {
         if (!value.is_array()) fail(path, value, "an array");
@@ -122,7 +167,10 @@ class Checker {
     if (rule.kind == Kind::object) return check_object(value, rule.target, path);
     if (!fits(value, rule)) fail(path, value, expectation(rule));
     if (rule.kind == Kind::number) value = value.get<double>();
-    if (is_whole(rule.kind)) value = static_cast<std::uint64_t>(value.get<double>());
+    if (!is_whole(rule.kind)) return;
+    const auto whole = static_cast<std::uint64_t>(value.get<double>());
+    if (rule.kind == Kind::index) references_.add(rule.target, whole);
+    value = whole;
   }
 
   static bool is_whole(Kind kind) { return kind == Kind::integer || kind == Kind::index; }
@@ -136,7 +184,8 @@ class Checker {
     if (!value.is_number()) return false;
     const double number = value.get<double>();
     if (is_whole(rule.kind) && std::floor(number) != number) return false;
-    if (rule.kind == Kind::index) return number >= 0.0 && number < static_cast<double>(size_of(rule.target));
+    if (rule.kind == Kind::index)
+      return number >= 0.0 && number < static_cast<double>(references_.size_of(rule.target));
     if (!(number >= rule.low && number <= rule.high)) return false;
     return rule.target.empty() || is_choice(rule.target, fmt::format("{:.0f}", number));
   }
@@ -153,7 +202,7 @@ class Checker {
         if (!rule.target.empty()) return fmt::format("one of {}", rule.target);
         return fmt::format("an integer from {:.0f} to {:.0f}", rule.low, rule.high);
       case Kind::index:
-        return fmt::format("an index into {} ({} there)", rule.target, size_of(rule.target));
+        return fmt::format("an index into {} ({} there)", rule.target, references_.size_of(rule.target));
       case Kind::number:
       case Kind::anything:
         break;
@@ -165,31 +214,25 @@ class Checker {
                        rule.low == 0.0 ? "that is not negative" : "above zero");
   }
 
-  /// Length of a list that indices refer to.
-  std::size_t size_of(std::string_view list) const {
-    const json* owner = &root_;
-    std::string_view member = list;
-    if (list.starts_with("KHR_") || list.starts_with("EXT_")) {
-      const auto extensions = root_.find("extensions");
-      if (extensions == root_.end() || !extensions->is_object()) return 0;
-      const auto extension = extensions->find(list);
-      if (extension == extensions->end() || !extension->is_object()) return 0;
-      owner = &*extension;
-      member = list == "KHR_materials_variants" ? "variants" : "lights";
-    }
-    const auto found = owner->find(member);
-    return found != owner->end() && found->is_array() ? found->size() : 0;
-  }
-
-  json& root_;
+  References& references_;
   std::string_view file_;
+  Warnings& warnings_;
   std::unordered_map<std::string_view, std::vector<const Rule*>> rules_;
 };
 
 }  // namespace
 
-void check_schema(nlohmann::json& root, std::string_view file) {
-  Checker(root, file).check_object(root, "root", {});
+void check_schema(json& root, int scene, std::string_view file, Warnings& warnings) {
+  References references(root);
+  const Checker checker(references, file, warnings);
+  checker.check_object(root, "root", {});
+  if (scene < 0) scene = static_cast<int>(root.value("scene", 0u));
+  if (static_cast<std::size_t>(scene) < references.size_of("scenes"))
+    references.add("scenes", static_cast<std::size_t>(scene));
+  references.add_all("KHR_materials_variants");  // a user may ask for any
+  while (const std::optional<References::Element> element = references.next())
+    checker.check_element(*element);
+  references.blank_others();
 }
 
 }  // namespace gatelight::scene::gltf

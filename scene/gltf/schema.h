@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "scene/gltf/error.h"
+
 namespace gatelight::scene::gltf {
 
 enum class Kind : unsigned char {
@@ -22,7 +24,8 @@ enum class Kind : unsigned char {
 enum class Shape : unsigned char {
   single,
   list,
-  lists,  ///< a list of lists, each of Rule::length
+  lists,     ///< a list of lists, each of Rule::length
+  elements,  ///< a list whose elements are checked where something refers to them
   dictionary
 };
 
@@ -40,14 +43,16 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
   int length = 0;  ///< number of elements of a list; 0 allows any
   double low = -std::numeric_limits<float>::max();
   double high = std::numeric_limits<float>::max();
+  bool lenient = false;  ///< a wrong value counts as missing, with a warning
 };
 
 /// The whole table (schema_rules.cpp).
 std::span<const Rule> schema_rules();
 
-/// Checks the document, and keeps only its checked values: members without a rule are erased. Unifies its
-/// numbers: integer properties are stored as unsigned integers (1.0 becomes 1), all others as double, so that
-/// no later reader truncates. Throws InputError.
-void check_schema(nlohmann::json& root, std::string_view file);
+/// Checks all that the given scene shows (-1: the file's default, or its first), and keeps only checked
+/// values: members without a rule are erased, and elements of the root's lists to which nothing refers become
+/// placeholders. Unifies its numbers: integer properties are stored as unsigned integers (1.0 becomes 1), all
+/// others as double, so that no later reader truncates. Throws InputError.
+void check_schema(nlohmann::json& root, int scene, std::string_view file, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

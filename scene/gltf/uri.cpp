@@ -65,6 +65,12 @@ std::size_t scheme_length(std::string_view uri) {
   return 0;
 }
 
+/// Of a name that may hold anything.
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
+
 /// Whether the path lies outside the folder after resolving symbolic links. A missing file counts as inside.
 bool leaves(const std::filesystem::path& folder, const std::filesystem::path& path) {
   std::error_code error;
@@ -101,7 +107,7 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
 }  // namespace
 
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
-                    std::string_view where) {
+                    std::string_view where, Warnings& warnings) {
   if (begins_with(uri, "data:")) return read_data(uri, file, where);
   const auto refuse = [&](std::string_view why) {
     return make_error(file, where,
@@ -119,11 +125,15 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
     }
     if (rest.starts_with("//")) throw refuse("is on another machine");
   }
-  const std::string name = decode_percent(rest);
+  std::string name = decode_percent(rest);
+  if (name.find('\\') != std::string::npos && !is_there(options.folder / name)) {
+    warnings.add(fmt::format("{}: '{}' has backslashes, read as slashes", where, uri_name(uri)));
+    std::replace(name.begin(), name.end(), '\\', '/');
+  }
   if (name.find('\0') != std::string::npos) throw refuse("has a zero byte");
   if (options.allow_external) return read_file(options.folder / name, file, where);
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
-  if (relative.is_absolute() || name[0] == '\\') throw refuse("is an absolute path");
+  if (relative.is_absolute()) throw refuse("is an absolute path");
   if (!relative.empty() && *relative.begin() == "..") throw refuse("leaves the folder");
   const std::filesystem::path path = options.folder / relative;
   if (leaves(options.folder, path)) throw refuse("is a symbolic link that leaves the folder");

@@ -15,9 +15,10 @@ struct UriOptions {
 
 /// The bytes behind a URI. Without `allow_external` it must be a data URI or a relative path (percent-encoded
 /// or not) that stays inside the folder, also through symbolic links. With it, absolute paths, paths out of
-/// the folder and file: URIs are allowed. Throws InputError.
+/// the folder and file: URIs are allowed. Backslashes are slashes, with a warning, unless a file has them in
+/// its name. Throws InputError.
 OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string_view file,
-                    std::string_view where);
+                    std::string_view where, Warnings& warnings);
 
 /// The URI for messages; a data URI is cut after its type.
 std::string uri_name(std::string_view uri);

@@ -14,9 +14,10 @@ namespace gatelight::scene::gltf {
 /// The source of a primitive's vertices: accessors, or Draco's data described by accessors.
 class Vertices {
  public:
-  /// All must outlive it. Throws InputError.
+  /// All must outlive it. Normals, tangents, texture coordinates and colours of a wrong form count as
+  /// missing, with a warning. Throws InputError.
   Vertices(const Document& document, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
-           std::string where);
+           std::string where, Warnings& warnings);
 
   std::size_t count() const { return count_; }
   /// Number of rows that a selection has.
@@ -35,8 +36,10 @@ class Vertices {
             Selection selection, int width, float* out, bool force_normalized = false) const;
 
  private:
+  void drop(const std::string& semantic, std::initializer_list<int> components, Warnings& warnings);
+
   const Document& document_;
-  const std::map<std::string, int>& attributes_;
+  std::map<std::string, int> attributes_;
   const DracoPrimitive* draco_;
   std::string where_;
   std::size_t count_ = 0;

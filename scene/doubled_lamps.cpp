@@ -1,0 +1,217 @@
+#include "scene/doubled_lamps.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "scene/bake.h"
+
+namespace gatelight::scene {
+namespace {
+
+using Corners = std::array<std::array<float, 3>, 3>;
+
+/// The place of a triangle: its corners in ascending order, and the mesh in whose space they are, or -1 for
+/// the world.
+struct Place {
+  Corners corners;
+  int space;
+
+  bool operator==(const Place&) const = default;
+};
+
+struct Hash {
+  std::size_t operator()(const Place& place) const {
+    std::size_t hash = static_cast<std::size_t>(place.space);
+    for (const auto& corner : place.corners) {
+      for (const float x : corner) hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
+    }
+    return hash ^ hash >> 32;
+  }
+};
+
+struct Face {
+  int mesh;
+  std::uint32_t triangle;
+  bool turned;  ///< its front is on the second side of the place
+};
+
+/// What becomes of a triangle.
+enum class Fate : std::uint8_t { stays, culled, removed };
+
+class Separator {
+ public:
+  explicit Separator(Scene& scene) : scene_(scene), instance_of_(scene.meshes.size(), kNone) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+      int& instance = instance_of_[static_cast<std::size_t>(scene.instances[i].mesh)];
+      instance = instance == kNone ? static_cast<int>(i) : kShared;
+    }
+  }
+
+  void separate() {
+    find_emitters();
+    if (places_.empty()) return;
+    find_others();
+    for (const auto& [place, faces] : places_) {
+      if (faces.size() > 1) decide(faces);
+    }
+    const std::size_t count = scene_.meshes.size();
+    for (std::size_t m = 0; m < count; ++m) {
+      if (!fates_[m].empty()) apply(m);
+    }
+    if (!empty_) return;
+    std::erase_if(scene_.instances, [&](const Instance& i) { return scene_.mesh_of(i).triangles.empty(); });
+    drop_unused_meshes(scene_);
+  }
+
+ private:
+  static constexpr int kNone = -1;
+  static constexpr int kShared = -2;
+
+  const Material& material_of(int mesh) const {
+    const int material = scene_.meshes[static_cast<std::size_t>(mesh)].material;
+    return scene_.materials[static_cast<std::size_t>(material)];
+  }
+
+  bool is_lamp(int mesh) const {
+    const Material& m = material_of(mesh);
+    return m.emits() && !m.unlit && !m.transmits() && m.alpha_mode == AlphaMode::opaque;
+  }
+
+  /// Calls use(place, face) for each triangle of a mesh.
+  template <typename Use>
+  void for_each_face(int m, const Use& use) const {
+    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(m)];
+    const int number = instance_of_[static_cast<std::size_t>(m)];
+    if (number == kNone) return;
+    const Instance* const instance =
+        number == kShared ? nullptr : &scene_.instances[static_cast<std::size_t>(number)];
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      Place place{{}, instance ? -1 : m};
+      for (std::size_t c = 0; c < 3; ++c) {
+        Vec3 p = mesh.positions[mesh.triangles[t][c]];
+        if (instance && !instance->baked) p = instance->transform * p;
+        p.array() += 0.0f;  // no negative zeros
+        place.corners[c] = {p.x(), p.y(), p.z()};
+      }
+      bool turned = instance && !instance->baked && instance->mirrors;
+      auto& [a, b, c] = place.corners;
+      const auto order = [&](auto& first, auto& second) {
+        if (!(second < first)) return;
+        std::swap(first, second);
+        turned = !turned;
+      };
+      order(a, b);
+      order(b, c);
+      order(a, b);
+      if (a != b && b != c) use(place, Face{m, t, turned});
+    }
+  }
+
+  void find_emitters() {
+    for (int m = 0; m < static_cast<int>(scene_.meshes.size()); ++m) {
+      if (is_lamp(m)) for_each_face(m, [&](const Place& place, Face) { places_.try_emplace(place); });
+    }
+  }
+
+  void find_others() {
+    for (int m = 0; m < static_cast<int>(scene_.meshes.size()); ++m) {
+      for_each_face(m, [&](const Place& place, Face face) {
+        const auto found = places_.find(place);
+        if (found != places_.end()) found->second.push_back(face);
+      });
+    }
+    fates_.resize(scene_.meshes.size());
+  }
+
+  /// The face that is seen from a side of a place.
+  const Face& seen(const std::vector<Face>& faces, bool second_side) const {
+    const auto rank = [&](const Face& face) {
+      const bool both = material_of(face.mesh).double_sided;
+      const bool front = face.turned == second_side;
+      if (is_lamp(face.mesh) && (front || both)) return 3;
+      return front ? 2 : both ? 1 : 0;
+    };
+    return *std::max_element(faces.begin(), faces.end(),
+                             [&](const Face& a, const Face& b) { return rank(a) < rank(b); });
+  }
+
+  void decide(const std::vector<Face>& faces) {
+    const Face& first = seen(faces, false);
+    const Face& second = seen(faces, true);
+    const bool apart = !first.turned && second.turned;
+    for (const Face& face : faces) {
+      const bool stays = &face == &first || &face == &second;
+      // One of two that are both the front of one side cannot be seen from the other only: the lamp stays.
+      const bool kept = &first == &second || apart ? stays : stays && is_lamp(face.mesh);
+      set(face, !kept ? Fate::removed : apart ? Fate::culled : Fate::stays);
+    }
+  }
+
+  void set(const Face& face, Fate fate) {
+    std::vector<Fate>& fates = fates_[static_cast<std::size_t>(face.mesh)];
+    fates.resize(scene_.meshes[static_cast<std::size_t>(face.mesh)].triangles.size(), Fate::stays);
+    fates[face.triangle] = fate;
+  }
+
+  void apply(std::size_t m) {
+    const std::vector<Fate>& fates = fates_[m];
+    const auto keep = [&](Mesh& mesh, Fate fate) {
+      std::size_t kept = 0;
+      for (std::size_t t = 0; t < fates.size(); ++t) {
+        if (fates[t] == fate) mesh.triangles[kept++] = mesh.triangles[t];
+      }
+      mesh.triangles.resize(kept);
+    };
+    const auto has = [&](Fate fate) { return std::find(fates.begin(), fates.end(), fate) != fates.end(); };
+    Mesh culled;
+    if (has(Fate::culled)) {
+      culled = scene_.meshes[m];
+      keep(culled, Fate::culled);
+      culled.material = culled_material(culled.material);
+    }
+    keep(scene_.meshes[m], Fate::stays);
+    if (scene_.meshes[m].triangles.empty()) {
+      empty_ |= culled.triangles.empty();
+      scene_.meshes[m] = std::move(culled);
+    } else if (!culled.triangles.empty()) {
+      const std::size_t count = scene_.instances.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        if (scene_.instances[i].mesh != static_cast<int>(m)) continue;
+        scene_.instances.push_back(scene_.instances[i]);
+        scene_.instances.back().mesh = static_cast<int>(scene_.meshes.size());
+      }
+      scene_.meshes.push_back(std::move(culled));
+    }
+  }
+
+  int culled_material(int material) {
+    const auto [entry, is_new] = culled_.try_emplace(material, static_cast<int>(scene_.materials.size()));
+    if (is_new) {
+      Material copy = scene_.materials[static_cast<std::size_t>(material)];
+      copy.culled = true;
+      copy.double_sided = false;
+      scene_.materials.push_back(std::move(copy));
+    }
+    return entry->second;
+  }
+
+  Scene& scene_;
+  std::vector<int> instance_of_;  ///< by mesh
+  std::unordered_map<Place, std::vector<Face>, Hash> places_;
+  std::vector<std::vector<Fate>> fates_;  ///< by mesh and triangle; empty where all stay
+  std::unordered_map<int, int> culled_;   ///< by material
+  bool empty_ = false;
+};
+
+}  // namespace
+
+void separate_doubled_lamps(Scene& scene) {
+  Separator(scene).separate();
+}
+
+}  // namespace gatelight::scene

@@ -1,0 +1,14 @@
+#pragma once
+// Lamps with another surface in the same place.
+
+#include "scene/scene.h"
+
+namespace gatelight::scene {
+
+/// Where an opaque triangle that emits has the same corners as other triangles, a ray would meet any of them.
+/// Each side keeps one: the emitter that shines there, else the triangle whose front is there, else one that
+/// is double-sided. Two that stay are seen from their fronts only (Material::culled). Call it after
+/// bake_transforms(): triangles of shared meshes are compared within their mesh.
+void separate_doubled_lamps(Scene& scene);
+
+}  // namespace gatelight::scene

@@ -1,0 +1,104 @@
+#include "scene/gltf/references.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gatelight::scene::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+
+/// The placeholders have the members without which tinygltf refuses an element.
+constexpr ElementList kLists[] = {
+    {"accessors", "accessor", "/accessors", R"({"componentType": 5126, "count": 0, "type": "SCALAR"})"},
+    {"buffers", "buffer", "/buffers", R"({"byteLength": 0})"},
+    {"bufferViews", "bufferView", "/bufferViews", R"({"buffer": 0, "byteLength": 0})"},
+    {"cameras", "camera", "/cameras",
+     R"({"type": "perspective", "perspective": {"yfov": 1.0, "znear": 1.0}})"},
+    {"images", "image", "/images", "{}"},
+    {"materials", "material", "/materials", "{}"},
+    {"meshes", "mesh", "/meshes", R"({"primitives": []})"},
+    {"nodes", "node", "/nodes", "{}"},
+    {"samplers", "sampler", "/samplers", "{}"},
+    {"scenes", "scene", "/scenes", R"({"nodes": []})"},
+    {"skins", "skin", "/skins", R"({"joints": []})"},
+    {"textures", "texture", "/textures", "{}"},
+    {"KHR_lights_punctual", "light", "/extensions/KHR_lights_punctual/lights", R"({"type": "point"})"},
+    {"EXT_lights_image_based", "image_light", "/extensions/EXT_lights_image_based/lights", "{}"},
+    {"KHR_materials_variants", "variant", "/extensions/KHR_materials_variants/variants", "{}"},
+};
+
+}  // namespace
+
+References::References(json& root) {
+  for (const ElementList& list : kLists) {
+    List found{&list, nullptr, {}};
+    const json::json_pointer place{std::string(list.place)};
+    if (root.contains(place) && root.at(place).is_array()) {
+      found.elements = &root.at(place);
+      found.added.resize(found.elements->size());
+    }
+    lists_.emplace(list.name, std::move(found));
+  }
+  find_parents();
+}
+
+void References::find_parents() {
+  const json* const nodes = lists_.at("nodes").elements;
+  if (!nodes) return;
+  parents_.assign(nodes->size(), kNoParent);
+  for (std::size_t i = 0; i < nodes->size(); ++i) {
+    const json& node = (*nodes)[i];
+    const auto children = node.is_object() ? node.find("children") : node.end();
+    if (children == node.end() || !children->is_array()) continue;
+    for (const json& child : *children) {
+      const double number = child.is_number() ? child.get<double>() : -1.0;
+      if (number < 0.0 || number >= static_cast<double>(nodes->size()) || std::floor(number) != number)
+        continue;
+      parents_[static_cast<std::size_t>(number)] = i;
+    }
+  }
+}
+
+std::size_t References::size_of(std::string_view list) const {
+  return lists_.at(list).added.size();
+}
+
+void References::add(std::string_view name, std::size_t index) {
+  List& list = lists_.at(name);
+  while (index != kNoParent && !list.added[index]) {
+    list.added[index] = true;
+    waiting_.emplace_back(list.description, index);
+    index = name == "nodes" ? parents_[index] : kNoParent;
+  }
+}
+
+void References::add_all(std::string_view list) {
+  for (std::size_t i = 0; i < size_of(list); ++i) add(list, i);
+}
+
+std::optional<References::Element> References::next() {
+  if (waiting_.empty()) return std::nullopt;
+  const Element element = waiting_.back();
+  waiting_.pop_back();
+  return element;
+}
+
+json& References::value(const Element& element) {
+  return (*lists_.at(element.first->name).elements)[element.second];
+}
+
+void References::blank_others() {
+  for (auto& [name, list] : lists_) {
+    if (!list.elements) continue;
+    const json placeholder = json::parse(list.description->placeholder);
+    for (std::size_t i = 0; i < list.added.size(); ++i) {
+      if (!list.added[i]) (*list.elements)[i] = placeholder;
+    }
+  }
+}
+
+}  // namespace gatelight::scene::gltf
