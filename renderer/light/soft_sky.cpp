@@ -5,15 +5,29 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/light/lit_surfaces.h"
 #include "scene/requirements.h"
 
 namespace gatelight::renderer {
+namespace {
+
+/// A white surface of this radiance is black in a displayed picture.
+constexpr double kLeastLight = 0.003;
+
+}  // namespace
 
 bool needs_light(const scene::Scene& scene) {
   const scene::SceneRequirements requirements = scene::compute_requirements(scene);
-  if (requirements.delta_lights || requirements.emissive_triangles > 0) return false;
-  return std::any_of(scene.instances.begin(), scene.instances.end(),
-                     [&](const scene::Instance& instance) { return !scene.material_of(instance).unlit; });
+  if (requirements.delta_lights) return false;
+  const bool reflects =
+      std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
+        const scene::Material& material = scene.material_of(instance);
+        return !material.unlit && !material.emits();
+      });
+  if (!reflects || requirements.emissive_triangles == 0) return reflects;
+  const bool labels = std::all_of(scene.materials.begin(), scene.materials.end(),
+                                  [](const scene::Material& m) { return (m.emission <= 1.0f).all(); });
+  return labels && lit_radiance(scene) < kLeastLight;
 }
 
 EnvironmentPicture make_soft_sky(float scale) {

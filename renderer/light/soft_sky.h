@@ -6,7 +6,9 @@
 
 namespace gatelight::renderer {
 
-/// Whether some surface reflects light, but no light and no surface of the scene emits any.
+/// Whether some surface reflects light, but no light of the scene lights any: there is none, or only glowing
+/// surfaces that are no lamps but labels, whose emission is a colour of a display (at most 1) and reaches
+/// next to nothing (lit_surfaces.h).
 bool needs_light(const scene::Scene& scene);
 
 /// A grey-blue sky over a darker ground, with a broad bright spot at the upper left, behind a viewer who

@@ -50,6 +50,10 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
     std::size_t size = read_u32(bytes, offset);
     const std::uint32_t type = read_u32(bytes, offset + 4);
     offset += 8;
+    if (size > bytes.size() - offset && type == kJson) {
+      throw make_error(file, where,
+                       fmt::format("length {}, expected at most {}", size, bytes.size() - offset));
+    }
     if (size > bytes.size() - offset) {
       warnings.add(fmt::format("{}: length {}, expected at most {}, which is taken", where, size,
                                bytes.size() - offset));

@@ -64,6 +64,7 @@ void check_version(json& root, std::string_view file, Warnings& warnings) {
   if (!asset.is_object()) asset = json::object();
   const auto version = asset.find("version");
   if (version == asset.end() || !version->is_string()) {
+    if (!root.contains("nodes")) throw make_error(file, "asset.version", "missing, expected glTF 2.0");
     warnings.add("asset.version: missing, taken as 2.0");
     asset["version"] = "2.0";
   } else if (const std::string& text = version->get_ref<const std::string&>(); !is_version_2(text)) {

@@ -88,23 +88,9 @@ class GraphWalk {
       bool visible;
     };
     const std::vector<int>& roots = element(document_.model().scenes, scene).nodes;
-    std::vector<char> is_listed(parents_.size(), 0);
-    for (const int root : roots) is_listed[static_cast<std::size_t>(root)] = 1;
-    std::vector<char> is_root(parents_.size(), 0);
     std::vector<Entry> stack;
-    for (std::size_t i = roots.size(); i-- > 0;) {
-      const std::size_t root = static_cast<std::size_t>(roots[i]);
-      const auto warn = [&](const char* what) {
-        warnings_.add(fmt::format("scenes[{}].nodes[{}]: node {} {}", scene, i, root, what));
-      };
-      bool shown = is_root[root] != 0;
-      if (shown) warn("is listed twice, shown once");
-      for (int p = parents_[root]; p >= 0 && !shown; p = parents_[static_cast<std::size_t>(p)])
-        shown = is_listed[static_cast<std::size_t>(p)] != 0;
-      if (parents_[root] >= 0) warn(shown ? "is shown as a child" : "has a parent, it is shown as a root");
-      is_root[root] = 1;
-      if (!shown) stack.push_back({roots[i], Transform::Identity(), true});
-    }
+    for (const int root : roots_to_show(roots, scene)) stack.push_back({root, Transform::Identity(), true});
+    std::reverse(stack.begin(), stack.end());
     while (!stack.empty()) {
       const Entry entry = stack.back();
       stack.pop_back();
@@ -120,6 +106,33 @@ class GraphWalk {
   }
 
  private:
+  /// The listed nodes without repetitions and without those that are shown below another.
+  std::vector<int> roots_to_show(const std::vector<int>& listed, int scene) {
+    std::vector<char> is_listed(parents_.size(), 0);
+    for (const int root : listed) is_listed[static_cast<std::size_t>(root)] = 1;
+    std::vector<char> is_taken(parents_.size(), 0);
+    std::vector<int> shown;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      const std::size_t root = static_cast<std::size_t>(listed[i]);
+      const auto warn = [&](const char* what) {
+        warnings_.add(fmt::format("scenes[{}].nodes[{}]: node {} {}", scene, i, root, what));
+      };
+      bool below = false;
+      for (int p = parents_[root]; p >= 0 && !below; p = parents_[static_cast<std::size_t>(p)])
+        below = is_listed[static_cast<std::size_t>(p)] != 0;
+      if (is_taken[root]) {
+        warn("is listed twice, shown once");
+      } else if (below) {
+        warn("is no root, it is shown as a child");
+      } else {
+        if (parents_[root] >= 0) warn("is no root, it is shown without its parent");
+        shown.push_back(listed[i]);
+      }
+      is_taken[root] = 1;
+    }
+    return shown;
+  }
+
   const Transform& checked(const Transform& t, std::string_view where) const {
     if (!t.matrix().cast<float>().allFinite()) {
       document_.fail(where, "a transform to the world that is not finite, expected finite numbers");

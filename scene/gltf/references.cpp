@@ -81,10 +81,8 @@ void References::add_all(std::string_view list) {
 }
 
 std::optional<References::Element> References::next() {
-  if (waiting_.empty()) return std::nullopt;
-  const Element element = waiting_.back();
-  waiting_.pop_back();
-  return element;
+  if (next_ == waiting_.size()) return std::nullopt;
+  return waiting_[next_++];
 }
 
 json& References::value(const Element& element) {

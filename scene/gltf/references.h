@@ -48,7 +48,8 @@ class References {
   void find_parents();
 
   std::unordered_map<std::string_view, List> lists_;
-  std::vector<Element> waiting_;
+  std::vector<Element> waiting_;  ///< in the order in which they were added
+  std::size_t next_ = 0;
   std::vector<std::size_t> parents_;  ///< of nodes; the largest number for a root
 };
 

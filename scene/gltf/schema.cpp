@@ -59,17 +59,6 @@ class Checker {
 
   void check_object(json& value, std::string_view type, const Path& path) const {
     if (!value.is_object()) fail(path, value, "an object");
-    if (type.ends_with(".extensions")) {
-      for (auto extension = value.begin(); extension != value.end();) {
-        if (extension->is_object()) {
-          ++extension;
-          continue;
-        }
-        const std::string name = extension.key();
-        warnings_.add(complaint({&path, name}, *extension, "an object") + "; it is ignored");
-        extension = value.erase(extension);
-      }
-    }
     static const std::vector<const Rule*> kNone;
     const auto found = rules_.find(type);
     const std::vector<const Rule*>& rules = found == rules_.end() ? kNone : found->second;

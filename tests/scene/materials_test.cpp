@@ -290,7 +290,7 @@ TEST(Materials, FactorsOutsideTheirRangeAreClampedWithAWarning) {
       {{"pbrMetallicRoughness", {{"baseColorFactor", {2, -1, 0.5, 1}}, {"metallicFactor", -3}}}});
   EXPECT_TRUE(scene.materials[0].base_color.isApprox(Color(1, 0, 0.5f)));
   EXPECT_EQ(scene.materials[0].metallic, 0.0f);
-  expect_messages(scene.warnings, {{"2"}, {"-1"}, {"-3"}});
+  expect_messages(scene.warnings, {{"2", "1 more"}, {"-3"}});
 }
 
 TEST(Materials, ATexCoordSetBeyondTwoIsIgnoredWithAWarning) {
@@ -310,7 +310,6 @@ TEST(Materials, WrongNumbersAreRefused) {
   };
   expect_refused({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, {"baseColorFactor", "4"});
   expect_refused({{"emissiveFactor", {1, 1, "x"}}}, {"emissiveFactor[2]"});
-  expect_refused({{"alphaMode", "GLASS"}}, {"alphaMode", "GLASS", "OPAQUE", "MASK", "BLEND"});
   expect_refused({{"normalTexture", {{"index", 0}}}}, {"normalTexture.index"});
   expect_refused(extension("KHR_materials_ior", {{"ior", -1}}), {"KHR_materials_ior", "ior", "-1"});
   expect_refused(extension("KHR_materials_volume", {{"attenuationDistance", 0}}),

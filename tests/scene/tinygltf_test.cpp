@@ -183,12 +183,8 @@ TEST(Tinygltf, DataUrisThatAreNotBase64AreRefused) {
   for (const char* body : {"QUJD*UJD", "QUJDQ", "QUJD=QUJD", "=QUJ", "QU%zz"}) {
     GltfBuilder file = triangle_file();
     file.add("materials", json::object());
-    file.root["buffers"] = {
-        {{"byteLength", 1}, {"uri", fmt::format("data:application/octet-stream;base64,{}", body)}}};
-    file.root["bufferViews"] = json::array();
-    file.root["accessors"] = json::array();
-    file.root["meshes"] = json::array();
-    file.root["nodes"][0].erase("mesh");
+    file.root["buffers"] = {{{"byteLength", file.bin.size()},
+                             {"uri", fmt::format("data:application/octet-stream;base64,{}", body)}}};
     file.expect_refused({"buffers[0].uri", "base64"});
   }
 }
