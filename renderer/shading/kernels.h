@@ -34,14 +34,16 @@ struct BsdfTables {
   const float* sheen = nullptr;      ///< SheenTables::values; null in scenes without sheen
 };
 
-/// Russian roulette: paths survive with the probability min(most, factor * sqrt(throughput)). In bright
+/// Russian roulette: paths survive with the probability factor * sqrt(throughput), at most 1. In bright
 /// rooms, where long paths carry much light, the throughput itself costs more noise than it saves time
 /// (Country Kitchen: a tenth more noise in the same time). The throughput leaves out
-/// BsdfSample::radiance_scale, which is no loss. `most` ends paths that lose nothing. With albedos above its
-/// square root the variance would grow with each event.
+/// BsdfSample::radiance_scale, which is no loss. Paths that lose nothing, as between clear panes and mirrors,
+/// would never end: after `long_path` scattering events the probability is at most `most`.
 struct Roulette {
   float factor = 1.0f;
-  float most = 0.99f;
+  float most =
+      0.99f;  ///< above the square of an albedo, else the variance of its rooms grows with each event
+  int long_path = 64;  ///< events under roulette
 };
 
 struct ShadingContext {

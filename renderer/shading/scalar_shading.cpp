@@ -76,7 +76,8 @@ bool survives(ShadingBlock& block, int lane, const Color& weight, bool through_p
   if (events > (through_pane ? 0 : 1)) return true;
   const Color throughput = lane_color(block.throughput, lane) * weight;
   const Roulette& roulette = context.roulette;
-  block.survival[lane] = std::min(roulette.most, roulette.factor * std::sqrt(throughput.maxCoeff()));
+  const float most = events <= -roulette.long_path ? roulette.most : 1.0f;
+  block.survival[lane] = std::min(most, roulette.factor * std::sqrt(throughput.maxCoeff()));
   return roulette_number(next_seed(block.seed[lane])) < block.survival[lane];
 }
 
