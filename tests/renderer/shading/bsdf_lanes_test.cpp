@@ -220,7 +220,7 @@ TEST(BsdfLanes, NarrowPartsAreThoseOfTheScalarCode) {
     context.min_roughness = roughness;
     ShadingContext narrow_only = context;
     narrow_only.narrow_only = true;
-    narrow_only.roulette = {2.0f, 0.9f};
+    narrow_only.roulette = {2.0f, 0.9f, 0};
     for (int b = 0; b < kBlocks / 3; ++b) {
       ShadingBlock block;
       const std::vector<LanePoint> points = fill(block, random);
