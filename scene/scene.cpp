@@ -49,7 +49,7 @@ std::size_t geometry_bytes(const Scene& scene) {
 
 std::size_t image_bytes(const Scene& scene) {
   std::size_t total = 0;
-  for (const Image& image : scene.images) total += bytes(image.pixels);
+  for (const Image& image : scene.images) total += bytes(image.pixels) + bytes(image.pixels_16);
   if (scene.image_light) {
     for (const Image& face : scene.image_light->faces) total += bytes(face.pixels);
   }

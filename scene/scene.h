@@ -16,14 +16,15 @@
 
 namespace gatelight::scene {
 
-/// A decoded picture: 8 bits a channel, 1 to 4 channels (grey, grey-alpha, RGB, RGBA), rows from the top. The
-/// material slot that reads the bytes decides whether they are sRGB or linear.
+/// A decoded picture: 1 to 4 channels (grey, grey-alpha, RGB, RGBA), rows from the top. The material slot
+/// that reads the values decides whether they are sRGB or linear.
 struct Image {
   std::string name;  ///< file name, or the name inside the glTF file, for messages
   int width = 0;
   int height = 0;
   int channels = 0;
-  std::vector<std::uint8_t> pixels;  ///< width * height * channels bytes
+  std::vector<std::uint8_t> pixels;           ///< width * height * channels values
+  std::vector<std::uint16_t> pixels_16 = {};  ///< in place of `pixels` for a normal map of 16 bits
 };
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };

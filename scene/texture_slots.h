@@ -28,4 +28,9 @@ void for_each_slot(M& m, const Visit& visit) {
   visit(m.sheen_roughness_texture, false);
 }
 
+/// Whether the slot, one of the material's, holds a normal map.
+inline bool is_normal_map(const Material& m, const TextureSlot& slot) {
+  return &slot == &m.normal_texture || &slot == &m.clearcoat_normal_texture;
+}
+
 }  // namespace gatelight::scene

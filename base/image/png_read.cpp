@@ -101,6 +101,7 @@ PngReader::PngReader(std::vector<std::uint8_t> file)
   const png_const_infop info = decoder_->info;
   width_ = static_cast<int>(png_get_image_width(png, info));
   height_ = static_cast<int>(png_get_image_height(png, info));
+  bits_ = png_get_bit_depth(png, info) == 16 ? 16 : 8;
   channels_ = channels_of(png_get_color_type(png, info), png_get_valid(png, info, PNG_INFO_tRNS) != 0);
 }
 

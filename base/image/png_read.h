@@ -22,6 +22,7 @@ class PngReader {
   int width() const { return width_; }
   int height() const { return height_; }
   int channels() const { return channels_; }  ///< 1 to 4
+  int bits() const { return bits_; }          ///< of a channel in the file: 8 for fewer, or 16
 
   /// Returns width * height * channels values, rows from the top; 16 bits are rounded to 8. Call either
   /// read_8() or read_16(), once. Throws std::runtime_error for damaged data, also behind the pixels.
@@ -40,6 +41,7 @@ class PngReader {
   int width_ = 0;
   int height_ = 0;
   int channels_ = 0;
+  int bits_ = 8;
 };
 
 /// Opens a PNG file. Throws std::runtime_error, also when the file cannot be read.

@@ -37,8 +37,10 @@ MemoryEstimate estimate_memory(const scene::Scene& scene, const RenderOptions& o
       need.lights += scene.mesh_of(instance).triangles.size() * kLightBytes;
   }
   for (const scene::Image& image : scene.images) {
-    // Four bytes per texel, and a third more for the coarser mip levels.
-    need.textures += static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 16 / 3;
+    // Four bytes per texel, eight of a picture of 16 bits, and a third more for the coarser mip levels.
+    const std::size_t thirds = image.pixels_16.empty() ? 16 : 32;
+    need.textures +=
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * thirds / 3;
   }
   const std::array<int, 4> whole = {0, 0, options.width, options.height};
   const std::array<int, 4> rect = options.region.value_or(whole);

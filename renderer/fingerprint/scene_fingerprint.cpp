@@ -170,7 +170,9 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
     if (i < meshes.size()) {
       meshes[i] = digest_mesh(scene.meshes[i]);
     } else {
-      pixels[i - meshes.size()] = digest_of_array(scene.images[i - meshes.size()].pixels);
+      const scene::Image& image = scene.images[i - meshes.size()];
+      pixels[i - meshes.size()] =
+          image.pixels_16.empty() ? digest_of_array(image.pixels) : digest_of_array(image.pixels_16);
     }
   });
 

@@ -8,12 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "renderer/surface/texture_pyramid.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
-
-/// How the bytes of a colour channel are decoded. Alpha is always linear.
-enum class Encoding : std::uint8_t { linear, srgb };
 
 /// Thread-safe after construction.
 class Textures {
@@ -33,23 +31,16 @@ class Textures {
   std::size_t bytes() const;
 
  private:
-  struct Level {
-    int width = 0;
-    int height = 0;
-    std::size_t offset = 0;  ///< into Pyramid::texels
-  };
-  struct Pyramid {
-    std::vector<Level> levels;
-    std::vector<std::uint32_t> texels;  ///< RGBA8, R in the low byte, colours in the pyramid's encoding
-    Vec4 mean = Vec4::Zero();
-  };
   struct Lookup {
-    const Pyramid* pyramid[2] = {nullptr, nullptr};  ///< by Encoding; null where no material needs it
+    /// By Encoding; null where no material needs it. A pyramid of 16 bits has its own place, so that lookups
+    /// in 8 bits need no test.
+    const TexturePyramid* pyramid[2] = {nullptr, nullptr};
+    const TexturePyramid* pyramid_16[2] = {nullptr, nullptr};
     scene::Texture texture;
   };
 
-  std::vector<std::array<std::unique_ptr<Pyramid>, 2>> pyramids_;  ///< by image and Encoding
-  std::vector<Lookup> lookups_;                                    ///< one for each texture of the scene
+  std::vector<std::array<std::unique_ptr<TexturePyramid>, 2>> pyramids_;  ///< by image and Encoding
+  std::vector<Lookup> lookups_;  ///< one for each texture of the scene
 };
 
 }  // namespace gatelight::renderer

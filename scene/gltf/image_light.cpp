@@ -32,7 +32,7 @@ std::optional<ImageBasedLight> load_image_light(const Document& document, int in
   if (levels.empty()) document.fail(where + ".specularImages", "empty, expected six images of each level");
   for (std::size_t face = 0; face < light.faces.size(); ++face)
     light.faces[face] = load_image(document, levels[0].Get(static_cast<int>(face)).GetNumberAsInt(),
-                                   missing_is_error, warnings);
+                                   {.missing_is_error = missing_is_error}, warnings);
   return light;
 }
 

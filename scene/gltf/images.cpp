@@ -28,31 +28,36 @@ InputError image_error(const Document& document, std::string_view where, std::st
   return make_error(document.file(), where, fmt::format("{}, expected a PNG, JPEG or WebP picture", what));
 }
 
-/// Throws InputError for an implausible size.
-void check_size(const Document& document, Bytes bytes, std::string_view where, int width, int height,
-                int channels, std::size_t small) {
+/// Throws InputError for an implausible size. Reader is PngReader, JpegReader or WebpReader.
+template <class Reader>
+void check_size(const Reader& reader, std::size_t value_bytes, const Document& document, Bytes bytes,
+                std::string_view where, std::size_t small = kSmall) {
+  const int width = reader.width(), height = reader.height(), channels = reader.channels();
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
     throw image_error(
         document, where,
         fmt::format("{}x{} pixels of {} channels, at most {} a side", width, height, channels, kMaxSide));
   }
-  const std::size_t size =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
+  const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                           static_cast<std::size_t>(channels) * value_bytes;
   if (size > small && size / kMaxRatio > bytes.size()) {
     throw image_error(document, where, fmt::format("{}x{} pixels in {} bytes", width, height, bytes.size()));
   }
 }
 
-/// Reader is PngReader, JpegReader or WebpReader.
 template <class Reader>
 Image decode_by(Reader& reader, const Document& document, Bytes bytes, std::string_view where,
                 std::size_t small = kSmall) {
-  check_size(document, bytes, where, reader.width(), reader.height(), reader.channels(), small);
+  check_size(reader, 1, document, bytes, where, small);
   return {"", reader.width(), reader.height(), reader.channels(), reader.read_8()};
 }
 
-Image decode_png(const Document& document, Bytes bytes, std::string_view where) {
+Image decode_png(const Document& document, Bytes bytes, std::string_view where, bool normal_map) {
   PngReader reader({bytes.begin(), bytes.end()});
+  if (normal_map && reader.bits() == 16) {
+    check_size(reader, 2, document, bytes, where);
+    return {"", reader.width(), reader.height(), reader.channels(), {}, reader.read_16()};
+  }
   return decode_by(reader, document, bytes, where);
 }
 
@@ -84,9 +89,10 @@ std::string_view known_format(Bytes bytes) {
   return "neither PNG, JPEG nor WebP data";
 }
 
-Image decode(const Document& document, Bytes bytes, std::string_view where, Warnings& warnings) try {
+Image decode(const Document& document, Bytes bytes, std::string_view where, bool normal_map,
+             Warnings& warnings) try {
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}))
-    return decode_png(document, bytes, where);
+    return decode_png(document, bytes, where, normal_map);
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) return decode_jpeg(document, bytes, where, warnings);
   if (is_webp(bytes)) return decode_webp(document, bytes, where);
   throw image_error(document, where, known_format(bytes));
@@ -97,26 +103,26 @@ Image decode(const Document& document, Bytes bytes, std::string_view where, Warn
 }
 
 Image read(const Document& document, const tinygltf::Image& source, const std::string& where,
-           const std::string& name, Warnings& warnings) {
+           const std::string& name, bool normal_map, Warnings& warnings) {
   const std::string named = fmt::format("{} ({})", where, name);
   if (!source.uri.empty())
-    return decode(document, document.read(source.uri, where + ".uri", warnings), named, warnings);
+    return decode(document, document.read(source.uri, where + ".uri", warnings), named, normal_map, warnings);
   if (source.bufferView < 0) throw image_error(document, where, "neither uri nor bufferView");
-  return decode(document, document.view(source.bufferView, where), named, warnings);
+  return decode(document, document.view(source.bufferView, where), named, normal_map, warnings);
 }
 
 }  // namespace
 
-Image load_image(const Document& document, int index, bool missing_is_error, Warnings& warnings) {
+Image load_image(const Document& document, int index, const ImageOptions& options, Warnings& warnings) {
   const tinygltf::Image& source = element(document.model().images, index);
   const std::string where = fmt::format("images[{}]", index);
   std::string name = source.name.empty() ? uri_name(source.uri) : source.name;
   if (name.empty()) name = where;
   Image image;
   try {
-    image = read(document, source, where, name, warnings);
+    image = read(document, source, where, name, options.normal_map, warnings);
   } catch (const InputError& e) {
-    if (missing_is_error) throw;
+    if (options.missing_is_error) throw;
     warnings.add(fmt::format("{}; white instead", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};
   }

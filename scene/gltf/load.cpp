@@ -232,10 +232,25 @@ class Loader {
     });
   }
 
+  /// Which images are normal maps in all their uses.
+  std::vector<char> normal_maps() const {
+    std::vector<char> result(images_.order().size(), 1);
+    for (const Material& material : scene_.materials) {
+      for_each_slot(material, [&](const TextureSlot& slot, bool) {
+        if (!slot || is_normal_map(material, slot)) return;
+        const int image = scene_.textures[static_cast<std::size_t>(slot.texture)].image;
+        if (image >= 0) result[static_cast<std::size_t>(image)] = 0;
+      });
+    }
+    return result;
+  }
+
   void load_images() {
     scene_.images.resize(images_.order().size());
+    const std::vector<char> normal = normal_maps();
     load_each(scene_.images.size(), [&](std::size_t i, Warnings& warnings) {
-      scene_.images[i] = load_image(document_, images_.order()[i], options_.missing_is_error, warnings);
+      const ImageOptions options{.missing_is_error = options_.missing_is_error, .normal_map = normal[i] != 0};
+      scene_.images[i] = load_image(document_, images_.order()[i], options, warnings);
     });
   }
 

@@ -17,6 +17,7 @@ TEST(PngWrite, EightBitsComeBackWithAndWithoutAlpha) {
     EXPECT_EQ(reader.width(), 5);
     EXPECT_EQ(reader.height(), 3);
     EXPECT_EQ(reader.channels(), channels);
+    EXPECT_EQ(reader.bits(), 8);
     EXPECT_EQ(reader.read_8(), pixels);
   }
 }
@@ -25,6 +26,7 @@ TEST(PngWrite, AllSixteenBitsComeBack) {
   std::vector<std::uint16_t> pixels(std::size_t{7} * 2 * 3);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint16_t>(1571 * i + 3);
   PngReader reader(encode_png(std::span<const std::uint16_t>(pixels), 7, 2, 3));
+  EXPECT_EQ(reader.bits(), 16);
   EXPECT_EQ(reader.read_16(), pixels);
 }
 

@@ -83,6 +83,7 @@ TEST(SceneFingerprint, EachChangeShowsOnlyInItsPart) {
       {"materials", [](S s, E) { s.materials[0].base_color_texture.texcoord = 1; }},
       {"materials", [](S s, E) { s.meshes[0].material = 1; }},
       {"materials", [](S s, E) { s.images[0].pixels[5] = 7; }},
+      {"materials", [](S s, E) { s.images[0].pixels_16 = {1, 2, 3, 4, 5, 6}; }},
       {"materials", [](S s, E) { std::swap(s.images[0].width, s.images[0].height); }},
       {"materials", [](S s, E) { s.textures[0].wrap_t = scene::Wrap::clamp_to_edge; }},
       {"lights", [](S s, E) { s.lights[0].intensity.z() = 2.0f; }},

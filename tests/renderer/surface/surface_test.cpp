@@ -71,6 +71,21 @@ TEST(NormalMaps, LeanTowardsTangentAndBitangent) {
   expect_near(normals.coat, Vec3(0.5f * texel.x(), 0.5f * texel.y(), texel.z()).normalized());
 }
 
+TEST(NormalMaps, SixteenBitsShowASlopeOfOneInAThousand) {
+  scene::Scene scene = leaning(Affine::Identity());
+  const auto slope = [&] {
+    const Vec3 n = seen(scene, Vec3(0, 0, 1)).shading;
+    return Vec2(n.x() / n.z(), n.y() / n.z());
+  };
+  // (1 + slope) / 2, in 65535ths and in 255ths.
+  scene.images[0].pixels_16 = {32800, 32735, 65535};
+  EXPECT_NEAR(slope().x(), 0.001f, 1.6e-5f);
+  EXPECT_NEAR(slope().y(), -0.001f, 1.6e-5f);
+  scene.images[0].pixels_16.clear();
+  scene.images[0].pixels = {128, 127, 255};
+  EXPECT_NEAR(slope().x(), 1.0f / 255.0f, 1e-6f) << "the next of 8 bits";
+}
+
 TEST(NormalMaps, FromBehindLeanAsFromTheFront) {
   const Normals front = seen(leaning(Affine::Identity()), Vec3(0, 0, 1));
   const Normals back = seen(leaning(Affine::Identity()), Vec3(0, 0, -1));

@@ -137,5 +137,50 @@ TEST(Texture, GreyAndAlphaChannelsExpand) {
   EXPECT_TRUE(v.isApprox(Vec4(100, 100, 100, 50), 1e-4f));
 }
 
+/// The same picture as grey_ramp(), with 16 bits.
+scene::Image wide(const scene::Image& image) {
+  scene::Image result{image.name, image.width, image.height, image.channels, {}};
+  for (const std::uint8_t byte : image.pixels)
+    result.pixels_16.push_back(static_cast<std::uint16_t>(byte * 257));
+  return result;
+}
+
+TEST(Texture, SixteenBitsReadTheFilesValues) {
+  scene::Image image{"wide", 7, 5, 3, {}};
+  for (int i = 0; i < 7 * 5 * 3; ++i)
+    image.pixels_16.push_back(static_cast<std::uint16_t>(i * 40503 % 65536));
+  const scene::Scene s = scene_with(image);
+  const Textures textures(s);
+  for (int i = 0; i < 35; ++i) {
+    const Vec2 uv((static_cast<float>(i % 7) + 0.5f) / 7.0f, (static_cast<float>(i / 7) + 0.5f) / 5.0f);
+    const std::uint16_t* const p = &image.pixels_16[static_cast<std::size_t>(3 * i)];
+    const Vec4 expected = Vec4(p[0], p[1], p[2], 65535) / 65535.0f;
+    EXPECT_LT((textures.lookup(slot(), Encoding::linear, uv, 0.0f, 0.0f) - expected).norm(), 2e-6f);
+    const Vec4 color = textures.lookup(slot(), Encoding::srgb, uv, 0.0f, 0.0f);
+    EXPECT_NEAR(color.x(), srgb_to_linear(expected.x()), 1e-5f);
+    EXPECT_EQ(color.w(), 1.0f);
+  }
+}
+
+TEST(Texture, SixteenBitsDifferFromEightOnlyInPrecision) {
+  for (const auto& [w, h] : {std::pair{64, 64}, {37, 19}, {1, 1}}) {
+    for (const bool nearest : {false, true}) {
+      const scene::Scene s8 = scene_with(grey_ramp(w, h), scene::Wrap::mirrored_repeat, nearest);
+      const scene::Scene s16 = scene_with(wide(grey_ramp(w, h)), scene::Wrap::mirrored_repeat, nearest);
+      const Textures t8(s8), t16(s16);
+      EXPECT_EQ(t16.bytes(), 2 * t8.bytes());
+      EXPECT_LT((t16.mean(slot(), Encoding::linear) - t8.mean(slot(), Encoding::linear)).norm(), 1e-5f);
+      for (int i = 0; i < 200; ++i) {
+        const auto a = static_cast<float>(i);
+        const Vec2 uv(std::fmod(0.37f * a, 3.0f) - 1.0f, std::fmod(0.61f * a, 3.0f) - 1.0f);
+        const float footprint = 0.002f * a, u_level = std::fmod(0.71f * a, 1.0f);
+        const Vec4 difference = t16.lookup(slot(), Encoding::linear, uv, footprint, u_level) -
+                                t8.lookup(slot(), Encoding::linear, uv, footprint, u_level);
+        EXPECT_LT(difference.cwiseAbs().maxCoeff(), 0.5f / 255.0f + 1e-4f);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gatelight::renderer
