@@ -57,12 +57,14 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, ignored, back_faces, lights, profiles,
+  auto& [scene, variant, missing_is_error, allow_external, ignored, show_hidden, back_faces, lights, profiles,
          bake_transforms,
          threads] = load;  // all transforms are baked; --threads of the picture sets the threads
   group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
   group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
       .value = [&load] { return load.variant; };
+  group.add(
+      of_scene(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)")));
   group.add(of_scene(choice(
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "

@@ -64,7 +64,7 @@ class Loader {
 
   Scene load() {
     read_variants();
-    Graph graph = flatten_nodes(document_, options_.scene, warnings_);
+    Graph graph = flatten_nodes(document_, options_, warnings_);
     scene_.lights = std::move(graph.lights);
     scene_.cameras = std::move(graph.cameras);
     load_materials(graph);

@@ -76,8 +76,11 @@ std::vector<int> find_parents(const Document& document) {
 
 class GraphWalk {
  public:
-  GraphWalk(const Document& document, Warnings& warnings)
-      : document_(document), warnings_(warnings), parents_(find_parents(document)) {
+  GraphWalk(const Document& document, bool show_hidden, Warnings& warnings)
+      : document_(document),
+        show_hidden_(show_hidden),
+        warnings_(warnings),
+        parents_(find_parents(document)) {
     graph_.joints.resize(document.model().skins.size());
   }
 
@@ -96,7 +99,7 @@ class GraphWalk {
       stack.pop_back();
       const Transform world = entry.parent * local_transform(document_, entry.node, warnings_);
       const tinygltf::Node& node = element(document_.model().nodes, entry.node);
-      const bool visible = entry.visible && is_visible(node);
+      const bool visible = entry.visible && (show_hidden_ || is_visible(node));
       visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), visible);
       for (std::size_t i = node.children.size(); i-- > 0;) {
         stack.push_back({node.children[i], world, visible});
@@ -268,6 +271,7 @@ class GraphWalk {
   }
 
   const Document& document_;
+  bool show_hidden_;
   Warnings& warnings_;
   std::vector<int> parents_;
   std::vector<std::optional<Transform>> worlds_;  ///< of nodes; empty where they are not known yet
@@ -277,12 +281,13 @@ class GraphWalk {
 
 }  // namespace
 
-Graph flatten_nodes(const Document& document, int scene, Warnings& warnings) {
+Graph flatten_nodes(const Document& document, const LoadOptions& options, Warnings& warnings) {
+  int scene = options.scene;
   const std::size_t count = document.model().scenes.size();
   if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
     document.fail("scenes", fmt::format("scene {} requested, expected less than {}", scene, count));
   }
-  GraphWalk graph_walk(document, warnings);
+  GraphWalk graph_walk(document, options.show_hidden, warnings);
   if (count == 0) {
     warnings.add("the file has no scene");
     return {};

@@ -28,8 +28,8 @@ struct Graph {
   std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< world, in double
 };
 
-/// Walks scene `scene` (-1 means the file's default, or its first). Throws InputError for cycles, several
+/// Walks the scene of the options. Throws InputError for cycles, several
 /// parents and transforms that are not finite.
-Graph flatten_nodes(const Document& document, int scene, Warnings& warnings);
+Graph flatten_nodes(const Document& document, const LoadOptions& options, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

@@ -162,6 +162,9 @@ TEST(Nodes, HiddenNodesShowNeitherMeshesNorLights) {
   EXPECT_TRUE(scene.lights.empty());
   EXPECT_EQ(scene.cameras.size(), 1u);
   EXPECT_TRUE(scene.warnings.empty());
+  const Scene all = file.load({.show_hidden = true});
+  EXPECT_EQ(all.instances.size(), 3u);
+  EXPECT_EQ(all.lights.size(), 1u);
 }
 
 TEST(Nodes, TheSceneCanBeChosen) {
