@@ -24,14 +24,28 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
+std::size_t hash_of(std::size_t hash, const std::array<float, 3>& corner) {
+  for (const float x : corner) hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
+  return hash ^ hash >> 32;
+}
+
 struct Hash {
   std::size_t operator()(const Place& place) const {
     std::size_t hash = static_cast<std::size_t>(place.space);
-    for (const auto& corner : place.corners) {
-      for (const float x : corner) hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
-    }
-    return hash ^ hash >> 32;
+    for (const auto& corner : place.corners) hash = hash_of(hash, corner);
+    return hash;
   }
+};
+
+/// Says quickly of most corners that no lamp has them. Most triangles of a scene are far from its lamps.
+class CornerFilter {
+ public:
+  void add(const std::array<float, 3>& corner) { bits_[hash_of(0, corner) % kBits] = true; }
+  bool may_have(const std::array<float, 3>& corner) const { return bits_[hash_of(0, corner) % kBits]; }
+
+ private:
+  static constexpr std::size_t kBits = std::size_t{1} << 20;
+  std::vector<bool> bits_ = std::vector<bool>(kBits);
 };
 
 struct Face {
@@ -82,9 +96,9 @@ class Separator {
     return m.emits() && !m.unlit && !m.transmits() && m.alpha_mode == AlphaMode::opaque;
   }
 
-  /// Calls use(place, face) for each triangle of a mesh.
-  template <typename Use>
-  void for_each_face(int m, const Use& use) const {
+  /// Calls use(place, face) for each triangle of a mesh whose corners pass(corner).
+  template <typename Pass, typename Use>
+  void for_each_face(int m, const Pass& pass, const Use& use) const {
     const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(m)];
     const int number = instance_of_[static_cast<std::size_t>(m)];
     if (number == kNone) return;
@@ -92,12 +106,15 @@ class Separator {
         number == kShared ? nullptr : &scene_.instances[static_cast<std::size_t>(number)];
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       Place place{{}, instance ? -1 : m};
-      for (std::size_t c = 0; c < 3; ++c) {
+      bool passes = true;
+      for (std::size_t c = 0; c < 3 && passes; ++c) {
         Vec3 p = mesh.positions[mesh.triangles[t][c]];
         if (instance && !instance->baked) p = instance->transform * p;
         p.array() += 0.0f;  // no negative zeros
         place.corners[c] = {p.x(), p.y(), p.z()};
+        passes = pass(place.corners[c]);
       }
+      if (!passes) continue;
       bool turned = instance && !instance->baked && instance->mirrors;
       auto& [a, b, c] = place.corners;
       const auto order = [&](auto& first, auto& second) {
@@ -114,16 +131,24 @@ class Separator {
 
   void find_emitters() {
     for (int m = 0; m < static_cast<int>(scene_.meshes.size()); ++m) {
-      if (is_lamp(m)) for_each_face(m, [&](const Place& place, Face) { places_.try_emplace(place); });
+      if (!is_lamp(m)) continue;
+      for_each_face(
+          m, [](const auto&) { return true; },
+          [&](const Place& place, Face) {
+            places_.try_emplace(place);
+            for (const auto& corner : place.corners) corners_.add(corner);
+          });
     }
   }
 
   void find_others() {
     for (int m = 0; m < static_cast<int>(scene_.meshes.size()); ++m) {
-      for_each_face(m, [&](const Place& place, Face face) {
-        const auto found = places_.find(place);
-        if (found != places_.end()) found->second.push_back(face);
-      });
+      for_each_face(
+          m, [&](const auto& corner) { return corners_.may_have(corner); },
+          [&](const Place& place, Face face) {
+            const auto found = places_.find(place);
+            if (found != places_.end()) found->second.push_back(face);
+          });
     }
     fates_.resize(scene_.meshes.size());
   }
@@ -203,6 +228,7 @@ class Separator {
   Scene& scene_;
   std::vector<int> instance_of_;  ///< by mesh
   std::unordered_map<Place, std::vector<Face>, Hash> places_;
+  CornerFilter corners_;
   std::vector<std::vector<Fate>> fates_;  ///< by mesh and triangle; empty where all stay
   std::unordered_map<int, int> culled_;   ///< by material
   bool empty_ = false;
