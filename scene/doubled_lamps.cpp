@@ -1,5 +1,7 @@
 #include "scene/doubled_lamps.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -142,13 +144,17 @@ class Separator {
   }
 
   void find_others() {
-    for (int m = 0; m < static_cast<int>(scene_.meshes.size()); ++m) {
+    std::vector<std::vector<std::pair<Place, Face>>> near_lamps(scene_.meshes.size());
+    tbb::parallel_for(std::size_t{0}, near_lamps.size(), [&](std::size_t m) {
       for_each_face(
-          m, [&](const auto& corner) { return corners_.may_have(corner); },
-          [&](const Place& place, Face face) {
-            const auto found = places_.find(place);
-            if (found != places_.end()) found->second.push_back(face);
-          });
+          static_cast<int>(m), [&](const auto& corner) { return corners_.may_have(corner); },
+          [&](const Place& place, Face face) { near_lamps[m].emplace_back(place, face); });
+    });
+    for (const auto& faces : near_lamps) {
+      for (const auto& [place, face] : faces) {
+        const auto found = places_.find(place);
+        if (found != places_.end()) found->second.push_back(face);
+      }
     }
     fates_.resize(scene_.meshes.size());
   }
