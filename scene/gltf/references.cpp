@@ -11,7 +11,8 @@ using nlohmann::json;
 
 constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
 
-/// The placeholders have the members without which tinygltf refuses an element.
+/// The placeholders have the members without which tinygltf refuses an element. It drops empty objects from
+/// the lists of extensions, which would renumber the others.
 constexpr ElementList kLists[] = {
     {"accessors", "accessor", "/accessors", R"({"componentType": 5126, "count": 0, "type": "SCALAR"})"},
     {"buffers", "buffer", "/buffers", R"({"byteLength": 0})"},
@@ -27,7 +28,8 @@ constexpr ElementList kLists[] = {
     {"skins", "skin", "/skins", R"({"joints": []})"},
     {"textures", "texture", "/textures", "{}"},
     {"KHR_lights_punctual", "light", "/extensions/KHR_lights_punctual/lights", R"({"type": "point"})"},
-    {"EXT_lights_image_based", "image_light", "/extensions/EXT_lights_image_based/lights", "{}"},
+    {"EXT_lights_image_based", "image_light", "/extensions/EXT_lights_image_based/lights",
+     R"({"intensity": 1.0})"},
     {"KHR_materials_variants", "variant", "/extensions/KHR_materials_variants/variants", "{}"},
 };
 

@@ -283,6 +283,16 @@ TEST(ImageLight, ComesWithItsFacesAndItsRotation) {
   EXPECT_FALSE(other.load().image_light);
 }
 
+TEST(ImageLight, OthersBeforeItNeedNotBeUsed) {
+  GltfBuilder file = with_image_light();
+  json& lights = file.root["extensions"]["EXT_lights_image_based"]["lights"];
+  lights = {{{"name", "unused"}}, lights[0]};
+  file.root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
+  const Scene scene = file.load();
+  ASSERT_TRUE(scene.image_light);
+  EXPECT_EQ(scene.image_light->name, "studio");
+}
+
 TEST(ImageLight, WrongFacesAreRefused) {
   GltfBuilder file = with_image_light();
   json& light = file.root["extensions"]["EXT_lights_image_based"]["lights"][0];
