@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,16 @@ enum class BackFaces : std::uint8_t {
   light,  ///< they are visible, reflect and emit, as the front
 };
 
+/// The value of LoadOptions::animation for no animation.
+inline constexpr const char* kNoAnimation = "none";
+
 struct LoadOptions {
   int scene = -1;       ///< index of the glTF scene; -1 means the file's default, or its first
   std::string variant;  ///< name of a KHR_materials_variants variant; empty means the default materials
+  std::optional<double> time;  ///< seconds: the moment of the file's animations; none: the pose of its nodes
+  /// Name of the animation that `time` shows, else its index. Empty: all of them together, but of those that
+  /// animate the same value only the first.
+  std::string animation;
   bool missing_is_error =
       true;                     ///< an unreadable texture is an error; else white replaces it, with a warning
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder

@@ -187,6 +187,12 @@ struct Camera {
   float half_width = 0.0f;    ///< metres (xmag); orthographic; 0 means half_height times the picture's aspect
 };
 
+/// An animation of the file. LoadOptions::time says which moment the scene shows.
+struct Animation {
+  std::string name;
+  double seconds = 0.0;  ///< time of its last key, by the file's own statement; 0 where there is none
+};
+
 struct Scene {
   std::string path;  ///< the loaded file
   std::vector<Image> images;
@@ -199,6 +205,7 @@ struct Scene {
   std::vector<std::string> dark_lights;  ///< names of emissive materials that adjust_lights() made black
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
+  std::vector<Animation> animations;  ///< all of the file, shown or not
   std::vector<std::string> warnings;  ///< one line each, without duplicates
   Box bounds;                         ///< world; empty when there is no triangle
   /// Position of the world's origin in the file's coordinates. It is not zero for a scene that lies far from

@@ -122,6 +122,17 @@ std::vector<std::string> describe_cameras(const scene::Scene& scene) {
   return lines;
 }
 
+std::vector<std::string> describe_animations(const scene::Scene& scene) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const scene::Animation& animation = scene.animations[i];
+    const std::string length =
+        animation.seconds > 0.0 ? fmt::format(", {:.4g} s", animation.seconds) : std::string();
+    lines.push_back(fmt::format("{} '{}'{}", i, animation.name, length));
+  }
+  return lines;
+}
+
 /// The bodies of glass and liquid that overlap, the strongest first.
 std::vector<const scene::Instance*> nested_media(const scene::Scene& scene,
                                                  const SceneRequirements& requirements) {
@@ -242,6 +253,7 @@ std::string scene_report_text(const scene::Scene& scene, const SceneRequirements
   rows.add_list("lights", describe_lights(scene, requirements));
   rows.add_list("cameras", describe_cameras(scene));
   rows.add_list("variants", scene.variants);
+  if (!scene.animations.empty()) rows.add_list("animations", describe_animations(scene));
   if (requirements.nested_volumes) rows.add_list("nested media", describe_media(scene, requirements));
   rows.add("bounds", describe_bounds(file_bounds(scene)));
   rows.add("requires", describe_requirements(requirements));
@@ -290,6 +302,9 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
     json["cameras"].push_back(camera_json(camera, scene.origin));
   }
   json["variants"] = scene.variants;
+  json["animations"] = ordered_json::array();
+  for (const scene::Animation& animation : scene.animations)
+    json["animations"].push_back({{"name", animation.name}, {"seconds", animation.seconds}});
   if (!scene.bounds.isEmpty()) {
     const Box bounds = file_bounds(scene);
     json["bounds"] = {{"min", triple(bounds.min())}, {"max", triple(bounds.max())}};

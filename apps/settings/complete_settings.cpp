@@ -226,6 +226,8 @@ void complete_settings(RenderSettings& settings) {
   complete_view(settings);
   if (settings.render.environment.sky && settings.given.contains("--environment"))
     throw UsageError("--sky and --environment exclude each other, expected one of them");
+  if (!settings.load.animation.empty() && !settings.load.time)
+    throw UsageError("--animation: without a moment nothing is animated, expected --time with it");
   check_picture(settings.render);
   resolve_integrator(settings);
   check_light_groups(settings.render);

@@ -16,6 +16,8 @@ using namespace renderer;
 
 /// Beyond this 2^EV leaves the range of float.
 constexpr RealRange kStops{-100.0, 100.0};
+/// Before the first key and after the last one nothing moves.
+constexpr RealRange kSeconds{-1e9, 1e9};
 constexpr IntegerRange kScenes{-1, 1 << 30};
 constexpr RealRange kKelvin{1667.0, 25000.0};
 constexpr Choice<int> kBits[] = {{"8", 8}, {"16", 16}};
@@ -57,12 +59,17 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, missing_is_error, allow_external, ignored, show_hidden, back_faces, lights, profiles,
-         bake_transforms,
+  auto& [scene, variant, time, animation, missing_is_error, allow_external, ignored, show_hidden, back_faces,
+         lights, profiles, bake_transforms,
          threads] = load;  // all transforms are baked; --threads of the picture sets the threads
   group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
   group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
       .value = [&load] { return load.variant; };
+  group.add(common(of_scene(number_or("", "time", time, kSeconds, "SECONDS",
+                                      "Moment of the file's animations; else the pose of its nodes"))));
+  group.add(of_scene(any_word("animation", animation, "NAME|INDEX|none",
+                              "Animation that --time shows; else all of the file together, but of those that "
+                              "animate the same value only the first")));
   group.add(
       of_scene(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)")));
   group.add(of_scene(choice(

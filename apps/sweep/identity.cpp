@@ -40,6 +40,8 @@ std::string scene_options(const RenderSettings& settings) {
   if (environment.sky) text += fmt::format(" sky {}", renderer::text_of(*environment.sky));
   if (!settings.load.lights.empty()) text += fmt::format(" lights {}", apps::text_of(settings.load.lights));
   if (!settings.load.profiles.empty()) text += fmt::format(" ies {}", apps::text_of(settings.load.profiles));
+  if (settings.load.time)
+    text += fmt::format(" time {} of '{}'", *settings.load.time, settings.load.animation);
   return text +
          fmt::format("\nenvironment '{}' {},{},{}{} rotation {} scale {}\nscene {} variant '{}' backfaces {}",
                      environment.file, environment.constant.x(), environment.constant.y(),

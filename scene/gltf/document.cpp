@@ -35,7 +35,10 @@ Document::Document(const std::filesystem::path& path, const LoadOptions& options
       uris_{path.parent_path(), options.allow_external},
       container_(open_container(path, warnings)),
       read_bytes_(container_.file.size()) {
-  json root = judge(container_.json, file_, options, warnings);
+  Judged judged = judge(container_.json, file_, options, warnings);
+  json& root = judged.root;
+  animations_ = std::move(judged.animations);
+  channels_ = std::move(judged.channels);
   check_model_size(model_bytes(root));
   take_binary(root, warnings);
   model_ = read_model(std::move(root), file_, [&](std::size_t i, const std::string& uri, std::size_t length) {
@@ -85,7 +88,7 @@ void Document::claim(std::size_t bytes, std::string_view where) const {
   }
   fail(where,
        fmt::format(
-           "{:.0f} MiB of vertices, triangles and instances up to here, expected at most {} of a file "
+           "{:.0f} MiB of vertices, triangles, instances and keys up to here, expected at most {} of a file "
            "of {} bytes with its buffers",
            (static_cast<double>(claimed_) + static_cast<double>(bytes)) / 0x1p20, most >> 20, read_bytes_));
 }

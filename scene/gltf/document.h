@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/gltf.h"
+#include "scene/gltf/channels.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/model.h"
 #include "scene/gltf/uri.h"
@@ -21,6 +22,11 @@ class Document {
 
   /// Its buffers that are part of a .glb are empty; view() has their bytes.
   const tinygltf::Model& model() const { return model_; }
+  /// For the values that animations change. Its lists must keep their lengths.
+  tinygltf::Model& model() { return model_; }
+  const std::vector<Animation>& animations() const { return animations_; }
+  /// Those of the chosen animations, for what the scene shows.
+  const std::vector<Channel>& channels() const { return channels_; }
   const std::string& file() const { return file_; }
   /// The bytes behind a URI of this file. Throws InputError.
   OwnedBytes read(const std::string& uri, std::string_view where, Warnings& warnings) const {
@@ -47,6 +53,8 @@ class Document {
   std::string file_;
   UriOptions uris_;
   Container container_;
+  std::vector<Animation> animations_;
+  std::vector<Channel> channels_;
   tinygltf::Model model_;
   std::vector<Bytes> buffers_;               ///< byteLength bytes, or fewer; empty for a placeholder
   std::size_t read_bytes_ = 0;               ///< size of the file and its buffers

@@ -18,6 +18,7 @@ constexpr std::string_view kSupported[] = {
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -42,7 +43,7 @@ constexpr std::string_view kSupported[] = {
     "MSFT_texture_dds",
 };
 
-/// Unsupported ones that no still picture needs: animation, physics, sound, interaction, other data about the
+/// Unsupported ones that no still picture needs: physics, sound, interaction, other data about the
 /// scene, levels of detail, and hints.
 constexpr std::string_view kHarmless[] = {
     "EXT_feature_metadata",
@@ -50,7 +51,6 @@ constexpr std::string_view kHarmless[] = {
     "EXT_mesh_features",
     "EXT_mesh_manifold",
     "EXT_structural_metadata",
-    "KHR_animation_pointer",
     "KHR_audio_emitter",
     "KHR_collision_shapes",
     "KHR_implicit_shapes",

@@ -6,8 +6,10 @@
 #include <set>
 #include <string>
 
+#include "scene/gltf/animation_choice.h"
 #include "scene/gltf/extensions.h"
 #include "scene/gltf/schema.h"
+#include "scene/gltf/unchecked.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -78,20 +80,13 @@ void check_version(json& root, std::string_view file, Warnings& warnings) {
   }
 }
 
-/// A list of the root; empty if the file has none.
-const json& list(const json& root, const char* name) {
-  static const json kNone = json::array();
-  const auto found = root.find(name);
-  return found == root.end() || !found->is_array() ? kNone : *found;
-}
-
 /// A file without scenes shows all its nodes.
 void add_scene(json& root, Warnings& warnings) {
-  if (!list(root, "scenes").empty() || list(root, "nodes").empty()) return;
+  if (!list_of(root, "scenes").empty() || list_of(root, "nodes").empty()) return;
   std::set<json> children;
-  for (const json& node : list(root, "nodes")) {
+  for (const json& node : list_of(root, "nodes")) {
     if (!node.is_object()) continue;
-    for (const json& child : list(node, "children")) children.insert(child);
+    for (const json& child : list_of(node, "children")) children.insert(child);
   }
   json roots = json::array();
   for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
@@ -151,7 +146,7 @@ void check_views(json& root, std::string_view file, Warnings& warnings) {
     if (size == 0) continue;
     const std::size_t buffer = view["buffer"];
     const std::size_t offset = view.value("byteOffset", std::size_t{0});
-    const std::size_t length = list(root, "buffers")[buffer]["byteLength"];
+    const std::size_t length = list_of(root, "buffers")[buffer]["byteLength"];
     if (offset > length || size > length - offset) {
       throw make_error(
           file, where,
@@ -162,16 +157,19 @@ void check_views(json& root, std::string_view file, Warnings& warnings) {
 
 }  // namespace
 
-json judge(std::string_view text, std::string_view file, const LoadOptions& options, Warnings& warnings) {
-  json root = parse_json(text, file);
+Judged judge(std::string_view text, std::string_view file, const LoadOptions& options, Warnings& warnings) {
+  Judged judged{parse_json(text, file), {}, {}};
+  json& root = judged.root;
   check_version(root, file, warnings);
   add_scene(root, warnings);
-  check_schema(root, options.scene, file, warnings);
+  judged.animations = list_animations(root);
+  check_schema(root, options.scene, choose_animations(root, options, file, warnings), file, warnings);
   check_extensions(root, options.ignore_required, file, warnings);
   complete_cameras(root, file);
   complete_lights(root, warnings);
   check_views(root, file, warnings);
-  return root;
+  judged.channels = take_channels(root);
+  return judged;
 }
 
 }  // namespace gatelight::scene::gltf

@@ -20,6 +20,7 @@
 #include "scene/bake.h"
 #include "scene/doubled_lamps.h"
 #include "scene/gltf/accessors.h"
+#include "scene/gltf/animation.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/image_light.h"
 #include "scene/gltf/images.h"
@@ -63,7 +64,9 @@ class Loader {
   }
 
   Scene load() {
+    scene_.animations = document_.animations();
     read_variants();
+    if (options_.time) Animator(document_, warnings_).apply(*options_.time, warnings_);
     Graph graph = flatten_nodes(document_, options_, warnings_);
     scene_.lights = std::move(graph.lights);
     scene_.cameras = std::move(graph.cameras);
@@ -341,6 +344,8 @@ class Loader {
 }  // namespace gltf
 
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
+  if (options.time && !std::isfinite(*options.time))
+    throw BadOption(fmt::format("`time` {}: expected a finite number of seconds", *options.time));
   const int threads = options.threads > 0 ? options.threads : available_threads();
   require_threads(threads);
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,

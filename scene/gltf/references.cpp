@@ -1,5 +1,6 @@
 #include "scene/gltf/references.h"
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,6 +16,7 @@ constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
 /// the lists of extensions, which would renumber the others.
 constexpr ElementList kLists[] = {
     {"accessors", "accessor", "/accessors", R"({"componentType": 5126, "count": 0, "type": "SCALAR"})"},
+    {"animations", "animation", "/animations", "{}"},
     {"buffers", "buffer", "/buffers", R"({"byteLength": 0})"},
     {"bufferViews", "bufferView", "/bufferViews", R"({"buffer": 0, "byteLength": 0})"},
     {"cameras", "camera", "/cameras",
@@ -67,6 +69,19 @@ void References::find_parents() {
 
 std::size_t References::size_of(std::string_view list) const {
   return lists_.at(list).added.size();
+}
+
+bool References::hides(std::string_view pointer) const {
+  for (const auto& [name, list] : lists_) {
+    std::string_view rest = pointer;
+    if (!rest.starts_with(list.description->place)) continue;
+    rest.remove_prefix(list.description->place.size());
+    if (!rest.starts_with('/')) continue;
+    std::size_t index = list.added.size();
+    std::from_chars(rest.data() + 1, rest.data() + rest.size(), index);
+    if (index < list.added.size()) return !list.added[index];
+  }
+  return false;
 }
 
 void References::add(std::string_view name, std::size_t index) {

@@ -29,6 +29,8 @@ class References {
 
   /// 0 if the list is missing.
   std::size_t size_of(std::string_view list) const;
+  /// Whether a JSON pointer leads to an element that is there, but was not added.
+  bool hides(std::string_view pointer) const;
   /// An element, and with a node its ancestors, whose transforms place it. The index is in range.
   void add(std::string_view list, std::size_t index);
   void add_all(std::string_view list);

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "scene/gltf/channels.h"
 #include "scene/gltf/references.h"
 
 namespace gatelight::scene::gltf {
@@ -211,16 +212,27 @@ class Checker {
 
 }  // namespace
 
-void check_schema(json& root, int scene, std::string_view file, Warnings& warnings) {
+void check_schema(json& root, int scene, const std::vector<std::size_t>& animations, std::string_view file,
+                  Warnings& warnings) {
+  if (animations.empty()) root.erase("animations");
   References references(root);
   const Checker checker(references, file, warnings);
+  const auto check_waiting = [&] {
+    while (const std::optional<References::Element> element = references.next())
+      checker.check_element(*element);
+  };
   checker.check_object(root, "root", {});
   if (scene < 0) scene = static_cast<int>(root.value("scene", 0u));
   if (static_cast<std::size_t>(scene) < references.size_of("scenes"))
     references.add("scenes", static_cast<std::size_t>(scene));
   references.add_all("KHR_materials_variants");  // a user may ask for any
-  while (const std::optional<References::Element> element = references.next())
-    checker.check_element(*element);
+  check_waiting();
+  // Only now it is known what is shown, and so which channels count.
+  for (const std::size_t animation : animations) {
+    join_samplers(root["animations"][animation], animation, references, file, warnings);
+    references.add("animations", animation);
+  }
+  check_waiting();
   references.blank_others();
 }
 

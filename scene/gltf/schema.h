@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "scene/gltf/error.h"
 
@@ -49,10 +50,12 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
 /// The whole table (schema_rules.cpp).
 std::span<const Rule> schema_rules();
 
-/// Checks all that the given scene shows (-1: the file's default, or its first), and keeps only checked
-/// values: members without a rule are erased, and elements of the root's lists to which nothing refers become
-/// placeholders. Unifies its numbers: integer properties are stored as unsigned integers (1.0 becomes 1), all
-/// others as double, so that no later reader truncates. Throws InputError.
-void check_schema(nlohmann::json& root, int scene, std::string_view file, Warnings& warnings);
+/// Checks all that the given scene shows (-1: the file's default, or its first) and these animations of it,
+/// and keeps only checked values: members without a rule are erased, and elements of the root's lists to
+/// which nothing refers become placeholders. Unifies its numbers: integer properties are stored as unsigned
+/// integers (1.0 becomes 1), all others as double, so that no later reader truncates. Throws InputError.
+/// Channels of animations become as join_samplers() describes.
+void check_schema(nlohmann::json& root, int scene, const std::vector<std::size_t>& animations,
+                  std::string_view file, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

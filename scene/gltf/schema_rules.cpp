@@ -75,6 +75,7 @@ constexpr Rule kRules[] = {
     lenient(texts("root", "extensionsUsed")),
     texts("root", "extensionsRequired"),
     elements("root", "accessors", "accessor"),
+    elements("root", "animations", "animation"),
     elements("root", "buffers", "buffer"),
     elements("root", "bufferViews", "bufferView"),
     elements("root", "cameras", "camera"),
@@ -190,6 +191,14 @@ constexpr Rule kRules[] = {
     index("skin", "inverseBindMatrices", "accessors"),
     lenient(index("skin", "skeleton", "nodes")),
     required(indices("skin", "joints", "nodes")),
+
+    // As join_samplers() leaves them.
+    objects("animation", "channels", "channel"),
+    text("channel", "pointer"),
+    object("channel", "sampler", "animation.sampler"),
+    required(index("animation.sampler", "input", "accessors")),
+    lenient(text("animation.sampler", "interpolation", "LINEAR|STEP|CUBICSPLINE")),
+    required(index("animation.sampler", "output", "accessors")),
 
     name("camera"),
     required(text("camera", "type", "perspective|orthographic")),

@@ -120,6 +120,15 @@ TEST_F(InfoCommand, TextHasTheUnitsOfLights) {
               Not(HasSubstr("candela")));
 }
 
+TEST_F(InfoCommand, AnimationsHaveNamesAndLengths) {
+  const std::string figure = GATELIGHT_SOURCE_DIR "/data/figure.glb";
+  EXPECT_THAT(run_gatelight_inside({"info", figure}).out, HasSubstr("0 'walk', 1 s\n"));
+  const json info = json::parse(run_gatelight_inside({"info", figure, "--json", "-"}).out);
+  EXPECT_EQ(info["animations"], json::parse(R"([{"name": "walk", "seconds": 1.0}])"));
+  EXPECT_TRUE(
+      json::parse(run_gatelight_inside({"info", lit_scene(), "--json", "-"}).out)["animations"].empty());
+}
+
 TEST_F(InfoCommand, APictureShowsItsRecipe) {
   const std::string picture = rendered({"--region", "2,1,6,3"});
   const Output text = run_gatelight_inside({"info", picture});

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -53,6 +54,28 @@ TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
   const float middle = values[3 * (8 * 24 + 12)];
   EXPECT_GT(middle, 0.45f);
   EXPECT_LT(middle, 0.60f);
+}
+
+TEST_F(RenderCommand, ATimeIsInTheRecipeAndDecidesWhoseCheckpointItIs) {
+  const auto render_at = [&](const std::string& time) {
+    return run_gatelight({"render",       GATELIGHT_SOURCE_DIR "/data/figure.glb",
+                          "--time",       time,
+                          "--animation",  "walk",
+                          "--size",       "8x8",
+                          "--spp",        "16777216",
+                          "--time-limit", "0.1",
+                          "-o",           path("a.exr"),
+                          "--stats",      path("s.json"),
+                          "--checkpoint", path("c"),
+                          "--resume",     "--quiet"});
+  };
+  ASSERT_EQ(render_at("0.25").exit_code, 0);
+  const json options = json::parse(read_file(path("s.json")))["options"];
+  EXPECT_EQ(options["time"], 0.25);
+  EXPECT_EQ(options["animation"], "walk");
+  ASSERT_TRUE(std::filesystem::exists(path("c")));
+  EXPECT_EQ(render_at("0.25").exit_code, 0);
+  expect_failure(render_at("0.5"), 2, {path("c"), "geometry"});
 }
 
 TEST_F(RenderCommand, ReproducibleFilesAreEqualForAnyNumberOfThreads) {

@@ -278,14 +278,14 @@ TEST(Lenient, WarningsThatDifferInNumbersOnlyAreCounted) {
 
 TEST(Lenient, RequiredExtensionsThatChangeNoPicturePass) {
   GltfBuilder file = whole_file();
-  file.root["extensionsRequired"] = {"KHR_animation_pointer", "KHR_xmp_json_ld"};
-  expect_messages(file.load().warnings, {{"KHR_animation_pointer"}, {"KHR_xmp_json_ld"}});
+  file.root["extensionsRequired"] = {"KHR_physics_rigid_bodies", "KHR_xmp_json_ld"};
+  expect_messages(file.load().warnings, {{"KHR_physics_rigid_bodies"}, {"KHR_xmp_json_ld"}});
   file.root["extensionsRequired"].push_back("ACME_strange");
   file.expect_refused({"ACME_strange", "`ignore-required`"});
   LoadOptions options;
   options.ignore_required = {"ACME_strange"};
   expect_messages(file.load(options).warnings,
-                  {{"KHR_animation_pointer"}, {"KHR_xmp_json_ld"}, {"ACME_strange"}});
+                  {{"KHR_physics_rigid_bodies"}, {"KHR_xmp_json_ld"}, {"ACME_strange"}});
 }
 
 TEST(Lenient, BackslashesInUrisAreSlashes) {

@@ -50,6 +50,13 @@ TEST(RefusedFlags, FlagsOfAnotherEncodingOrRuleAreRefused) {
   EXPECT_EQ(read_flags({"--preset", "paper-nrc"}).render.cache.candidates, 16);
 }
 
+TEST(RefusedFlags, AnAnimationNeedsATime) {
+  expect_message(refused_flags({"--animation", "walk"}), {"--animation", "--time"});
+  EXPECT_EQ(refused_flags({"--animation", "walk", "--time", "0"}), "");
+  EXPECT_EQ(read_flags({"--time", "-2.5"}).load.time, -2.5);
+  EXPECT_FALSE(read_flags({}).load.time);
+}
+
 TEST(RefusedFlags, RadianceFlagsAreRefusedWithOcclusion) {
   const std::vector<Words> cases = {
       {"--cache-holds", "all"},

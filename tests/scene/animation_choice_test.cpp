@@ -1,0 +1,301 @@
+// Which animations of a file its scene shows, and which of their flaws matter.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/animated_file.h"
+
+namespace gatelight::scene {
+namespace {
+
+using tests::expect_messages;
+using Floats = std::vector<float>;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// Three animations. The first two move the triangle, the last one another node.
+AnimatedFile three_animations() {
+  AnimatedFile file = moving_triangle();
+  file.node({{"camera", 0}});
+  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+  file.animation("walk");
+  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0}));
+  file.animation("run");
+  file.move(0, "translation", file.seconds({0, 2}), file.vectors({0, 0, 0, 8, 0, 0}));
+  file.animation("pan");
+  file.move(1, "translation", file.seconds({0, 4}), file.vectors({0, 0, 0, 0, 4, 0}));
+  return file;
+}
+
+Vec3 place(const Scene& scene) {
+  return scene.instances.at(0).transform.translation();
+}
+
+TEST(AnimationChoice, AllPlayTogetherButRivalsOfAnEarlierOne) {
+  AnimatedFile file = three_animations();
+  const Scene scene = file.at(1.0);
+  EXPECT_EQ(place(scene), Vec3(1, 0, 0));
+  EXPECT_EQ(Vec3(scene.cameras[0].transform.translation()), Vec3(0, 1, 0));
+  expect_messages(scene.warnings, {{"run", "`animation`"}});
+  ASSERT_EQ(scene.animations.size(), 3u);
+  EXPECT_EQ(scene.animations[1].name, "run");
+  EXPECT_EQ(scene.animations[2].seconds, 4.0);
+}
+
+TEST(AnimationChoice, ANameOrAnIndexChoosesOne) {
+  AnimatedFile file = three_animations();
+  for (const char* choice : {"run", "1"}) {
+    const Scene scene = file.at(1.0, choice);
+    EXPECT_EQ(place(scene), Vec3(4, 0, 0));
+    EXPECT_EQ(Vec3(scene.cameras[0].transform.translation()), Vec3(0, 0, 0));
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+  file.root["animations"][2]["name"] = "0";
+  EXPECT_EQ(place(file.at(1.0, "0")), Vec3(0, 0, 0)) << "a name wins over an index";
+}
+
+TEST(AnimationChoice, NoneShowsThePoseOfTheNodes) {
+  const Scene scene = three_animations().at(1.0, "none");
+  EXPECT_EQ(place(scene), Vec3(0, 0, 0));
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(AnimationChoice, AnUnknownNameIsRefusedWithTheKnownOnes) {
+  AnimatedFile file = three_animations();
+  file.expect_refused({"wolk", "walk", "run", "pan", "did you mean 'walk'"},
+                      {.time = 0.0, .animation = "wolk"});
+  file.expect_refused({"3", "walk"}, {.time = 0.0, .animation = "3"});
+  file.expect_refused({"wolk"}, {.animation = "wolk"});
+  AnimatedFile still = moving_triangle();
+  still.expect_refused({"walk", "no animations"}, {.time = 0.0, .animation = "walk"});
+}
+
+TEST(AnimationChoice, ATimeWithoutAnimationsGivesAWarning) {
+  expect_messages(moving_triangle().at(1.0).warnings, {{"no animations", "`time`"}});
+}
+
+TEST(AnimationChoice, ATimeThatIsNoNumberIsRefused) {
+  for (const double time : {static_cast<double>(kNan), std::numeric_limits<double>::infinity()})
+    tests::expect_refusal<BadOption>([&] { load_gltf("a.glb", {.time = time}); }, {"`time`"});
+}
+
+struct Flaw {
+  const char* name;
+  void (*make)(AnimatedFile& file);
+  tests::NameList message;  ///< empty: it loads, with a warning
+  tests::NameList warning{};
+};
+
+void PrintTo(const Flaw& flaw, std::ostream* out) {
+  *out << flaw.name;
+}
+
+class BrokenAnimation : public testing::TestWithParam<Flaw> {};
+
+/// The first animation is sound, the second one has the flaw.
+AnimatedFile with_flaw(const Flaw& flaw) {
+  AnimatedFile file = moving_triangle();
+  file.animation("sound");
+  file.move(0, "scale", file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 3, 3}));
+  file.animation("broken");
+  flaw.make(file);
+  return file;
+}
+
+TEST_P(BrokenAnimation, MattersOnlyWhereItIsChosen) {
+  const Flaw& flaw = GetParam();
+  AnimatedFile file = with_flaw(flaw);
+  EXPECT_TRUE(file.load().warnings.empty());
+  const Scene scene = file.at(0.5, "sound");
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_EQ(scene.instances[0].transform.linear()(0, 0), 2.0f);
+  if (flaw.message.empty()) {
+    expect_messages(file.at(0.5, "1").warnings, {flaw.warning});
+  } else {
+    file.expect_refused(flaw.message, {.time = 0.5, .animation = "1"});
+  }
+}
+
+json& last_animation(AnimatedFile& file) {
+  return file.root["animations"].back();
+}
+
+void move_by(AnimatedFile& file, const Floats& times, const Floats& values,
+             const char* interpolation = "LINEAR") {
+  file.move(0, "translation", file.seconds(times), file.vectors(values), interpolation);
+}
+
+const Flaw kFlaws[] = {
+    {"FallingTimes",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 2, 1}, Floats(9));
+     },
+     {"accessors", "2", "1"}},
+    {"NanTimes",
+     [](AnimatedFile& f) {
+       move_by(f, {0, kNan}, Floats(6));
+     },
+     {"accessors", "nan", "finite"}},
+    {"InfiniteTimes",
+     [](AnimatedFile& f) {
+       move_by(f, {0, INFINITY}, Floats(6));
+     },
+     {"accessors", "inf", "finite"}},
+    {"EqualTimes",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 1, 1}, Floats(9));
+     },
+     {},
+     {"same time"}},
+    {"NoKeys", [](AnimatedFile& f) { move_by(f, {}, {}); }, {}, {"animations[1].channels[0]", "no keys"}},
+    {"TooFewValues",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 1}, Floats(3));
+     },
+     {"accessors", "1", "2", "animations[1].channels[0]"}},
+    {"TooManyValues",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 1}, Floats(9));
+     },
+     {"accessors", "3", "2"}},
+    {"SplineWithoutTangents",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 1}, Floats(6), "CUBICSPLINE");
+     },
+     {"accessors", "2", "6"}},
+    {"NanValues",
+     [](AnimatedFile& f) {
+       move_by(f, {0, 1}, {0, 0, 0, 0, kNan, 0});
+     },
+     {"accessors", "finite"}},
+    {"OtherType",
+     [](AnimatedFile& f) {
+       f.move(0, "rotation", f.seconds({0}), f.vectors({0, 0, 0}));
+     },
+     {"accessors", "3", "4"}},
+    {"IntegerTimes",
+     [](AnimatedFile& f) {
+       f.move(0, "translation", f.accessor(std::vector<std::uint8_t>{0}, kUnsignedByte, "SCALAR", 1),
+              f.vectors({0, 0, 0}));
+     },
+     {"accessors", "5121", "5126"}},
+    {"TimesOfThree",
+     [](AnimatedFile& f) {
+       f.move(0, "translation", f.vectors({0, 0, 0}), f.vectors({0, 0, 0}));
+     },
+     {"accessors", "times", "1"}},
+    {"MissingAccessor",
+     [](AnimatedFile& f) { f.move(0, "translation", 99, 0); },
+     {"animations[1].channels[0].sampler.input", "99"}},
+    {"MissingOutput",
+     [](AnimatedFile& f) {
+       move_by(f, {0}, {0, 0, 0});
+       last_animation(f)["samplers"][0].erase("output");
+     },
+     {"animations[1].channels[0].sampler.output", "missing"}},
+    {"MissingSampler",
+     [](AnimatedFile& f) {
+       move_by(f, {0}, {0, 0, 0});
+       last_animation(f)["channels"][0]["sampler"] = 7;
+     },
+     {"animations[1].channels[0].sampler", "7", "1"}},
+    {"NoSampler",
+     [](AnimatedFile& f) {
+       move_by(f, {0}, {0, 0, 0});
+       last_animation(f)["channels"][0].erase("sampler");
+     },
+     {"animations[1].channels[0].sampler", "missing"}},
+    {"MissingNode",
+     [](AnimatedFile& f) { f.move(44, "translation", 0, 0); },
+     {"animations[1].channels[0].target.node", "44", "1"}},
+    {"ChannelsThatAreNoList",
+     [](AnimatedFile& f) { last_animation(f)["channels"] = 3; },
+     {"animations[1].channels", "3"}},
+    {"AChannelThatIsNoObject",
+     [](AnimatedFile& f) { last_animation(f)["channels"] = {3}; },
+     {"animations[1].channels[0]", "3"}},
+    {"TooManyBytes",
+     [](AnimatedFile& f) {
+       const int times =
+           f.add("accessors", {{"componentType", kFloat}, {"type", "SCALAR"}, {"count", 2000000000}});
+       f.move(0, "translation", times, times);
+     },
+     {"accessors", "2000000000", "1048576"}},
+    {"UnknownInterpolation",
+     [](AnimatedFile& f) {
+       move_by(f, {0}, {0, 0, 0}, "BEZIER");
+     },
+     {},
+     {"animations[1].channels[0].sampler.interpolation", "BEZIER"}},
+    {"UnknownPath",
+     [](AnimatedFile& f) {
+       f.move(0, "colour", f.seconds({0}), f.vectors({0, 0, 0}));
+     },
+     {},
+     {"animations[1].channels[0]", "/nodes/0/colour"}},
+    {"WeightsWithoutTargets",
+     [](AnimatedFile& f) { f.move(0, "weights", f.seconds({0}), f.scalars({1})); },
+     {},
+     {"animations[1].channels[0]", "/nodes/0/weights"}},
+    {"NoTarget",
+     [](AnimatedFile& f) {
+       f.channel({{"path", "translation"}}, 0, 0);
+     },
+     {},
+     {"animations[1].channels[0]", "no target"}},
+    {"TwoChannelsForOneValue",
+     [](AnimatedFile& f) {
+       move_by(f, {0}, {1, 0, 0});
+       move_by(f, {0}, {2, 0, 0});
+     },
+     {},
+     {"animations[1].channels[1]", "/nodes/0/translation"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Flaws, BrokenAnimation, testing::ValuesIn(kFlaws),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(AnimationChoice, WeightsOfAnotherNumberThanTargetsAreRefused) {
+  AnimatedFile file;
+  json primitive = file.triangle();
+  primitive["targets"] = {{{"POSITION", file.vectors(Floats(9))}}, {{"POSITION", file.vectors(Floats(9))}}};
+  file.node({{"mesh", file.mesh(primitive)}});
+  file.move(0, "weights", file.seconds({0, 1, 2}), file.scalars(Floats(3)));
+  file.expect_refused({"accessors", "3", "6"}, {.time = 0.0});
+}
+
+TEST(AnimationChoice, ChannelsOfWhatIsNotShownAreNotRead) {
+  AnimatedFile file = moving_triangle();
+  const int hidden = file.add("nodes", {{"name", "hidden"}});
+  file.add("materials", json::object());
+  file.move(hidden, "translation", file.seconds({0, kNan}), 0);
+  file.move("/materials/0/alphaCutoff", 99, 99);
+  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 0, 0}));
+  EXPECT_EQ(file.place_at(0.5), Vec3(1, 0, 0));
+}
+
+TEST(AnimationChoice, BuffersOfOtherAnimationsNeedNotExist) {
+  AnimatedFile file = three_animations();
+  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
+  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 24}, {"uri", "missing.bin"}}};
+  const int view = file.add("bufferViews", {{"buffer", 1}, {"byteLength", 24}});
+  const int away = file.add(
+      "accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 2}});
+  file.root["animations"][1]["samplers"][0]["output"] = away;
+  EXPECT_EQ(place(file.at(1.0, "walk")), Vec3(1, 0, 0));
+  file.expect_refused({"missing.bin"}, {.time = 1.0, .animation = "run"});
+}
+
+TEST(AnimationChoice, AnimationsThatAreNoListAreNone) {
+  AnimatedFile file = moving_triangle();
+  file.root["animations"] = "none";
+  EXPECT_TRUE(file.load().animations.empty());
+  expect_messages(file.at(1.0).warnings, {{"no animations"}});
+  file.root["animations"] = {
+      3, {{"name", 5}, {"samplers", {{{"input", "x"}}, 4}}, {"channels", {{{"target", 3}}, 4}}}};
+  EXPECT_EQ(file.load().animations.size(), 2u);
+}
+
+}  // namespace
+}  // namespace gatelight::scene

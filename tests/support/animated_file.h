@@ -1,0 +1,64 @@
+#pragma once
+// A small glTF file with animations.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/gltf_builder.h"
+
+namespace gatelight::scene {
+
+struct AnimatedFile : GltfBuilder {
+  using Floats = std::vector<float>;
+
+  int seconds(const Floats& times) {
+    return accessor(times, kFloat, "SCALAR", times.size(), {{"max", {times.empty() ? 0.0f : times.back()}}});
+  }
+  int vectors(const Floats& v) { return accessor(v, kFloat, "VEC3", v.size() / 3); }
+  int quaternions(const Floats& v) { return accessor(v, kFloat, "VEC4", v.size() / 4); }
+  int scalars(const Floats& v) { return accessor(v, kFloat, "SCALAR", v.size()); }
+
+  int animation(const std::string& name) {
+    return add("animations", {{"name", name}, {"channels", json::array()}, {"samplers", json::array()}});
+  }
+
+  /// Adds a channel to the last animation, or to a first one.
+  void channel(json target, int times, int values, const char* interpolation = "LINEAR") {
+    if (!root.contains("animations")) animation("only");
+    json& last = root["animations"].back();
+    last["channels"].push_back({{"sampler", last["samplers"].size()}, {"target", std::move(target)}});
+    last["samplers"].push_back({{"input", times}, {"output", values}, {"interpolation", interpolation}});
+  }
+
+  void move(int node, const char* path, int times, int values, const char* interpolation = "LINEAR") {
+    channel({{"node", node}, {"path", path}}, times, values, interpolation);
+  }
+  void move(const std::string& pointer, int times, int values, const char* interpolation = "LINEAR") {
+    channel({{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}, times,
+            values, interpolation);
+  }
+
+  Scene at(double time, const std::string& animation = "") {
+    return load({.time = time, .animation = animation, .bake_transforms = false});
+  }
+  /// The transform of the only instance.
+  Affine transform_at(double time) {
+    const Scene scene = at(time);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    return scene.instances.at(0).transform;
+  }
+  /// Its place.
+  Vec3 place_at(double time) { return transform_at(time).translation(); }
+};
+
+/// A triangle on node 0.
+inline AnimatedFile moving_triangle(json node = json::object()) {
+  AnimatedFile file;
+  node["mesh"] = file.mesh(file.triangle());
+  file.node(std::move(node));
+  return file;
+}
+
+}  // namespace gatelight::scene
