@@ -81,8 +81,10 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .unit = "NAME=off|X|r,g,b;...",
        .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
                "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
-       .value = [&lights]() -> OptionValue { return lights.empty() ? OptionValue() : text_of(lights); },
-       .read = [&lights](const std::string& text) { lights = read_lights("--lights", text); },
+       .value = [&lights = lights]() -> OptionValue {
+         return lights.empty() ? OptionValue() : text_of(lights);
+       },
+       .read = [&lights = lights](const std::string& text) { lights = read_lights("--lights", text); },
        .in_sweep = SweepUse::scene});
   group.add(
       {.name = "ies",
@@ -91,8 +93,10 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
            "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
            "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
            "and loses its cone",
-       .value = [&profiles]() -> OptionValue { return profiles.empty() ? OptionValue() : text_of(profiles); },
-       .read = [&profiles](const std::string& text) { profiles = read_profiles("--ies", text); },
+       .value = [&profiles = profiles]() -> OptionValue {
+         return profiles.empty() ? OptionValue() : text_of(profiles);
+       },
+       .read = [&profiles = profiles](const std::string& text) { profiles = read_profiles("--ies", text); },
        .in_sweep = SweepUse::scene});
   group.add(of_scene(choice("missing", missing_is_error, kMissing, "When a texture cannot be read")));
   group.add(external_option(allow_external));
@@ -101,10 +105,11 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .unit = "NAME,...",
        .help =
            "Extensions of glTF that the file may require although they are not supported: they are left out",
-       .value = [&ignored]() -> OptionValue {
+       .value = [&ignored = ignored]() -> OptionValue {
          return ignored.empty() ? OptionValue() : fmt::format("{}", fmt::join(ignored, ","));
        },
-       .read = [&ignored](const std::string& text) { ignored = split_list("--ignore-required", text); },
+       .read = [&ignored =
+                    ignored](const std::string& text) { ignored = split_list("--ignore-required", text); },
        .in_sweep = SweepUse::scene});
 }
 

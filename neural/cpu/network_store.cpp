@@ -34,7 +34,10 @@ void NetworkStore::set_output_biases(std::span<const double> values) {
 }
 
 std::uint64_t NetworkStore::update(const float* packed_gradients, float scale, std::uint64_t step) {
-  auto& [parameters, averages, first, second] = arrays_;
+  std::vector<float>& parameters = arrays_.parameters;
+  std::vector<float>& averages = arrays_.averages;
+  std::vector<float>& first = arrays_.first_moments;
+  std::vector<float>& second = arrays_.second_moments;
   gradients_.resize(parameters.size());
   raw_.unpack_gradients(packed_gradients, gradients_);
   const KernelAdamStep adam = adam_step(options_, step);
