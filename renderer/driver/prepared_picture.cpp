@@ -67,18 +67,18 @@ bool shows_light(Integrator integrator) {
 
 /// The options with an automatic environment resolved for this scene.
 RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
-  options.environment.automatic &= !options.environment.sky && shows_light(options.integrator) &&
-                                   (scene.image_light || needs_light(scene));
+  options.environment.automatic = options.environment.automatic && !options.environment.sky &&
+                                  shows_light(options.integrator) &&
+                                  (scene.image_light || needs_light(scene));
   return options;
 }
 
 /// The warning for a scene without light; else empty. `options` are those of with_sky().
 std::string sky_warning(const scene::Scene& scene, const RenderOptions& options) {
   if (options.environment.automatic && !scene.image_light) {
-    const bool glows = scene::compute_requirements(scene).emissive_triangles > 0;
     return fmt::format(
         "{} has no light{}: a soft sky lights it; `environment` none, r,g,b or FILE replaces it", scene.path,
-        glows ? " but surfaces that glow and light nothing" : "");
+        glows(scene) ? " but surfaces that glow and light nothing" : "");
   }
   if (shows_light(options.integrator) && options.environment.none() && needs_light(scene)) {
     return fmt::format("{} has no light, and the environment is 'none': the picture is black", scene.path);

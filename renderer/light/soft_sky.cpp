@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/light/lit_surfaces.h"
-#include "scene/requirements.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -16,15 +15,20 @@ constexpr double kLeastLight = 0.003;
 
 }  // namespace
 
+bool glows(const scene::Scene& scene) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
+    return scene.material_of(instance).emits() && !scene.mesh_of(instance).triangles.empty();
+  });
+}
+
 bool needs_light(const scene::Scene& scene) {
-  const scene::SceneRequirements requirements = scene::compute_requirements(scene);
-  if (requirements.delta_lights) return false;
+  if (!scene.lights.empty()) return false;
   const bool reflects =
       std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
         const scene::Material& material = scene.material_of(instance);
         return !material.unlit && !material.emits();
       });
-  if (!reflects || requirements.emissive_triangles == 0) return reflects;
+  if (!reflects || !glows(scene)) return reflects;
   const bool labels = std::all_of(scene.materials.begin(), scene.materials.end(),
                                   [](const scene::Material& m) { return (m.emission <= 1.0f).all(); });
   return labels && lit_radiance(scene) < kLeastLight;

@@ -11,6 +11,9 @@ namespace gatelight::renderer {
 /// next to nothing (lit_surfaces.h).
 bool needs_light(const scene::Scene& scene);
 
+/// Whether some surface emits.
+bool glows(const scene::Scene& scene);
+
 /// A grey-blue sky over a darker ground, with a broad bright spot at the upper left, behind a viewer who
 /// looks along -z. A white surface in it has a radiance near 1. All values are multiplied by `scale`.
 EnvironmentPicture make_soft_sky(float scale);
