@@ -241,13 +241,19 @@ TEST(MikkTSpace, SeamsOfTheTextureAndOfNormalsEndAGroup) {
   }
 }
 
-TEST(MikkTSpace, TrianglesThatShareOnlyAVertexAreTwoGroups) {
+/// A vertex and four around it. In the picture, the last two are turned by a right angle.
+Mesh hub_and_four() {
   Mesh mesh;
   add_vertex(mesh, {0, 0, 0}, {0, 0});
   add_vertex(mesh, {1, 0, 0}, {1, 0});
   add_vertex(mesh, {0, 1, 0}, {0, 1});
   add_vertex(mesh, {-1, 0, 0}, {0, 1});
   add_vertex(mesh, {0, -1, 0}, {-1, 0});
+  return mesh;
+}
+
+TEST(MikkTSpace, TrianglesThatShareOnlyAVertexAreTwoGroups) {
+  Mesh mesh = hub_and_four();
   mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
   mesh.uv1.assign(5, Vec2(0.25f, 0.5f));
   mesh.colors.assign(5, Vec4(1.0f, 0.5f, 0.25f, 1.0f));
@@ -265,12 +271,7 @@ TEST(MikkTSpace, TrianglesThatShareOnlyAVertexAreTwoGroups) {
 TEST(MikkTSpace, TrianglesWithoutAGradientBelongToTheGroupsOfTheirNeighbours) {
   // A fan of three triangles. The one in the middle has no area in the picture: it adds nothing to the sum,
   // and connects the others.
-  Mesh mesh;
-  add_vertex(mesh, {0, 0, 0}, {0, 0});
-  add_vertex(mesh, {1, 0, 0}, {1, 0});
-  add_vertex(mesh, {0, 1, 0}, {0, 1});
-  add_vertex(mesh, {-1, 0, 0}, {0, 1});
-  add_vertex(mesh, {0, -1, 0}, {-1, 0});
+  Mesh mesh = hub_and_four();
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
   const Mesh result = generated(mesh);
   EXPECT_EQ(result.positions.size(), 5u);

@@ -94,12 +94,23 @@ TEST(DamagedCacheFile, NonFiniteStatesAndNegativeSecondMomentsAreRefused) {
   }
 }
 
+/// The file "a" in its folder, and its bytes.
+struct SavedCache {
+  SavedCache() {
+    make_trainer(model, {}, 1).save(folder / "a", kFingerprint);
+    bytes = read_file(folder / "a");
+  }
+
+  TemporaryFolder folder;
+  ModelCase model = tiny_case();
+  std::string bytes;
+};
+
 TEST(DamagedCacheFile, EveryTruncationIsRefused) {
-  const TemporaryFolder folder;
-  const ModelCase c = tiny_case();
-  make_trainer(c, {}, 1).save(folder / "a", kFingerprint);
-  const std::string bytes = read_file(folder / "a");
-  Trainer trainer = make_trainer(c, {}, 2);
+  const SavedCache saved;
+  const TemporaryFolder& folder = saved.folder;
+  const std::string& bytes = saved.bytes;
+  Trainer trainer = make_trainer(saved.model, {}, 2);
   const ModelState before = state_of(trainer);
   for (std::size_t size = 0; size < bytes.size(); size += size < 4096 ? 1 : 7) {
     std::filesystem::remove(folder / "b");  // an overwritten file may be flushed to the disk at once
@@ -113,11 +124,10 @@ TEST(DamagedCacheFile, EveryTruncationIsRefused) {
 }
 
 TEST(DamagedCacheFile, EveryChangedByteIsRefused) {
-  const TemporaryFolder folder;
-  const ModelCase c = tiny_case();
-  make_trainer(c, {}, 1).save(folder / "a", kFingerprint);
-  const std::string bytes = read_file(folder / "a");
-  Trainer trainer = make_trainer(c, {}, 2);
+  const SavedCache saved;
+  const TemporaryFolder& folder = saved.folder;
+  const std::string& bytes = saved.bytes;
+  Trainer trainer = make_trainer(saved.model, {}, 2);
   const ModelState before = state_of(trainer);
   for (std::size_t place = 0; place < bytes.size(); ++place) {
     const auto put = [&](int byte) {
