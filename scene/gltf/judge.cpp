@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "scene/gltf/animation_choice.h"
 #include "scene/gltf/extensions.h"
+#include "scene/gltf/references.h"
 #include "scene/gltf/schema.h"
 #include "scene/gltf/unchecked.h"
 
@@ -83,14 +84,10 @@ void check_version(json& root, std::string_view file, Warnings& warnings) {
 /// A file without scenes shows all its nodes.
 void add_scene(json& root, Warnings& warnings) {
   if (!list_of(root, "scenes").empty() || list_of(root, "nodes").empty()) return;
-  std::set<json> children;
-  for (const json& node : list_of(root, "nodes")) {
-    if (!node.is_object()) continue;
-    for (const json& child : list_of(node, "children")) children.insert(child);
-  }
+  const std::vector<std::size_t> parents = parents_of(root["nodes"]);
   json roots = json::array();
-  for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
-    if (!children.contains(i)) roots.push_back(i);
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] == kNoParent) roots.push_back(i);
   }
   root["scenes"] = json::array({{{"nodes", std::move(roots)}}});
   warnings.add("the file has no scene; all its nodes are shown");

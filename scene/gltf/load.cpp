@@ -77,7 +77,7 @@ class Loader {
     place(graph.placements);
     load_images();
     if (!document_.model().scenes.empty()) {
-      const int shown = options_.scene >= 0 ? options_.scene : std::max(document_.model().defaultScene, 0);
+      const int shown = shown_scene(document_.model(), options_.scene);
       scene_.image_light = load_image_light(document_, shown, options_.missing_is_error, warnings_);
     }
     if (options_.bake_transforms) bake_transforms(scene_);

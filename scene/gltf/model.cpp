@@ -49,8 +49,10 @@ class Reader {
   Reader(json& root, const ReadBuffer& read) : read_(read) {
     for_each(root, "buffers", [&](json& buffer) { take_buffer(buffer); });
     for_each(root, "images", [&](json& image) { take_image(image); });
-    for_each(root, "bufferViews", widen);
-    for_each(root, "bufferViews", [&](json& view) { take_stride(view); });
+    for_each(root, "bufferViews", [&](json& view) {
+      widen(view);
+      take_stride(view);
+    });
     add_view(root);
     for_each(root, "nodes", keep_priority);
   }

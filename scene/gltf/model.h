@@ -2,6 +2,7 @@
 // tinygltf's model of a glTF file, and readers of its generic values. The schema (schema.h) guarantees the
 // type of every value that is read, and every index.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -33,6 +34,11 @@ const T& element(const std::vector<T>& list, int index) {
 
 /// The names of the compression by meshoptimizer. A view has one of them.
 inline constexpr const char* kMeshoptNames[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
+
+/// The requested scene, or for -1 the file's default, else its first.
+inline int shown_scene(const tinygltf::Model& model, int requested) {
+  return requested >= 0 ? requested : std::max(model.defaultScene, 0);
+}
 
 /// The extension of an object, or null.
 inline const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {

@@ -282,18 +282,16 @@ class GraphWalk {
 }  // namespace
 
 Graph flatten_nodes(const Document& document, const LoadOptions& options, Warnings& warnings) {
-  int scene = options.scene;
   const std::size_t count = document.model().scenes.size();
-  if (scene >= 0 && static_cast<std::size_t>(scene) >= count) {
-    document.fail("scenes", fmt::format("scene {} requested, expected less than {}", scene, count));
+  if (options.scene >= 0 && static_cast<std::size_t>(options.scene) >= count) {
+    document.fail("scenes", fmt::format("scene {} requested, expected less than {}", options.scene, count));
   }
   GraphWalk graph_walk(document, options.show_hidden, warnings);
   if (count == 0) {
     warnings.add("the file has no scene");
     return {};
   }
-  if (scene < 0) scene = std::max(document.model().defaultScene, 0);
-  return graph_walk.walk(scene);
+  return graph_walk.walk(shown_scene(document.model(), options.scene));
 }
 
 }  // namespace gatelight::scene::gltf

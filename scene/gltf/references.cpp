@@ -1,16 +1,14 @@
 #include "scene/gltf/references.h"
 
 #include <charconv>
-#include <cmath>
-#include <limits>
 #include <string>
+
+#include "scene/gltf/unchecked.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
 
 /// The placeholders have the members without which tinygltf refuses an element. It drops empty objects from
 /// the lists of extensions, which would renumber the others.
@@ -37,6 +35,16 @@ constexpr ElementList kLists[] = {
 
 }  // namespace
 
+std::vector<std::size_t> parents_of(const json& nodes) {
+  std::vector<std::size_t> parents(nodes.size(), kNoParent);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const json& child : list_of(nodes[i], "children")) {
+      if (const std::optional<std::size_t> index = index_below(child, nodes.size())) parents[*index] = i;
+    }
+  }
+  return parents;
+}
+
 References::References(json& root) {
   for (const ElementList& list : kLists) {
     List found{&list, nullptr, {}};
@@ -47,24 +55,7 @@ References::References(json& root) {
     }
     lists_.emplace(list.name, std::move(found));
   }
-  find_parents();
-}
-
-void References::find_parents() {
-  const json* const nodes = lists_.at("nodes").elements;
-  if (!nodes) return;
-  parents_.assign(nodes->size(), kNoParent);
-  for (std::size_t i = 0; i < nodes->size(); ++i) {
-    const json& node = (*nodes)[i];
-    const auto children = node.is_object() ? node.find("children") : node.end();
-    if (children == node.end() || !children->is_array()) continue;
-    for (const json& child : *children) {
-      const double number = child.is_number() ? child.get<double>() : -1.0;
-      if (number < 0.0 || number >= static_cast<double>(nodes->size()) || std::floor(number) != number)
-        continue;
-      parents_[static_cast<std::size_t>(number)] = i;
-    }
-  }
+  parents_ = parents_of(list_of(root, "nodes"));
 }
 
 std::size_t References::size_of(std::string_view list) const {

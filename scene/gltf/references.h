@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -19,6 +20,11 @@ struct ElementList {
   std::string_view place;  ///< JSON pointer
   std::string_view placeholder;  ///< JSON of an element that nothing refers to
 };
+
+inline constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+
+/// The parent of each of these unchecked nodes, or kNoParent. Of several parents, the last one.
+std::vector<std::size_t> parents_of(const nlohmann::json& nodes);
 
 class References {
  public:
@@ -47,12 +53,10 @@ class References {
     std::vector<bool> added;
   };
 
-  void find_parents();
-
   std::unordered_map<std::string_view, List> lists_;
   std::vector<Element> waiting_;  ///< in the order in which they were added
   std::size_t next_ = 0;
-  std::vector<std::size_t> parents_;  ///< of nodes; the largest number for a root
+  std::vector<std::size_t> parents_;  ///< of nodes
 };
 
 }  // namespace gatelight::scene::gltf

@@ -23,15 +23,20 @@ inline std::string text_of(const nlohmann::json& object, const char* name) {
   return found == object.end() || !found->is_string() ? std::string() : found->get<std::string>();
 }
 
-/// A member that is a whole number from 0 to `count` - 1.
-inline std::optional<std::size_t> index_of(const nlohmann::json& object, const char* name,
-                                           std::size_t count) {
-  const auto found = object.find(name);
-  if (found == object.end() || !found->is_number()) return std::nullopt;
-  const double number = found->get<double>();
+/// A whole number from 0 to `count` - 1; else nothing.
+inline std::optional<std::size_t> index_below(const nlohmann::json& value, std::size_t count) {
+  if (!value.is_number()) return std::nullopt;
+  const double number = value.get<double>();
   if (!(number >= 0.0 && number < static_cast<double>(count)) || std::floor(number) != number)
     return std::nullopt;
   return static_cast<std::size_t>(number);
+}
+
+/// The same of a member.
+inline std::optional<std::size_t> index_of(const nlohmann::json& object, const char* name,
+                                           std::size_t count) {
+  const auto found = object.find(name);
+  return found == object.end() ? std::nullopt : index_below(*found, count);
 }
 
 }  // namespace gatelight::scene::gltf
