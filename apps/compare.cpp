@@ -7,6 +7,7 @@
 
 #include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -96,7 +97,7 @@ void check_outputs(const CompareSettings& settings) {
   names.write("--error-map", settings.error_map);
   names.write("--json", settings.json);
   if (!settings.error_map.empty()) {
-    refuse_frame_pattern("--error-map", settings.error_map);
+    refuse_frame_place("--error-map", settings.error_map);
     if (std::filesystem::path(settings.error_map).extension() != ".png") {
       throw UsageError(fmt::format("--error-map: '{}' is not a .png file", settings.error_map));
     }

@@ -12,6 +12,7 @@
 
 #include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -168,7 +169,7 @@ class DenoiseRun {
     names.read("INPUT", settings_.input);
     check_stdout(settings_.outputs);
     for (const std::string& output : settings_.outputs) {
-      refuse_frame_pattern("--output", output);
+      refuse_frame_place("--output", output);
       names.write("--output", output);
       check_picture_output(output);
     }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "apps/seeds.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
@@ -75,7 +76,7 @@ void require_finite(const renderer::Picture& picture, const std::string& file) {
 }
 
 int run_merge(const MergeSettings& settings) {
-  refuse_frame_pattern("--output", settings.output);
+  refuse_frame_place("--output", settings.output);
   require_exr(settings.output);
   for (const std::string& input : settings.inputs) require_exr(input);
   renderer::check_image_output(settings.output);

@@ -1,38 +1,17 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <exception>
 #include <memory>
 #include <new>
-#include <nlohmann/json.hpp>
 
-#include "apps/rank_checks.h"
-#include "apps/reports/glare_warning.h"
-#include "apps/reports/overflow_warning.h"
-#include "apps/reports/recipe.h"
-#include "apps/reports/run_report.h"
-#include "apps/settings/camera_names.h"
+#include "apps/render_run.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
-#include "apps/settings/picture_output.h"
-#include "apps/settings/unused_flags.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "apps/terminal/progress.h"
 #include "apps/terminal/signals.h"
-#include "apps/terminal/terminal.h"
-#include "apps/terminal/text.h"
-#include "base/clock.h"
 #include "base/errors.h"
-#include "renderer/denoise/oidn_library.h"
-#include "renderer/distributed/collectives.h"
-#include "renderer/film/memory_estimate.h"
-#include "renderer/image/auto_exposure.h"
-#include "renderer/render.h"
-#include "renderer/settings/resolved_options.h"
-#include "scene/gltf.h"
 
 namespace gatelight::apps {
 namespace {
@@ -52,207 +31,6 @@ Examples:
   gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
-
-double count_pixels(const renderer::RenderOptions& options) {
-  if (!options.region) return static_cast<double>(options.width) * options.height;
-  const auto [x0, y0, x1, y1] = *options.region;
-  return static_cast<double>(x1 - x0) * (y1 - y0);
-}
-
-class RenderRun {
- public:
-  RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group)
-      : settings_(std::move(settings)),
-        group_(group),
-        progress_(settings_.quiet ? ProgressMode::none : settings_.progress, count_pixels(settings_.render)) {
-    report_.command = command;
-    report_.hosts = group.hosts;
-  }
-
-  int run() {
-    share_machines(settings_, group_);
-    // A scene may take long to load.
-    if (group_.ranks.first() && settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
-      renderer::load_oidn(settings_.render.denoise.library);
-    const scene::Scene scene = load();
-    if (const int number = signal(); number != 0) return stop_without_picture(number);
-    expect_equal_ranks(settings_, scene, group_);
-    bright_lights_ = lights_from_watts(scene);
-    const std::size_t memory = require_memory_of_ranks(settings_, scene, group_);
-    log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.is_single() ? "" : " by each rank",
-                           format_bytes(memory)));
-    const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
-    settings_ = pictures.front();
-    progress_.phase("build");
-    const std::size_t warnings_of_loading = report_.warnings.size();
-    renderer::Renderer renderer(scene, settings_.render, group_.ranks);
-    int code = make_picture(renderer);
-    for (std::size_t i = 1; i < pictures.size() && code == kDone; ++i) {
-      settings_ = pictures[i];
-      start_ = Clock::now();
-      report_.warnings.resize(warnings_of_loading);
-      renderer.set_camera(settings_.render.camera);
-      code = make_picture(renderer);
-    }
-    return code;
-  }
-
- private:
-  int make_picture(renderer::Renderer& renderer) {
-    note_integrator(renderer.integrator());
-    for (const std::string& warning : renderer.statistics().warnings) warn(warning);
-    if (const int number = signal(); number != 0) return stop_without_picture(number);
-    renderer::Picture picture = renderer.render(make_callbacks(renderer));
-    report_.statistics = renderer.statistics();
-    report_.signal = signal();
-    if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
-      warn(fmt::format("the picture keeps its noise: {}", why));
-    if (group_.ranks.first()) write_results(std::move(picture));
-    renderer::agreed(group_.ranks, 0);  // what follows may end all ranks: rank 0 has written by now
-    if (!report_.statistics.device_lost.empty())
-      throw DeviceLost(fmt::format("{}; the picture so far was written", report_.statistics.device_lost));
-    if (report_.signal == 0 && !report_.statistics.cache.diverged.empty())
-      throw TrainingDiverged(fmt::format("{}; what was written is of its last good step, {}",
-                                         report_.statistics.cache.diverged, report_.statistics.cache.steps));
-    if (failed_output_) std::rethrow_exception(failed_output_);
-    return report_.signal == 0 ? kDone : kSignalBase + report_.signal;
-  }
-
-  /// Sets the chosen integrator in the settings, which the reports show.
-  void note_integrator(renderer::Integrator chosen) {
-    if (settings_.render.choose_integrator) renderer::use_integrator(settings_.render, chosen);
-  }
-
-  scene::Scene load() {
-    for (const std::string& unused : unused_output_flags(settings_)) warn(unused);
-    progress_.phase("load");
-    const Clock::time_point start = Clock::now();
-    scene::Scene scene = scene::load_gltf(settings_.scene, settings_.load);
-    report_.load_seconds = seconds_since(start);
-    for (const std::string& warning : scene.warnings) warn(warning);
-    if (settings_.verbose) {
-      progress_.clear();
-      log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings_.scene,
-                             format_integer(scene::count_triangles(scene)), scene.instances.size(),
-                             scene.lights.size()));
-      log_detail(fmt::format("options: {}", dump_options(settings_)));
-    }
-    return scene;
-  }
-
-  renderer::Callbacks make_callbacks(const renderer::Renderer& renderer) {
-    return {
-        .progress = [this](const renderer::Progress& progress) { progress_.update(progress); },
-        .stop = [] { return stop_signal() != 0; },
-        .snapshot_wanted = [] { return take_snapshot_request(); },
-        .snapshot = [this, &renderer](
-                        const renderer::Picture& picture) { write_snapshot(picture, renderer.statistics()); },
-        .output_failed = [this](const std::exception_ptr& error,
-                                bool again) { note_failed_output(error, again); },
-    };
-  }
-
-  /// Tries all outputs before it throws the first error, so that a full disk does not cost the other picture.
-  void write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics,
-                      const std::vector<std::string>& outputs) {
-    renderer::ImageWriteOptions image = settings_.image;
-    const float suitable = renderer::auto_exposure(picture);
-    if (!settings_.exposure) image.display.exposure = suitable;
-    warn_of_glare(picture, image.display, suitable);
-    report_.exposure = image.display.exposure;
-    picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
-    std::exception_ptr first_error;
-    for (const std::string& output : outputs) {
-      try {
-        write_picture(picture, output, image);
-      } catch (...) {
-        if (!first_error) first_error = std::current_exception();
-      }
-    }
-    if (first_error) std::rethrow_exception(first_error);
-  }
-
-  void warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display,
-                     float suitable) {
-    if (settings_.given.contains("--exposure") || glare_reported_ || !shows_on_a_screen(settings_.outputs))
-      return;
-    const std::string text = glare_warning(picture, display, suitable, bright_lights_);
-    if (text.empty()) return;
-    glare_reported_ = true;
-    warn(text);
-  }
-
-  void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
-    try {
-      write_pictures(picture, statistics, files_of(settings_.outputs));
-      progress_.clear();
-      log_detail("snapshot written");
-    } catch (const std::exception& error) {
-      // The outputs are written again at the end of the run.
-      warn(fmt::format("snapshot: {}", error.what()));
-    }
-  }
-
-  void write_results(renderer::Picture picture) {
-    progress_.phase("write");
-    if (report_.statistics.nonfinite > 0) {
-      warn(fmt::format("{} samples were not finite and are left out; --stats locates the first of them",
-                       report_.statistics.nonfinite));
-    }
-    if (const std::string text = overflow_warning(picture, settings_.outputs, settings_.image); !text.empty())
-      warn(text);
-    const Clock::time_point start = Clock::now();
-    write_pictures(std::move(picture), report_.statistics, settings_.outputs);
-    report_.write_seconds = seconds_since(start);
-    report_.total_seconds = seconds_since(start_);
-    if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report_));
-    const bool as_json = progress_.done(summary_json(settings_, report_));
-    if (!as_json && !settings_.quiet) print_status(summary(settings_, report_));
-    if (report_.signal != 0) {
-      print_notice(stop_notice(settings_, report_), kSignalBase + report_.signal);
-    }
-  }
-
-  void note_failed_output(const std::exception_ptr& error, bool again) {
-    try {
-      std::rethrow_exception(error);
-    } catch (const std::exception& failure) {
-      warn(fmt::format("{}; the picture goes on{}", failure.what(),
-                       again ? ", and it will be tried again" : ""));
-    }
-    if (!again && !failed_output_) failed_output_ = error;
-  }
-
-  /// The signal that some rank received; 0: none.
-  int signal() const {
-    const std::vector<int> signals = renderer::one_of_each(group_.ranks, stop_signal());
-    return *std::max_element(signals.begin(), signals.end());
-  }
-
-  /// A signal before the first pass: there is nothing to write.
-  int stop_without_picture(int signal) {
-    progress_.clear();
-    print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
-                             signal, settings_.scene),
-                 kSignalBase + signal);
-    return kSignalBase + signal;
-  }
-
-  void warn(const std::string& text) {
-    progress_.clear();
-    log_warning(text);
-    report_.warnings.push_back(with_flags(text));
-  }
-
-  RenderSettings settings_;  ///< of the picture that is made
-  const RankGroup& group_;
-  RunReport report_;
-  Clock::time_point start_ = Clock::now();
-  ProgressReporter progress_;
-  std::string bright_lights_;  ///< lights_from_watts()
-  bool glare_reported_ = false;
-  std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
-};
 
 /// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
 /// highlights.

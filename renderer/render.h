@@ -2,6 +2,7 @@
 // Makes pictures of one scene. An application needs no other header to render.
 
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -77,6 +78,22 @@ class Renderer {
   /// The pictures from now on have another view; nothing is built again. A cache is trained anew for it.
   /// Throws BadOption as the constructor does, with the view unchanged.
   void set_camera(const CameraOptions& camera);
+
+  // Frames of an animation: scene::SceneFile::show() changes the scene between these calls.
+
+  /// The scene shows another time. Builds what moves. Throws as the constructor does.
+  void scene_moved(const CameraOptions& camera);
+  /// What the present view shows at the present time is to be part of the cache. Call it for some frames
+  /// before make_cache(); without a call the present one is taken.
+  void scout();
+  /// Makes the cache that the frames share, or reads `cache_in`, whose scene this must be: `seconds` is the
+  /// time that the scene shows. Throws the exceptions of render().
+  void make_cache(double seconds);
+  /// The present frame, whose number keys its random numbers. It depends on scene, options and the cache
+  /// before it, which it trains further, as much as the light has changed. No checkpoint is read or written.
+  Picture render_frame(int frame, const Callbacks& callbacks = {});
+  /// Throws OutputError. Nothing is written without a cache.
+  void write_cache(const std::filesystem::path& path) const;
 
   /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless
   /// a time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and

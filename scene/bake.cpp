@@ -74,7 +74,7 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
   }
   for (Instance& instance : scene.instances) {
     const std::size_t m = static_cast<std::size_t>(instance.mesh);
-    if (!instance.baked && uses[m] > 1 && (copied[m] || is_flat(instance.transform))) {
+    if (!instance.baked && !instance.moves && uses[m] > 1 && (copied[m] || is_flat(instance.transform))) {
       unshare(scene, instance, uses);
     }
   }
@@ -85,7 +85,7 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
   tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
     Instance& instance = scene.instances[i];
     const std::size_t m = static_cast<std::size_t>(instance.mesh);
-    if (instance.baked || last_uses[m] != 1) return;
+    if (instance.baked || instance.moves || last_uses[m] != 1) return;
     transform_mesh(scene.meshes[m], instance.transform, instance.mirrors);
     instance.transform = Affine::Identity();
     instance.mirrors = false;

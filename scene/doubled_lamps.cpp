@@ -64,13 +64,13 @@ class Separator {
   explicit Separator(Scene& scene) : scene_(scene), instance_of_(scene.meshes.size(), kNone) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       int& instance = instance_of_[static_cast<std::size_t>(scene.instances[i].mesh)];
-      instance = instance == kNone ? static_cast<int>(i) : kShared;
+      instance = instance == kNone && !scene.instances[i].moves ? static_cast<int>(i) : kShared;
     }
   }
 
-  void separate() {
+  std::vector<int> separate() {
     find_emitters();
-    if (places_.empty()) return;
+    if (places_.empty()) return {};
     find_others();
     for (const auto& [place, faces] : places_) {
       if (faces.size() > 1) decide(faces);
@@ -79,9 +79,11 @@ class Separator {
     for (std::size_t m = 0; m < count; ++m) {
       if (!fates_[m].empty()) apply(m);
     }
-    if (!empty_) return;
-    std::erase_if(scene_.instances, [&](const Instance& i) { return scene_.mesh_of(i).triangles.empty(); });
-    drop_unused_meshes(scene_);
+    if (empty_) {
+      std::erase_if(scene_.instances, [&](const Instance& i) { return scene_.mesh_of(i).triangles.empty(); });
+      drop_unused_meshes(scene_);
+    }
+    return std::move(copies_);
   }
 
  private:
@@ -103,7 +105,7 @@ class Separator {
   void for_each_face(int m, const Pass& pass, const Use& use) const {
     const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(m)];
     const int number = instance_of_[static_cast<std::size_t>(m)];
-    if (number == kNone) return;
+    if (number == kNone || mesh.deforming >= 0) return;
     const Instance* const instance =
         number == kShared ? nullptr : &scene_.instances[static_cast<std::size_t>(number)];
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -223,10 +225,8 @@ class Separator {
   int culled_material(int material) {
     const auto [entry, is_new] = culled_.try_emplace(material, static_cast<int>(scene_.materials.size()));
     if (is_new) {
-      Material copy = scene_.materials[static_cast<std::size_t>(material)];
-      copy.culled = true;
-      copy.double_sided = false;
-      scene_.materials.push_back(std::move(copy));
+      add_culled_copy(scene_, material);
+      copies_.push_back(material);
     }
     return entry->second;
   }
@@ -237,13 +237,21 @@ class Separator {
   CornerFilter corners_;
   std::vector<std::vector<Fate>> fates_;  ///< by mesh and triangle; empty where all stay
   std::unordered_map<int, int> culled_;   ///< by material
+  std::vector<int> copies_;
   bool empty_ = false;
 };
 
 }  // namespace
 
-void separate_doubled_lamps(Scene& scene) {
-  Separator(scene).separate();
+std::vector<int> separate_doubled_lamps(Scene& scene) {
+  return Separator(scene).separate();
+}
+
+void add_culled_copy(Scene& scene, int material) {
+  Material copy = scene.materials[static_cast<std::size_t>(material)];
+  copy.culled = true;
+  copy.double_sided = false;
+  scene.materials.push_back(std::move(copy));
 }
 
 }  // namespace gatelight::scene

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,25 @@ struct LoadOptions {
 /// precision (Scene::origin). Rays start a few units in the last place of the coordinates off a surface; at
 /// this distance that is a 30 000th of the radius.
 inline constexpr double kFarFromOrigin = 16.0;
+
+/// A file that stays open, to show its scene at many times. What does not move is read once.
+class SceneFile {
+ public:
+  /// Throws as load_gltf() does.
+  explicit SceneFile(const std::filesystem::path& path, const LoadOptions& options = {});
+  ~SceneFile();
+
+  /// The scene at the options' time, for a single call.
+  Scene load();
+  /// Changes the scene that load() gave to another time, to the bits that load_gltf() gives for it. The
+  /// options need a time, else nothing moves. Throws as load_gltf() does, with the scene in any state, which
+  /// a later call mends.
+  void show(Scene& scene, double seconds);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Loads a .gltf or .glb file. Throws InputError if the file cannot be read, violates the specification in a
 /// way that affects pictures, or requires an unsupported extension; OutOfMemory where the threads cannot be

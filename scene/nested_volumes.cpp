@@ -37,7 +37,8 @@ std::vector<Body> find_bodies(const Scene& scene) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.mesh_of(instance);
     const Material& material = scene.material_of(instance);
-    if (instance.placement < 0 || mesh.triangles.empty() || !material.has_volume() || !can_close(material))
+    if (instance.placement < 0 || instance.hidden || mesh.triangles.empty() || !material.has_volume() ||
+        !can_close(material))
       continue;
     const auto [number, is_new] = numbers.try_emplace({instance.placement, mesh.material}, bodies.size());
     if (is_new) bodies.emplace_back();

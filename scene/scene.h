@@ -120,6 +120,8 @@ struct Material {
 struct Mesh {
   std::string name;
   int material = -1;  ///< index into Scene::materials, always valid after loading
+  /// The loader's number of a mesh whose vertices change with the time; else -1.
+  int deforming = -1;
   PaddedVector<Vec3> positions;
   std::vector<Vec3> normals;   ///< unit; empty means flat: the geometric normal of each triangle
   std::vector<Vec4> tangents;  ///< xyz unit, w the handedness (+1 or -1); present when a normal map or
@@ -137,6 +139,8 @@ struct Instance {
   int mesh = -1;
   Affine transform = Affine::Identity();  ///< mesh to world
   bool baked = false;                     ///< the mesh is in world space and no other instance uses it
+  bool moves = false;                     ///< its transform or its vertices change with the time; never baked
+  bool hidden = false;                    ///< invisible at this time
   bool mirrors = false;                   ///< determinant < 0: front faces are clockwise in the mesh
   /// The instances of one placed glTF mesh, one for each of its primitives, have the same number. Numbers
   /// grow along the walk through the nodes.
@@ -193,6 +197,16 @@ struct Animation {
   double seconds = 0.0;  ///< time of its last key, by the file's own statement; 0 where there is none
 };
 
+/// What the time changes, beside the cameras (SceneFile::show()).
+struct SceneMotion {
+  bool instances = false;  ///< transforms, vertices or visibility of those that move
+  bool lights = false;
+  bool image_light = false;
+  bool materials = false;
+
+  bool any() const { return instances || lights || image_light || materials; }
+};
+
 struct Scene {
   std::string path;  ///< the loaded file
   std::vector<Image> images;
@@ -206,8 +220,11 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
   std::vector<Animation> animations;  ///< all of the file, shown or not
+  SceneMotion motion;
   std::vector<std::string> warnings;  ///< one line each, without duplicates
-  Box bounds;                         ///< world; empty when there is no triangle
+  /// World; empty when there is no triangle. Of the nodes' own pose where things move, so that choices by the
+  /// scene's size hold at all times.
+  Box bounds;
   /// Position of the world's origin in the file's coordinates. It is not zero for a scene that lies far from
   /// the file's origin, compared with its size: single precision would lose too many digits there
   /// (kFarFromOrigin in scene/gltf.h).

@@ -76,6 +76,36 @@ void complete_view(RenderSettings& settings) {
   settings.render.camera.look_at = look_at;
 }
 
+void complete_frames(RenderSettings& settings) {
+  FrameSettings& frames = settings.frames;
+  if (frames.turntable > 0 && !frames.range) frames.range = FrameRange{0, frames.turntable - 1, 1};
+  if (!frames.range) {
+    if (settings.given.contains("--fps"))
+      throw UsageError("--fps: there are no frames, expected --frames or --turntable with it");
+    return;
+  }
+  if (settings.load.time)
+    throw UsageError("--time and --frames exclude each other, expected one of them");
+  settings.load.time = frames.seconds(frames.range->first);
+  if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
+    throw UsageError("--camera: 'all' does not go with --frames, expected one camera");
+}
+
+/// Files of several frames need a place for their number; those of one picture have none.
+void check_frame_names(const RenderSettings& settings) {
+  const auto check = [&](const char* flag, const std::string& name) {
+    if (name.empty()) return;
+    if (!settings.frames.range) return refuse_frame_place(flag, name);
+    const FrameRange& range = *settings.frames.range;
+    if (range.first != range.last && !has_frame_place(name))
+      throw UsageError(fmt::format(
+          "{}: '{}' is one file for all frames, expected a place for their number in its name: %04d", flag,
+          name));
+  };
+  for (const std::string& output : settings.outputs) check("--output", output);
+  check("--stats", settings.stats);
+}
+
 void check_picture(const RenderOptions& options) {
   const std::int64_t pixels = static_cast<std::int64_t>(options.width) * options.height;
   if (pixels > kMaxPixels) {
@@ -226,8 +256,9 @@ void complete_settings(RenderSettings& settings) {
   complete_view(settings);
   if (settings.render.environment.sky && settings.given.contains("--environment"))
     throw UsageError("--sky and --environment exclude each other, expected one of them");
+  complete_frames(settings);
   if (!settings.load.animation.empty() && !settings.load.time)
-    throw UsageError("--animation: without a moment nothing is animated, expected --time with it");
+    throw UsageError("--animation: without a moment nothing is animated, expected --time or --frames with it");
   check_picture(settings.render);
   resolve_integrator(settings);
   check_light_groups(settings.render);
@@ -237,7 +268,7 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render);
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
-  for (const std::string& output : settings.outputs) refuse_frame_pattern("--output", output);
+  check_frame_names(settings);
   check_stdout(settings.outputs, settings.stats);
   check_camera_names(settings);
   check_file_names({&settings, 1});

@@ -18,6 +18,8 @@ using namespace renderer;
 constexpr RealRange kStops{-100.0, 100.0};
 /// Before the first key and after the last one nothing moves.
 constexpr RealRange kSeconds{-1e9, 1e9};
+constexpr RealRange kFps{1e-3, 1e6};
+constexpr IntegerRange kTurns{0, 1 << 20};
 constexpr IntegerRange kScenes{-1, 1 << 30};
 constexpr RealRange kKelvin{1667.0, 25000.0};
 constexpr Choice<int> kBits[] = {{"8", 8}, {"16", 16}};
@@ -113,6 +115,20 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .in_sweep = SweepUse::scene});
 }
 
+void add_frame_options(OptionGroup& group, FrameSettings& frames) {
+  auto& [range, fps, turntable] = frames;
+  group.add(common(not_in_sweep(
+      {.name = "frames",
+       .unit = "A:B[:STEP]",
+       .help = "Frames to render, a file each: -o frame-%04d.exr (or #### or {frame}). The scene is loaded once, "
+               "the cache is kept from frame to frame, and earlier frames take noise off later ones",
+       .value = [&range = range]() -> OptionValue { return range ? OptionValue(text_of(*range)) : OptionValue(); },
+       .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }})));
+  group.add(not_in_sweep(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N")));
+  group.add(not_in_sweep(number("turntable", turntable, kTurns, "N",
+                                "The camera goes around what it looks at, once in N frames")));
+}
+
 Option preset_option(std::optional<CachePreset>& preset) {
   const auto read = [&preset](const std::string& text) {
     preset = parse_choice("--preset", text, kEnumNames<CachePreset>);
@@ -185,7 +201,7 @@ Option positional(const char* name, std::string& member, const char* help) {
 
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
-  auto& [scene, outputs, render, load, image, exposure, eye, target, up, view_file, config, stats, progress,
+  auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats, progress,
          reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
@@ -197,7 +213,11 @@ std::vector<Option> option_table(RenderSettings& settings) {
     const std::string name = option.name;
     table.push_back(std::move(option));
     if (name == "integrator") table.push_back(preset_option(preset));
-    if (name == "environment-scale") add_load_options(view, load);
+    if (name == "environment-scale") {
+      add_load_options(view, load);
+      OptionGroup animation{table, "Animation"};
+      add_frame_options(animation, frames);
+    }
     if (name != "camera") continue;
     const auto& camera = render.camera;
     view.add(common(

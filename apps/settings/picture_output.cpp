@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <iterator>
-#include <regex>
 
 #include "apps/terminal/errors.h"
 #include "apps/terminal/terminal.h"
@@ -51,16 +49,6 @@ void check_stdout(std::span<const std::string> outputs, const std::string& stats
   if (first && stats == "-")
     throw UsageError(
         fmt::format("--stats: '-' is standard output, where --output '{}' writes, expected a file", *first));
-}
-
-void refuse_frame_pattern(std::string_view flag, const std::string& name) {
-  static const std::regex pattern(R"(%\d*d|##+|\{frame\})");
-  const std::string file = std::filesystem::path(name).filename();
-  std::smatch found;
-  if (std::regex_search(file, found, pattern))
-    throw UsageError(fmt::format(
-        "{}: '{}' has the place of a frame's number, '{}', expected a name without it for a single picture",
-        flag, name, found.str()));
 }
 
 void check_picture_output(const std::string& output) {

@@ -24,9 +24,6 @@ std::vector<std::string> files_of(std::span<const std::string> outputs);
 /// Throws UsageError where two results would go to standard output. `stats` may be empty.
 void check_stdout(std::span<const std::string> outputs, const std::string& stats = "");
 
-/// Throws UsageError where the name holds the place of a frame's number, as "%04d", "####" or "{frame}" does.
-void refuse_frame_pattern(std::string_view flag, const std::string& name);
-
 /// Throws UnknownFormat or OutputError where write_picture() cannot write, also to a terminal.
 void check_picture_output(const std::string& output);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/settings/frame_range.h"
 #include "apps/terminal/progress.h"
 #include "renderer/image/image_write.h"
 #include "renderer/settings/options.h"
@@ -20,6 +21,7 @@ struct RenderSettings {
   std::vector<std::string> outputs;
   renderer::RenderOptions render{.environment = {.automatic = true}};
   scene::LoadOptions load;
+  FrameSettings frames;
   renderer::ImageWriteOptions image;
   /// In stops; none: auto_exposure() of the picture. complete_settings() makes image.exposure of it.
   std::optional<float> exposure = 0.0f;

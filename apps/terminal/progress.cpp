@@ -106,6 +106,10 @@ bool ProgressReporter::enter_phase(const renderer::Progress& progress) {
 
 ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progress) const {
   Rates rates;
+  if (frame_) {
+    rates.eta_seconds = eta_of_frames();
+    return rates;
+  }
   const double seconds = progress.seconds - first_.seconds;
   const double done = progress.fraction - first_.fraction;
   if (done > 0.0) rates.eta_seconds = seconds / done * std::max(0.0, 1.0 - progress.fraction);
@@ -127,13 +131,19 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
     line["samples_per_second"] = rates.samples_per_second;
     if (progress.error) line["estimated_error"] = *progress.error;
   }
+  if (frame_) {
+    line["frame"] = frame_->number;
+    line["frames_done"] = frame_->done;
+    line["frames"] = frame_->count;
+  }
   line["seconds"] = progress.seconds;
   if (rates.eta_seconds >= 0.0) line["eta_seconds"] = rates.eta_seconds;
   print_json_line(line);
 }
 
 void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
-  const std::string name = name_of(kPhases, progress.phase);
+  std::string name = name_of(kPhases, progress.phase);
+  if (frame_) name = fmt::format("frame {} ({} of {}) {}", frame_->number, frame_->done + 1, frame_->count, name);
   const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,
                                           measures(progress, rates.samples_per_second),
                                           rates.eta_seconds < 0.0 ? "?" : format_duration(rates.eta_seconds));
@@ -143,6 +153,30 @@ void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates&
   const int filled = static_cast<int>(std::floor(std::clamp(progress.fraction, 0.0, 1.0) * width));
   const std::string bar = fmt::format("{} [{:=<{}}{: <{}}]", name, "", filled, "", width - filled);
   show_line(width >= 8 ? bar + numbers : numbers);
+}
+
+void ProgressReporter::begin_frame(int frame, std::size_t done, std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  if (!frame_) first_frame_ = Clock::now();
+  frame_ = Frame{frame, done, count, Clock::now()};
+  phase_.reset();
+}
+
+bool ProgressReporter::frame_done(int frame, const nlohmann::ordered_json& summary) {
+  const std::lock_guard lock(mutex_);
+  if (mode_ != ProgressMode::json) return false;
+  nlohmann::ordered_json line = {{"event", "frame"}, {"frame", frame}};
+  line.update(summary);
+  print_json_line(line);
+  return true;
+}
+
+double ProgressReporter::eta_of_frames() const {
+  if (frame_->done == 0) return -1.0;
+  const double each = std::chrono::duration<double>(frame_->begin - first_frame_).count() /
+                      static_cast<double>(frame_->done);
+  const double left = each * static_cast<double>(frame_->count - frame_->done);
+  return std::max(left - seconds_since(frame_->begin), 0.0);
 }
 
 bool ProgressReporter::done(const nlohmann::ordered_json& summary) {

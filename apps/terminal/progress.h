@@ -54,6 +54,10 @@ class ProgressReporter : public ProgressLine {
   /// Begins a phase without measurable progress: "load", "build", "write".
   void phase(const std::string& name);
   void update(const renderer::Progress& progress);
+  /// From now on the progress is that of a frame, after `done` of `count`, with the ETA of all.
+  void begin_frame(int frame, std::size_t done, std::size_t count);
+  /// Reports that a frame is written, as JSON. Returns false in other modes.
+  bool frame_done(int frame, const nlohmann::ordered_json& summary);
   /// Reports that the files are written, as JSON. Returns false in other modes, where the caller prints text.
   bool done(const nlohmann::ordered_json& summary);
 
@@ -68,7 +72,18 @@ class ProgressReporter : public ProgressLine {
   void show_json(const renderer::Progress& progress, const Rates& rates);
   void show_bar(const renderer::Progress& progress, const Rates& rates);
 
+  /// One of several frames.
+  struct Frame {
+    int number = 0;
+    std::size_t done = 0, count = 0;
+    Clock::time_point begin;  ///< of this one
+  };
+  /// Seconds left of all frames; negative: unknown.
+  double eta_of_frames() const;
+
   double pixels_;
+  std::optional<Frame> frame_;
+  Clock::time_point first_frame_;  ///< its begin
   std::optional<renderer::Phase> phase_;
   renderer::Progress first_;  ///< update of the phase; a resumed picture does not begin at zero
 };

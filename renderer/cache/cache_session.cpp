@@ -15,6 +15,7 @@
 #include "base/errors.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/cache/light_change.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/record_exchange.h"
@@ -104,7 +105,9 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   if (setup) {
     setup_ = *setup;
   } else {
-    ScoutReport report = scout(world, camera, region, options, ranks_);
+    Scouting scouting;
+    scouting.add(world, camera, region, options, ranks_);
+    ScoutReport report = scouting.report(world.scene, options);
     setup_ = std::move(report.setup);
     scout_rays_ = report.rays;
   }
@@ -116,22 +119,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   check_memory(world.scene, options, *cache_model);
   trainer_ = std::make_unique<neural::Trainer>(cache_model, training_options(options),
                                                make_cache_backend(cache_model, options));
-  inputs_ = PointInputs(cache_model->config);
-  const bool gate = cache_model->config.encoding == neural::FeatureEncoding::gate;
-  if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
-  points_ = std::make_unique<TrainingPoints>(world, camera, region, options, setup_.sides,
-                                             gate ? &cache_model->gate : nullptr);
-  if (gate && counts_needed(options))
-    counts_ = TriangleCounts(cache_model->gate, options.cache.candidates > 1 ? points_.get() : nullptr);
-  paths_ = std::make_unique<CachedPaths>(world, cached_paths_options(options), stored_);
-  if (options.integrator == Integrator::nao) {
-    records_ = std::make_unique<OcclusionRecords>(
-        world, *points_, options, stored_, resolve_ao_distance(options.ao_distance, world.scene.bounds),
-        inputs_);
-  } else {
-    records_ = std::make_unique<RadianceRecords>(*paths_, *points_, options, inputs_);
-  }
-
+  connect(world, camera, region);
   const auto count = [](neural::Sides sides) {
     return static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(sides)));
   };
@@ -140,7 +128,8 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
     statistics_.surfaces_possible += count(possible_sides(world.scene, world.scene.instances[i]));
   }
   statistics_.nodes = cache_model->parameters.node_count;
-  statistics_.node_spacing = gate ? cache_model->gate.report.node_spacing : 0.0f;
+  if (cache_model->config.encoding == neural::FeatureEncoding::gate)
+    statistics_.node_spacing = cache_model->gate.report.node_spacing;
   statistics_.target_scale = setup_.target_scale;
   statistics_.records_per_path = static_cast<double>(setup_.records_per_path);
   const neural::RequiredInputs required = required_inputs(world, options);
@@ -154,6 +143,42 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.backend = trainer_->backend().name();
   statistics_.setup_seconds = seconds_since(start);
   first_statistics_ = statistics_;
+}
+
+CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
+                           const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks)
+    : options_(options),
+      ranks_(ranks && !ranks->ranks.is_single() ? ranks : nullptr),
+      setup_(std::move(earlier.setup_)),
+      trainer_(std::move(earlier.trainer_)),
+      steps_(earlier.steps_),
+      first_statistics_(earlier.first_statistics_) {
+  const Clock::time_point start = Clock::now();
+  const std::vector<std::uint32_t> counts(earlier.counts_.values().begin(), earlier.counts_.values().end());
+  connect(world, camera, region);
+  counts_.restart(counts);
+  first_statistics_.scout_seconds = 0.0;
+  first_statistics_.setup_seconds = seconds_since(start);
+  statistics_ = first_statistics_;
+}
+
+void CacheSession::connect(const World& world, const Camera& camera, const PixelRect& region) {
+  const neural::Model& model = trainer_->model();
+  inputs_ = PointInputs(model.config);
+  const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
+  if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
+  points_ = std::make_unique<TrainingPoints>(world, camera, region, options_, setup_.sides,
+                                             gate ? &model.gate : nullptr);
+  if (gate && counts_needed(options_))
+    counts_ = TriangleCounts(model.gate, options_.cache.candidates > 1 ? points_.get() : nullptr);
+  paths_ = std::make_unique<CachedPaths>(world, cached_paths_options(options_), stored_);
+  if (options_.integrator == Integrator::nao) {
+    records_ = std::make_unique<OcclusionRecords>(
+        world, *points_, options_, stored_, resolve_ao_distance(options_.ao_distance, world.scene.bounds),
+        inputs_);
+  } else {
+    records_ = std::make_unique<RadianceRecords>(*paths_, *points_, options_, inputs_);
+  }
 }
 
 CacheSession::~CacheSession() = default;
@@ -270,6 +295,7 @@ void CacheSession::learn_from(Group& group, const Watch& watch) {
   samples_ += group.samples();
   if (watch.samples && group.samples() > 0) watch.samples(records);
   statistics_.train_trace_seconds += seconds_since(begin);
+  if (watch.before_learning) watch.before_learning(records);
   for (std::uint64_t batch = 0; batch < group.steps(); ++batch) {
     counts_.add(records, batch, steps_);
     learn(records, batch);
@@ -337,10 +363,11 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   statistics_.train_seconds = before + seconds_since(start);
 }
 
-void CacheSession::start_anew() {
+void CacheSession::start_anew(bool keeps_samples) {
   Snapshot start{{.setup = setup_}, first_statistics_, 0, 0, scout_rays_, {}};
   start.state.model = neural::initial_state(model(), trainer_->options());
   start.state.triangle_counts.assign(counts_.values().size(), 0);
+  if (keeps_samples) start.state.samples = samples_;
   return_to(start);
 }
 
@@ -348,6 +375,20 @@ std::uint64_t CacheSession::answer(const SurfacePoints& points, std::span<float>
   return ask_cache(*trainer_,
                    options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
                    records_->units(setup_), points, answers);
+}
+
+double CacheSession::light_change(const scene::Scene& scene, const RecordBatch& group) const {
+  std::vector<float> answers(group.records.size() * outputs());
+  if (answers.empty()) return 0.0;
+  trainer_->query(group.records.batch(), {.range = neural::OutputRange::raw}, answers);
+  return renderer::light_change(scene, group, answers, outputs());
+}
+
+void CacheSession::forget_beyond(std::uint32_t steps) {
+  neural::ModelState state = trainer_->backend().export_state();
+  for (std::uint32_t& age : state.node_steps) age = std::min(age, steps);
+  state.steps = std::min<std::uint64_t>(state.steps, steps);
+  trainer_->backend().import_state(state);
 }
 
 CacheState CacheSession::export_state() const {

@@ -24,6 +24,10 @@ class CacheSession {
                const RenderOptions& options, const CacheSetup* setup = nullptr,
                const std::function<void(const neural::Model&)>& expect_model = {},
                const RankTiles* ranks = nullptr);
+  /// Goes on with the cache of another view or time of the same scene, which it takes over. The samples of the
+  /// picture begin anew, and the guard forgets what it has seen.
+  CacheSession(const World& world, const Camera& camera, const PixelRect& region,
+               const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks = nullptr);
   ~CacheSession();
 
   /// Callbacks of training, called between groups of steps.
@@ -35,6 +39,8 @@ class CacheSession {
     std::function<void(const RecordBatch& group)> samples;
     /// Receives the work of each rank since the last call, about once a second. May redistribute the shares.
     std::function<void(const std::vector<RankWork>& work)> rebalance;
+    /// Called before the cache learns from a group.
+    std::function<void(const RecordBatch& group)> before_learning;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
@@ -43,8 +49,8 @@ class CacheSession {
   /// The last step at the end of a group at which the loss was near its least value. After divergence,
   /// training from the start up to it gives a good state. 0: there is none.
   std::uint64_t good_steps() const { return guard_.good_steps; }
-  /// Resets to the state before the first step.
-  void start_anew();
+  /// Resets to the state before the first step. `keeps_samples`: the film keeps the samples of the picture.
+  void start_anew(bool keeps_samples = false);
   std::uint64_t steps() const { return steps_; }
   /// Number of the picture's samples that training has used.
   std::uint64_t samples() const { return samples_; }
@@ -77,7 +83,13 @@ class CacheSession {
   /// The state's setup must be this session's.
   void import_state(const CacheState& state);
 
+  /// light_change() of the records of a group that the cache has not learned from.
+  double light_change(const scene::Scene& scene, const RecordBatch& group) const;
+  /// Shortens the memory of the optimiser to some steps: rates of learning, and averages, are as after them.
+  void forget_beyond(std::uint32_t steps);
+
   const neural::Model& model() const { return trainer_->model(); }
+  const neural::TrainingOptions& learning() const { return trainer_->options(); }
   const StoredSurfaces& stored() const { return stored_; }
   const PointInputs& inputs() const { return inputs_; }
   const CacheSetup& setup() const { return setup_; }
@@ -105,6 +117,8 @@ class CacheSession {
     std::uint64_t steps() const { return request.batches; }
     std::uint64_t samples() const { return records.starts.samples.size(); }
   };
+  /// Makes the parts that refer to a world and its view.
+  void connect(const World& world, const Camera& camera, const PixelRect& region);
   RecordRequest request(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample) const;
   void trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
   void finish(Group& group);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
@@ -12,6 +13,20 @@
 #include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
+
+/// The surfaces that scouting paths hit, and the width of pixels there.
+struct Scouted {
+  std::vector<std::uint8_t> sides;  ///< bits of the sides of each instance
+  PixelWidths widths;
+  std::vector<double> luminances;
+  double paths = 0.0;
+  double records = 0.0;           ///< of all paths
+  double records_if_short = 0.0;  ///< if the paths end after the vertices of self-training
+  RayCounts rays;
+
+  explicit Scouted(std::size_t instances) : sides(instances, 0), widths(instances) {}
+};
+
 namespace {
 
 /// Numbers of paths that are followed to their ends, and of additional camera rays. An object of a thousandth
@@ -75,14 +90,6 @@ void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
   met[surface / 2] = static_cast<std::uint8_t>(met[surface / 2] | (1u << (surface % 2)));
 }
 
-/// The surfaces that scouting paths hit, and the width of pixels there.
-struct Scouted {
-  std::vector<std::uint8_t> sides;  ///< bits of the sides of each instance
-  PixelWidths widths;
-
-  explicit Scouted(std::size_t instances) : sides(instances, 0), widths(instances) {}
-};
-
 /// The options of scouting: plain paths from camera rays.
 RenderOptions plain_options(const RenderOptions& options) {
   RenderOptions plain = options;
@@ -92,11 +99,12 @@ RenderOptions plain_options(const RenderOptions& options) {
   return plain;
 }
 
-/// Returns the records of a camera ray: the share that hits a surface.
-float scout_camera_rays(const World& world, const TrainingPoints& points, RayCounts& rays, Scouted& scouted) {
+/// Returns the numbers of rays, and of those that hit a surface.
+std::pair<double, double> scout_camera_rays(const World& world, const TrainingPoints& points, RayCounts& rays,
+                                            Scouted& scouted) {
   TrainingStarts starts;
   points.choose(kStep, kCameraRays, true, {}, starts, rays);
-  std::size_t hits = 0;
+  double hits = 0.0;
   for (std::size_t i = 0; i < starts.starts.size(); ++i) {
     const Hit& hit = starts.hits[i];
     if (!hit) continue;
@@ -105,7 +113,7 @@ float scout_camera_rays(const World& world, const TrainingPoints& points, RayCou
     scouted.widths.add_camera(hit.instance, camera_ray.cone.width + camera_ray.cone.spread * hit.t);
     ++hits;
   }
-  return records_per_path(static_cast<double>(hits), static_cast<double>(starts.starts.size()));
+  return {static_cast<double>(starts.starts.size()), hits};
 }
 
 /// Numbers of records: of all paths, and of paths that end after the vertices of self-training.
@@ -130,8 +138,7 @@ RecordCounts count_records(const RecordBatch& batch, int vertices, const RankTil
 }
 
 void scout_paths(const World& world, const Camera& camera, const RenderOptions& options,
-                 const TrainingPoints& points, const RankTiles* ranks, ScoutReport& report,
-                 Scouted& scouted) {
+                 const TrainingPoints& points, const RankTiles* ranks, Scouted& scouted) {
   const RenderOptions plain = plain_options(options);
   const StoredSurfaces everything;
   const CachedPaths paths(world, cached_paths_options(plain), everything);
@@ -147,27 +154,22 @@ void scout_paths(const World& world, const Camera& camera, const RenderOptions& 
     unpack_records(ranks->ranks.gather(std::move(mine)), *ranks, batch);
   }
   records.split(request, batch);
-  report.rays.add(records.rays());
+  scouted.rays.add(records.rays());
 
   const RecordCounts counts = count_records(batch, options.cache.self_training.vertices, ranks);
   const CameraRay eye =
       camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
-  std::vector<double> luminances;
   for (std::size_t i = 0; i < batch.records.size(); ++i) {
     mark(scouted.sides, batch.records.surface(i));
     const double l = static_cast<double>(luminance(Color(Eigen::Map<const Color>(&batch.targets[3 * i]))));
-    if (std::isfinite(l)) luminances.push_back(l);
+    if (std::isfinite(l)) scouted.luminances.push_back(l);
     const Eigen::Map<const Vec3> position(batch.records.batch().positions[i].data());
     const float distance = (position - eye.ray.origin).norm();
     scouted.widths.add_met(batch.records.surface(i) / 2, eye.cone.width + eye.cone.spread * distance);
   }
-  const double traced = static_cast<double>(batch.paths_traced);
-  const double full = static_cast<double>(options.cache.self_training.full_fraction);
-  report.setup.records_per_path = records_per_path(counts.all, traced);
-  report.setup.records_per_short_path =
-      records_per_path(full * counts.all + (1.0 - full) * counts.few, traced);
-  const double mean = robust_mean(luminances);
-  if (mean > 0.0) report.setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
+  scouted.paths += static_cast<double>(batch.paths_traced);
+  scouted.records += counts.all;
+  scouted.records_if_short += counts.few;
 }
 
 /// The sides of an instance that get storage; `hit`: those that scouting paths hit.
@@ -196,26 +198,39 @@ void choose_spacing(const scene::Scene& scene, const RenderOptions& options, con
 
 }  // namespace
 
-ScoutReport scout(const World& world, const Camera& camera, const PixelRect& region,
-                  const RenderOptions& options, const RankTiles* ranks) {
-  ScoutReport report;
-  const scene::Scene& scene = world.scene;
+Scouting::Scouting() = default;
+Scouting::~Scouting() = default;
+
+void Scouting::add(const World& world, const Camera& camera, const PixelRect& region,
+                   const RenderOptions& options, const RankTiles* ranks) {
+  if (!found_) found_ = std::make_unique<Scouted>(world.scene.instances.size());
+  Scouted& found = *found_;
   const RenderOptions plain = plain_options(options);
   const TrainingPoints points(world, camera, region, plain, {}, nullptr);
-  Scouted scouted(scene.instances.size());
-  const float records_per_ray = scout_camera_rays(world, points, report.rays, scouted);
-  if (ranks && !ranks->ranks.first()) report.rays = {};  // all ranks trace them
-  if (options.integrator == Integrator::nrc) {
-    scout_paths(world, camera, options, points, ranks, report, scouted);
-  } else {
-    report.setup.records_per_path = records_per_ray;
-    report.setup.records_per_short_path = records_per_ray;
-  }
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    report.setup.sides.push_back(
-        stored_sides(scene, scene.instances[i], scouted.sides[i], options.cache.scout));
-  }
-  choose_spacing(scene, options, scouted, report.setup);
+  RayCounts rays;
+  const auto [traced, hits] = scout_camera_rays(world, points, rays, found);
+  if (!ranks || ranks->ranks.first()) found.rays.add(rays);  // all ranks trace them
+  if (options.integrator == Integrator::nrc) return scout_paths(world, camera, options, points, ranks, found);
+  found.paths += traced;
+  found.records += hits;
+  found.records_if_short += hits;
+}
+
+ScoutReport Scouting::report(const scene::Scene& scene, const RenderOptions& options) const {
+  const Scouted& found = *found_;
+  ScoutReport report{.rays = found.rays};
+  CacheSetup& setup = report.setup;
+  const auto full = options.integrator == Integrator::nrc
+                        ? static_cast<double>(options.cache.self_training.full_fraction)
+                        : 1.0;
+  setup.records_per_path = records_per_path(found.records, found.paths);
+  setup.records_per_short_path =
+      records_per_path(full * found.records + (1.0 - full) * found.records_if_short, found.paths);
+  const double mean = robust_mean(found.luminances);
+  if (mean > 0.0) setup.target_scale = static_cast<float>(std::clamp(1.0 / mean, 1e-37, 1e37));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    setup.sides.push_back(stored_sides(scene, scene.instances[i], found.sides[i], options.cache.scout));
+  choose_spacing(scene, options, found, setup);
   return report;
 }
 

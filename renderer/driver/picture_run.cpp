@@ -25,13 +25,18 @@ namespace {
 /// One picture from start to end.
 class PictureRun {
  public:
-  PictureRun(const RenderContext& context, RenderStatistics& statistics)
+  PictureRun(const RenderContext& context, RenderStatistics& statistics, FrameMemory* memory)
       : context_(context),
+        memory_(memory),
         options_(context.picture.options),
         ranks_(context.tiles.ranks()),
         statistics_(statistics),
         sums_(context),
         film_(context.picture.make_film()) {}
+
+  ~PictureRun() {
+    if (memory_ && training_) training_->hand_on(*memory_);
+  }
 
   Picture make() {
     restore();
@@ -69,6 +74,10 @@ class PictureRun {
 
   void train() {
     if (!uses_cache(options_.integrator)) return;
+    if (memory_) {
+      training_ = std::make_unique<Training>(context_, *memory_);
+      return training_->train_on(film_);
+    }
     training_ = std::make_unique<Training>(context_, checkpoint_->found());
     if (training_->complete()) return;
     if (budget_.limit > 0.0) {
@@ -193,6 +202,7 @@ class PictureRun {
   }
 
   RenderContext context_;
+  FrameMemory* memory_;
   const RenderOptions& options_;
   Ranks& ranks_;
   RenderStatistics& statistics_;  ///< of the picture so far
@@ -209,8 +219,8 @@ class PictureRun {
 
 }  // namespace
 
-Picture render_picture(const RenderContext& context, RenderStatistics& statistics) {
-  return PictureRun(context, statistics).make();
+Picture render_picture(const RenderContext& context, RenderStatistics& statistics, FrameMemory* memory) {
+  return PictureRun(context, statistics, memory).make();
 }
 
 }  // namespace gatelight::renderer

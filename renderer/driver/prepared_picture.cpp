@@ -112,19 +112,16 @@ PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptio
       view(chosen_view(options.camera)),
       filter(options.filter, options.filter_width),
       scale(options_of_picture.denoise.supersampling, options_of_picture.filter,
-            options_of_picture.filter_width) {
+            options_of_picture.filter_width),
+      seed_(options.seed) {
   const FlushDenormals flush;  // also on the arena's threads, as the arena is made here
-  const std::size_t budget = checked_budget(scene, options_of_picture);
+  bvh_budget = checked_budget(scene, options_of_picture);
   require_threads(threads);
   if (chosen_denoiser.library)
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
                                           memory_of_denoiser(scene, options_of_picture));
   const Clock::time_point start = Clock::now();
-  arena.execute([&] {
-    world.emplace(scene, WorldOptions{options.environment, options.light_selection,
-                                      AccelOptions{threads, options.isa, budget, options.watertight},
-                                      options.glass_shadows, options.light_groups, options.background});
-  });
+  arena.execute([&] { world.emplace(scene, world_options()); });
   set_camera(options.camera);
   choose_integrator();
   // A loaded cache needs no more steps, unless the caller sets a number.
@@ -152,6 +149,29 @@ void PreparedPicture::choose_integrator() {
   options = options_of_film(options_of_picture);
 }
 
+WorldOptions PreparedPicture::world_options() const {
+  return {options.environment,   options.light_selection,
+          {threads, options.isa, bvh_budget, options.watertight},
+          options.glass_shadows, options.light_groups,
+          options.background};
+}
+
+void PreparedPicture::scene_moved(const CameraOptions& chosen) {
+  const Clock::time_point start = Clock::now();
+  if (scene.motion.any()) {
+    const LastingParts lasting = world->lasting;
+    world.reset();
+    arena.execute([&] { world.emplace(scene, world_options(), lasting); });
+  }
+  set_camera(chosen);
+  statistics.build_seconds = seconds_since(start);
+}
+
+void PreparedPicture::begin_frame(int frame) {
+  for (RenderOptions* of : {&options, &options_of_picture})
+    of->seed = hash(seed_ ^ hash(static_cast<std::uint32_t>(frame)));
+}
+
 View PreparedPicture::chosen_view(const CameraOptions& chosen) const {
   return choose_camera(scene, chosen, static_cast<float>(options.width) / static_cast<float>(options.height));
 }
@@ -177,6 +197,10 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
         view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
+}
+
+CacheMeaning PreparedPicture::cache_meaning() const {
+  return {options, resolve_ao_distance(options.ao_distance, scene.bounds)};
 }
 
 SceneFingerprint PreparedPicture::fingerprint() const {

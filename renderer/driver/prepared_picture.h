@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "renderer/cache/cache_file.h"
 #include "renderer/denoise/denoiser.h"
 #include "renderer/driver/chosen_denoiser.h"
 #include "renderer/film/camera.h"
@@ -22,13 +23,17 @@
 
 namespace gatelight::renderer {
 
-/// Constant while a picture is made: only set_camera() changes it, between pictures.
+/// Constant while a picture is made.
 struct PreparedPicture {
   /// Throws the exceptions of Renderer's constructor.
   PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks);
 
   /// Changes the view, and the warnings about it.
   void set_camera(const CameraOptions& chosen);
+  /// The scene shows another time.
+  void scene_moved(const CameraOptions& camera);
+  /// The picture is a frame of an animation, with random numbers of its own.
+  void begin_frame(int frame);
 
   /// An empty film.
   Film make_film() const;
@@ -36,6 +41,7 @@ struct PreparedPicture {
   int samples_of_film(int spp) const;
   /// In the picture's own pixels.
   PixelRect region_of_picture() const;
+  CacheMeaning cache_meaning() const;
   SceneFingerprint fingerprint() const;  ///< of the scene with its environment
 
   const scene::Scene& scene;
@@ -53,12 +59,16 @@ struct PreparedPicture {
   std::unique_ptr<Denoiser> denoiser;  ///< null: the picture is as traced
   std::optional<World> world;          ///< empty only during construction
   bool steps_chosen = false;           ///< training steps: from the picture's pixels and samples
+  std::size_t bvh_budget = 0;          ///< bytes; 0: no limit
   RenderStatistics statistics;         ///< of building, with its warnings
 
  private:
+  WorldOptions world_options() const;
   View chosen_view(const CameraOptions& chosen) const;
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
+
+  std::uint32_t seed_;  ///< of the whole animation
 };
 
 }  // namespace gatelight::renderer

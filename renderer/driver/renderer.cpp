@@ -1,6 +1,7 @@
 #include "base/platform/flush_denormals.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/cache/cache_session.h"
+#include "renderer/driver/frame_memory.h"
 #include "renderer/driver/picture_run.h"
 #include "renderer/driver/render_series.h"
 #include "renderer/render.h"
@@ -16,6 +17,7 @@ struct Renderer::Implementation {
   PreparedPicture picture;
   DistributedTiles tiles;
   RenderStatistics statistics;
+  FrameMemory memory;
 };
 
 Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
@@ -29,6 +31,40 @@ void Renderer::set_camera(const CameraOptions& camera) {
   Implementation& self = *implementation_;
   self.picture.set_camera(camera);
   self.statistics.warnings = self.picture.statistics.warnings;
+}
+
+void Renderer::scene_moved(const CameraOptions& camera) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  self.picture.scene_moved(camera);
+  self.statistics = self.picture.statistics;
+}
+
+void Renderer::scout() {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  const PreparedPicture& p = self.picture;
+  if (!uses_cache(p.options.integrator)) return;
+  p.arena.execute(
+      [&] { self.memory.scouting.add(*p.world, p.camera, p.region, p.options, &self.tiles.owners()); });
+  self.memory.scouted = true;
+}
+
+void Renderer::make_cache(double seconds) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  self.memory.make_cache(self.picture, self.tiles, seconds);
+}
+
+Picture Renderer::render_frame(int frame, const Callbacks& callbacks) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  self.picture.begin_frame(frame);
+  return render_picture({self.picture, self.tiles, callbacks}, self.statistics, &self.memory);
+}
+
+void Renderer::write_cache(const std::filesystem::path& path) const {
+  implementation_->memory.write_cache(implementation_->picture, path);
 }
 
 Picture Renderer::render(const Callbacks& callbacks) {

@@ -17,9 +17,10 @@ namespace {
 /// A cache of less steps is worse than none, so a time limit leaves at least these.
 constexpr std::uint64_t kLeastSteps = 16;
 
-CacheMeaning meaning_of(const PreparedPicture& picture) {
-  return {picture.options, resolve_ao_distance(picture.options.ao_distance, picture.scene.bounds)};
-}
+/// Steps of each frame of an animation, the first of which show whether the light has changed.
+constexpr int kLookSteps = 32;
+/// After a change of the light the optimiser learns as fast as after so many steps.
+constexpr std::uint32_t kMemoryAfterChange = 32;
 
 }  // namespace
 
@@ -50,13 +51,35 @@ Training::Training(const RenderContext& context, Checkpoint* found)
     complete_ = found->progress().phase == Phase::render;
   } else if (!cache.cache_in.empty()) {
     CacheFile file(cache.cache_in);
-    file.expect(meaning_of(picture), fingerprint_, picture.scene.instances.size());
+    file.expect(picture.cache_meaning(), fingerprint_, picture.scene.instances.size());
     make_session(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
     session_->import_state(file.read_state(session_->model(), learning));
     first_step_ = session_->steps();
   } else {
     make_session(nullptr, nullptr);
   }
+}
+
+Training::Training(const RenderContext& context, FrameMemory& memory)
+    : context_(context),
+      options_(context.picture.options),
+      found_(nullptr),
+      steps_(memory.fresh_steps),
+      all_steps_(steps_),
+      steps_chosen_(true),
+      fresh_steps_(memory.fresh_steps) {
+  const PreparedPicture& picture = context.picture;
+  picture.arena.execute([&] {
+    session_ = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options_,
+                                              std::move(*memory.cache), &context.tiles.owners());
+  });
+  memory.cache.reset();
+  first_step_ = session_->steps();
+}
+
+void Training::hand_on(FrameMemory& memory) {
+  if (!complete_ && !stopped_) session_->start_anew();  // it has diverged
+  memory.cache = std::move(session_);
 }
 
 void Training::expect_steps(int steps) {
@@ -87,7 +110,8 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
   };
   watch.rebalance = [&](const std::vector<RankWork>& work) { tiles.rebalance(film, work); };
   watch.after_group = after_group;
-  if (first_step_ == 0)
+  watch.before_learning = before_learning_;
+  if (makes_samples())
     watch.samples = [&](const RecordBatch& group) {
       group.add_to(film, options_, ranks.is_single() ? nullptr : &tiles.owners(), counts_);
     };
@@ -103,6 +127,27 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
   complete_ = !stopped_ || session_->steps() >= wanted;
   const bool ended_by_time = limited && !stopped_;
   steps_ = ended_by_time ? static_cast<int>(session_->steps() - first_step_) : steps;
+}
+
+void Training::train_on(Film& film) {
+  if (first_step_ == 0) return train(fresh_steps_, film);
+  double change = -1.0;
+  before_learning_ = [&](const RecordBatch& group) {
+    if (change < 0.0) change = session_->light_change(context_.picture.scene, group);
+  };
+  const int look = std::min(kLookSteps, fresh_steps_);
+  train(look, film);
+  before_learning_ = nullptr;
+  light_change_ = std::max(change, 0.0);
+  const int more = steps_after_change(light_change_, fresh_steps_);
+  if (stopped_ || more == 0) return;
+  if (begins_anew(light_change_)) {
+    session_->start_anew(true);
+    first_step_ = 0;
+    return train(fresh_steps_, film);
+  }
+  session_->forget_beyond(kMemoryAfterChange);
+  train(look + more, film);
 }
 
 void Training::report(int done, double loss, double of_time) const {
@@ -154,12 +199,13 @@ void Training::add_to(RenderStatistics& statistics) const {
   statistics.cache = session_->statistics();
   statistics.cache.steps_chosen = steps_chosen_;
   statistics.cache.steps_wanted = steps_;
+  statistics.cache.light_change = light_change_;
   statistics.cache.diverged = diverged_;
 }
 
 void Training::write_cache() const {
   write_cache_file(options_.cache.cache_out, session_->export_state(), session_->model(),
-                   training_options(options_), meaning_of(context_.picture), fingerprint_);
+                   training_options(options_), context_.picture.cache_meaning(), fingerprint_);
 }
 
 }  // namespace gatelight::renderer

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/driver/checkpoint.h"
+#include "renderer/driver/frame_memory.h"
 #include "renderer/driver/render_context.h"
 
 namespace gatelight::renderer {
@@ -17,6 +18,9 @@ class Training {
   /// Starts from the checkpoint or the cache file where there is one, else from a new cache, and scouts.
   /// `found`: the checkpoint, which outlives the training; null: none.
   Training(const RenderContext& context, Checkpoint* found);
+  /// Goes on with the cache of an animation, which memory gets back from hand_on().
+  Training(const RenderContext& context, FrameMemory& memory);
+  void hand_on(FrameMemory& memory);
 
   /// Training should end here, with a group of steps.
   void end_at(Clock::time_point end) { end_ = end; }
@@ -25,6 +29,8 @@ class Training {
   /// Trains up to `steps`, which do not count those of a loaded cache. The film gets the paths that are
   /// samples of the picture. Throws TrainingDiverged.
   void train(int steps, Film& film, const std::function<void()>& after_group = {});
+  /// Trains a kept cache by a few steps, and by more where its light has changed.
+  void train_on(Film& film);
   /// After training diverged: returns to the last good state by training up to it again. So normal training
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
   bool return_to_good(const std::string& reason, Film& film, RenderStatistics& earlier);
@@ -43,7 +49,7 @@ class Training {
   /// Whether the caller stopped it.
   bool stopped() const { return stopped_; }
   /// Whether the film has samples from training. A loaded cache was trained with another picture.
-  bool taught_film() const { return first_step_ == 0 && session_->samples() > 0; }
+  bool taught_film() const { return makes_samples() && session_->samples() > 0; }
   /// The picture's samples that trained the cache, in this run.
   const SampleCounts& counts() const { return counts_; }
   /// Rays and statistics of the cache.
@@ -53,6 +59,7 @@ class Training {
   void write_cache() const;
 
  private:
+  bool makes_samples() const { return first_step_ == 0 || fresh_steps_ > 0; }
   /// `of_time`: the share of its time that is over; 0 without a limit.
   void report(int done, double loss, double of_time) const;
 
@@ -68,6 +75,9 @@ class Training {
   bool complete_ = false;
   bool stopped_ = false;
   Clock::time_point end_ = Clock::time_point::max();
+  int fresh_steps_ = 0;  ///< in an animation: FrameMemory::fresh_steps
+  double light_change_ = 0.0;
+  std::function<void(const RecordBatch&)> before_learning_;
   std::string diverged_;  ///< why training returned to its last good state; else empty
   SampleCounts counts_;
 };

@@ -182,6 +182,19 @@ void set_lens(const scene::Scene& scene, const LensOptions& lens, float aspect, 
   view.blades = lens.blades;
 }
 
+/// A view of the same subject from another side.
+void turn_around(const scene::Scene& scene, const CameraOptions& options, View& view) {
+  if (options.turn == 0.0f) return;
+  const Vec3 axis = options.look_at ? Vec3(options.look_at->up.normalized()) : Vec3(0.0f, 1.0f, 0.0f);
+  Vec3 center = scene.bounds.isEmpty() ? Vec3(Vec3::Zero()) : scene.bounds.center();
+  if (options.look_at) center = options.look_at->target - scene.origin;
+  Affine turn = Affine::Identity();
+  turn.translate(center);
+  turn.rotate(Eigen::AngleAxisf(options.turn, axis));
+  turn.translate(-center);
+  view.transform = turn * view.transform;
+}
+
 }  // namespace
 
 View choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
@@ -191,6 +204,7 @@ View choose_camera(const scene::Scene& scene, const CameraOptions& options, floa
   project(scene, options, view);
   require_near(view, aspect,
                options.look_at ? "`eye`" : fmt::format("the camera '{}' of {}", view.name, scene.path));
+  turn_around(scene, options, view);
   set_lens(scene, options.lens, aspect, view);
   return view;
 }

@@ -67,7 +67,7 @@ EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& 
     : scene_(scene), textures_(textures), first_(scene.instances.size(), kNone) {
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& material = scene.material_of(scene.instances[i]);
-    if (!material.emits() || material.unlit) continue;
+    if (!material.emits() || material.unlit || scene.instances[i].hidden) continue;
     first_[i] = static_cast<std::uint32_t>(triangles_.size());
     const PlacementRounding rounding(scene.instances[i]);
     const std::size_t count = scene.mesh_of(scene.instances[i]).triangles.size();

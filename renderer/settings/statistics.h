@@ -72,6 +72,7 @@ struct CacheStatistics {
   std::size_t optimizer_bytes = 0;
   std::size_t layout_bytes = 0;
   std::string backend;
+  double light_change = 0.0;  ///< in an animation, since the frame before (cache/light_change.h)
   std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
 };
 
@@ -118,6 +119,7 @@ struct RenderStatistics {
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
   std::vector<RankStatistics> ranks;  ///< where there are several
+  double reused = 0.0;                ///< share of the pixels that had samples of earlier frames
   std::string device_lost;            ///< why the device was lost, where that ended the picture; else empty
 };
 

@@ -135,22 +135,28 @@ struct Accel::State {
   std::size_t limit = 0;
   std::atomic<bool> refused{false};
   std::string first_error;
+  bool watertight = true;
   RTCDevice device = nullptr;
-  RTCScene top = nullptr;
+  RTCScene still = nullptr;
+  RTCScene moving = nullptr;  ///< null: nothing moves
   std::vector<RTCScene> meshes;
   bool any_filter = false;
 
   State() = default;
   State(const State&) = delete;
   ~State() {
-    for (RTCScene below : meshes) {
-      if (below) rtcReleaseScene(below);
-    }
-    if (top) rtcReleaseScene(top);
+    for (RTCScene below : meshes) release(below);
+    release(still);
+    release(moving);
     if (device) rtcReleaseDevice(device);
   }
 
-  RTCScene new_scene(bool watertight) const {
+  static void release(RTCScene& scene) {
+    if (scene) rtcReleaseScene(scene);
+    scene = nullptr;
+  }
+
+  RTCScene new_scene() const {
     RTCScene s = rtcNewScene(device);
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
     // Without this flag rays slip through the shared edges of triangles, and a closed room leaks light.
@@ -176,35 +182,55 @@ struct Accel::State {
     return geometry;
   }
 
+  /// The mesh of the instance, placed. It is built once for all instances.
+  RTCGeometry new_instance(const scene::Scene& scene, const Coverage& coverage, std::uint32_t i) {
+    const scene::Instance& instance = scene.instances[i];
+    RTCScene& below = meshes[static_cast<std::size_t>(instance.mesh)];
+    if (!below) {
+      below = new_scene();
+      RTCGeometry child = new_mesh(scene.mesh_of(instance), coverage, i);
+      rtcAttachGeometry(below, child);
+      rtcReleaseGeometry(child);
+      rtcCommitScene(below);
+    }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, below);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, instance.transform.data());
+    rtcCommitGeometry(geometry);
+    return geometry;
+  }
+
+  static void attach(RTCScene top, RTCGeometry geometry, std::uint32_t i) {
+    rtcAttachGeometryByID(top, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+
   /// Baked meshes lie in the top level; the others are built once each, and placed.
-  void build(const scene::Scene& scene, const Coverage& coverage, bool watertight) {
-    top = new_scene(watertight);
+  void build_still(const scene::Scene& scene, const Coverage& coverage) {
+    still = new_scene();
     meshes.assign(scene.meshes.size(), nullptr);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
       const scene::Instance& instance = scene.instances[i];
       const scene::Mesh& mesh = scene.mesh_of(instance);
-      if (mesh.triangles.empty()) continue;
-      RTCGeometry geometry = nullptr;
-      if (instance.baked) {
-        geometry = new_mesh(mesh, coverage, i);
-      } else {
-        RTCScene& below = meshes[static_cast<std::size_t>(instance.mesh)];
-        if (!below) {
-          below = new_scene(watertight);
-          RTCGeometry child = new_mesh(mesh, coverage, i);
-          rtcAttachGeometry(below, child);
-          rtcReleaseGeometry(child);
-          rtcCommitScene(below);
-        }
-        geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, below);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, instance.transform.data());
-        rtcCommitGeometry(geometry);
-      }
-      rtcAttachGeometryByID(top, geometry, i);
-      rtcReleaseGeometry(geometry);
+      if (mesh.triangles.empty() || instance.moves) continue;
+      attach(still, instance.baked ? new_mesh(mesh, coverage, i) : new_instance(scene, coverage, i), i);
     }
-    rtcCommitScene(top);
+    rtcCommitScene(still);
+  }
+
+  void build_moving(const scene::Scene& scene, const Coverage& coverage) {
+    release(moving);
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+      if (scene.meshes[m].deforming >= 0) release(meshes[m]);
+    }
+    if (!scene.motion.instances) return;
+    moving = new_scene();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+      const scene::Instance& instance = scene.instances[i];
+      if (!instance.moves || instance.hidden || scene.mesh_of(instance).triangles.empty()) continue;
+      attach(moving, new_instance(scene, coverage, i), i);
+    }
+    rtcCommitScene(moving);
   }
 
   static bool monitor(void* self, ssize_t bytes, bool) {
@@ -225,7 +251,7 @@ struct Accel::State {
 };
 
 Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options)
-    : coverage_(coverage), state_(std::make_unique<State>()) {
+    : coverage_(&coverage), state_(std::make_unique<State>()) {
   State& state = *state_;
   if (!has_isa(options.isa)) {
     throw Unavailable(
@@ -245,12 +271,26 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   rtcSetDeviceErrorFunction(state.device, State::error, &state);
   rtcSetDeviceMemoryMonitorFunction(state.device, State::monitor, &state);
 
-  state.build(scene, coverage, options.watertight);
+  state.watertight = options.watertight;
+  state.build_still(scene, coverage);
+  state.build_moving(scene, coverage);
+  check(scene);
+}
+
+void Accel::update(const scene::Scene& scene, const Coverage& coverage) {
+  coverage_ = &coverage;
+  if (!scene.motion.instances) return;
+  state_->build_moving(scene, coverage);
+  check(scene);
+}
+
+void Accel::check(const scene::Scene& scene) const {
+  const State& state = *state_;
   const RTCError error = rtcGetDeviceError(state.device);
   if (error != RTC_ERROR_NONE || state.refused || !state.first_error.empty()) {
     if (state.refused || error == RTC_ERROR_OUT_OF_MEMORY) {
       const std::string limit =
-          state.refused ? fmt::format("`memory-limit` {}", options.memory_limit_bytes >> 20) : "there is";
+          state.refused ? fmt::format("`memory-limit` {}", state.limit >> 20) : "there is";
       throw OutOfMemory(fmt::format("{}: the acceleration structure needs over {} MiB, more than {}",
                                     scene.path, state.bytes.load() >> 20, limit));
     }
@@ -265,7 +305,7 @@ std::size_t Accel::bytes() const {
 }
 
 void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
-  Context context(coverage_,
+  Context context(*coverage_,
                   coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   alignas(64) RTCRayHit16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
@@ -275,7 +315,8 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
     if (state_->any_filter) context.lanes[i].seed = ray.seed;
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
-    rtcIntersect16(valid, state_->top, &context.embree, &packet);
+    rtcIntersect16(valid, state_->still, &context.embree, &packet);
+    if (state_->moving) rtcIntersect16(valid, state_->moving, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       Hit& hit = hits[first + i];
       hit.t = packet.ray.tfar[i];
@@ -288,18 +329,19 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
 }
 
 void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
-  Context context(coverage_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  Context context(*coverage_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   alignas(64) RTCRay16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet, i, ray);
     if (state_->any_filter) context.lanes[i].start(ray);
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
-    rtcOccluded16(valid, state_->top, &context.embree, &packet);
+    rtcOccluded16(valid, state_->still, &context.embree, &packet);
+    if (state_->moving) rtcOccluded16(valid, state_->moving, &context.embree, &packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
       result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)
-                          : state_->any_filter ? context.lanes[i].passed(coverage_, rays[first + i].t_max)
+                          : state_->any_filter ? context.lanes[i].passed(*coverage_, rays[first + i].t_max)
                                                : Color(1.0f, 1.0f, 1.0f);
     }
   });

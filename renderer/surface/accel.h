@@ -1,6 +1,7 @@
 #pragma once
 // The ray tracing kernels of Embree. Only accel.cpp uses Embree; this header has none of its types. Meshes
-// that are used once lie in the top level; shared meshes are Embree instances.
+// that are used once lie in the top level; shared meshes are Embree instances. Instances that move have a top
+// level of their own, so that another time costs no more than they do.
 
 #include <cstddef>
 #include <memory>
@@ -20,7 +21,7 @@ struct AccelOptions {
   bool watertight = true;              ///< no ray slips between triangles that share an edge
 };
 
-/// Thread-safe after construction; holds references to the scene's vertices and to the coverage.
+/// Rays may be traced by several threads. Holds references to the scene's vertices and to the coverage.
 class Accel {
  public:
   /// Throws OutOfMemory, Unavailable (the ISA), or InputError with Embree's message.
@@ -28,6 +29,9 @@ class Accel {
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
+
+  /// The same scene at another time: builds what moves. Throws as the constructor does.
+  void update(const scene::Scene& scene, const Coverage& coverage);
 
   /// Finds the nearest hits in (0, t_max). The spans have equal sizes. Rays are traced in packets of 16 in
   /// the given order. `coherent` says that neighbours have similar directions.
@@ -42,7 +46,9 @@ class Accel {
  private:
   struct State;
 
-  const Coverage& coverage_;
+  void check(const scene::Scene& scene) const;
+
+  const Coverage* coverage_;
   std::string isa_;
   std::unique_ptr<State> state_;
 };

@@ -42,17 +42,37 @@ std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const Backgro
   return catchers;
 }
 
+/// Those that are built before the coverage.
+LastingParts lasting_parts(const scene::Scene& scene, const WorldOptions& options, LastingParts parts) {
+  if (!parts.textures || scene.motion.materials) parts.textures = std::make_shared<const Textures>(scene);
+  if (!parts.environment || scene.motion.image_light)
+    parts.environment = std::make_shared<const Environment>(
+        options.environment, scene.image_light ? &*scene.image_light : nullptr);
+  return parts;
+}
+
+const Accel& updated(std::shared_ptr<Accel>& accel, const scene::Scene& scene, const Coverage& coverage,
+                     const AccelOptions& options) {
+  if (accel) {
+    accel->update(scene, coverage);
+  } else {
+    accel = std::make_shared<Accel>(scene, coverage, options);
+  }
+  return *accel;
+}
+
 }  // namespace
 
-World::World(const scene::Scene& scene_in, const WorldOptions& options)
+World::World(const scene::Scene& scene_in, const WorldOptions& options, const LastingParts& earlier)
     : scene(scene_in),
       requirements(scene::compute_requirements(scene)),
-      textures(scene),
+      lasting(lasting_parts(scene, options, earlier)),
+      textures(*lasting.textures),
       media(scene, requirements.nested_volumes),
-      environment(options.environment, scene.image_light ? &*scene.image_light : nullptr),
+      environment(*lasting.environment),
       coverage(scene, textures, media, options.glass_shadows == GlassShadows::straight),
       surfaces(scene, textures),
-      accel(scene, coverage, options.acceleration),
+      accel(updated(lasting.accel, scene, coverage, options.acceleration)),
       lights(scene, textures, environment, options.light_selection),
       light_arrays(lights),
       kernels(choose_shading_kernels(options.acceleration.isa)),

@@ -2,6 +2,7 @@
 // A scene prepared for rendering. It does not change.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/light/environment.h"
@@ -28,22 +29,32 @@ struct WorldOptions {
   BackgroundOptions background;
 };
 
+/// The parts that a world of another time takes over, if the scene's motion leaves them as they are.
+struct LastingParts {
+  std::shared_ptr<const Textures> textures;
+  std::shared_ptr<const Environment> environment;
+  std::shared_ptr<Accel> accel;
+};
+
 /// Later members refer to earlier ones, so a world cannot be moved.
 struct World {
-  /// Works in the caller's arena. The scene must outlive the world. Throws the exceptions of the members, and
-  /// BadOption for a shadow catcher that the scene does not have or without a separate background.
-  explicit World(const scene::Scene& scene_in, const WorldOptions& options = {});
+  /// Works in the caller's arena. The scene must outlive the world. `earlier`: of a world with the same options
+  /// and the same scene at another time, which must not be used any more. Throws the exceptions of the members,
+  /// and BadOption for a shadow catcher that the scene does not have or without a separate background.
+  explicit World(const scene::Scene& scene_in, const WorldOptions& options = {},
+                 const LastingParts& earlier = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   const scene::Scene& scene;
   scene::SceneRequirements requirements;
-  Textures textures;
+  LastingParts lasting;
+  const Textures& textures;
   Media media;
-  Environment environment;
+  const Environment& environment;
   Coverage coverage;
   Surfaces surfaces;
-  Accel accel;
+  const Accel& accel;
   Lights lights;
   LightArrays light_arrays;
   const ShadingKernels& kernels;

@@ -76,39 +76,61 @@ std::vector<int> find_parents(const Document& document) {
 
 class GraphWalk {
  public:
-  GraphWalk(const Document& document, bool show_hidden, Warnings& warnings)
+  GraphWalk(const Document& document, const Motion& motion, bool show_hidden, Warnings& warnings)
       : document_(document),
+        motion_(motion),
         show_hidden_(show_hidden),
         warnings_(warnings),
         parents_(find_parents(document)) {
     graph_.joints.resize(document.model().skins.size());
+    graph_.lights_move = motion.lights;
   }
 
   Graph walk(int scene) {
     struct Entry {
       int node;
       Transform parent;
-      bool visible;
+      State state;
     };
     const std::vector<int>& roots = element(document_.model().scenes, scene).nodes;
     std::vector<Entry> stack;
-    for (const int root : roots_to_show(roots, scene)) stack.push_back({root, Transform::Identity(), true});
+    for (const int root : roots_to_show(roots, scene)) stack.push_back({root, Transform::Identity(), {}});
     std::reverse(stack.begin(), stack.end());
     while (!stack.empty()) {
       const Entry entry = stack.back();
       stack.pop_back();
       const Transform world = entry.parent * local_transform(document_, entry.node, warnings_);
       const tinygltf::Node& node = element(document_.model().nodes, entry.node);
-      const bool visible = entry.visible && (show_hidden_ || is_visible(node));
-      visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), visible);
+      const State state = state_of(entry.node, entry.state);
+      visit(entry.node, checked(world, fmt::format("nodes[{}]", entry.node)), state);
       for (std::size_t i = node.children.size(); i-- > 0;) {
-        stack.push_back({node.children[i], world, visible});
+        stack.push_back({node.children[i], world, state});
       }
     }
     return std::move(graph_);
   }
 
  private:
+  /// What a node has of its parents, and hands on to its children.
+  struct State {
+    bool visible = true;
+    bool moves = false;   ///< its place in the world changes with the time
+    bool blinks = false;  ///< its visibility does
+  };
+
+  State state_of(int index, const State& parent) const {
+    const NodeMotion& motion = element(motion_.nodes, index);
+    return {parent.visible && (show_hidden_ || is_visible(element(document_.model().nodes, index))),
+            parent.moves || motion.place, parent.blinks || (motion.visibility && !show_hidden_)};
+  }
+
+  bool moves(int node) const {
+    for (int i = node; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+      if (element(motion_.nodes, i).place) return true;
+    }
+    return false;
+  }
+
   /// The listed nodes without repetitions and without those that are shown below another.
   std::vector<int> roots_to_show(const std::vector<int>& listed, int scene) {
     std::vector<char> is_listed(parents_.size(), 0);
@@ -143,45 +165,53 @@ class GraphWalk {
     return t;
   }
 
-  /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility).
-  void visit(int index, const Transform& world, bool visible) {
+  /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility). Those that
+  /// are hidden for a while keep their places in the lists.
+  void visit(int index, const Transform& world, const State& state) {
     const tinygltf::Node& node = element(document_.model().nodes, index);
-    if (visible && node.mesh >= 0) place_mesh(index, node, world);
+    if ((state.visible || state.blinks) && node.mesh >= 0) place_mesh(index, node, world, state);
     if (node.camera >= 0) {
       graph_.cameras.push_back(make_camera(document_, index, world));
       graph_.camera_positions.push_back(world.translation());
     }
     const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
-    if (!visible || !light) return;
+    if (!light) return;
+    graph_.lights_move |= state.moves || state.blinks;
+    if (!state.visible && !state.blinks) return;
     std::optional<PunctualLight> made =
         make_light(document_, index, integer_or(*light, "light", 0), world, warnings_);
     if (!made) return;
+    if (!state.visible) made->intensity.setZero();
     graph_.lights.push_back(*std::move(made));
     graph_.light_positions.push_back(world.translation());
   }
 
-  void place_mesh(int index, const tinygltf::Node& node, const Transform& world) {
+  void place_mesh(int index, const tinygltf::Node& node, const Transform& world, const State& state) {
     const tinygltf::Mesh& mesh = element(document_.model().meshes, node.mesh);
-    const int pose = pose_of(node, mesh);
+    Placement placement;
+    placement.pose = pose_of(index, node, mesh);
     // In glTF only the joints place a skinned mesh.
-    const Transform base =
-        graph_.poses[static_cast<std::size_t>(pose)].skin >= 0 ? Transform::Identity() : world;
-    std::string name = node.name.empty() ? mesh.name : node.name;
-    if (name.empty()) name = fmt::format("node {}", index);
-    const float priority = dielectric_priority(index, node);
+    const bool skinned = graph_.poses[static_cast<std::size_t>(placement.pose)].skin >= 0;
+    const Transform base = skinned ? Transform::Identity() : world;
+    placement.moves = (!skinned && state.moves) || state.blinks ||
+                      graph_.deforming[static_cast<std::size_t>(placement.pose)] != 0;
+    placement.hidden = !state.visible;
+    placement.name = node.name.empty() ? mesh.name : node.name;
+    if (placement.name.empty()) placement.name = fmt::format("node {}", index);
+    placement.dielectric_priority = dielectric_priority(index, node);
     if (const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
       const std::string where = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", index);
       const std::map<std::string, int> attributes = instance_attributes(*instancing);
       claim_instances(attributes, mesh, where);
       if (attributes.empty()) {
         warnings_.add(where + ": no attributes that give the number of instances; drawn once");
-        add(pose, name, base, priority);
+        add(placement, base);
       }
       for (const Transform& t : read_instances(document_, attributes, where, warnings_)) {
-        add(pose, name, checked(base * t, where), priority);
+        add(placement, checked(base * t, where));
       }
     } else {
-      add(pose, name, base, priority);
+      add(std::move(placement), base);
     }
   }
 
@@ -196,8 +226,9 @@ class GraphWalk {
   }
 
   /// The number of the node's pose.
-  int pose_of(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
-    Pose pose{node.mesh, node.weights.empty() ? mesh.weights : node.weights, node.skin};
+  int pose_of(int index, const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+    const bool morphs = element(motion_.nodes, index).weights;
+    Pose pose{node.mesh, node.weights.empty() ? mesh.weights : node.weights, node.skin, morphs ? index : -1};
     if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0.0; }))
       pose.weights.clear();
     if (pose.skin >= 0) {
@@ -209,8 +240,16 @@ class GraphWalk {
       }
     }
     const auto [entry, is_new] = pose_numbers_.try_emplace(pose, static_cast<int>(graph_.poses.size()));
-    if (is_new) graph_.poses.push_back(std::move(pose));
+    if (is_new) {
+      graph_.deforming.push_back(morphs || (pose.skin >= 0 && bends(pose.skin)) ? 1 : 0);
+      graph_.poses.push_back(std::move(pose));
+    }
     return entry->second;
+  }
+
+  bool bends(int skin) const {
+    const std::vector<int>& joints = element(document_.model().skins, skin).joints;
+    return std::any_of(joints.begin(), joints.end(), [this](int joint) { return moves(joint); });
   }
 
   void load_joints(int index) {
@@ -257,20 +296,26 @@ class GraphWalk {
     return 0.0f;
   }
 
-  void add(int pose, const std::string& name, const Transform& t, float dielectric_priority) {
-    Placement placement{pose, name, Affine::Identity(), t.translation(), dielectric_priority};
+  void add(Placement placement, const Transform& t) {
+    placement.translation = t.translation();
     placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
     // Some files hide meshes by scaling them to a line or a point. Such a mesh is invisible, and no ray can
     // be transformed into its space.
     const Eigen::Matrix3f linear = placement.transform.linear();
-    if (normal_matrix(placement.transform).isZero(0.0f) || linear.isZero(0.0f)) {
+    const bool nothing = normal_matrix(placement.transform).isZero(0.0f) || linear.isZero(0.0f);
+    if (nothing && !placement.moves) {
       warnings_.add("meshes that are scaled to nothing are left out");
       return;
+    }
+    if (nothing) {
+      placement.hidden = true;
+      placement.transform.linear().setIdentity();
     }
     graph_.placements.push_back(std::move(placement));
   }
 
   const Document& document_;
+  const Motion& motion_;
   bool show_hidden_;
   Warnings& warnings_;
   std::vector<int> parents_;
@@ -281,12 +326,13 @@ class GraphWalk {
 
 }  // namespace
 
-Graph flatten_nodes(const Document& document, const LoadOptions& options, Warnings& warnings) {
+Graph flatten_nodes(const Document& document, const Motion& motion, const LoadOptions& options,
+                    Warnings& warnings) {
   const std::size_t count = document.model().scenes.size();
   if (options.scene >= 0 && static_cast<std::size_t>(options.scene) >= count) {
     document.fail("scenes", fmt::format("scene {} requested, expected less than {}", options.scene, count));
   }
-  GraphWalk graph_walk(document, options.show_hidden, warnings);
+  GraphWalk graph_walk(document, motion, options.show_hidden, warnings);
   if (count == 0) {
     warnings.add("the file has no scene");
     return {};

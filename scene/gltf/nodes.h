@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/motion.h"
 #include "scene/gltf/pose.h"
 #include "scene/scene.h"
 
@@ -17,6 +18,8 @@ struct Placement {
   Affine transform = Affine::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
   float dielectric_priority = 0.0f;                       ///< Instance::dielectric_priority
+  bool moves = false;                                     ///< Instance::moves
+  bool hidden = false;                                    ///< Instance::hidden
 };
 
 struct Graph {
@@ -26,10 +29,13 @@ struct Graph {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
   std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< world, in double
+  std::vector<char> deforming;                                     ///< by the pose
+  bool lights_move = false;
 };
 
-/// Walks the scene of the options. Throws InputError for cycles, several
-/// parents and transforms that are not finite.
-Graph flatten_nodes(const Document& document, const LoadOptions& options, Warnings& warnings);
+/// Walks the scene of the options. Poses and placements are the same ones at all times: what is hidden for a
+/// while is hidden then. Throws InputError for cycles, several parents and transforms that are not finite.
+Graph flatten_nodes(const Document& document, const Motion& motion, const LoadOptions& options,
+                    Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

@@ -15,6 +15,7 @@ struct Pose {
   int mesh = -1;                ///< index in the file
   std::vector<double> weights;  ///< of the morph targets; empty where all are zero
   int skin = -1;                ///< index in the file
+  int node = -1;                ///< that whose weights change with the time; else -1
 
   auto operator<=>(const Pose&) const = default;
 };

@@ -26,7 +26,9 @@ RenderOptions nrc() {
 }
 
 ScoutReport scouted(const ViewedWorld& viewed, const RenderOptions& options) {
-  return scout(viewed.world, viewed.camera, viewed.region, options);
+  Scouting scouting;
+  scouting.add(viewed.world, viewed.camera, viewed.region, options);
+  return scouting.report(viewed.world.scene, options);
 }
 
 /// A double-sided room, seen from inside, with a double-sided card that stands free, a double-sided block

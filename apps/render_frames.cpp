@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/render_run.h"
+#include "apps/reports/frame_report.h"
+#include "apps/settings/camera_names.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/terminal.h"
+#include "base/errors.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// Frames that are scouted for the cache, evenly spread.
+constexpr std::size_t kScouted = 8;
+
+renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int frame) {
+  renderer::CameraOptions camera = settings.render.camera;
+  const int turn = settings.frames.turntable;
+  // In double, and modulo a whole turn: the frames of the second turn are those of the first.
+  if (turn > 0) camera.turn = static_cast<float>(2.0 * M_PI * ((frame % turn + turn) % turn) / turn);
+  return camera;
+}
+
+RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
+  RenderSettings settings = whole;
+  settings.load.time = whole.frames.seconds(frame);
+  settings.render.camera = camera_of_frame(whole, frame);
+  for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
+  settings.stats = name_of_frame(settings.stats, frame);
+  return settings;
+}
+
+}  // namespace
+
+int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
+  whole_ = pictures_of(settings_, scene).front();
+  const std::vector<int> frames = whole_.frames.range->numbers();
+  settings_ = settings_of_frame(whole_, frames.front());
+  progress_.phase("build");
+  const Clock::time_point begin = Clock::now();
+  renderer::Renderer renderer(scene, settings_.render, group_.ranks);
+  note_integrator(renderer.integrator());
+  whole_.render = settings_.render;
+  const std::size_t warnings_of_loading = report_.warnings.size();
+  make_cache(file, scene, renderer);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    report_.warnings.resize(warnings_of_loading);
+    progress_.begin_frame(frames[i], i, frames.size());
+    int number = 0;
+    try {
+      number = make_frame(file, scene, renderer, frames[i]);
+    } catch (const OutOfMemory&) {
+      throw;
+    } catch (const DeviceLost&) {
+      throw;
+    } catch (const std::exception&) {
+      if (!group_.ranks.is_single()) throw;  // the others wait for this one
+      note_failed_frame(frames[i]);
+    }
+    if (number != 0) return stop_frames(number, i, frames.size());
+  }
+  if (group_.ranks.first()) end_frames(frames.size(), seconds_since(begin));
+  if (failed_frame_) std::rethrow_exception(failed_frame_);
+  return kDone;
+}
+
+void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                           int frame) {
+  file.show(scene, whole_.frames.seconds(frame));
+  renderer.scene_moved(camera_of_frame(whole_, frame));
+}
+
+void RenderRun::make_cache(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer) {
+  if (!renderer::uses_cache(renderer.integrator())) return;
+  const std::vector<int> frames = whole_.frames.range->numbers();
+  const std::size_t moments = std::min(frames.size(), kScouted);
+  if (whole_.render.cache.cache_in.empty() && moments > 1) {
+    for (std::size_t k = 0; k < moments; ++k) {
+      show_frame(file, scene, renderer, frames[k * (frames.size() - 1) / (moments - 1)]);
+      renderer.scout();
+    }
+    show_frame(file, scene, renderer, frames.front());
+  }
+  renderer.make_cache(whole_.frames.seconds(frames.front()));
+}
+
+int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                          int frame) {
+  start_ = Clock::now();
+  settings_ = settings_of_frame(whole_, frame);
+  show_frame(file, scene, renderer, frame);
+  for (const std::string& warning : scene.warnings) warn(warning);
+  for (const std::string& warning : renderer.statistics().warnings) warn(warning);
+  if (const int number = signal(); number != 0) return number;
+  renderer::Picture picture = renderer.render_frame(frame, make_callbacks(renderer));
+  // An unfinished frame would look like a finished one.
+  if (const int number = signal(); number != 0) return number;
+  end_picture(std::move(picture), renderer.statistics());
+  if (!whole_.exposure) whole_.exposure = report_.exposure;  // it holds for all frames
+  if (!group_.ranks.first()) return 0;
+  if (!progress_.frame_done(frame, summary_json(settings_, report_)) && !settings_.quiet) {
+    progress_.clear();
+    print_status(frame_line(frame, settings_, report_));
+  }
+  return 0;
+}
+
+void RenderRun::note_failed_frame(int frame) {
+  if (!failed_frame_) failed_frame_ = std::current_exception();
+  warn(fmt::format("frame {} failed: {}", frame, describe_current_exception().message));
+}
+
+int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
+  progress_.clear();
+  print_notice(fmt::format("stopped by signal {} after {} of {} frames; the one that was under way is lost{}",
+                           signal, done, count,
+                           whole_.render.checkpoint.file.empty() ? "" : ", --resume goes on with it"),
+               kSignalBase + signal);
+  return kSignalBase + signal;
+}
+
+void RenderRun::end_frames(std::size_t count, double seconds) {
+  const bool as_json = progress_.done({{"frames", count}, {"seconds", seconds}});
+  if (!as_json && !settings_.quiet) print_status(frames_summary(count, seconds, whole_, report_));
+}
+
+}  // namespace gatelight::apps

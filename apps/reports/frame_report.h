@@ -1,0 +1,17 @@
+#pragma once
+// The report of the frames of an animation as text.
+
+#include <string>
+
+#include "apps/reports/run_report.h"
+
+namespace gatelight::apps {
+
+/// One line for a finished frame.
+std::string frame_line(int frame, const RenderSettings& settings, const RunReport& report);
+
+/// The lines after the last frame. `settings`: of the whole run.
+std::string frames_summary(std::size_t frames, double seconds, const RenderSettings& settings,
+                           const RunReport& report);
+
+}  // namespace gatelight::apps

@@ -1,0 +1,41 @@
+#pragma once
+// The frames of an animation, and the names of their files.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gatelight::apps {
+
+/// Frames first, first + step, ... up to last.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+  int step = 1;  ///< negative: backwards
+
+  std::vector<int> numbers() const;
+};
+
+struct FrameSettings {
+  std::optional<FrameRange> range;
+  double fps = 24.0;  ///< frame n shows the time n / fps
+  int turntable = 0;  ///< frames of a whole turn of the camera; 0: it stays
+
+  double seconds(int frame) const { return frame / fps; }
+};
+
+/// Reads "A", "A:B" or "A:B:STEP". Throws UsageError, which names the flag.
+FrameRange parse_frames(const std::string& flag, const std::string& text);
+std::string text_of(const FrameRange& range);
+
+/// Whether the name holds the place of a frame's number: "%04d", "####" or "{frame}".
+bool has_frame_place(std::string_view name);
+
+/// Throws UsageError where it does.
+void refuse_frame_place(std::string_view flag, const std::string& name);
+
+/// The name with the number in its places.
+std::string name_of_frame(std::string_view name, int frame);
+
+}  // namespace gatelight::apps

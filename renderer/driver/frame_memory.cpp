@@ -1,0 +1,63 @@
+#include "renderer/driver/frame_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/cache/cache_file.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/settings/resolved_options.h"
+
+namespace gatelight::renderer {
+namespace {
+
+/// Below the first the light has not changed; from the second on the cache begins anew.
+constexpr double kUnchanged = 0.02;
+constexpr double kChanged = 0.4;
+
+}  // namespace
+
+void FrameMemory::make_cache(const PreparedPicture& picture, DistributedTiles& tiles, double seconds) {
+  const RenderOptions& options = picture.options;
+  if (!uses_cache(options.integrator)) return;
+  const std::string& file_name = options.cache.cache_in;
+  const auto pixels = static_cast<std::uint64_t>(picture.region.width()) *
+                      static_cast<std::uint64_t>(picture.region.height());
+  fresh_steps = options.cache.train_steps.value_or(choose_training_steps(options, pixels));
+  fingerprint = picture.fingerprint();
+  layout_seconds = seconds;
+  const neural::TrainingOptions learning = training_options(options);
+  picture.arena.execute([&] {
+    const auto make = [&](const CacheSetup* setup, const std::function<void(const neural::Model&)>& expect) {
+      cache = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options, setup,
+                                             expect, &tiles.owners());
+    };
+    if (!file_name.empty()) {
+      CacheFile file(file_name);
+      file.expect(picture.cache_meaning(), fingerprint, picture.scene.instances.size());
+      make(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
+      cache->import_state(file.read_state(cache->model(), learning));
+    } else if (scouted) {
+      const ScoutReport report = scouting.report(picture.scene, options);
+      make(&report.setup, nullptr);
+    } else {
+      make(nullptr, nullptr);
+    }
+  });
+}
+
+void FrameMemory::write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const {
+  if (!cache) return;
+  write_cache_file(path, cache->export_state(), cache->model(), cache->learning(),
+                   picture.cache_meaning(), fingerprint);
+}
+
+int steps_after_change(double change, int fresh_steps) {
+  const double share = std::clamp((change - kUnchanged) / (kChanged - kUnchanged), 0.0, 1.0);
+  return static_cast<int>(std::lround(share * fresh_steps));
+}
+
+bool begins_anew(double change) {
+  return change >= kChanged;
+}
+
+}  // namespace gatelight::renderer

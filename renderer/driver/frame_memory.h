@@ -1,0 +1,34 @@
+#pragma once
+// What the frames of an animation hand on to each other.
+
+#include <memory>
+
+#include "renderer/cache/cache_session.h"
+#include "renderer/cache/scouting.h"
+#include "renderer/driver/render_context.h"
+#include "renderer/fingerprint/scene_fingerprint.h"
+
+namespace gatelight::renderer {
+
+struct FrameMemory {
+  Scouting scouting;
+  bool scouted = false;
+  int fresh_steps = 0;  ///< training steps of a cache that knows nothing
+  double layout_seconds = 0.0;
+  SceneFingerprint fingerprint;         ///< of the scene in which the cache was laid out
+  std::unique_ptr<CacheSession> cache;  ///< null without a cache, and while a frame uses it
+
+  /// Makes the cache by what was scouted, or reads it from a file.
+  void make_cache(const PreparedPicture& picture, DistributedTiles& tiles, double seconds);
+  /// Throws OutputError.
+  void write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const;
+};
+
+/// Number of training steps of a frame after `change` of the light was found (cache/light_change.h). Zero of
+/// them for a cache that should begin anew is not possible: see begins_anew().
+int steps_after_change(double change, int fresh_steps);
+
+/// Whether a cache that has learned another light is worth less than none.
+bool begins_anew(double change);
+
+}  // namespace gatelight::renderer

@@ -1,0 +1,26 @@
+#pragma once
+// What the chosen animations of a document change.
+
+#include <vector>
+
+#include "scene/gltf/document.h"
+
+namespace gatelight::scene::gltf {
+
+/// What changes of a node itself, not by its parents.
+struct NodeMotion {
+  bool place = false;  ///< translation, rotation or scale
+  bool weights = false;
+  bool visibility = false;
+};
+
+struct Motion {
+  std::vector<NodeMotion> nodes;
+  bool lights = false;  ///< their properties, not their nodes
+  bool image_light = false;
+  bool materials = false;
+};
+
+Motion find_motion(const Document& document);
+
+}  // namespace gatelight::scene::gltf
