@@ -166,7 +166,7 @@ constexpr Requirement kDenoiserOrLayers{
 };
 
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
-  auto& [denoiser, prefilter, supersampling, library] = options;
+  auto& [denoiser, prefilter, supersampling, temporal, library] = options;
   picture.add(common(choice("denoiser", denoiser,
                             "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
                             "is found (auto, that of the presets), or nothing")));
@@ -180,6 +180,10 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                      "Render and denoise at this many times the width and height, with the same number of "
                      "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
                      "textures, four times the denoiser's time"),
+              {kDenoiser});
+  picture.add(not_in_sweep(choice("temporal", temporal, kOnOff,
+                                  "Frames take over samples of earlier frames where they show the same surface "
+                                  "in the same light, before the denoiser")),
               {kDenoiser});
   picture.add(in_recipe(any_word("oidn", library, "FILE|FOLDER",
                                  "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "

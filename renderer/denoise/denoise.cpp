@@ -42,6 +42,7 @@ std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPi
     return scale.scale(values, channels, picture.width, picture.height, top, rows.begin, rows.end);
   };
   return DenoisedRows{scaled(image.color, 3),
+                      image.albedo.empty() ? std::vector<float>() : scaled(image.albedo, 3),
                       image.alpha.empty() ? std::vector<float>() : scaled(image.alpha, 1)};
 }
 
@@ -61,6 +62,7 @@ std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture
     const auto band = denoise_rows(denoiser, picture, {begin, end}, options, scale, report);
     if (!band) return std::nullopt;
     all.color.insert(all.color.end(), band->color.begin(), band->color.end());
+    all.albedo.insert(all.albedo.end(), band->albedo.begin(), band->albedo.end());
     all.alpha.insert(all.alpha.end(), band->alpha.begin(), band->alpha.end());
   }
   return all;

@@ -45,6 +45,33 @@ void FrameMemory::make_cache(const PreparedPicture& picture, DistributedTiles& t
   });
 }
 
+Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
+  const PixelRect& rect = film.rect();
+  VisiblePoints points =
+      trace_visible_points(*picture.world, picture.camera, rect, history ? &history->view : nullptr);
+  Reuse reuse;
+  if (history) {
+    reuse = reuse_samples(film, std::move(points), *history);
+  } else {
+    reuse.points = std::move(points);
+    reuse.color = film.plane(Plane::mean, rect.y0, rect.y1);
+    for (const RadianceSum& pixel : film.sums().radiance)
+      reuse.samples.push_back(static_cast<float>(pixel.count));
+  }
+  next_view_ = std::make_unique<EarlierView>(EarlierView{Moment(picture.scene), picture.camera});
+  next_rect_ = rect;
+  return reuse;
+}
+
+void FrameMemory::keep(const DenoisedRows& denoised, const Reuse& reuse) {
+  history = std::make_unique<History>(History{.view = std::move(*next_view_),
+                                              .rect = next_rect_,
+                                              .points = reuse.points.now,
+                                              .color = denoised.color,
+                                              .albedo = denoised.albedo,
+                                              .samples = reuse.samples});
+}
+
 void FrameMemory::write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const {
   if (!cache) return;
   write_cache_file(path, cache->export_state(), cache->model(), cache->learning(),

@@ -5,8 +5,10 @@
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/scouting.h"
+#include "renderer/denoise/denoise.h"
 #include "renderer/driver/render_context.h"
 #include "renderer/fingerprint/scene_fingerprint.h"
+#include "renderer/reuse/history.h"
 
 namespace gatelight::renderer {
 
@@ -18,10 +20,20 @@ struct FrameMemory {
   SceneFingerprint fingerprint;         ///< of the scene in which the cache was laid out
   std::unique_ptr<CacheSession> cache;  ///< null without a cache, and while a frame uses it
 
+  std::unique_ptr<History> history;     ///< of the last frame that was denoised; null before the first one
+
+  /// The film's samples with the light of the frame before. For the caller's arena.
+  Reuse reuse(const PreparedPicture& picture, const Film& film);
+  /// Keeps the frame of the last reuse() for the next one.
+  void keep(const DenoisedRows& denoised, const Reuse& reuse);
   /// Makes the cache by what was scouted, or reads it from a file.
   void make_cache(const PreparedPicture& picture, DistributedTiles& tiles, double seconds);
   /// Throws OutputError.
   void write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const;
+
+ private:
+  std::unique_ptr<EarlierView> next_view_;
+  PixelRect next_rect_;
 };
 
 /// Number of training steps of a frame after `change` of the light was found (cache/light_change.h). Zero of

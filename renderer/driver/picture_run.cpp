@@ -46,7 +46,7 @@ class PictureRun {
     SampleLoop loop(context_, film_, training_.get(), options_.spp);
     run_passes(loop);
     end_passes(loop);
-    Picture picture = finish_film(loop);
+    Picture picture = finish_film(loop, memory_);
     if (ranks_.first()) add_cryptomattes(picture, std::move(mattes_));
     note_end(loop);
     return picture;
@@ -146,7 +146,7 @@ class PictureRun {
     const bool wanted = callbacks.snapshot_wanted && callbacks.snapshot && callbacks.snapshot_wanted();
     if (!any(ranks_, wanted)) return;
     statistics_ = sum_up(&loop);
-    Picture picture = finish_film(loop);
+    Picture picture = finish_film(loop, nullptr);
     if (!ranks_.first()) return;
     add_cryptomattes(picture, mattes_);
     callbacks.snapshot(picture);
@@ -172,8 +172,8 @@ class PictureRun {
   }
 
   /// The picture of the film, with its statistics.
-  Picture finish_film(const SampleLoop& loop) {
-    FinishedPicture finished = finish(context_, film_, loop.stopped(), statistics_);
+  Picture finish_film(const SampleLoop& loop, FrameMemory* memory) {
+    FinishedPicture finished = finish(context_, film_, loop.stopped(), statistics_, memory);
     denoising_stopped_ = finished.stopped;
     return std::move(finished.picture);
   }

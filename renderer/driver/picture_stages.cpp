@@ -74,7 +74,8 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
   return mattes;
 }
 
-FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics) {
+FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
+                       FrameMemory* memory) {
   const PreparedPicture& picture = context.picture;
   const double spp = context.tiles.samples_per_pixel(film);
   context.tiles.gather(film);
@@ -85,7 +86,15 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
         callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
       return stopped || !callbacks.stop || !callbacks.stop();
     };
-    finished = finished_picture(film, finishing(picture, spp, progress), picture.arena);
+    Finishing how = finishing(picture, spp, progress);
+    std::optional<Reuse> reuse;
+    if (memory && picture.denoiser && picture.options.denoise.temporal && picture.scale.factor() == 1) {
+      reuse = picture.arena.execute([&] { return memory->reuse(picture, film); });
+      statistics.reused = reuse->share;
+      how.color = &reuse->color;
+      how.keep = [&](const DenoisedRows& denoised) { memory->keep(denoised, *reuse); };
+    }
+    finished = finished_picture(film, how, picture.arena);
     finished.picture.view = picture.camera.matrices(picture.scene.origin);
   }
   statistics.denoise_seconds = finished.denoise_seconds;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "renderer/driver/finished_picture.h"
+#include "renderer/driver/frame_memory.h"
 #include "renderer/driver/render_context.h"
 #include "renderer/image/cryptomatte.h"
 
@@ -13,8 +14,10 @@ namespace gatelight::renderer {
 Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds);
 
 /// The finished picture of a film, with its view, for rank 0. Sets the denoiser's statistics. `stopped`: the
-/// caller has stopped the samples, and not yet the denoiser.
-FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics);
+/// caller has stopped the samples, and not yet the denoiser. `memory`: of the animation whose next frame may
+/// reuse the samples; null: none.
+FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
+                       FrameMemory* memory = nullptr);
 
 /// The expected time of finish() under a time limit.
 double expect_finish_seconds(const RenderContext& context);

@@ -89,6 +89,20 @@ CameraRay Camera::ray(float x, float y, const Vec2& lens) const {
   return result;
 }
 
+std::optional<Vec2> Camera::pixel_of(const Vec3& point) const {
+  const Vec3 to = point - origin_;
+  const float ahead = to.dot(forward_);
+  const float x = to.dot(unit_right_), y = to.dot(unit_up_);
+  if (panorama_) {
+    if (!(to.squaredNorm() > 0.0f)) return std::nullopt;
+    const float polar = std::acos(std::clamp(y / to.norm(), -1.0f, 1.0f));
+    return Vec2((std::atan2(x, ahead) / (2.0f * kPi) + 0.5f) * width_, polar / kPi * height_);
+  }
+  const float scale = orthographic_ ? 1.0f : ahead;
+  if (!(scale > 0.0f)) return std::nullopt;
+  return Vec2(0.5f * width_ + x / (scale * right_.norm()), 0.5f * height_ - y / (scale * down_.norm()));
+}
+
 std::optional<ViewMatrices> Camera::matrices(const Vec3& origin) const {
   if (panorama_) return std::nullopt;
   Eigen::Matrix4d to_camera = Eigen::Matrix4d::Identity();

@@ -31,6 +31,10 @@ class Camera {
   /// The ray through the middle of the lens.
   CameraRay ray(float x, float y) const;
 
+  /// The place in the picture, in pixels from its top left corner, that shows a point of the world; nothing
+  /// for one that is not before the camera. The inverse of ray(x, y).
+  std::optional<Vec2> pixel_of(const Vec3& point) const;
+
   /// The matrices for points in the file's coordinates, whose origin is at -`origin`. A panorama has none.
   std::optional<ViewMatrices> matrices(const Vec3& origin) const;
 

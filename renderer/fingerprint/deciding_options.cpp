@@ -195,7 +195,7 @@ NamedTexts deciding_options(const RenderOptions& options, const View& view, cons
                                 glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
                                 light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
                                 background, cache, checkpoint] = options;
-  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, library] = denoise;
+  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, library] = denoise;
   std::vector<std::string> layers;
   for (const Aov aov : aovs) layers.push_back(enum_name(aov));
   Texts texts;

@@ -15,6 +15,7 @@ struct DenoiseOptions {
   int supersampling = 1;
   /// Pixels of the film in one of the picture.
   int parts() const { return supersampling * supersampling; }
+  bool temporal = true;  ///< frames of an animation take over samples of earlier ones (reuse/history.h)
   std::string library;  ///< of the denoiser: its file or folder; empty: searched (denoise/oidn_library.h)
 };
 

@@ -1,0 +1,44 @@
+#pragma once
+// What the middle of each pixel shows, behind mirrors and clear panes, and where it was a frame ago.
+
+#include <optional>
+#include <vector>
+
+#include "renderer/film/camera.h"
+#include "renderer/image/pixel_rect.h"
+#include "renderer/reuse/moment.h"
+#include "renderer/transport/world.h"
+
+namespace gatelight::renderer {
+
+struct VisiblePoint {
+  Hit hit;  ///< of the surface; without one the pixel shows the sky, or what no reuse can follow
+  Vec3 position = Vec3::Zero();  ///< world
+  Vec3 normal = Vec3::Zero();    ///< unit, of the triangle, on the side of the viewer
+  float width = 0.0f;            ///< of a pixel there, metres
+};
+
+/// The point of the same surface at an earlier time.
+struct EarlierPoint {
+  Vec2 pixel = Vec2::Zero();     ///< its place in the earlier picture, in pixels from the top left corner
+  Vec3 position = Vec3::Zero();  ///< world
+  Vec3 normal = Vec3::Zero();    ///< unit
+};
+
+/// An earlier time and its view.
+struct EarlierView {
+  Moment moment;
+  Camera camera;
+};
+
+struct VisiblePoints {
+  std::vector<VisiblePoint> now;  ///< by pixel, in rows from the top
+  std::vector<std::optional<EarlierPoint>> earlier;  ///< empty without an earlier view
+};
+
+/// Follows mirrors by the law of reflection, with the image behind a mirror where its plane was, and passes
+/// thin panes. Rays that refract are not followed. `earlier`: null for none. Works in the caller's arena.
+VisiblePoints trace_visible_points(const World& world, const Camera& camera, const PixelRect& rect,
+                                   const EarlierView* earlier);
+
+}  // namespace gatelight::renderer
